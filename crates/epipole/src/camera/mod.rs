@@ -1,0 +1,12 @@
+//! Cameras: what turns a point in the world into a pixel.
+//!
+//! A camera is intrinsics (how rays become pixels) and a rigid transform (where it stands).
+//! Camera frame: x right, y down, z forward.
+
+mod intrinsics;
+mod rigid;
+mod view;
+
+pub use intrinsics::Intrinsics;
+pub use rigid::{RigidTransform, cross_matrix, look_at, relative_motion};
+pub use view::Camera;

@@ -1,0 +1,68 @@
+//! A camera: intrinsics and where it stands.
+
+use super::{Intrinsics, RigidTransform};
+use crate::Result;
+use nalgebra::{Matrix3x4, Point2, Point3, Vector3};
+
+/// A pinhole camera in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// How rays become pixels.
+    pub intrinsics: Intrinsics,
+    /// `x_in_cam = cam_from_world * x_in_world`.
+    pub cam_from_world: RigidTransform,
+}
+
+impl Camera {
+    /// The camera's center in the world, `C = −Rᵀ t`.
+    pub fn center_in_world(&self) -> Point3<f64> {
+        self.cam_from_world
+            .inverse_transform_point(&Point3::origin())
+    }
+
+    /// The 3×4 matrix `P = K [R t]`.
+    pub fn projection_matrix(&self) -> Matrix3x4<f64> {
+        self.intrinsics.matrix() * self.cam_from_world.to_matrix().fixed_view::<3, 4>(0, 0)
+    }
+
+    /// The pixel where a point of the world is seen.
+    ///
+    /// # Errors
+    /// [`PointBehindCamera`](crate::Error::PointBehindCamera) unless it lies in front.
+    pub fn project(&self, x_in_world: &Point3<f64>) -> Result<Point2<f64>> {
+        self.intrinsics.project(&(self.cam_from_world * x_in_world))
+    }
+
+    /// The direction of the ray through a pixel, in the world; it advances one unit of depth
+    /// (camera z) per unit of its length parameter, so it is not a unit vector.
+    pub fn ray_in_world(&self, pixel: &Point2<f64>) -> Vector3<f64> {
+        self.cam_from_world
+            .rotation
+            .inverse_transform_vector(&self.intrinsics.ray(pixel))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::look_at;
+
+    #[test]
+    fn a_ray_of_known_depth_ends_where_it_began() {
+        let camera = Camera {
+            intrinsics: Intrinsics::centered(600.0, 640, 480).unwrap(),
+            cam_from_world: look_at(
+                &Point3::new(1.0, 2.0, 3.0),
+                &Point3::origin(),
+                &Vector3::new(0.0, 0.0, 1.0),
+            )
+            .unwrap(),
+        };
+        let pixel = Point2::new(100.25, 400.5);
+        let x_in_world = camera.center_in_world() + camera.ray_in_world(&pixel) * 2.5;
+        assert!(((camera.cam_from_world * x_in_world).z - 2.5).abs() < 1e-12);
+        assert!((camera.project(&x_in_world).unwrap() - pixel).norm() < 1e-9);
+        let homogeneous = camera.projection_matrix() * x_in_world.to_homogeneous();
+        assert!((homogeneous.x / homogeneous.z - pixel.x).abs() < 1e-9);
+    }
+}

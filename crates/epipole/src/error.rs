@@ -1,0 +1,71 @@
+//! The one error of the core: every failure is a sentence for a person.
+
+/// Why an operation could not give a result.
+///
+/// Bad data is never a panic and never a NaN: it is one of these.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Fewer data than the computation needs.
+    #[error("{what} needs at least {needed}, but there are only {got}")]
+    TooFew {
+        /// What was asked for, with its unit of counting, such as "a fundamental matrix from matches".
+        what: &'static str,
+        /// The smallest sufficient number.
+        needed: usize,
+        /// How many there were.
+        got: usize,
+    },
+    /// A NaN or an infinity among the inputs.
+    #[error("{what} must be a finite number")]
+    NotFinite {
+        /// The input's name.
+        what: &'static str,
+    },
+    /// A parameter outside its range.
+    #[error("{what} must be {requirement}, but is {value}")]
+    OutOfRange {
+        /// The parameter's name.
+        what: &'static str,
+        /// The range in words, such as "greater than 0".
+        requirement: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// The data do not determine the result.
+    #[error("{what} is not determined: {why}")]
+    Degenerate {
+        /// What was asked for.
+        what: &'static str,
+        /// Why these data leave it open, such as "all points lie on one line".
+        why: &'static str,
+    },
+    /// Two inputs whose sizes must agree do not.
+    #[error("{what} must have the same size, but one has {first} and the other {second}")]
+    SizeMismatch {
+        /// The two inputs, such as "the two lists of points".
+        what: &'static str,
+        /// Size of the first.
+        first: usize,
+        /// Size of the second.
+        second: usize,
+    },
+    /// Rays are parallel: the point they share is infinitely far.
+    #[error("the rays are parallel, so the point is infinitely far away")]
+    PointAtInfinity,
+    /// The point is behind the camera or in its center plane, so it has no image.
+    #[error("the point is not in front of the camera")]
+    PointBehindCamera,
+    /// No candidate model gathered enough support.
+    #[error(
+        "no model was supported by at least {needed} of the {got} data after {iterations} tries"
+    )]
+    NoConsensus {
+        /// The smallest acceptable number of inliers.
+        needed: usize,
+        /// How many data there were.
+        got: usize,
+        /// Samples drawn.
+        iterations: usize,
+    },
+}

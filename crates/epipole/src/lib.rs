@@ -1,0 +1,27 @@
+//! Multi-view geometry: from two photographs to a three-dimensional reconstruction.
+//!
+//! The folders are rooms; a room may use the rooms listed before it, never one after it:
+//!
+//! | room | what it holds |
+//! |---|---|
+//! | [`math`] | angles, seeded random numbers |
+//! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//!
+//! # Conventions
+//!
+//! * Image coordinates are (u, v) = (column, row): u to the right, v down, pixel centers at
+//!   integers.
+//! * Camera frame: x right, y down, z forward. `x_in_cam = cam_from_world * x_in_world`.
+//! * Disparity is `u_left − u_right ≥ 0`.
+//! * A random choice takes a `u64` seed and gives the same result on every platform.
+//! * Geometry is `f64`, images are `f32`.
+
+mod error;
+
+pub mod camera;
+pub mod math;
+
+pub use error::Error;
+
+/// The result of an operation that can fail with an [`Error`].
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,3 @@
+//! Small mathematics that every room needs.
+
+pub mod random;
