@@ -9,7 +9,7 @@
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
-
+//! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
@@ -25,6 +25,7 @@ mod error;
 
 pub mod camera;
 pub mod epipolar;
+pub mod homography;
 pub mod math;
 pub mod optim;
 pub mod robust;
