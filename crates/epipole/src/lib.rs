@@ -10,6 +10,9 @@
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`homography`] | homographies: four points, least squares, decomposition |
+//! | [`absolute_pose`] | the pose of a camera from known points |
+//! | [`triangulation`] | points from their images in two or more views |
+//! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
@@ -23,6 +26,7 @@
 
 mod error;
 
+pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
 pub mod homography;
@@ -30,8 +34,14 @@ pub mod math;
 pub mod optim;
 pub mod robust;
 pub mod stereo;
+pub mod triangulation;
+pub mod two_view;
 
+pub use absolute_pose::find_absolute_pose;
+pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
 pub use error::Error;
+pub use homography::find_homography;
+pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
