@@ -1,0 +1,57 @@
+//! The model of a figure: state and mathematics, no drawing and no clock.
+
+use super::{Challenge, Control, Event, Handle, Problem, Readout};
+
+/// State and mathematics of a figure.
+///
+/// A model is made in its default state, which must make the figure's point without being touched.
+/// Units are those of the world (meters, pixels of the photograph), never of the screen.
+pub trait Model: Sized + 'static {
+    /// Permanent name, as in `<epipole-figure name="…">`.
+    const NAME: &'static str;
+    /// Title of the figure.
+    const TITLE: &'static str;
+    /// What a reader can do with it: pointer and keys, one or two sentences.
+    const HELP: &'static str;
+
+    /// The default state.
+    fn new() -> Self;
+
+    /// Sliders, toggles, choices and buttons with their present values.
+    fn controls(&self) -> Vec<Control>;
+
+    /// The draggable points. A handle's id must not be a control's.
+    fn handles(&self) -> Vec<Handle> {
+        Vec::new()
+    }
+
+    /// The only way that state changes. Values of controls arrive unchecked, places of handles
+    /// within their ranges and digits, clicks within their panel; a [`Event::Reset`] never
+    /// arrives, it makes a new model.
+    ///
+    /// # Errors
+    /// A sentence for the reader; the state is then as it was.
+    fn update(&mut self, event: &Event) -> Result<(), Problem>;
+
+    /// Puts back a handle that the reader had added and that the default state lacks, as told by a
+    /// permalink; false if this is no such handle or there is no room for it.
+    fn restore_handle(&mut self, _id: &str, _x: f64, _y: f64) -> bool {
+        false
+    }
+
+    /// True while the model wants [`Event::Tick`].
+    fn is_running(&self) -> bool {
+        false
+    }
+
+    /// The numbers beside the picture. Every number is finite.
+    fn readouts(&self) -> Vec<Readout>;
+
+    /// What the figure shows now, in one or two plain sentences.
+    fn describe(&self) -> String;
+
+    /// Goals for the reader.
+    fn challenges() -> &'static [Challenge<Self>] {
+        &[]
+    }
+}
