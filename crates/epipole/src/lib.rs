@@ -5,6 +5,7 @@
 //! | room | what it holds |
 //! |---|---|
 //! | [`math`] | angles, seeded random numbers |
+//! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //!
 //! # Conventions
@@ -20,6 +21,7 @@ mod error;
 
 pub mod camera;
 pub mod math;
+pub mod optim;
 
 pub use error::Error;
 
