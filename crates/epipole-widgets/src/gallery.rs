@@ -3,6 +3,8 @@
 use crate::contract::{Model, Problem, View};
 use crate::stage::{self, Stage};
 
+pub mod ransac_race;
+
 /// A figure's entry in the list.
 pub struct Entry {
     /// Permanent name.
@@ -15,7 +17,9 @@ pub struct Entry {
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[];
+pub static FIGURES: &[Entry] = &[
+    entry::<ransac_race::View>(),
+];
 
 const fn entry<V: View>() -> Entry {
     Entry {
@@ -41,4 +45,32 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
                 known: known.join(", "),
             }
         })
+}
+
+/// The template of `make new-figure`, compiled so that it cannot rot.
+#[cfg(test)]
+#[path = "../scaffold/new_figure.rs"]
+mod new_figure;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Event;
+
+    #[test]
+    fn the_template_is_a_working_figure() {
+        let mut stage = stage::set_up::<new_figure::View>();
+        assert!(stage.challenges().iter().all(|challenge| !challenge.solved));
+        for event in stage.solution("inside").unwrap() {
+            stage.update(&event).unwrap();
+        }
+        assert!(stage.challenges().iter().all(|challenge| challenge.solved));
+        assert!(stage.update(&Event::Reset).is_ok());
+    }
+
+    #[test]
+    fn an_unknown_figure_is_named_with_the_known_ones() {
+        let Err(problem) = find("ransac-rase") else { panic!("it was found") };
+        assert!(problem.to_string().contains("ransac-race"), "{problem}");
+    }
 }
