@@ -43,14 +43,20 @@ const ROOMS: &[&str] = &[
 fn manifest(name: &str) -> toml::Table {
     let path = root().join("crates").join(name).join("Cargo.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    text.parse().unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    text.parse()
+        .unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// The names in every table of dependencies that ends up in the crate itself.
 fn dependencies(manifest: &toml::Table) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut take = |table: Option<&toml::Value>| {
-        names.extend(table.and_then(toml::Value::as_table).into_iter().flat_map(|t| t.keys().cloned()));
+        names.extend(
+            table
+                .and_then(toml::Value::as_table)
+                .into_iter()
+                .flat_map(|t| t.keys().cloned()),
+        );
     };
     take(manifest.get("dependencies"));
     take(manifest.get("build-dependencies"));
@@ -77,7 +83,9 @@ fn every_crate_is_on_the_map() {
 fn crates_name_only_the_crates_below_them() {
     for (name, allowed) in CRATES {
         let named = dependencies(&manifest(name));
-        let house = named.iter().filter(|dependency| dependency.starts_with("epipole"));
+        let house = named
+            .iter()
+            .filter(|dependency| dependency.starts_with("epipole"));
         let wrong: Vec<&String> = house.filter(|d| !allowed.contains(&d.as_str())).collect();
         assert!(wrong.is_empty(), "{name} must not depend on {wrong:?}");
     }
@@ -101,7 +109,9 @@ fn rooms_named(text: &str) -> BTreeSet<&str> {
     let mut named = BTreeSet::new();
     for (place, _) in text.match_indices("crate::") {
         let rest = &text[place + "crate::".len()..];
-        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let end = rest
+            .find(|c: char| !c.is_alphanumeric() && c != '_')
+            .unwrap_or(rest.len());
         named.insert(&rest[..end]);
         // `use crate::{a::x, b::y};`
         if let Some(list) = rest.strip_prefix('{') {
@@ -148,14 +158,21 @@ fn rooms_of_the_core_use_only_the_rooms_before_them() {
         for file in files_below(&folder, &["rs"]) {
             let text = before_tests(&fs::read_to_string(&file).unwrap());
             for named in rooms_named(&text) {
-                if ROOMS.iter().position(|other| *other == named).is_some_and(|r| r > rank) {
+                if ROOMS
+                    .iter()
+                    .position(|other| *other == named)
+                    .is_some_and(|r| r > rank)
+                {
                     let file = file.strip_prefix(&source).unwrap_or(&file);
                     wrong.push(format!("{} names {named}", file.display()));
                 }
             }
         }
     }
-    assert!(wrong.is_empty(), "rooms that import a later one: {wrong:#?}");
+    assert!(
+        wrong.is_empty(),
+        "rooms that import a later one: {wrong:#?}"
+    );
 }
 
 #[test]
@@ -173,7 +190,15 @@ fn every_room_of_the_core_is_on_the_map() {
 /// `model.rs` of a figure: state and mathematics, no drawing, no clock.
 #[test]
 fn models_know_no_canvas_no_theme_and_no_clock() {
-    let forbidden = ["canvas", "theme", "view", "tiny_skia", "Instant", "SystemTime", "std::time"];
+    let forbidden = [
+        "canvas",
+        "theme",
+        "view",
+        "tiny_skia",
+        "Instant",
+        "SystemTime",
+        "std::time",
+    ];
     let gallery = root().join("crates/epipole-widgets/src/gallery");
     let models: Vec<_> = files_below(&gallery, &["rs"])
         .into_iter()
@@ -182,11 +207,14 @@ fn models_know_no_canvas_no_theme_and_no_clock() {
     assert!(!models.is_empty());
     for file in models {
         let text = before_tests(&fs::read_to_string(&file).unwrap());
-        let words: BTreeSet<&str> =
-            text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').collect();
+        let words: BTreeSet<&str> = text
+            .split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':')
+            .collect();
         for word in forbidden {
             assert!(
-                !words.iter().any(|w| w.split("::").any(|part| part == word) || *w == word),
+                !words
+                    .iter()
+                    .any(|w| w.split("::").any(|part| part == word) || *w == word),
                 "{} names {word}",
                 file.display()
             );
@@ -200,7 +228,11 @@ fn only_the_canvas_names_the_rasterizer() {
     for file in files_below(&source, &["rs"]) {
         let text = before_tests(&fs::read_to_string(&file).unwrap());
         let is_canvas = file == source.join("canvas.rs") || file.starts_with(source.join("canvas"));
-        assert!(is_canvas || !text.contains("tiny_skia"), "{} names tiny_skia", file.display());
+        assert!(
+            is_canvas || !text.contains("tiny_skia"),
+            "{} names tiny_skia",
+            file.display()
+        );
     }
 }
 
@@ -208,9 +240,16 @@ fn only_the_canvas_names_the_rasterizer() {
 #[test]
 fn no_path_of_a_machine() {
     let top = root();
-    let mut files = files_below(&top.join("crates"), &["rs", "toml", "md", "css", "ts", "hbs"]);
+    let mut files = files_below(
+        &top.join("crates"),
+        &["rs", "toml", "md", "css", "ts", "hbs"],
+    );
     files.extend(files_below(&top.join("content"), &["md", "toml"]));
-    let bad = [concat!("/ho", "me/"), concat!("/ro", "ot/"), concat!("/wo", "rk/")];
+    let bad = [
+        concat!("/ho", "me/"),
+        concat!("/ro", "ot/"),
+        concat!("/wo", "rk/"),
+    ];
     for file in files {
         let text = fs::read_to_string(&file).unwrap_or_default();
         for path in bad {

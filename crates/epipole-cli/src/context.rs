@@ -6,7 +6,10 @@ pub(crate) struct Context {
     /// No progress and no warnings.
     pub(crate) quiet: bool,
     /// Seed of every random choice.
-    #[allow(dead_code, reason = "the figure command has no random choice of its own")]
+    #[allow(
+        dead_code,
+        reason = "the figure command has no random choice of its own"
+    )]
     pub(crate) seed: u64,
 }
 

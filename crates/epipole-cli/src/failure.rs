@@ -11,12 +11,18 @@ pub(crate) struct Failure {
 
 impl Failure {
     pub(crate) fn new(kind: &'static str, message: impl Into<String>) -> Self {
-        Self { kind, message: message.into() }
+        Self {
+            kind,
+            message: message.into(),
+        }
     }
 
     /// The same failure, naming the file that it is about.
     pub(crate) fn about(self, path: &std::path::Path) -> Self {
-        Self { message: format!("{}: {}", path.display(), self.message), ..self }
+        Self {
+            message: format!("{}: {}", path.display(), self.message),
+            ..self
+        }
     }
 
     /// `{"error": {"kind", "message"}}`.

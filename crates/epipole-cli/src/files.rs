@@ -20,15 +20,16 @@ pub(crate) fn print(text: &str) -> io::Result<()> {
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failure = |error: io::Error| {
-        Failure::new("write", format!("cannot be written: {error}")).about(path)
-    };
+    let failure =
+        |error: io::Error| Failure::new("write", format!("cannot be written: {error}")).about(path);
     let mut aside = path.as_os_str().to_owned();
     aside.push(format!(".{}.part", std::process::id()));
     let aside = Path::new(&aside);
-    fs::write(aside, bytes).and_then(|()| fs::rename(aside, path)).map_err(|error| {
-        // The part may not exist; there is nothing more to tell than the first error.
-        let _ = fs::remove_file(aside);
-        failure(error)
-    })
+    fs::write(aside, bytes)
+        .and_then(|()| fs::rename(aside, path))
+        .map_err(|error| {
+            // The part may not exist; there is nothing more to tell than the first error.
+            let _ = fs::remove_file(aside);
+            failure(error)
+        })
 }

@@ -43,7 +43,10 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return wrong_usage(&error),
     };
-    let context = Context { quiet: cli.quiet, seed: cli.seed };
+    let context = Context {
+        quiet: cli.quiet,
+        seed: cli.seed,
+    };
     let start = Instant::now();
     let outcome = set_threads(cli.threads).and_then(|()| cli.command.run(&context));
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
@@ -60,7 +63,10 @@ fn main() -> ExitCode {
 fn wrong_usage(error: &clap::Error) -> ExitCode {
     if error.use_stderr() && std::env::args().any(|argument| argument == "--json") {
         let message = error.to_string();
-        print_failure(&Failure::new("usage", message.trim_start_matches("error: ").trim()), true);
+        print_failure(
+            &Failure::new("usage", message.trim_start_matches("error: ").trim()),
+            true,
+        );
     } else if error.print().is_err() {
         return ExitCode::FAILURE;
     }
@@ -69,12 +75,18 @@ fn wrong_usage(error: &clap::Error) -> ExitCode {
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
     let threads = usize::from(threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
     pool.map_err(|error| Failure::new("threads", format!("the threads cannot be started: {error}")))
 }
 
 fn print_report(report: Report, time_ms: f64, json: bool) -> ExitCode {
-    let text = if json { report.into_json(time_ms) } else { report.into_table(time_ms) };
+    let text = if json {
+        report.into_json(time_ms)
+    } else {
+        report.into_table(time_ms)
+    };
     match files::print(&text) {
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::FAILURE,

@@ -33,8 +33,14 @@ impl Report {
 
     /// A table with one label and value a line.
     pub(crate) fn into_table(mut self, time_ms: f64) -> String {
-        self.rows.push(("time".to_owned(), format!("{time_ms:.1} ms")));
-        let width = self.rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        self.rows
+            .push(("time".to_owned(), format!("{time_ms:.1} ms")));
+        let width = self
+            .rows
+            .iter()
+            .map(|(label, _)| label.chars().count())
+            .max()
+            .unwrap_or(0);
         let line = |(label, value): &(String, String)| format!("{label:width$}  {value}");
         self.rows.iter().map(line).collect::<Vec<_>>().join("\n")
     }

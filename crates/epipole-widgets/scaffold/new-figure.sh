@@ -21,9 +21,9 @@ mkdir -p "$gallery/$module"
 fill() {
     sed -e "s/new-figure/$name/g" -e "s/NewFigure/$type/g" -e "s/New figure/$title/g" "$1" >"$2"
 }
-fill "$here/new_figure.rs" "$gallery/$module.rs"
-fill "$here/new_figure/model.rs" "$gallery/$module/model.rs"
-fill "$here/new_figure/view.rs" "$gallery/$module/view.rs"
+fill "$here/figure.rs" "$gallery/$module.rs"
+fill "$here/model.rs" "$gallery/$module/model.rs"
+fill "$here/view.rs" "$gallery/$module/view.rs"
 list=$here/../src/gallery.rs
 awk -v line="pub mod $module;" -v entry="    entry::<$module::View>()," '
     /^pub mod / { last = 1 }

@@ -17,9 +17,7 @@ pub struct Entry {
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[
-    entry::<ransac_race::View>(),
-];
+pub static FIGURES: &[Entry] = &[entry::<ransac_race::View>()];
 
 const fn entry<V: View>() -> Entry {
     Entry {
@@ -49,8 +47,8 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
-#[path = "../scaffold/new_figure.rs"]
-mod new_figure;
+#[path = "../scaffold/figure.rs"]
+pub mod new_figure;
 
 #[cfg(test)]
 mod tests {
@@ -70,7 +68,9 @@ mod tests {
 
     #[test]
     fn an_unknown_figure_is_named_with_the_known_ones() {
-        let Err(problem) = find("ransac-rase") else { panic!("it was found") };
+        let Err(problem) = find("ransac-rase") else {
+            panic!("it was found")
+        };
         assert!(problem.to_string().contains("ransac-race"), "{problem}");
     }
 }

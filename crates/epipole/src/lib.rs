@@ -4,9 +4,12 @@
 //!
 //! | room | what it holds |
 //! |---|---|
-//! | [`math`] | angles, seeded random numbers |
+//! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`robust`] | the RANSAC engine; lines and similarities |
+//! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
+//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -20,8 +23,11 @@
 mod error;
 
 pub mod camera;
+pub mod epipolar;
 pub mod math;
 pub mod optim;
+pub mod robust;
+pub mod stereo;
 
 pub use error::Error;
 

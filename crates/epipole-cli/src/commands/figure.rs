@@ -12,8 +12,10 @@ use std::path::PathBuf;
 
 /// Draw a figure of the book, or describe it.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: epipole figure ransac-race --set outliers=0.6 --set seed=3 \
-                        --theme dark -o race.png --describe")]
+#[command(
+    after_help = "Example: epipole figure ransac-race --set outliers=0.6 --set seed=3 \
+                        --theme dark -o race.png --describe"
+)]
 pub(crate) struct Arguments {
     /// The figure's name, as in <epipole-figure name="…">.
     name: String,
@@ -51,11 +53,19 @@ fn key_value(text: &str) -> Result<(String, String), String> {
 fn size(text: &str) -> Result<Size, String> {
     let side = |text: &str| match text.parse::<f64>() {
         Ok(side) if (16.0..=8192.0).contains(&side) => Ok(side),
-        _ => Err(format!("\"{text}\" is not a number of pixels from 16 to 8192")),
+        _ => Err(format!(
+            "\"{text}\" is not a number of pixels from 16 to 8192"
+        )),
     };
     match text.split_once('x') {
-        Some((width, height)) => Ok(Size { width: side(width)?, height: Some(side(height)?) }),
-        None => Ok(Size { width: side(text)?, height: None }),
+        Some((width, height)) => Ok(Size {
+            width: side(width)?,
+            height: Some(side(height)?),
+        }),
+        None => Ok(Size {
+            width: side(text)?,
+            height: None,
+        }),
     }
 }
 
@@ -66,7 +76,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         return Err(problem.into());
     }
     if let Some(path) = &arguments.output {
-        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
+        if path
+            .extension()
+            .is_none_or(|extension| !extension.eq_ignore_ascii_case("png"))
+        {
             let message = "the picture must be a .png file";
             return Err(Failure::new("usage", message).about(path));
         }
@@ -83,7 +96,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 fn draw(figure: &mut Figure, arguments: &Arguments) -> Result<RgbaImage, Failure> {
-    let size = arguments.size.unwrap_or(Size { width: POSTER_WIDTH, height: None });
+    let size = arguments.size.unwrap_or(Size {
+        width: POSTER_WIDTH,
+        height: None,
+    });
     let mut width = size.width;
     if let Some(height) = size.height {
         // The widest picture that is low enough.
@@ -94,12 +110,19 @@ fn draw(figure: &mut Figure, arguments: &Arguments) -> Result<RgbaImage, Failure
     let drawn = figure.draw_settled(width, arguments.scale, arguments.theme)?;
     let picture = RgbaImage::from_raw(drawn.width(), drawn.height(), drawn.rgba().to_vec());
     let picture = picture.ok_or_else(|| Failure::new("figure", "the picture is empty"))?;
-    let Some(height) = size.height else { return Ok(picture) };
+    let Some(height) = size.height else {
+        return Ok(picture);
+    };
     let device = |side: f64| (side * arguments.scale).round() as u32;
-    let [r, g, b] = arguments.theme.color(epipole_widgets::theme::Role::Background);
+    let [r, g, b] = arguments
+        .theme
+        .color(epipole_widgets::theme::Role::Background);
     let mut page = RgbaImage::from_pixel(device(size.width), device(height), Rgba([r, g, b, 255]));
     let middle = |page: u32, picture: u32| i64::from(page.saturating_sub(picture) / 2);
-    let (x, y) = (middle(page.width(), picture.width()), middle(page.height(), picture.height()));
+    let (x, y) = (
+        middle(page.width(), picture.width()),
+        middle(page.height(), picture.height()),
+    );
     image::imageops::replace(&mut page, &picture, x, y);
     Ok(page)
 }
@@ -124,7 +147,9 @@ fn report(figure: &Figure, arguments: &Arguments) -> Report {
         report = report.row("description", figure.describe());
     }
     if let Some(path) = &arguments.output {
-        report = report.field("file", path.display().to_string()).row("file", path.display());
+        report = report
+            .field("file", path.display().to_string())
+            .row("file", path.display());
     }
     report.row("permalink", permalink)
 }

@@ -91,9 +91,21 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&ITERATIONS),
 ];
 
-const RUN: Button = Button { id: "run", label: "Run", role: ButtonRole::Run };
-const STEP: Button = Button { id: "step", label: "Step", role: ButtonRole::Step };
-const RESTART: Button = Button { id: "restart", label: "Start over", role: ButtonRole::Restart };
+const RUN: Button = Button {
+    id: "run",
+    label: "Run",
+    role: ButtonRole::Run,
+};
+const STEP: Button = Button {
+    id: "step",
+    label: "Step",
+    role: ButtonRole::Step,
+};
+const RESTART: Button = Button {
+    id: "restart",
+    label: "Start over",
+    role: ButtonRole::Restart,
+};
 
 /// A point and where it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -185,16 +197,19 @@ impl RansacRace {
         let count = self.settings.count(&COUNT);
         let num_outliers = (self.settings.number(&OUTLIERS) * count as f64).round() as usize;
         let place = |u: f64, v: f64| {
-            let keep = |value: f64, size: f64| {
-                round_to_digits(value.clamp(4.0, size - 4.0), DIGITS)
-            };
+            let keep =
+                |value: f64, size: f64| round_to_digits(value.clamp(4.0, size - 4.0), DIGITS);
             Point2::new(keep(u, WIDTH_PX), keep(v, HEIGHT_PX))
         };
         let angle = random.uniform(-0.42, 0.42);
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
         let middle_v = HEIGHT_PX / 2.0 + random.uniform(-50.0, 50.0);
         let middle = Point2::new(WIDTH_PX / 2.0, middle_v);
-        self.truth = Line2 { a: -sin, b: cos, c: sin * middle.x - cos * middle.y };
+        self.truth = Line2 {
+            a: -sin,
+            b: cos,
+            c: sin * middle.x - cos * middle.y,
+        };
         let mut places = Vec::with_capacity(count);
         for _ in num_outliers..count {
             let along = random.uniform(-0.46, 0.46) * WIDTH_PX;
@@ -208,11 +223,19 @@ impl RansacRace {
             // Half of the outliers anywhere, half on one side, as a repeated pattern gives them.
             let (u, v) = (random.unit(), random.unit());
             let side = random.unit() < 0.5;
-            let (u, v) = if side { (0.55 + 0.42 * u, 0.04 + 0.3 * v) } else { (u, v) };
+            let (u, v) = if side {
+                (0.55 + 0.42 * u, 0.04 + 0.3 * v)
+            } else {
+                (u, v)
+            };
             let v = if side && sin < 0.0 { 1.0 - v } else { v };
             places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
         }
-        let datum = |(index, place)| Datum { number: index + 1, place, added: false };
+        let datum = |(index, place)| Datum {
+            number: index + 1,
+            place,
+            added: false,
+        };
         self.data = places.into_iter().enumerate().map(datum).collect();
     }
 
@@ -253,11 +276,16 @@ impl RansacRace {
     ) {
         let epsilon_px = self.epsilon_px();
         let consensus = |line: &Line2| -> Vec<bool> {
-            places.iter().map(|place| line.signed_distance(place).abs() < epsilon_px).collect()
+            places
+                .iter()
+                .map(|place| line.signed_distance(place).abs() < epsilon_px)
+                .collect()
         };
         let mut best_line = None;
         for _ in 0..self.settings.count(&ITERATIONS) {
-            let Step::Trial(trial) = run.step() else { break };
+            let Step::Trial(trial) = run.step() else {
+                break;
+            };
             outcome.iterations = trial.iteration;
             if trial.is_best {
                 best_line = trial.model;
@@ -270,11 +298,19 @@ impl RansacRace {
         }
         if let Some(line) = best_line {
             let is_inlier = consensus(&line);
-            let chosen: Vec<Point2<f64>> =
-                places.iter().zip(&is_inlier).filter(|(_, is)| **is).map(|(p, _)| *p).collect();
+            let chosen: Vec<Point2<f64>> = places
+                .iter()
+                .zip(&is_inlier)
+                .filter(|(_, is)| **is)
+                .map(|(p, _)| *p)
+                .collect();
             // A consensus without a direction of its own keeps the line of its sample.
             let line = fit_line_total_least_squares(&chosen).unwrap_or(line);
-            outcome.best = Some(Best { line, num_inliers: chosen.len(), is_inlier });
+            outcome.best = Some(Best {
+                line,
+                num_inliers: chosen.len(),
+                is_inlier,
+            });
         }
         let required = run.required_iterations();
         outcome.budget = (required <= 1_000_000).then_some(required);
@@ -284,16 +320,13 @@ impl RansacRace {
         };
     }
 
-    /// Draws to `iterations` samples in all, or as many as the budget asks for.
+    /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
+    /// for is kept: other data may need more of them.
     fn run_to(&mut self, iterations: usize) -> Result<(), Problem> {
         let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
         self.settings.set(ITERATIONS.id, &value)?;
         self.compute();
-        if self.outcome.finished {
-            self.running = false;
-            let drawn = Value::Number(self.outcome.iterations as f64);
-            self.settings.set(ITERATIONS.id, &drawn)?;
-        }
+        self.running &= !self.outcome.finished;
         Ok(())
     }
 
@@ -303,7 +336,11 @@ impl RansacRace {
             return false;
         }
         let place = Point2::new(round_to_digits(u, DIGITS), round_to_digits(v, DIGITS));
-        self.data.push(Datum { number, place, added: true });
+        self.data.push(Datum {
+            number,
+            place,
+            added: true,
+        });
         self.data.sort_by_key(|datum| datum.number);
         self.compute();
         true
@@ -349,7 +386,11 @@ impl Model for RansacRace {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            truth: Line2 { a: 0.0, b: 1.0, c: 0.0 },
+            truth: Line2 {
+                a: 0.0,
+                b: 1.0,
+                c: 0.0,
+            },
             data: Vec::new(),
             outcome: Outcome::default(),
             running: false,
@@ -434,7 +475,12 @@ impl Model for RansacRace {
                 self.compute();
             }
             Event::Clicked { x, y, .. } => {
-                let last = self.data.iter().map(|datum| datum.number).max().unwrap_or(0);
+                let last = self
+                    .data
+                    .iter()
+                    .map(|datum| datum.number)
+                    .max()
+                    .unwrap_or(0);
                 self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
             }
             Event::Tick { dt_s } => {
@@ -466,9 +512,13 @@ impl Model for RansacRace {
             || "no sample yet".to_owned(),
             |candidate| of(candidate.is_inlier.iter().filter(|is| **is).count()),
         );
-        let best = self.best().map_or_else(|| "none yet".to_owned(), |best| of(best.num_inliers));
+        let best = self
+            .best()
+            .map_or_else(|| "none yet".to_owned(), |best| of(best.num_inliers));
         let budget = match self.outcome.budget {
-            Some(budget) => Readout::number("budget", "Samples needed (99 %)", budget as f64, 0, ""),
+            Some(budget) => {
+                Readout::number("budget", "Samples needed (99 %)", budget as f64, 0, "")
+            }
             None => Readout::words("budget", "Samples needed (99 %)", "not known yet"),
         };
         let angle = |id, label, angle: Option<f64>| match angle {
@@ -482,7 +532,11 @@ impl Model for RansacRace {
             Readout::words("inliers", "Inliers of this sample", inliers_now),
             Readout::words("best", "Best so far", best),
             angle("ransac-error", "RANSAC from the truth", angles.ransac),
-            angle("least-squares-error", "Least squares from the truth", angles.least_squares),
+            angle(
+                "least-squares-error",
+                "Least squares from the truth",
+                angles.least_squares,
+            ),
             angle("between", "Between the two fits", angles.between),
         ]
     }
@@ -509,7 +563,11 @@ impl Model for RansacRace {
                 None => String::new(),
             }
         };
-        let plural = if self.outcome.iterations == 1 { "sample" } else { "samples" };
+        let plural = if self.outcome.iterations == 1 {
+            "sample"
+        } else {
+            "samples"
+        };
         format!(
             "After {} {plural}, RANSAC's best line has {} of {} points within {} px and is {}° \
              from the true line; least squares is {least_squares}° off.{end}",
@@ -536,7 +594,11 @@ impl Model for RansacRace {
                 hint: "Every sample must be lucky twice.",
                 check: |model| model.outcome.budget.is_some_and(|budget| budget > 100),
                 solution: || {
-                    vec![set("epsilon", 4.0), set("outliers", 0.9), set("iterations", 500.0)]
+                    vec![
+                        set("epsilon", 4.0),
+                        set("outliers", 0.9),
+                        set("iterations", 500.0),
+                    ]
                 },
             },
             Challenge {
@@ -555,7 +617,11 @@ impl Model for RansacRace {
                         set("outliers", 0.0),
                         set("points", 8.0),
                         set("iterations", 20.0),
-                        Event::HandleMoved { id: "p1".to_owned(), x: 640.0, y: 0.0 },
+                        Event::HandleMoved {
+                            id: "p1".to_owned(),
+                            x: 640.0,
+                            y: 0.0,
+                        },
                     ]
                 },
             },
@@ -564,5 +630,8 @@ impl Model for RansacRace {
 }
 
 fn set(id: &str, value: f64) -> Event {
-    Event::Set { id: id.to_owned(), value: Value::Number(value) }
+    Event::Set {
+        id: id.to_owned(),
+        value: Value::Number(value),
+    }
 }

@@ -27,7 +27,10 @@ fn legend() -> [(Swatch, &'static str); 6] {
         (Swatch::Line(candidate_stroke()), "this sample"),
         (Swatch::Line(best_stroke()), "best so far"),
         (Swatch::Line(truth_stroke()), "hidden truth"),
-        (Swatch::Marker(Shape::Disk, Role::Inlier), "inlier of the best"),
+        (
+            Swatch::Marker(Shape::Disk, Role::Inlier),
+            "inlier of the best",
+        ),
         (Swatch::Marker(Shape::Cross, Role::Outlier), "outlier"),
     ]
 }
@@ -76,8 +79,14 @@ impl View for RansacRaceView {
             panels: vec![Panel {
                 id: "plane",
                 rect: Rect::new(MARGIN, MARGIN, plane_width, plane_height),
-                x_axis: Axis { start: 0.0, end: WIDTH_PX },
-                y_axis: Axis { start: 0.0, end: HEIGHT_PX },
+                x_axis: Axis {
+                    start: 0.0,
+                    end: WIDTH_PX,
+                },
+                y_axis: Axis {
+                    start: 0.0,
+                    end: HEIGHT_PX,
+                },
                 clickable: true,
             }],
         }
@@ -111,11 +120,13 @@ impl View for RansacRaceView {
 
 /// Both ends of a line, beyond the panel.
 fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
-    let foot = (-(line.c - offset_px) * line.a, -(line.c - offset_px) * line.b);
+    let foot = (
+        -(line.c - offset_px) * line.a,
+        -(line.c - offset_px) * line.b,
+    );
     let reach = 4.0 * WIDTH_PX;
-    [-reach, reach].map(|along| {
-        plane.canvas_from_world((foot.0 - along * line.b, foot.1 + along * line.a))
-    })
+    [-reach, reach]
+        .map(|along| plane.canvas_from_world((foot.0 - along * line.b, foot.1 + along * line.a)))
 }
 
 fn draw_line(canvas: &mut Canvas, plane: &Panel, line: &Line2, stroke: Stroke) {
@@ -129,7 +140,10 @@ fn band(canvas: &mut Canvas, plane: &Panel, line: &Line2, epsilon_px: f64) {
     let [d, c] = ends(plane, line, epsilon_px);
     canvas.polygon(&[a, b, c, d], Role::Candidate, 0.13);
     for (from, to) in [(a, b), (d, c)] {
-        let edge = Stroke { dash: Dash::Dotted, ..Stroke::solid(Role::Candidate, 1.0) };
+        let edge = Stroke {
+            dash: Dash::Dotted,
+            ..Stroke::solid(Role::Candidate, 1.0)
+        };
         canvas.line(from, to, edge);
     }
 }

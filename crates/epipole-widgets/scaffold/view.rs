@@ -23,8 +23,14 @@ impl View for NewFigureView {
             panels: vec![Panel {
                 id: "plane",
                 rect: Rect::new(left, MARGIN, side, side),
-                x_axis: Axis { start: -1.0, end: 1.0 },
-                y_axis: Axis { start: 1.0, end: -1.0 },
+                x_axis: Axis {
+                    start: -1.0,
+                    end: 1.0,
+                },
+                y_axis: Axis {
+                    start: 1.0,
+                    end: -1.0,
+                },
                 clickable: false,
             }],
         }

@@ -41,7 +41,11 @@ impl Model for NewFigure {
     const HELP: &'static str = "Drag the point, or move it with the arrow keys.";
 
     fn new() -> Self {
-        Self { settings: Settings::new(KNOBS), x_m: 0.8, y_m: 0.2 }
+        Self {
+            settings: Settings::new(KNOBS),
+            x_m: 0.8,
+            y_m: 0.2,
+        }
     }
 
     fn controls(&self) -> Vec<Control> {
@@ -77,11 +81,21 @@ impl Model for NewFigure {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        vec![Readout::number("distance", "Distance from the middle", self.distance_m(), 2, "m")]
+        vec![Readout::number(
+            "distance",
+            "Distance from the middle",
+            self.distance_m(),
+            2,
+            "m",
+        )]
     }
 
     fn describe(&self) -> String {
-        let side = if self.distance_m() <= self.radius_m() { "inside" } else { "outside" };
+        let side = if self.distance_m() <= self.radius_m() {
+            "inside"
+        } else {
+            "outside"
+        };
         format!(
             "The point is {} m from the middle, {side} the circle of radius {} m.",
             format_number(self.distance_m(), 2),
@@ -95,7 +109,13 @@ impl Model for NewFigure {
             goal: "Bring the point inside the circle.",
             hint: "The point moves, and so does the circle.",
             check: |model| model.distance_m() <= model.radius_m(),
-            solution: || vec![Event::HandleMoved { id: "point".to_owned(), x: 0.1, y: 0.1 }],
+            solution: || {
+                vec![Event::HandleMoved {
+                    id: "point".to_owned(),
+                    x: 0.1,
+                    y: 0.1,
+                }]
+            },
         }]
     }
 }
