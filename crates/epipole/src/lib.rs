@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`math`] | angles, seeded random numbers |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
 //!
@@ -20,6 +21,7 @@ mod error;
 
 pub mod camera;
 pub mod math;
+pub mod synthetic;
 
 pub use error::Error;
 
