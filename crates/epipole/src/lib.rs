@@ -5,7 +5,9 @@
 //! | room | what it holds |
 //! |---|---|
 //! | [`math`] | angles, seeded random numbers |
+//! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //!
 //! # Conventions
 //!
@@ -19,6 +21,8 @@
 mod error;
 
 pub mod camera;
+pub mod feature;
+pub mod imaging;
 pub mod math;
 
 pub use error::Error;
