@@ -11,6 +11,10 @@
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`stereo`] | depth from disparity |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+//! | [`math`] | angles, seeded random numbers |
+//! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
+//! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //!
 //! # Conventions
 //!
@@ -25,6 +29,8 @@ mod error;
 
 pub mod camera;
 pub mod epipolar;
+pub mod feature;
+pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
