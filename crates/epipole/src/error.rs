@@ -68,4 +68,7 @@ pub enum Error {
         /// Samples drawn.
         iterations: usize,
     },
+    /// The caller's progress callback asked to stop.
+    #[error("the computation was canceled")]
+    Canceled,
 }

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`math`] | angles, seeded random numbers |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching |
 //!
 //! # Conventions
 //!
@@ -20,6 +21,7 @@ mod error;
 
 pub mod camera;
 pub mod math;
+pub mod stereo;
 
 pub use error::Error;
 
