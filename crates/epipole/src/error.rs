@@ -85,4 +85,7 @@ pub enum Error {
     /// The caller asked to stop.
     #[error("the work was cancelled")]
     Cancelled,
+    /// The caller's progress callback asked to stop.
+    #[error("the computation was canceled")]
+    Canceled,
 }

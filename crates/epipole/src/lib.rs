@@ -15,6 +15,7 @@
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching |
 //!
 //! # Conventions
 //!
@@ -36,6 +37,7 @@ pub mod optim;
 pub mod robust;
 pub mod stereo;
 pub mod synthetic;
+pub mod stereo;
 
 pub use error::Error;
 
