@@ -6,16 +6,13 @@
 //! |---|---|
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
-//! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
-//! | [`robust`] | the RANSAC engine; lines and similarities |
-//! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
-//! | [`stereo`] | depth from disparity |
-//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
-//! | [`math`] | angles, seeded random numbers |
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
-//! | [`stereo`] | dense disparity by block matching and semi-global matching |
+//! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
 //!
@@ -37,7 +34,6 @@ pub mod optim;
 pub mod robust;
 pub mod stereo;
 pub mod synthetic;
-pub mod stereo;
 
 pub use error::Error;
 

@@ -1,12 +1,8 @@
-//! Depth from two photographs taken side by side.
-
-mod depth;
-
-pub use depth::{DepthInterval, depth_from_disparity, depth_interval};
-//! Dense stereo: rectification, block matching, semi-global matching, depth.
+//! Two photographs taken side by side: dense disparity and depth.
 
 mod block_matching;
 mod clean;
+mod depth;
 mod disparity_image;
 mod matching_cost;
 mod paths;
@@ -18,6 +14,7 @@ mod winner;
 
 pub use block_matching::StereoBm;
 pub use clean::remove_speckles;
+pub use depth::{DepthInterval, depth_from_disparity, depth_interval};
 pub use disparity_image::DisparityImage;
 pub use matching_cost::StereoCost;
 pub use prefilter::StereoPrefilter;
