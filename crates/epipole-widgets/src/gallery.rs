@@ -1,6 +1,6 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-use crate::contract::{Model, Problem, View};
+use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 pub mod ransac_race;
@@ -14,6 +14,7 @@ pub struct Entry {
     /// What a reader can do with it.
     pub help: &'static str,
     pub(crate) make: fn() -> Box<dyn Stage>,
+    pub(crate) compute: fn(&[u8], Progress<'_>) -> JobResult,
 }
 
 /// Every figure, in the order of the book.
@@ -25,6 +26,7 @@ const fn entry<V: View>() -> Entry {
         title: V::Model::TITLE,
         help: V::Model::HELP,
         make: stage::set_up::<V>,
+        compute: stage::compute::<V>,
     }
 }
 
