@@ -9,8 +9,10 @@ mod descriptors;
 mod good_features;
 mod keypoint;
 mod nms;
+mod parallel;
 mod patch;
 mod refine;
+mod sift;
 mod structure_tensor;
 
 pub use corners::{harris_response, min_eigenvalue_response};
@@ -20,6 +22,7 @@ pub use keypoint::Keypoint;
 pub use nms::non_maximum_suppression;
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
+pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };
