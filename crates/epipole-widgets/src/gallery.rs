@@ -3,6 +3,7 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+pub mod harris;
 pub mod ransac_race;
 
 /// A figure's entry in the list.
@@ -18,7 +19,7 @@ pub struct Entry {
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[entry::<ransac_race::View>()];
+pub static FIGURES: &[Entry] = &[entry::<harris::View>(), entry::<ransac_race::View>()];
 
 const fn entry<V: View>() -> Entry {
     Entry {
@@ -49,7 +50,7 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
-#[path = "../scaffold/figure.rs"]
+#[path = "../scaffold/mod.rs"]
 pub mod new_figure;
 
 #[cfg(test)]
