@@ -4,8 +4,11 @@
 //!
 //! | room | what it holds |
 //! |---|---|
-//! | [`math`] | angles, seeded random numbers |
+//! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
+//! | [`robust`] | the RANSAC engine; lines and similarities |
+//! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
+//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -19,7 +22,10 @@
 mod error;
 
 pub mod camera;
+pub mod epipolar;
 pub mod math;
+pub mod robust;
+pub mod stereo;
 
 pub use error::Error;
 

@@ -1,0 +1,419 @@
+//! The one loop: draw, fit, judge, improve, until enough samples were drawn.
+
+use std::ops::ControlFlow;
+
+use super::budget::{all_inlier_probability, ratio_to_the, trials};
+use super::sampler::Sampler;
+use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
+use crate::math::random::Random;
+use crate::{Error, Result};
+
+/// RANSAC, one sample at a time.
+///
+/// [`ransac`] runs it to the end. Call [`step`](Ransac::step) yourself to show what happens.
+///
+/// Each step draws a sample, fits up to a few models to it and scores them against all data. A
+/// model that beats those of all samples before is improved from its inliers (local
+/// optimization). The loop ends once enough samples were drawn for the share of inliers that the
+/// best model has. Nothing is allocated between [`new`](Ransac::new) and
+/// [`finish`](Ransac::finish).
+///
+/// Source: Fischler & Bolles 1981; Chum, Matas & Kittler 2003, "Locally optimized RANSAC".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::{LineEstimator, Ransac, RansacOptions, Step};
+/// use nalgebra::Point2;
+/// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
+/// let mut run = Ransac::new(LineEstimator::new(&points)?, RansacOptions::default())?;
+/// while let Step::Trial(trial) = run.step() {
+///     assert_eq!(trial.sample.len(), 2);
+///     assert_eq!(trial.num_inliers, 10);
+/// }
+/// assert_eq!(run.required_iterations(), 1); // but at least 20 are drawn
+/// assert_eq!(run.finish()?.iterations, 20);
+/// # Ok(()) }
+/// ```
+#[derive(Debug, Clone)]
+pub struct Ransac<E: Estimator> {
+    estimator: E,
+    options: RansacOptions,
+    random: Random,
+    sampler: Sampler,
+    sample: Vec<usize>,
+    sample_as_given: Vec<usize>,
+    models: Vec<E::Model>,
+    inliers: Vec<usize>,
+    best: Option<Candidate<E::Model>>,
+    /// The lowest cost of a model straight from a sample; only a lower one is worth improving.
+    best_sample_cost: f64,
+    iterations: usize,
+    refinements: usize,
+    required: u64,
+    log_miss: f64,
+    stop: Option<StopReason>,
+}
+
+#[derive(Debug, Clone)]
+struct Candidate<M> {
+    model: M,
+    support: Support,
+}
+
+/// What one step did.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step<'a, M> {
+    /// A sample was drawn.
+    Trial(Trial<'a, M>),
+    /// Enough samples were drawn; nothing more will happen.
+    Finished(StopReason),
+}
+
+/// One sample and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial<'a, M> {
+    /// Counts from 1.
+    pub iteration: usize,
+    /// The data drawn, as indices into the data given.
+    pub sample: &'a [usize],
+    /// How many models the sample gave.
+    pub num_models: usize,
+    /// The best of them, if any.
+    pub model: Option<M>,
+    /// Its score. An upper bound if the model could not win, unless
+    /// [`RansacOptions::score_every_trial`] is set.
+    pub score: f64,
+    /// Its inliers. A lower bound in the same case.
+    pub num_inliers: usize,
+    /// Whether the best model so far came out of this step.
+    pub is_best: bool,
+    /// That model, if local optimization improved it further.
+    pub refined: Option<M>,
+}
+
+/// Runs [`Ransac`] to its end.
+///
+/// # Errors
+/// As [`Ransac::new`] and [`Ransac::finish`].
+///
+/// The example of [`LineEstimator`](super::LineEstimator) calls it.
+pub fn ransac<E: Estimator>(
+    estimator: E,
+    options: &RansacOptions,
+) -> Result<RansacReport<E::Model>> {
+    ransac_with(estimator, options, |_| ControlFlow::Continue(()))
+}
+
+/// Runs [`Ransac`] and shows every trial to `watch`, which may end the run by
+/// [`ControlFlow::Break`]; the report is then about the best model so far.
+///
+/// # Errors
+/// As [`Ransac::new`] and [`Ransac::finish`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use std::ops::ControlFlow;
+/// use epipole::robust::{LineEstimator, RansacOptions, StopReason, ransac_with};
+/// use nalgebra::Point2;
+/// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
+/// let report = ransac_with(LineEstimator::new(&points)?, &RansacOptions::default(), |trial| {
+///     if trial.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!((report.iterations, report.stop), (3, StopReason::Cancelled));
+/// # Ok(()) }
+/// ```
+pub fn ransac_with<E: Estimator>(
+    estimator: E,
+    options: &RansacOptions,
+    mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
+) -> Result<RansacReport<E::Model>> {
+    let mut run = Ransac::new(estimator, *options)?;
+    while let Step::Trial(trial) = run.step() {
+        if watch(&trial).is_break() {
+            run.cancel();
+        }
+    }
+    run.finish()
+}
+
+impl<E: Estimator> Ransac<E> {
+    /// Prepares a run; all memory is taken here.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] if there are fewer different data than one sample has,
+    /// [`Error::OutOfRange`] for options outside their range.
+    pub fn new(estimator: E, options: RansacOptions) -> Result<Self> {
+        options.check()?;
+        let (num_data, size) = (estimator.num_data(), estimator.sample_size());
+        if num_data < size || size == 0 {
+            return Err(Error::TooFew {
+                what: estimator.name(),
+                needed: size.max(1),
+                got: num_data,
+            });
+        }
+        Ok(Self {
+            sampler: Sampler::new(options.sampler, num_data, size, options.max_iterations),
+            random: Random::new(options.seed),
+            sample: Vec::with_capacity(size),
+            sample_as_given: Vec::with_capacity(size),
+            models: Vec::with_capacity(estimator.max_models()),
+            inliers: Vec::with_capacity(num_data),
+            best: None,
+            best_sample_cost: f64::INFINITY,
+            iterations: 0,
+            refinements: 0,
+            required: u64::MAX,
+            log_miss: libm::log1p(-options.confidence),
+            stop: None,
+            estimator,
+            options,
+        })
+    }
+
+    /// Draws one sample, unless the run has finished.
+    pub fn step(&mut self) -> Step<'_, E::Model> {
+        if let Some(stop) = self.stop {
+            return Step::Finished(stop);
+        }
+        self.iterations += 1;
+        self.sampler.draw(&mut self.random, &mut self.sample);
+        self.models.clear();
+        self.estimator.fit_sample(&self.sample, &mut self.models);
+
+        let mut trial_best: Option<(usize, Support)> = None;
+        for (place, model) in self.models.iter().enumerate() {
+            let limit = if self.options.score_every_trial {
+                f64::INFINITY
+            } else {
+                trial_best.map_or(self.best_sample_cost, |(_, support)| {
+                    support.cost.min(self.best_sample_cost)
+                })
+            };
+            let support = self.support(model, limit);
+            if trial_best.is_none_or(|(_, best)| support.cost < best.cost) {
+                trial_best = Some((place, support));
+            }
+        }
+        let num_data = self.estimator.num_data() as f64;
+        let (mut model, mut score, mut num_inliers) = (None, 0.0, 0);
+        let (mut is_best, mut refined) = (false, None);
+        if let Some((place, support)) = trial_best {
+            let candidate = Candidate {
+                model: self.models[place].clone(),
+                support,
+            };
+            model = Some(candidate.model.clone());
+            score = (num_data - support.cost).max(0.0);
+            num_inliers = support.num_inliers;
+            if support.cost < self.best_sample_cost {
+                self.best_sample_cost = support.cost;
+                (is_best, refined) = self.consider(candidate);
+            }
+        }
+        self.update_stop();
+        self.sample_as_given.clear();
+        match self.estimator.unique() {
+            Some(unique) => self
+                .sample_as_given
+                .extend(self.sample.iter().map(|&i| unique.first_occurrences()[i])),
+            None => self.sample_as_given.extend_from_slice(&self.sample),
+        }
+        Step::Trial(Trial {
+            iteration: self.iterations,
+            sample: &self.sample_as_given,
+            num_models: self.models.len(),
+            model,
+            score,
+            num_inliers,
+            is_best,
+            refined,
+        })
+    }
+
+    /// The best model so far and its score.
+    pub fn best(&self) -> Option<(&E::Model, f64)> {
+        self.best.as_ref().map(|best| {
+            (
+                &best.model,
+                self.estimator.num_data() as f64 - best.support.cost,
+            )
+        })
+    }
+
+    /// Samples drawn so far.
+    pub fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// Samples that the best model's share of inliers asks for; `u64::MAX` before there is one.
+    ///
+    /// The run ends there, but not before [`RansacOptions::min_iterations`] and not after
+    /// [`RansacOptions::max_iterations`].
+    pub fn required_iterations(&self) -> u64 {
+        self.required
+    }
+
+    /// The problem that is being solved.
+    pub fn estimator(&self) -> &E {
+        &self.estimator
+    }
+
+    /// Ends the run: [`step`](Ransac::step) will draw no more.
+    pub fn cancel(&mut self) {
+        self.stop.get_or_insert(StopReason::Cancelled);
+    }
+
+    /// Improves the best model one last time and reports, also before the run has ended.
+    ///
+    /// # Errors
+    /// [`Error::NoConsensus`] if no sample gave a model that the data of one sample, at least,
+    /// support.
+    pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
+        let no_consensus = Error::NoConsensus {
+            needed: self.estimator.sample_size(),
+            got: self.estimator.num_data(),
+            iterations: self.iterations,
+        };
+        let Some(mut best) = self.best.take() else {
+            return Err(no_consensus);
+        };
+        if self.options.local_optimization {
+            self.improve(&mut best, true);
+        }
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return Err(no_consensus);
+        }
+        self.required = self.required_for(self.inliers.len());
+        let mut fits = vec![false; self.estimator.num_data()];
+        for &index in &self.inliers {
+            fits[index] = true;
+        }
+        let inliers: Vec<bool> = match self.estimator.unique() {
+            Some(unique) => unique.places().iter().map(|&i| fits[i]).collect(),
+            None => fits,
+        };
+        Ok(RansacReport {
+            num_inliers: inliers.iter().filter(|&&inlier| inlier).count(),
+            num_unique_inliers: self.inliers.len(),
+            inliers,
+            iterations: self.iterations,
+            required_iterations: self.required,
+            score: self.estimator.num_data() as f64 - best.support.cost,
+            refinements: self.refinements,
+            stop: self.stop.unwrap_or(StopReason::Cancelled),
+            model: best.model,
+        })
+    }
+
+    /// Takes the best model of a sample through recovery and local optimization, and keeps the
+    /// outcome if nothing better is known. Returns whether it is kept, and as what.
+    fn consider(&mut self, mut candidate: Candidate<E::Model>) -> (bool, Option<E::Model>) {
+        let mut changed = false;
+        if self.options.local_optimization {
+            let recovered = self.estimator.recover(
+                &candidate.model,
+                &self.sample,
+                self.options.max_error_px,
+                &mut self.random,
+            );
+            if let Some(model) = recovered {
+                changed |= self.replace_if_better(&mut candidate, model);
+            }
+            changed |= self.improve(&mut candidate, false);
+        }
+        let known = self
+            .best
+            .as_ref()
+            .is_some_and(|best| best.support.cost <= candidate.support.cost);
+        if known {
+            return (false, None);
+        }
+        self.required = self.required_for(candidate.support.num_inliers);
+        let refined = changed.then(|| candidate.model.clone());
+        self.best = Some(candidate);
+        (true, refined)
+    }
+
+    /// Alternates between finding the inliers and fitting to them while that helps.
+    fn improve(&mut self, candidate: &mut Candidate<E::Model>, last: bool) -> bool {
+        let max_error_px = self.options.max_error_px;
+        let rounds = if last {
+            self.options.inner_iterations.max(1)
+        } else {
+            self.options.inner_iterations
+        };
+        let mut changed = false;
+        for _ in 0..rounds {
+            self.estimator
+                .inliers(&candidate.model, max_error_px, &mut self.inliers);
+            if self.inliers.len() < self.estimator.sample_size() {
+                break;
+            }
+            let fitted = if last {
+                self.estimator
+                    .polish(&candidate.model, &self.inliers, max_error_px)
+            } else {
+                self.estimator
+                    .refine(&candidate.model, &self.inliers, max_error_px)
+            };
+            let Some(model) = fitted else { break };
+            let before = candidate.support.cost;
+            if !self.replace_if_better(candidate, model) {
+                break;
+            }
+            changed = true;
+            // Less than a thousandth of one datum is not worth another round.
+            if before - candidate.support.cost < 1e-3 {
+                break;
+            }
+        }
+        changed
+    }
+
+    fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {
+        let support = self.support(&model, candidate.support.cost);
+        let better = support.cost < candidate.support.cost;
+        if better {
+            *candidate = Candidate { model, support };
+            self.refinements += 1;
+        }
+        better
+    }
+
+    fn support(&self, model: &E::Model, cost_limit: f64) -> Support {
+        let by_count = self.options.score == ScoreKind::InlierCount;
+        // The limit is about squared errors, which say nothing about a count of inliers.
+        let limit = if by_count { f64::INFINITY } else { cost_limit };
+        let max_error_px = self.options.max_error_px;
+        let mut support = self.estimator.support(model, max_error_px, limit);
+        if by_count {
+            support.cost = (self.estimator.num_data() - support.num_inliers) as f64;
+        }
+        if support.cost.is_nan() {
+            support.cost = f64::INFINITY;
+        }
+        support
+    }
+
+    fn required_for(&self, num_inliers: usize) -> u64 {
+        let (num_data, size) = (self.estimator.num_data(), self.estimator.sample_size());
+        let probability = match self.options.budget {
+            Budget::WithReplacement => ratio_to_the(num_inliers as f64 / num_data as f64, size),
+            Budget::WithoutReplacement => all_inlier_probability(num_inliers, num_data, size),
+        };
+        trials(probability, self.log_miss)
+    }
+
+    fn update_stop(&mut self) {
+        let iterations = self.iterations as u64;
+        if self.iterations >= self.options.min_iterations && iterations >= self.required {
+            self.stop = Some(StopReason::Confident);
+        } else if self.iterations >= self.options.max_iterations {
+            self.stop = Some(StopReason::Exhausted);
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! What a problem must tell the loop.
+
+use super::Unique;
+use crate::math::random::Random;
+
+/// How well the data support a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// `Σ min(1, e²/T²)` over the data: 0 if all fit exactly. An incomplete sum, larger than the
+    /// limit, if the scoring was broken off.
+    pub cost: f64,
+    /// Data within the threshold, among those looked at.
+    pub num_inliers: usize,
+}
+
+/// A problem that [`Ransac`](super::Ransac) can solve.
+///
+/// Data are addressed by index, `0..num_data()`, and are all different; errors are in pixels.
+/// An estimator keeps the buffers it needs, so that no call in the loop allocates.
+///
+/// ```
+/// use epipole::robust::{Estimator, RansacOptions, ransac};
+///
+/// /// The value that most numbers agree on.
+/// struct Level(Vec<f64>);
+///
+/// impl Estimator for Level {
+///     type Model = f64;
+///     fn name(&self) -> &'static str { "a level" }
+///     fn sample_size(&self) -> usize { 1 }
+///     fn num_data(&self) -> usize { self.0.len() }
+///     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<f64>) {
+///         models.push(self.0[sample[0]]);
+///     }
+///     fn error_sq(&self, level: &f64, index: usize) -> f64 {
+///         (self.0[index] - level) * (self.0[index] - level)
+///     }
+///     fn refine(&mut self, _: &f64, inliers: &[usize], _: f64) -> Option<f64> {
+///         Some(inliers.iter().map(|&i| self.0[i]).sum::<f64>() / inliers.len() as f64)
+///     }
+/// }
+///
+/// # fn main() -> Result<(), epipole::Error> {
+/// let report = ransac(Level(vec![4.75, 5.25, 99.0, 5.0]), &RansacOptions::default())?;
+/// assert_eq!((report.model, report.num_inliers), (5.0, 3));
+/// # Ok(()) }
+/// ```
+pub trait Estimator {
+    /// What is estimated. Cloning must not allocate.
+    type Model: Clone;
+
+    /// What is estimated, in words, for error messages: "a homography from matches".
+    fn name(&self) -> &'static str;
+
+    /// Data that a minimal sample has.
+    fn sample_size(&self) -> usize;
+
+    /// Data there are.
+    fn num_data(&self) -> usize;
+
+    /// Models that one sample can give, at most.
+    fn max_models(&self) -> usize {
+        1
+    }
+
+    /// Pushes every model that fits the sample, none if the sample is degenerate.
+    ///
+    /// `sample` holds [`sample_size`](Estimator::sample_size) different indices.
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>);
+
+    /// Squared distance of a datum from a model, px².
+    fn error_sq(&self, model: &Self::Model, index: usize) -> f64;
+
+    /// A better model from `model` and the data that fit it, or `None` if there is none.
+    ///
+    /// * `inliers`: indices of the data within the threshold
+    /// * `max_error_px`: the threshold, pixels
+    fn refine(
+        &mut self,
+        model: &Self::Model,
+        inliers: &[usize],
+        max_error_px: f64,
+    ) -> Option<Self::Model>;
+
+    /// The last refinement, which may take longer than [`refine`](Estimator::refine).
+    fn polish(
+        &mut self,
+        model: &Self::Model,
+        inliers: &[usize],
+        max_error_px: f64,
+    ) -> Option<Self::Model> {
+        self.refine(model, inliers, max_error_px)
+    }
+
+    /// A model that replaces one whose sample or inliers are degenerate, if it can be found.
+    ///
+    /// Called for a model that is better than all before.
+    fn recover(
+        &mut self,
+        model: &Self::Model,
+        sample: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<Self::Model> {
+        let _ = (model, sample, max_error_px, random);
+        None
+    }
+
+    /// How well the data support a model. May stop once the cost exceeds `cost_limit`.
+    fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
+        let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
+        let mut support = Support {
+            cost: 0.0,
+            num_inliers: 0,
+        };
+        for index in 0..self.num_data() {
+            let relative = self.error_sq(model, index) * per_threshold_sq;
+            if relative < 1.0 {
+                support.cost += relative;
+                support.num_inliers += 1;
+            } else {
+                support.cost += 1.0;
+                if support.cost > cost_limit {
+                    break;
+                }
+            }
+        }
+        support
+    }
+
+    /// Fills `inliers` with the data within the threshold of a model.
+    fn inliers(&self, model: &Self::Model, max_error_px: f64, inliers: &mut Vec<usize>) {
+        let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
+        inliers.clear();
+        inliers.extend(
+            (0..self.num_data())
+                .filter(|&index| self.error_sq(model, index) * per_threshold_sq < 1.0),
+        );
+    }
+
+    /// How the indices relate to the data that the caller gave, if repetitions were left out.
+    fn unique(&self) -> Option<&Unique> {
+        None
+    }
+}

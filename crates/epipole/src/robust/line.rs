@@ -1,0 +1,335 @@
+//! Straight lines: least squares, and the estimator for the loop.
+
+use std::borrow::Cow;
+
+use super::{Estimator, Unique};
+use crate::math::Line2;
+use crate::{Error, Result};
+use nalgebra::Point2;
+
+/// The line with the smallest sum of squared distances to the points.
+///
+/// It passes through the centroid along the direction in which the points spread most: the
+/// normal (a, b) belongs to the smaller eigenvalue of the scatter matrix `Σ (p − p̄)(p − p̄)ᵀ`.
+/// Distances are measured across the line, not along v, so vertical lines are nothing special. One
+/// point far off pulls the line towards it; see [`LineEstimator`] for data with outliers.
+///
+/// * `points`: at least two, pixels
+///
+/// # Errors
+/// [`Error::TooFew`] for fewer than two points, [`Error::NotFinite`] for NaN and infinities,
+/// [`Error::Degenerate`] if all points are equal or spread equally in all directions, as the
+/// corners of a square do.
+///
+/// Source: Pearson 1901, "On lines and planes of closest fit to systems of points in space".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::fit_line_total_least_squares;
+/// use nalgebra::Point2;
+/// let points = [(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)].map(|(u, v)| Point2::new(u, v));
+/// let line = fit_line_total_least_squares(&points)?; // v = 2 u + 1
+/// assert!((-line.a / line.b - 2.0).abs() < 1e-12);
+/// assert!((-line.c / line.b - 1.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
+pub fn fit_line_total_least_squares(points: &[Point2<f64>]) -> Result<Line2> {
+    check_points(points)?;
+    fit(points.len(), |i| points[i])
+}
+
+fn check_points(points: &[Point2<f64>]) -> Result<()> {
+    if points.len() < 2 {
+        return Err(Error::TooFew {
+            what: "a line through points",
+            needed: 2,
+            got: points.len(),
+        });
+    }
+    if points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
+        Ok(())
+    } else {
+        Err(Error::NotFinite {
+            what: "a point of a line",
+        })
+    }
+}
+
+fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2> {
+    let degenerate = |why| Error::Degenerate {
+        what: "a line through points",
+        why,
+    };
+    let share = 1.0 / num_points as f64;
+    let (mut mean_u, mut mean_v) = (0.0, 0.0);
+    for i in 0..num_points {
+        let p = point(i);
+        mean_u += p.x * share;
+        mean_v += p.y * share;
+    }
+    // Deviations relative to the largest one: squares of huge or tiny coordinates stay finite.
+    let reach = (0..num_points).fold(0.0_f64, |reach, i| {
+        let p = point(i);
+        reach.max((p.x - mean_u).abs()).max((p.y - mean_v).abs())
+    });
+    if !reach.is_finite() {
+        return Err(Error::NotFinite {
+            what: "the extent of the points of a line",
+        });
+    }
+    let rounding = 4.0 * f64::EPSILON * (mean_u.abs() + mean_v.abs());
+    if reach <= rounding || reach <= f64::MIN_POSITIVE {
+        return Err(degenerate("all points are equal"));
+    }
+    let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
+    for i in 0..num_points {
+        let p = point(i);
+        let (du, dv) = ((p.x - mean_u) / reach, (p.y - mean_v) / reach);
+        uu += du * du;
+        uv += du * dv;
+        vv += dv * dv;
+    }
+    // Eigenvalues are (uu + vv ± gap)/2 with gap = hypot(uu − vv, 2 uv).
+    let (difference, mixed) = (uu - vv, 2.0 * uv);
+    let gap = (difference * difference + mixed * mixed).sqrt();
+    if gap <= 1e-12 * (uu + vv) {
+        return Err(degenerate("the points spread equally in all directions"));
+    }
+    // The eigenvector of the larger eigenvalue, from the row that does not cancel.
+    let (along_u, along_v) = if difference >= 0.0 {
+        (gap + difference, mixed)
+    } else {
+        (mixed, gap - difference)
+    };
+    let length = (along_u * along_u + along_v * along_v).sqrt();
+    let (a, b) = (-along_v / length, along_u / length);
+    Ok(Line2 {
+        a,
+        b,
+        c: -(a * mean_u + b * mean_v),
+    })
+}
+
+/// Lines through points of which some are wrong, for [`Ransac`](super::Ransac).
+///
+/// A sample is two points; refinement is total least squares over the inliers. Equal points
+/// count once.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::{LineEstimator, RansacOptions, ransac};
+/// use nalgebra::Point2;
+/// let points: Vec<_> = [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0), (0.0, 30.0)]
+///     .map(|(u, v)| Point2::new(u, v)).into();
+/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default())?;
+/// assert_eq!(report.inliers, [true, true, true, true, false]);
+/// # Ok(()) }
+/// ```
+#[derive(Debug, Clone)]
+pub struct LineEstimator<'a> {
+    points: Cow<'a, [Point2<f64>]>,
+    unique: Unique,
+}
+
+impl<'a> LineEstimator<'a> {
+    /// Prepares the estimation; takes a slice or a `Vec` of points, pixels.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than two points, [`Error::NotFinite`] for NaN and infinities,
+    /// [`Error::Degenerate`] if all points are equal.
+    pub fn new(points: impl Into<Cow<'a, [Point2<f64>]>>) -> Result<Self> {
+        let points = points.into();
+        check_points(&points)?;
+        let unique = Unique::new(points.len(), |i| [points[i].x, points[i].y]);
+        if unique.len() < 2 {
+            return Err(Error::Degenerate {
+                what: "a line through points",
+                why: "all points are equal",
+            });
+        }
+        Ok(Self { points, unique })
+    }
+
+    fn point(&self, index: usize) -> &Point2<f64> {
+        &self.points[self.unique.first_occurrences()[index]]
+    }
+}
+
+impl Estimator for LineEstimator<'_> {
+    type Model = Line2;
+
+    fn name(&self) -> &'static str {
+        "a line through points"
+    }
+
+    fn sample_size(&self) -> usize {
+        2
+    }
+
+    fn num_data(&self) -> usize {
+        self.unique.len()
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Line2>) {
+        models.extend(Line2::through(self.point(sample[0]), self.point(sample[1])));
+    }
+
+    fn error_sq(&self, line: &Line2, index: usize) -> f64 {
+        let distance = line.signed_distance(self.point(index));
+        distance * distance
+    }
+
+    fn refine(&mut self, _: &Line2, inliers: &[usize], _: f64) -> Option<Line2> {
+        fit(inliers.len(), |i| *self.point(inliers[i])).ok()
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(&self.unique)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{RansacOptions, ScoreKind, ransac};
+    use super::*;
+    use crate::math::random::Random;
+
+    fn points(coordinates: &[(f64, f64)]) -> Vec<Point2<f64>> {
+        coordinates
+            .iter()
+            .map(|&(u, v)| Point2::new(u, v))
+            .collect()
+    }
+
+    #[test]
+    fn least_squares_of_a_vertical_line() {
+        let line =
+            fit_line_total_least_squares(&points(&[(3.0, 0.0), (3.0, 5.0), (3.0, -2.0)])).unwrap();
+        assert!((line.a.abs() - 1.0).abs() < 1e-15 && line.b.abs() < 1e-15);
+        assert!((line.c / line.a + 3.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn least_squares_minimizes_the_distances() {
+        let mut random = Random::new(2);
+        let cloud: Vec<_> = (0..50)
+            .map(|_| Point2::new(random.uniform(0.0, 90.0), random.uniform(0.0, 40.0)))
+            .collect();
+        let cost = |line: &Line2| -> f64 {
+            cloud
+                .iter()
+                .map(|p| line.signed_distance(p) * line.signed_distance(p))
+                .sum()
+        };
+        let best = fit_line_total_least_squares(&cloud).unwrap();
+        for (turn, shift) in [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-2), (0.0, -1e-2)] {
+            let (sin, cos) = libm::sincos(turn);
+            let (a, b) = (best.a * cos - best.b * sin, best.a * sin + best.b * cos);
+            let other = Line2 {
+                a,
+                b,
+                c: best.c + shift,
+            };
+            assert!(cost(&other) > cost(&best));
+        }
+    }
+
+    #[test]
+    fn huge_and_tiny_coordinates_stay_finite() {
+        for scale in [1e-150, 1.0, 1e150] {
+            let cloud = points(&[(0.0, 0.0), (scale, scale), (2.0 * scale, 2.0 * scale)]);
+            let line = fit_line_total_least_squares(&cloud).unwrap();
+            assert!((line.angle_rad() - core::f64::consts::FRAC_PI_4).abs() < 1e-12);
+        }
+        let huge = points(&[(f64::MAX, 0.0), (-f64::MAX, 0.0), (f64::MAX, 1.0)]);
+        if let Ok(line) = fit_line_total_least_squares(&huge) {
+            assert!(line.a.is_finite() && line.b.is_finite() && line.c.is_finite());
+        }
+    }
+
+    #[test]
+    fn degenerate_points_are_refused() {
+        let refused = [
+            points(&[]),
+            points(&[(1.0, 2.0)]),
+            points(&[(0.1, 0.2), (0.1, 0.2), (0.1, 0.2)]),
+            points(&[(f64::NAN, 0.0), (1.0, 1.0), (2.0, 2.0)]),
+            points(&[(0.0, 0.0), (1.0, f64::INFINITY)]),
+        ];
+        for cloud in &refused {
+            assert!(fit_line_total_least_squares(cloud).is_err(), "{cloud:?}");
+            assert!(LineEstimator::new(cloud).is_err(), "{cloud:?}");
+        }
+        let square = points(&[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)]);
+        assert!(matches!(
+            fit_line_total_least_squares(&square),
+            Err(Error::Degenerate { .. })
+        ));
+    }
+
+    /// openMVG's robust line tests: five points on a line and one off it.
+    #[test]
+    fn one_outlier_is_found_exactly() {
+        let cloud = points(&[
+            (1.0, 2.0),
+            (2.0, 4.0),
+            (3.0, 6.0),
+            (4.0, 8.0),
+            (5.0, 10.0),
+            (100.0, -123.0),
+        ]);
+        for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
+            let options = RansacOptions {
+                max_error_px: 0.3,
+                score,
+                ..RansacOptions::default()
+            };
+            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options).unwrap();
+            assert_eq!(report.inliers, [true, true, true, true, true, false]);
+            assert!((report.model.angle_rad() - libm::atan(2.0)).abs() < 1e-12);
+            assert!((report.score - 5.0).abs() < 1e-12);
+        }
+    }
+
+    /// The same source: 30 % of the points moved far off; the exact number of inliers comes back.
+    #[test]
+    fn thirty_percent_outliers_are_counted_exactly() {
+        for seed in 0..20 {
+            let mut random = Random::new(seed);
+            let cloud: Vec<_> = (0..100)
+                .map(|i| {
+                    let u = f64::from(i);
+                    let off = if i % 10 < 3 {
+                        random.uniform(5.0, 100.0) * if i % 2 == 0 { 1.0 } else { -1.0 }
+                    } else {
+                        0.0
+                    };
+                    Point2::new(u, 2.0 * u + 6.3 + off)
+                })
+                .collect();
+            let options = RansacOptions {
+                max_error_px: 0.3,
+                seed,
+                ..RansacOptions::default()
+            };
+            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options).unwrap();
+            assert_eq!(report.num_inliers, 70);
+            assert!((-report.model.a / report.model.b - 2.0).abs() < 1e-9);
+            assert!((-report.model.c / report.model.b - 6.3).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn repeated_points_do_not_outvote_the_line() {
+        let mut cloud = points(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0)]);
+        cloud.extend(vec![Point2::new(0.0, 9.0); 50]);
+        let report = ransac(
+            LineEstimator::new(&cloud).unwrap(),
+            &RansacOptions::default(),
+        )
+        .unwrap();
+        assert_eq!(report.num_inliers, 4);
+        assert_eq!(report.num_unique_inliers, 4);
+        assert!(report.inliers[..4].iter().all(|&inlier| inlier));
+    }
+}

@@ -1,0 +1,138 @@
+//! Matches between two images, laid out for speed.
+
+use super::Unique;
+use crate::{Error, Result};
+use nalgebra::Point2;
+
+/// Different, finite matches: pixel `(u1[i], v1[i])` of image 1 and `(u2[i], v2[i])` of image 2.
+///
+/// One array for each coordinate lets the scoring loops run on several matches at once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatchSet {
+    u1: Vec<f64>,
+    v1: Vec<f64>,
+    u2: Vec<f64>,
+    v2: Vec<f64>,
+    unique: Unique,
+}
+
+impl MatchSet {
+    /// Copies the matches, each different one once.
+    ///
+    /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN and
+    /// infinities, [`Error::OutOfRange`] for coordinates beyond 10⁹ pixels, whose fourth powers
+    /// no longer fit the arithmetic of the solvers.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::robust::MatchSet;
+    /// use nalgebra::Point2;
+    /// let p = [Point2::new(1.0, 2.0), Point2::new(3.0, 4.0), Point2::new(1.0, 2.0)];
+    /// assert_eq!(MatchSet::new(&p, &p)?.len(), 2);
+    /// # Ok(()) }
+    /// ```
+    pub fn new(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Self> {
+        if pixels1.len() != pixels2.len() {
+            return Err(Error::SizeMismatch {
+                what: "the two lists of matching pixels",
+                first: pixels1.len(),
+                second: pixels2.len(),
+            });
+        }
+        for p in pixels1.iter().chain(pixels2) {
+            for value in [p.x, p.y] {
+                if !value.is_finite() {
+                    return Err(Error::NotFinite {
+                        what: "a matched pixel",
+                    });
+                }
+                if value.abs() > 1e9 {
+                    return Err(Error::OutOfRange {
+                        what: "a matched pixel's coordinate",
+                        requirement: "at most 10⁹ pixels from 0",
+                        value,
+                    });
+                }
+            }
+        }
+        let unique = Unique::new(pixels1.len(), |i| {
+            [pixels1[i].x, pixels1[i].y, pixels2[i].x, pixels2[i].y]
+        });
+        let gather = |coordinate: &dyn Fn(usize) -> f64| {
+            unique
+                .first_occurrences()
+                .iter()
+                .map(|&i| coordinate(i))
+                .collect()
+        };
+        Ok(Self {
+            u1: gather(&|i| pixels1[i].x),
+            v1: gather(&|i| pixels1[i].y),
+            u2: gather(&|i| pixels2[i].x),
+            v2: gather(&|i| pixels2[i].y),
+            unique,
+        })
+    }
+
+    /// How many different matches there are.
+    pub fn len(&self) -> usize {
+        self.u1.len()
+    }
+
+    /// Whether there is no match.
+    pub fn is_empty(&self) -> bool {
+        self.u1.is_empty()
+    }
+
+    /// The pixels of a match in images 1 and 2.
+    pub fn pair(&self, index: usize) -> (Point2<f64>, Point2<f64>) {
+        (
+            Point2::new(self.u1[index], self.v1[index]),
+            Point2::new(self.u2[index], self.v2[index]),
+        )
+    }
+
+    /// The coordinates `[u1, v1, u2, v2]`, one slice each.
+    pub fn coordinates(&self) -> [&[f64]; 4] {
+        [&self.u1, &self.v1, &self.u2, &self.v2]
+    }
+
+    /// How these matches relate to the ones given.
+    pub fn unique(&self) -> &Unique {
+        &self.unique
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_matches_are_refused() {
+        let p = vec![Point2::new(1.0, 2.0); 3];
+        assert!(matches!(
+            MatchSet::new(&p, &p[..2]),
+            Err(Error::SizeMismatch { .. })
+        ));
+        for bad in [f64::NAN, f64::INFINITY, 1e200] {
+            let mut q = p.clone();
+            q[1].y = bad;
+            assert!(MatchSet::new(&p, &q).is_err());
+            assert!(MatchSet::new(&q, &p).is_err());
+        }
+        assert!(MatchSet::new(&[], &[]).unwrap().is_empty());
+    }
+
+    #[test]
+    fn different_in_one_image_is_different() {
+        let p = vec![Point2::new(1.0, 2.0); 3];
+        let q = [(0.0, 0.0), (5.0, 0.0), (0.0, 0.0)].map(|(u, v)| Point2::new(u, v));
+        let set = MatchSet::new(&p, &q).unwrap();
+        assert_eq!(set.len(), 2);
+        assert_eq!(set.pair(1), (p[0], q[1]));
+        assert_eq!(set.unique().places(), [0, 1, 0]);
+    }
+}

@@ -1,0 +1,28 @@
+//! Fitting a model to data of which many are wrong.
+//!
+//! There is one loop, [`Ransac`], and it knows nothing of cameras: an [`Estimator`] tells it how
+//! to fit a model to a few data, how far a datum is from a model, and how to improve a model from
+//! many data. Estimators live beside their solvers; the two for the plane, [`LineEstimator`] and
+//! [`SimilarityEstimator`], live here.
+//!
+//! Source: Fischler & Bolles 1981 (the loop); Torr & Zisserman 2000 (the MSAC score); Chum, Matas
+//! & Kittler 2003 (local optimization).
+
+mod budget;
+mod engine;
+mod estimator;
+mod line;
+mod matches;
+mod options;
+mod sampler;
+mod similarity;
+mod unique;
+
+pub use budget::{num_trials_with_replacement, num_trials_without_replacement};
+pub use engine::{Ransac, Step, Trial, ransac, ransac_with};
+pub use estimator::{Estimator, Support};
+pub use line::{LineEstimator, fit_line_total_least_squares};
+pub use matches::MatchSet;
+pub use options::{Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason};
+pub use similarity::{Similarity2, SimilarityEstimator, find_similarity, fit_similarity};
+pub use unique::Unique;

@@ -1,0 +1,184 @@
+//! What the loop is asked, and what it answers.
+
+use crate::{Error, Result};
+
+/// How samples are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SamplerKind {
+    /// Every subset of the data is equally likely.
+    Uniform,
+    /// Good data first: the data are ordered by quality, best first, and samples come from a
+    /// growing share of the front.
+    ///
+    /// Source: Chum & Matas 2005, "Matching with PROSAC".
+    Prosac,
+}
+
+/// How a model is judged. Scores count from 0 (nothing fits) to the number of data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScoreKind {
+    /// `Σ max(0, 1 − e²/T²)`: a datum on the model counts 1, one at the threshold 0.
+    ///
+    /// Source: Torr & Zisserman 2000, MSAC.
+    Msac,
+    /// The number of data within the threshold.
+    ///
+    /// Source: Fischler & Bolles 1981.
+    InlierCount,
+}
+
+/// Which formula says how many samples are enough.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Budget {
+    /// [`num_trials_with_replacement`](super::num_trials_with_replacement): the textbook's `wˢ`.
+    WithReplacement,
+    /// [`num_trials_without_replacement`](super::num_trials_without_replacement): exact.
+    WithoutReplacement,
+}
+
+/// How to run [`Ransac`](super::Ransac).
+///
+/// ```
+/// use epipole::robust::RansacOptions;
+/// let options = RansacOptions { max_error_px: 2.0, seed: 7, ..RansacOptions::default() };
+/// assert_eq!(options.confidence, 0.999);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RansacOptions {
+    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0. 1.
+    pub max_error_px: f64,
+    /// The probability that one sample at least is free of outliers, in (0, 1). 0.999.
+    pub confidence: f64,
+    /// Samples drawn even if fewer would do. 20.
+    pub min_iterations: usize,
+    /// Samples drawn at most, ≥ 1. 10 000.
+    pub max_iterations: usize,
+    /// Equal seeds give equal results. 0.
+    pub seed: u64,
+    /// How samples are drawn. Uniform.
+    pub sampler: SamplerKind,
+    /// How a model is judged. MSAC.
+    pub score: ScoreKind,
+    /// Whether a promising model is improved from its inliers at once, and the best one at the
+    /// end. True.
+    pub local_optimization: bool,
+    /// Rounds of "find the inliers, fit to them" in one local optimization. 4.
+    pub inner_iterations: usize,
+    /// Which formula says how many samples are enough. Without replacement.
+    pub budget: Budget,
+    /// Whether every model is compared with every datum, so that a figure can show its score.
+    /// Otherwise a model is dropped as soon as it cannot win. False.
+    pub score_every_trial: bool,
+}
+
+impl Default for RansacOptions {
+    fn default() -> Self {
+        Self {
+            max_error_px: 1.0,
+            confidence: 0.999,
+            min_iterations: 20,
+            max_iterations: 10_000,
+            seed: 0,
+            sampler: SamplerKind::Uniform,
+            score: ScoreKind::Msac,
+            local_optimization: true,
+            inner_iterations: 4,
+            budget: Budget::WithoutReplacement,
+            score_every_trial: false,
+        }
+    }
+}
+
+impl RansacOptions {
+    /// Whether every field is in its range.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] naming the first field that is not.
+    pub fn check(&self) -> Result<()> {
+        let refuse = |what, requirement, value| {
+            Err(Error::OutOfRange {
+                what,
+                requirement,
+                value,
+            })
+        };
+        let threshold_sq = self.max_error_px * self.max_error_px;
+        if !(self.max_error_px > 0.0 && threshold_sq > 0.0 && threshold_sq.is_finite()) {
+            return refuse(
+                "the largest error of an inlier",
+                "greater than 0 pixels and finite",
+                self.max_error_px,
+            );
+        }
+        if !(self.confidence > 0.0 && self.confidence < 1.0) {
+            return refuse(
+                "the confidence",
+                "greater than 0 and less than 1",
+                self.confidence,
+            );
+        }
+        if self.max_iterations == 0 {
+            return refuse("the largest number of iterations", "at least 1", 0.0);
+        }
+        if self.min_iterations > self.max_iterations {
+            return refuse(
+                "the smallest number of iterations",
+                "at most the largest",
+                self.min_iterations as f64,
+            );
+        }
+        Ok(())
+    }
+}
+
+/// Why the loop ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// Enough samples for the confidence asked.
+    Confident,
+    /// [`RansacOptions::max_iterations`] were drawn; the confidence was not reached.
+    Exhausted,
+    /// The caller ended it.
+    Cancelled,
+}
+
+/// What [`Ransac`](super::Ransac) found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RansacReport<M> {
+    /// The best model.
+    pub model: M,
+    /// For each datum given, whether it is within the threshold of `model`.
+    pub inliers: Vec<bool>,
+    /// How many of `inliers` are true.
+    pub num_inliers: usize,
+    /// The same, with equal data counted once. This number, not `num_inliers`, says how well the
+    /// model is supported.
+    pub num_unique_inliers: usize,
+    /// Samples drawn.
+    pub iterations: usize,
+    /// Samples that the final share of inliers asks for; `u64::MAX` if no number is enough.
+    pub required_iterations: u64,
+    /// The model's score over different data, as [`ScoreKind`] defines it.
+    pub score: f64,
+    /// How many times a model was improved from its inliers.
+    pub refinements: usize,
+    /// Why the loop ended.
+    pub stop: StopReason,
+}
+
+impl<M> RansacReport<M> {
+    /// The same report with another form of the model.
+    pub fn map<N>(self, into: impl FnOnce(M) -> N) -> RansacReport<N> {
+        RansacReport {
+            model: into(self.model),
+            inliers: self.inliers,
+            num_inliers: self.num_inliers,
+            num_unique_inliers: self.num_unique_inliers,
+            iterations: self.iterations,
+            required_iterations: self.required_iterations,
+            score: self.score,
+            refinements: self.refinements,
+            stop: self.stop,
+        }
+    }
+}

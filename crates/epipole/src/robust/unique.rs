@@ -1,0 +1,80 @@
+//! Equal data, found once and counted once.
+
+/// Which data are repetitions of others.
+///
+/// A match that occurs ten times is one observation, not ten: counted ten times it outvotes
+/// honest ones. Estimators work on the different data alone, and this maps back and forth.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unique {
+    /// For each different datum, where it first occurs.
+    first: Vec<usize>,
+    /// For each given datum, its place among the different ones.
+    place: Vec<usize>,
+}
+
+impl Unique {
+    /// Finds the repetitions among `num_data` data whose coordinates are `datum(i)`.
+    ///
+    /// Different data keep the order in which they first occur.
+    pub fn new<const D: usize>(num_data: usize, datum: impl Fn(usize) -> [f64; D]) -> Self {
+        // Adding zero makes −0 and 0 the same bits.
+        let bits = |i: usize| datum(i).map(|x| (x + 0.0).to_bits());
+        let mut order: Vec<usize> = (0..num_data).collect();
+        // Sorting by (bits, index) puts the first occurrence at the front of its group.
+        order.sort_unstable_by(|&i, &j| bits(i).cmp(&bits(j)).then(i.cmp(&j)));
+        let mut leader = vec![0; num_data];
+        let mut current = 0;
+        for (rank, &i) in order.iter().enumerate() {
+            if rank == 0 || bits(order[rank - 1]) != bits(i) {
+                current = i;
+            }
+            leader[i] = current;
+        }
+        let mut first = Vec::with_capacity(num_data);
+        let mut place = vec![0; num_data];
+        for i in 0..num_data {
+            if leader[i] == i {
+                place[i] = first.len();
+                first.push(i);
+            } else {
+                place[i] = place[leader[i]];
+            }
+        }
+        Self { first, place }
+    }
+
+    /// How many different data there are.
+    pub fn len(&self) -> usize {
+        self.first.len()
+    }
+
+    /// Whether there are no data at all.
+    pub fn is_empty(&self) -> bool {
+        self.first.is_empty()
+    }
+
+    /// For each different datum, the index of its first occurrence among the given data.
+    pub fn first_occurrences(&self) -> &[usize] {
+        &self.first
+    }
+
+    /// For each given datum, its place among the different ones.
+    pub fn places(&self) -> &[usize] {
+        &self.place
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repetitions_are_found_in_any_order() {
+        let data = [[1.0, 2.0], [0.0, 1.0], [1.0, 2.0], [-0.0, 1.0], [3.0, 3.0]];
+        let unique = Unique::new(data.len(), |i| data[i]);
+        assert_eq!(unique.first_occurrences(), [0, 1, 4]);
+        assert_eq!(unique.places(), [0, 1, 0, 1, 2]);
+        assert_eq!(unique.len(), 3);
+        assert!(Unique::new(0, |_| [0.0]).is_empty());
+    }
+}
