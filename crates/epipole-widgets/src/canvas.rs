@@ -400,6 +400,30 @@ impl Canvas {
 
     /// A marker, drawn whole if its center is inside the clip rectangle; `radius` is half its size.
     pub fn marker(&mut self, center: Place, radius: f64, shape: Shape, role: Role, cased: bool) {
+        self.mark(center, radius, shape, role, cased, true);
+    }
+
+    /// The outline of a marker: the same thing, but only where it would be.
+    pub fn hollow_marker(
+        &mut self,
+        center: Place,
+        radius: f64,
+        shape: Shape,
+        role: Role,
+        cased: bool,
+    ) {
+        self.mark(center, radius, shape, role, cased, false);
+    }
+
+    fn mark(
+        &mut self,
+        center: Place,
+        radius: f64,
+        shape: Shape,
+        role: Role,
+        cased: bool,
+        filled: bool,
+    ) {
         if !self.clip.contains(center) {
             return;
         }
@@ -415,17 +439,13 @@ impl Canvas {
             }
             builder.close();
         };
-        let mut filled = true;
+        let filled = filled && !matches!(shape, Shape::Ring | Shape::Cross | Shape::Plus);
         match shape {
-            Shape::Disk | Shape::Ring => {
-                filled = shape == Shape::Disk;
-                builder.push_circle(x, y, r);
-            }
+            Shape::Disk | Shape::Ring => builder.push_circle(x, y, r),
             Shape::Square => polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
             Shape::Diamond => polygon(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
             Shape::Triangle => polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]),
             Shape::Cross | Shape::Plus => {
-                filled = false;
                 let d = if shape == Shape::Cross {
                     (0.8, 0.8)
                 } else {
@@ -487,6 +507,23 @@ impl Canvas {
             text,
             style,
         );
+    }
+
+    /// Lines of text that fill a rectangle from its top, broken between words; the height that
+    /// they take.
+    pub fn paragraph(&mut self, rect: Rect, text: &str, style: TextStyle) -> f64 {
+        let line_height = (style.size * 1.4).round();
+        let x = match style.align {
+            Align::Start => rect.x,
+            Align::Middle => rect.center().0,
+            Align::End => rect.right(),
+        };
+        let lines = break_lines(text, style.size, rect.width);
+        for (index, line) in lines.iter().enumerate() {
+            let y = rect.y + (index as f64 + 0.5) * line_height;
+            self.label((x, y), line, style);
+        }
+        lines.len() as f64 * line_height
     }
 
     /// A photograph, scaled to fill `rect`.
@@ -590,6 +627,21 @@ impl Canvas {
 /// Width of a line of text, CSS pixels.
 pub fn text_width(text: &str, size: f64) -> f64 {
     font::width(text) * size
+}
+
+/// Lines of text no wider than `width`, broken between words; a longer word has its own line.
+fn break_lines(text: &str, size: f64, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}"), size) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
@@ -744,6 +796,14 @@ mod tests {
             .sum::<f64>()
             / 2.0;
         assert_eq!(area, 100.0);
+    }
+
+    #[test]
+    fn text_is_broken_between_words() {
+        let lines = break_lines("one two three four", 10.0, text_width("one two", 10.0));
+        assert_eq!(lines, ["one two", "three", "four"]);
+        assert_eq!(break_lines("long", 10.0, 1.0), ["long"]);
+        assert!(break_lines(" ", 10.0, 50.0).is_empty());
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
+mod epipolar_click;
+mod stereo_slider;
+
 use crate::contract::{Model, Problem, View};
 use crate::stage::{self, Stage};
 
@@ -15,7 +18,10 @@ pub struct Entry {
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[];
+pub static FIGURES: &[Entry] = &[
+    entry::<epipolar_click::EpipolarClickView>(),
+    entry::<stereo_slider::StereoSliderView>(),
+];
 
 const fn entry<V: View>() -> Entry {
     Entry {

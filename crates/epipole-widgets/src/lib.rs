@@ -21,8 +21,9 @@ pub mod contract;
 mod figure;
 mod font;
 pub mod gallery;
-
+mod photo;
 pub mod pointing;
+mod scenes;
 mod stage;
 pub mod theme;
 

@@ -2,5 +2,6 @@
 
 mod model;
 mod view;
+mod words;
 
 pub(super) use view::EpipolarClickView;
