@@ -1,10 +1,11 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-mod epipolar_click;
-mod stereo_slider;
-
 use crate::contract::{Model, Problem, View};
 use crate::stage::{self, Stage};
+
+mod epipolar_click;
+pub mod ransac_race;
+mod stereo_slider;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -20,6 +21,7 @@ pub struct Entry {
 /// Every figure, in the order of the book.
 pub static FIGURES: &[Entry] = &[
     entry::<epipolar_click::EpipolarClickView>(),
+    entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
 ];
 
@@ -47,4 +49,34 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
                 known: known.join(", "),
             }
         })
+}
+
+/// The template of `make new-figure`, compiled so that it cannot rot.
+#[cfg(test)]
+#[path = "../scaffold/figure.rs"]
+pub mod new_figure;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Event;
+
+    #[test]
+    fn the_template_is_a_working_figure() {
+        let mut stage = stage::set_up::<new_figure::View>();
+        assert!(stage.challenges().iter().all(|challenge| !challenge.solved));
+        for event in stage.solution("inside").unwrap() {
+            stage.update(&event).unwrap();
+        }
+        assert!(stage.challenges().iter().all(|challenge| challenge.solved));
+        assert!(stage.update(&Event::Reset).is_ok());
+    }
+
+    #[test]
+    fn an_unknown_figure_is_named_with_the_known_ones() {
+        let Err(problem) = find("ransac-rase") else {
+            panic!("it was found")
+        };
+        assert!(problem.to_string().contains("ransac-race"), "{problem}");
+    }
 }

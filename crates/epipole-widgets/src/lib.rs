@@ -8,9 +8,9 @@
 //! ```
 //! # fn main() -> Result<(), epipole_widgets::contract::Problem> {
 //! use epipole_widgets::{Figure, contract::{Event, Value}, theme::Theme};
-//! let mut figure = Figure::new("stereo-slider")?;
-//! figure.update(&Event::Set { id: "baseline".into(), value: Value::Number(0.2) })?;
-//! assert_eq!(figure.query(), "baseline=0.20");
+//! let mut figure = Figure::new("ransac-race")?;
+//! figure.update(&Event::Set { id: "outliers".into(), value: Value::Number(0.2) })?;
+//! assert_eq!(figure.query(), "outliers=0.20");
 //! let picture = figure.draw(760.0, 1.0, Theme::Light)?;
 //! assert_eq!(picture.width(), 760);
 //! # Ok(()) }

@@ -78,8 +78,14 @@ impl Photo {
                 intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
                 ..*camera
             };
-            let rows = 0..size.1;
-            scene.render_rows(&draft_camera, Sampling::Draft, rows, &mut shot.photograph)?;
+            scene.render_rows(
+                &draft_camera,
+                size.0,
+                size.1,
+                Sampling::Draft,
+                0..size.1,
+                &mut shot.photograph,
+            )?;
             self.draft = Some(shot);
         }
         let shown = if is_sharp { &self.full } else { &self.draft };
@@ -112,7 +118,14 @@ impl Photo {
         };
         let rows = self.num_rows_done..(self.num_rows_done + ROWS_PER_SLICE).min(height);
         let next = rows.end;
-        let done = scene.render_rows(camera, Sampling::Full, rows, &mut shot.photograph);
+        let done = scene.render_rows(
+            camera,
+            width,
+            height,
+            Sampling::Full,
+            rows,
+            &mut shot.photograph,
+        );
         if done.is_err() {
             self.full = None;
             return false;

@@ -75,7 +75,7 @@ impl Theme {
             Role::Muted => [0x5d6068, 0xa9acb4, 0xe6e6e6],
             Role::Halo => [0xffffff, 0x0e0f12, 0x000000],
             Role::Candidate => [0x1c86c7, 0x56b4e9, 0x7fd0ff],
-            Role::Best => [0x00558c, 0x8ccbf2, 0xffffff],
+            Role::Best => [0x00558c, 0xd9efff, 0xffffff],
             Role::Inlier => [0x00795a, 0x2fc79b, 0x4dffc8],
             Role::Outlier => [0xc24a00, 0xf08a45, 0xff9d4d],
             Role::Truth => [0xa2487b, 0xe39ac2, 0xffb0e0],

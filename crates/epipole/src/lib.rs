@@ -5,6 +5,7 @@
 //! | room | what it holds |
 //! |---|---|
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
+//! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
@@ -24,6 +25,7 @@ mod error;
 pub mod camera;
 pub mod epipolar;
 pub mod math;
+pub mod optim;
 pub mod robust;
 pub mod stereo;
 

@@ -13,6 +13,7 @@ mod settings;
 mod view;
 
 pub use challenge::Challenge;
+pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Slider, Toggle};
 pub use event::{Event, Value};
 pub use handle::Handle;

@@ -4,7 +4,7 @@
 use super::words;
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
-    Slider, Value, format_number,
+    Slider, Value,
 };
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;

@@ -1,0 +1,250 @@
+//! The one Levenberg–Marquardt loop.
+
+use crate::{Error, Result};
+use std::ops::ControlFlow;
+
+/// What the loop needs to know of a problem: linearize, solve, step, measure.
+///
+/// Implementations keep their matrices between calls, so that a loop allocates nothing after its
+/// first iteration.
+pub trait System {
+    /// The quantities that are estimated; any manifold will do.
+    type Parameters: Clone;
+
+    /// Builds the normal equations at `parameters` and keeps them.
+    fn linearize(&mut self, parameters: &Self::Parameters) -> Linearization;
+
+    /// Solves `(JᵀJ + λ D) δ = −Jᵀr` for the last linearization and keeps δ, where λ is `damping`
+    /// and D the diagonal of `JᵀJ`, kept away from 0. `None` if the matrix is not positive
+    /// definite.
+    fn solve(&mut self, damping: f64) -> Option<Step>;
+
+    /// Writes `from ⊞ δ` into `into`.
+    fn step(&self, from: &Self::Parameters, into: &mut Self::Parameters);
+
+    /// The robust cost `½ Σ ρ(‖r‖²)` at `parameters`; not finite where the residuals are not
+    /// defined, and then the loop does not go there.
+    fn cost(&mut self, parameters: &Self::Parameters) -> f64;
+}
+
+/// A problem's value and slope where it was linearized.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linearization {
+    /// `½ Σ ρ(‖r‖²)`.
+    pub cost: f64,
+    /// The largest absolute component of `Jᵀr`.
+    pub gradient_max: f64,
+    /// The length of the parameters, for a relative step test; 1 where none makes sense.
+    pub parameter_norm: f64,
+}
+
+/// A solution of the damped normal equations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// How much the quadratic model says the cost will decrease: `½ δᵀ(λ D δ − Jᵀr)`.
+    pub predicted_decrease: f64,
+    /// The length of δ.
+    pub norm: f64,
+}
+
+/// When to stop, and how to start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LmOptions {
+    /// Steps tried at most, rejected ones included.
+    pub max_iterations: usize,
+    /// Converged when no component of the gradient is larger.
+    pub gradient_tolerance: f64,
+    /// Converged when a step is shorter than this times the parameters' length.
+    pub step_tolerance: f64,
+    /// Converged when an accepted step lowers the cost by less than this fraction.
+    pub cost_tolerance: f64,
+    /// The first λ, relative to the diagonal of `JᵀJ`.
+    pub initial_damping: f64,
+}
+
+impl Default for LmOptions {
+    fn default() -> Self {
+        Self {
+            max_iterations: 50,
+            gradient_tolerance: 1e-10,
+            step_tolerance: 1e-10,
+            cost_tolerance: 1e-9,
+            initial_damping: 1e-4,
+        }
+    }
+}
+
+/// One tried step, as the observer sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Counted from 1; 0 is the start, before any step.
+    pub index: usize,
+    /// The best cost so far.
+    pub cost: f64,
+    /// λ, with which this step was computed.
+    pub damping: f64,
+    /// Whether the step lowered the cost and was kept.
+    pub accepted: bool,
+}
+
+/// Why the loop ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Termination {
+    /// Converged: the gradient vanished.
+    SmallGradient,
+    /// Converged: the step became negligible.
+    SmallStep,
+    /// Converged: the cost hardly decreased.
+    SmallCostChange,
+    /// The permitted number of iterations is used up.
+    MaxIterations,
+    /// The observer asked to stop; the parameters are the best so far.
+    Cancelled,
+    /// No damping gave a usable step: the problem is singular, or not finite around here.
+    Stuck,
+}
+
+impl Termination {
+    /// Whether this is one of the three kinds of convergence.
+    pub fn is_converged(self) -> bool {
+        matches!(
+            self,
+            Termination::SmallGradient | Termination::SmallStep | Termination::SmallCostChange
+        )
+    }
+}
+
+/// What happened.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LmReport {
+    /// The cost of the starting parameters.
+    pub initial_cost: f64,
+    /// The cost of the parameters returned; never larger than the initial cost.
+    pub final_cost: f64,
+    /// Steps tried.
+    pub iterations: usize,
+    /// Steps kept.
+    pub accepted: usize,
+    /// Why the loop ended.
+    pub termination: Termination,
+}
+
+/// Beyond this damping a step no longer moves anything.
+const MAX_DAMPING: f64 = 1e24;
+const MIN_DAMPING: f64 = 1e-60;
+
+/// Minimizes `½ Σ ρ(‖r‖²)` from `parameters`, in place, and says how it went.
+///
+/// Each iteration solves `(JᵀJ + λ D) δ = −Jᵀr` and keeps `parameters ⊞ δ` if the true cost
+/// decreases. The damping λ falls when the quadratic model predicts well and rises otherwise.
+///
+/// * `observer`: called once before the first step and after every step; answer
+///   [`ControlFlow::Break`] to cancel
+///
+/// # Errors
+/// [`Error::NotFinite`] if the cost or gradient at the start is not finite.
+///
+/// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
+/// in Marquardt's method", §3.
+pub fn minimize<S: System>(
+    system: &mut S,
+    parameters: &mut S::Parameters,
+    options: &LmOptions,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<LmReport> {
+    let mut here = system.linearize(parameters);
+    if !here.cost.is_finite() || !here.gradient_max.is_finite() {
+        return Err(Error::NotFinite {
+            what: "the cost at the start of a minimization",
+        });
+    }
+    let mut report = LmReport {
+        initial_cost: here.cost,
+        final_cost: here.cost,
+        iterations: 0,
+        accepted: 0,
+        termination: Termination::MaxIterations,
+    };
+    let mut damping = options.initial_damping.clamp(MIN_DAMPING, MAX_DAMPING);
+    let mut raise = 2.0;
+    let mut candidate = parameters.clone();
+    let start = Iteration {
+        index: 0,
+        cost: here.cost,
+        damping,
+        accepted: true,
+    };
+    if observer(&start).is_break() {
+        report.termination = Termination::Cancelled;
+        return Ok(report);
+    }
+    if here.gradient_max <= options.gradient_tolerance {
+        report.termination = Termination::SmallGradient;
+        return Ok(report);
+    }
+    while report.iterations < options.max_iterations {
+        report.iterations += 1;
+        let used_damping = damping;
+        let mut accepted = false;
+        let mut converged = None;
+        if let Some(step) = system.solve(damping)
+            && step.norm.is_finite()
+        {
+            if step.norm <= options.step_tolerance * (here.parameter_norm + options.step_tolerance)
+            {
+                report.termination = Termination::SmallStep;
+                return Ok(report);
+            }
+            system.step(parameters, &mut candidate);
+            let cost = system.cost(&candidate);
+            let decrease = here.cost - cost;
+            if decrease > 0.0 {
+                let previous_cost = here.cost;
+                let there = system.linearize(&candidate);
+                if there.cost.is_finite() && there.gradient_max.is_finite() {
+                    std::mem::swap(parameters, &mut candidate);
+                    here = there;
+                    accepted = true;
+                    report.accepted += 1;
+                    report.final_cost = here.cost;
+                    let gain = decrease / step.predicted_decrease.max(f64::MIN_POSITIVE);
+                    let slope = 2.0 * gain - 1.0;
+                    damping *= (1.0 - slope * slope * slope).clamp(1.0 / 3.0, 2.0);
+                    raise = 2.0;
+                    if here.gradient_max <= options.gradient_tolerance {
+                        converged = Some(Termination::SmallGradient);
+                    } else if decrease <= options.cost_tolerance * previous_cost {
+                        converged = Some(Termination::SmallCostChange);
+                    }
+                } else {
+                    // Where the derivatives are not finite the search cannot go on: undo.
+                    system.linearize(parameters);
+                }
+            }
+        }
+        if !accepted {
+            damping *= raise;
+            raise *= 2.0;
+        }
+        damping = damping.max(MIN_DAMPING);
+        let iteration = Iteration {
+            index: report.iterations,
+            cost: here.cost,
+            damping: used_damping,
+            accepted,
+        };
+        if observer(&iteration).is_break() {
+            report.termination = Termination::Cancelled;
+            return Ok(report);
+        }
+        if let Some(termination) = converged {
+            report.termination = termination;
+            return Ok(report);
+        }
+        if damping > MAX_DAMPING {
+            report.termination = Termination::Stuck;
+            return Ok(report);
+        }
+    }
+    Ok(report)
+}

@@ -1,0 +1,140 @@
+//! Robust losses: how much a residual may cost.
+
+/// A loss ρ applied to the squared length `s = ‖r‖²` of a residual; the cost is `½ Σ ρ(s)`.
+///
+/// Every loss behaves as `ρ(s) = s` for small residuals. Its width is where it stops doing so, in
+/// the unit of the residual (pixels for reprojection errors, and so on).
+///
+/// Source: Triggs, McLauchlan, Hartley & Fitzgibbon 2000, "Bundle adjustment — a modern
+/// synthesis", §3.3; Huber 1964.
+///
+/// ```
+/// use epipole::optim::RobustLoss;
+/// let huber = RobustLoss::Huber { width: 2.0 };
+/// assert_eq!(huber.rho(1.0), 1.0);
+/// // A residual of length 10: 2 · 2 · 10 − 2².
+/// assert_eq!(huber.rho(100.0), 36.0);
+/// assert_eq!(huber.weight(100.0), 0.2);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum RobustLoss {
+    /// `ρ(s) = s`: plain least squares.
+    #[default]
+    Trivial,
+    /// `ρ(s) = s` up to the width `w`, then `2 w √s − w²`: grows with the residual, not its square.
+    Huber {
+        /// Residuals up to this length count in full.
+        width: f64,
+    },
+    /// `ρ(s) = w² ln(1 + s/w²)`: outliers matter less and less.
+    Cauchy {
+        /// At this length a residual has half its weight.
+        width: f64,
+    },
+    /// `ρ(s) = min(s, w²)`: outliers cost a constant and pull no more. Its cost is MSAC's.
+    Truncated {
+        /// Residuals longer than this are outliers.
+        width: f64,
+    },
+}
+
+impl RobustLoss {
+    /// The loss ρ(s) of a residual with squared length `s`.
+    #[inline]
+    pub fn rho(&self, s: f64) -> f64 {
+        match *self {
+            RobustLoss::Trivial => s,
+            RobustLoss::Huber { width } => {
+                if s <= width * width {
+                    s
+                } else {
+                    2.0 * width * s.sqrt() - width * width
+                }
+            }
+            RobustLoss::Cauchy { width } => {
+                let width_sq = width * width;
+                width_sq * libm::log1p(s / width_sq)
+            }
+            RobustLoss::Truncated { width } => {
+                // Written so that a NaN stays a NaN.
+                if s > width * width { width * width } else { s }
+            }
+        }
+    }
+
+    /// The derivative ρ'(s): the factor by which `JᵀJ` and `Jᵀr` of this residual are multiplied.
+    #[inline]
+    pub fn weight(&self, s: f64) -> f64 {
+        match *self {
+            RobustLoss::Trivial => 1.0,
+            RobustLoss::Huber { width } => {
+                if s <= width * width {
+                    1.0
+                } else {
+                    width / s.sqrt()
+                }
+            }
+            RobustLoss::Cauchy { width } => 1.0 / (1.0 + s / (width * width)),
+            RobustLoss::Truncated { width } => {
+                if s > width * width {
+                    0.0
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
+
+    /// Whether the width, if there is one, is finite and greater than 0.
+    pub fn is_valid(&self) -> bool {
+        match *self {
+            RobustLoss::Trivial => true,
+            RobustLoss::Huber { width }
+            | RobustLoss::Cauchy { width }
+            | RobustLoss::Truncated { width } => width.is_finite() && width > 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LOSSES: [RobustLoss; 4] = [
+        RobustLoss::Trivial,
+        RobustLoss::Huber { width: 1.5 },
+        RobustLoss::Cauchy { width: 1.5 },
+        RobustLoss::Truncated { width: 1.5 },
+    ];
+
+    #[test]
+    fn the_weight_is_the_derivative() {
+        for loss in LOSSES {
+            for s in [0.01, 0.5, 2.0, 2.5, 9.0, 1e4] {
+                let h = 1e-5 * s;
+                let slope = (loss.rho(s + h) - loss.rho(s - h)) / (2.0 * h);
+                assert!(
+                    (slope - loss.weight(s)).abs() < 1e-8,
+                    "{loss:?} at {s}: {slope}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn small_residuals_count_in_full() {
+        for loss in LOSSES {
+            assert_eq!(loss.rho(0.0), 0.0);
+            assert!((loss.rho(1e-9) - 1e-9).abs() < 1e-17);
+            assert_eq!(loss.weight(0.0), 1.0);
+        }
+    }
+
+    #[test]
+    fn widths_must_be_positive() {
+        assert!(LOSSES.iter().all(RobustLoss::is_valid));
+        for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(!RobustLoss::Huber { width }.is_valid());
+        }
+    }
+}
