@@ -10,6 +10,7 @@
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`stereo`] | depth from disparity |
+//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
 //!
@@ -28,6 +29,7 @@ pub mod math;
 pub mod optim;
 pub mod robust;
 pub mod stereo;
+pub mod synthetic;
 
 pub use error::Error;
 
