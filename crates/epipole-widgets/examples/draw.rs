@@ -31,7 +31,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let begin = Instant::now();
     figure.draw(width, scale, theme)?;
-    println!("\nfirst drawing {:.1} ms", begin.elapsed().as_secs_f64() * 1e3);
+    println!(
+        "\nfirst drawing {:.1} ms",
+        begin.elapsed().as_secs_f64() * 1e3
+    );
     let begin = Instant::now();
     let mut num_slices = 0;
     while figure.refine() {
@@ -41,7 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{num_slices} slices in {elapsed_ms:.1} ms");
     let begin = Instant::now();
     let picture = figure.draw(width, scale, theme)?;
-    println!("settled drawing {:.1} ms", begin.elapsed().as_secs_f64() * 1e3);
+    println!(
+        "settled drawing {:.1} ms",
+        begin.elapsed().as_secs_f64() * 1e3
+    );
     image::save_buffer(
         file,
         picture.rgba(),

@@ -1,10 +1,10 @@
 //! How long a frame takes while a reader drags, at two device pixels each CSS pixel.
 //!
 //! ```text
-//! cargo run --release -p epipole-widgets --example frames
+//! cargo run --release -p epipole-widgets --example frames [-- NAME]
 //! ```
 //!
-//! Every slider and the first handle of every figure is dragged through its range, and a frame is
+//! Of one figure or of all, every slider and the first handle are dragged through their ranges, and a frame is
 //! drawn after every event, as on a page. Then the picture settles, slice by slice.
 
 use epipole_widgets::contract::{ControlKind, Event, Problem, Value};
@@ -18,7 +18,9 @@ const SCALE: f64 = 2.0;
 
 fn main() -> Result<(), Problem> {
     println!("milliseconds                                  least  median     p95");
-    for entry in FIGURES {
+    let wanted = std::env::args().nth(1);
+    let is_wanted = |name: &str| wanted.as_ref().is_none_or(|wanted| wanted == name);
+    for entry in FIGURES.iter().filter(|entry| is_wanted(entry.name)) {
         let mut figure = Figure::new(entry.name)?;
         figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
         let slices = settle(&mut figure);

@@ -4,8 +4,10 @@
 //! at the clip rectangle by arithmetic, and a marker is drawn whole or not at all, so that no
 //! costly pixel masks are needed.
 
+mod glyphs;
+
 use crate::contract::{Problem, Rect};
-use crate::font::{self, CAP_HEIGHT, Pen};
+use crate::font::{self, CAP_HEIGHT};
 use crate::theme::{Rgb, Role, Theme};
 use image::RgbImage;
 use tiny_skia::{
@@ -491,13 +493,16 @@ impl Canvas {
             Align::Middle => place.0 - width / 2.0,
             Align::End => place.0 - width,
         };
-        let mut pen = PathPen(PathBuilder::new());
-        font::draw(text, left, place.1, style.size, &mut pen);
-        let Some(path) = pen.0.finish() else { return };
+        let place = (left * self.scale, place.1 * self.scale);
+        let size = style.size * self.scale;
+        let mut draw = |casing: f64, role: Role| {
+            let color = self.theme.color(role);
+            glyphs::draw(&mut self.pixmap, text, place, size, casing, color);
+        };
         if style.cased {
-            self.stroke_plain(&path, Role::Halo, 3.5, Dash::Solid);
+            draw(3.5 * self.scale, Role::Halo);
         }
-        self.fill_path(Some(path), style.role, 1.0);
+        draw(0.0, style.role);
     }
 
     /// A line of text whose capitals are centered on `place` vertically.
@@ -543,31 +548,45 @@ impl Canvas {
         }
         let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
         let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
-        let source = photograph.as_raw();
         let stride = photo_width as usize * 3;
-        let target_stride = self.pixmap.width() as usize * 4;
-        // Two rows of the photograph, blended, then sampled along the row.
-        let mut blended = vec![0u16; stride];
-        let target = self.pixmap.data_mut();
-        for (y, row) in rows.taps.iter().enumerate() {
-            let upper = &source[row.first * stride..][..stride];
-            let lower = &source[row.second * stride..][..stride];
-            let weight = row.weight_256;
-            for ((sum, &a), &b) in blended.iter_mut().zip(upper).zip(lower) {
-                *sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
-            }
-            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
-            let pixels = target[start..][..columns.taps.len() * 4].chunks_exact_mut(4);
-            for (pixel, column) in pixels.zip(&columns.taps) {
-                let a = &blended[column.first * 3..][..3];
-                let b = &blended[column.second * 3..][..3];
-                let weight = u32::from(column.weight_256);
+        // Sixteen bits hold 255 · 256, so that many pixels are blended at once.
+        let across = |row: usize, stretched: &mut [u8]| {
+            let source = &photograph.as_raw()[row * stride..][..stride];
+            for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
+                let a = &source[column.first * 3..][..3];
+                let b = &source[column.second * 3..][..3];
+                let weight = column.weight_256;
                 for channel in 0..3 {
                     let sum =
-                        u32::from(a[channel]) * (256 - weight) + u32::from(b[channel]) * weight;
-                    pixel[channel] = ((sum + (1 << 15)) >> 16).min(255) as u8;
+                        u16::from(a[channel]) * (256 - weight) + u16::from(b[channel]) * weight;
+                    pixel[channel] = ((sum + 128) >> 8) as u8;
                 }
                 pixel[3] = 255;
+            }
+        };
+        // Two neighboring rows of the photograph, stretched to the target's width and kept while
+        // they last, then blended: the inner loop runs along memory.
+        let length = columns.taps.len() * 4;
+        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u8; length]));
+        let target_stride = self.pixmap.width() as usize * 4;
+        let target = self.pixmap.data_mut();
+        for (y, tap) in rows.taps.iter().enumerate() {
+            if stretched[1].0 == tap.first {
+                stretched.swap(0, 1);
+            }
+            for ((known, row), wanted) in stretched.iter_mut().zip([tap.first, tap.second]) {
+                if *known != wanted {
+                    across(wanted, row);
+                    *known = wanted;
+                }
+            }
+            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
+            let weight = tap.weight_256;
+            let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
+            let bytes = &mut target[start..][..length];
+            for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
+                let sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
+                *byte = ((sum + 128) >> 8) as u8;
             }
         }
     }
@@ -604,12 +623,13 @@ impl Canvas {
         let pattern = match dash {
             Dash::Solid => None,
             Dash::Dashed => StrokeDash::new(vec![6.0 + width, 4.0 + width], 0.0),
-            Dash::Dotted => StrokeDash::new(vec![0.1, 2.5 * width.max(1.0)], 0.0),
+            Dash::Dotted => StrokeDash::new(vec![1.2 * width, 2.5 + 1.5 * width], 0.0),
         };
-        let cap = if dash == Dash::Dashed {
-            LineCap::Butt
-        } else {
+        // Round ends on every dot would cost more than the rest of the picture.
+        let cap = if dash == Dash::Solid {
             LineCap::Round
+        } else {
+            LineCap::Butt
         };
         let skia_stroke = SkiaStroke {
             width,
@@ -646,26 +666,6 @@ fn break_lines(text: &str, size: f64, width: f64) -> Vec<String> {
 
 fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
     Color::from_rgba8(r, g, b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8)
-}
-
-struct PathPen(PathBuilder);
-
-impl Pen for PathPen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to(x, y);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to(x, y);
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.0.quad_to(x1, y1, x, y);
-    }
-
-    fn close(&mut self) {
-        self.0.close();
-    }
 }
 
 /// Where each device pixel along one side takes its color from.

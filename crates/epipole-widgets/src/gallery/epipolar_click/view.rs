@@ -3,7 +3,7 @@
 use super::model::{EpipolarClick, Geometry, Match};
 use super::words;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle, text_width};
-use crate::contract::{Layout, Panel, Rect, View};
+use crate::contract::{Layout, Panel, Rect, View, format_number};
 use crate::photo::Photo;
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
 use crate::theme::Role;
@@ -99,8 +99,7 @@ impl EpipolarClickView {
             let rect = panels[index].rect;
             let place = (rect.x, rect.y - TITLE / 2.0);
             canvas.label(place, titles[index], TextStyle::new(Role::Ink, TEXT));
-            let picture =
-                self.photos[index].picture(&scene, &cameras[index], [0.0; 3], PHOTO_SIZE);
+            let picture = self.photos[index].picture(&scene, &cameras[index], [0.0; 3], PHOTO_SIZE);
             match picture {
                 Ok(picture) => canvas.photograph(rect, picture),
                 Err(error) => {
@@ -262,9 +261,12 @@ fn draw_epipole(canvas: &mut Canvas, panel: &Panel, epipole: &Epipole, name: &st
             let place = panel.canvas_from_world((pixel.x, pixel.y));
             if let Some((from, to)) = border_arrow(rect, place) {
                 canvas.arrow(from, to, stroke.cased());
-                let text = format!("{name} {}", words::side(pixel).replace(" the picture", ""));
-                let _ = text;
-                label_inside(canvas, rect, from, name);
+                let distance_px = libm::hypot(
+                    (place.0 - to.0) / panel.scale_x(),
+                    (place.1 - to.1) / panel.scale_x(),
+                );
+                let text = format!("{name}, {} px away", format_number(distance_px, 0));
+                label_inside(canvas, rect, from, &text);
             }
         }
         Epipole::AtInfinity(direction) => {
@@ -287,14 +289,16 @@ fn draw_epipole(canvas: &mut Canvas, panel: &Panel, epipole: &Epipole, name: &st
     }
 }
 
-/// A label below a place, within the panel.
+/// A label above a place, within the panel.
 fn label_inside(canvas: &mut Canvas, rect: Rect, place: Place, text: &str) {
     let half = text_width(text, TEXT) / 2.0 + 5.0;
-    let x = place.0.clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
-    let y = if place.1 + 26.0 < rect.bottom() {
-        place.1 + 17.0
+    let x = place
+        .0
+        .clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
+    let y = if place.1 - 26.0 > rect.y {
+        place.1 - 16.0
     } else {
-        place.1 - 17.0
+        place.1 + 17.0
     };
     let style = TextStyle::new(Role::Ink, TEXT).middle().cased();
     canvas.label((x, y), text, style);

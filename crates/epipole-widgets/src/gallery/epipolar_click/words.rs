@@ -25,7 +25,10 @@ pub(super) fn pixel(pixel: &Point2<f64>) -> String {
 pub(super) fn side(pixel: &Point2<f64>) -> &'static str {
     let beyond = [
         (-0.5 - pixel.x, "left of the picture"),
-        (pixel.x - f64::from(PHOTO_WIDTH) + 0.5, "right of the picture"),
+        (
+            pixel.x - f64::from(PHOTO_WIDTH) + 0.5,
+            "right of the picture",
+        ),
         (-0.5 - pixel.y, "above the picture"),
         (pixel.y - f64::from(PHOTO_HEIGHT) + 0.5, "below the picture"),
     ];
@@ -137,7 +140,11 @@ pub(super) fn motion(right_m: f64, forward_m: f64, left_deg: f64) -> String {
         parts.push(format!("{} m to the right of camera 1", number(right_m)));
     }
     if forward_m != 0.0 {
-        let side = if forward_m > 0.0 { "in front of" } else { "behind" };
+        let side = if forward_m > 0.0 {
+            "in front of"
+        } else {
+            "behind"
+        };
         let it = if right_m == 0.0 { "camera 1" } else { "it" };
         parts.push(format!("{} m {side} {it}", number(forward_m)));
     }

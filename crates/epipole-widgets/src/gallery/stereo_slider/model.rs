@@ -121,7 +121,11 @@ impl StereoSlider {
             id: "object".to_owned(),
             panel: "top",
             label: "Object, seen from above".to_owned(),
-            value_text: format!("{:.2} m away, {:.2} m to the {side}", self.z_m, self.x_m.abs()),
+            value_text: format!(
+                "{:.2} m away, {:.2} m to the {side}",
+                self.z_m,
+                self.x_m.abs()
+            ),
             x: self.x_m,
             y: self.z_m,
             x_range: SIDE_RANGE_M,
@@ -193,8 +197,20 @@ impl Model for StereoSlider {
     fn readouts(&self) -> Vec<Readout> {
         let mut readouts = Vec::new();
         if let Ok([left, right]) = self.pixels() {
-            readouts.push(Readout::number("u-left", "Column on the left", left.x, 1, "px"));
-            readouts.push(Readout::number("u-right", "Column on the right", right.x, 1, "px"));
+            readouts.push(Readout::number(
+                "u-left",
+                "Column on the left",
+                left.x,
+                1,
+                "px",
+            ));
+            readouts.push(Readout::number(
+                "u-right",
+                "Column on the right",
+                right.x,
+                1,
+                "px",
+            ));
         }
         match self.measured() {
             Some(measured) => {
@@ -206,16 +222,36 @@ impl Model for StereoSlider {
                     1,
                     "px",
                 ));
-                readouts.push(Readout::number("depth", "Depth Z = f B / d", measured.depth_m, 2, "m"));
-                readouts.push(Readout::number("near", "Nearest, if d is 1 px larger", interval.near_m, 2, "m"));
+                readouts.push(Readout::number(
+                    "depth",
+                    "Depth Z = f B / d",
+                    measured.depth_m,
+                    2,
+                    "m",
+                ));
+                readouts.push(Readout::number(
+                    "near",
+                    "Nearest, if d is 1 px larger",
+                    interval.near_m,
+                    2,
+                    "m",
+                ));
                 readouts.push(match interval.far_m {
-                    Some(far_m) => Readout::number("far", "Farthest, if d is 1 px smaller", far_m, 2, "m"),
-                    None => Readout::words("far", "Farthest, if d is 1 px smaller", "infinitely far"),
+                    Some(far_m) => {
+                        Readout::number("far", "Farthest, if d is 1 px smaller", far_m, 2, "m")
+                    }
+                    None => {
+                        Readout::words("far", "Farthest, if d is 1 px smaller", "infinitely far")
+                    }
                 });
             }
             None => {
                 readouts.push(Readout::number("disparity", "Disparity d", 0.0, 1, "px"));
-                readouts.push(Readout::words("depth", "Depth Z = f B / d", "not determined"));
+                readouts.push(Readout::words(
+                    "depth",
+                    "Depth Z = f B / d",
+                    "not determined",
+                ));
             }
         }
         readouts
@@ -357,7 +393,12 @@ mod tests {
         let mut model = StereoSlider::new();
         for (id, value) in [("baseline", 0.01), ("focal", 400.0)] {
             let value = Value::Number(value);
-            model.update(&Event::Set { id: id.into(), value }).unwrap();
+            model
+                .update(&Event::Set {
+                    id: id.into(),
+                    value,
+                })
+                .unwrap();
         }
         model.update(&moved(0.0, 8.0)).unwrap();
         assert_eq!(model.measured().unwrap().interval.far_m, None);

@@ -58,11 +58,7 @@ impl View for StereoSliderView {
         Layout {
             width,
             height: top_y + top_height,
-            panels: vec![
-                photo("left", 0.0),
-                photo("right", photo_width + gap),
-                top,
-            ],
+            panels: vec![photo("left", 0.0), photo("right", photo_width + gap), top],
         }
     }
 
@@ -160,16 +156,28 @@ fn draw_disparity(
         canvas.line((x, y - 5.0), (x, y + 5.0), stroke);
     }
     let (hue, shape) = CAMERAS[0];
-    let hollow = if shape == Shape::Disk { Shape::Ring } else { shape };
+    let hollow = if shape == Shape::Disk {
+        Shape::Ring
+    } else {
+        shape
+    };
     canvas.marker(left, 5.0, hollow, hue, true);
     let text = format!("d = {} px", format_number(measured.disparity_px, 1));
-    draw_beside(canvas, rect, ((left.0 + right.0) / 2.0, y + 17.0), &text, role);
+    draw_beside(
+        canvas,
+        rect,
+        ((left.0 + right.0) / 2.0, y + 17.0),
+        &text,
+        role,
+    );
 }
 
 /// A cased label centered on a place, moved so that it stays within the panel.
 fn draw_beside(canvas: &mut Canvas, rect: Rect, place: Place, text: &str, role: Role) {
     let half = text_width(text, TEXT) / 2.0 + 4.0;
-    let x = place.0.clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
+    let x = place
+        .0
+        .clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
     let y = place.1.clamp(rect.y + 10.0, rect.bottom() - 10.0);
     canvas.label((x, y), text, TextStyle::new(role, TEXT).middle().cased());
 }
@@ -232,7 +240,11 @@ fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
     for meters in 0..=10 {
         let z = f64::from(meters);
         let y = panel.canvas_from_world((0.0, z)).1;
-        canvas.line((rect.x, y), (rect.right(), y), Stroke::solid(Role::Grid, 1.0));
+        canvas.line(
+            (rect.x, y),
+            (rect.right(), y),
+            Stroke::solid(Role::Grid, 1.0),
+        );
         if meters % 2 == 0 && meters > 0 {
             let style = TextStyle::new(Role::Muted, SMALL).cased();
             canvas.label((rect.x + 8.0, y), &format!("{meters} m"), style);
@@ -314,7 +326,9 @@ fn draw_numbers(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measur
     };
     // Above the band on the side away from the object; below it where there is no room above.
     let far_m = measured.interval.far_m.unwrap_or(f64::INFINITY);
-    let far_y = panel.canvas_from_world((0.0, far_m.min(panel.y_axis.start))).1;
+    let far_y = panel
+        .canvas_from_world((0.0, far_m.min(panel.y_axis.start)))
+        .1;
     let near_y = panel.canvas_from_world((0.0, measured.interval.near_m)).1;
     let y = if far_y - 14.0 > rect.y + 8.0 {
         far_y - 11.0
