@@ -388,16 +388,16 @@ impl Canvas {
         let head = (3.0 + 2.5 * stroke.width).min(length);
         let base = (to.0 - ux * head, to.1 - uy * head);
         let half = head * 0.45;
+        let tip = [
+            to,
+            (base.0 - uy * half, base.1 + ux * half),
+            (base.0 + uy * half, base.1 - ux * half),
+        ];
+        if stroke.cased {
+            self.polygon_outline(&tip, Stroke::solid(Role::Halo, 2.5));
+        }
         self.line(from, base, stroke);
-        self.polygon(
-            &[
-                to,
-                (base.0 - uy * half, base.1 + ux * half),
-                (base.0 + uy * half, base.1 - ux * half),
-            ],
-            stroke.role,
-            1.0,
-        );
+        self.polygon(&tip, stroke.role, 1.0);
     }
 
     /// A marker, drawn whole if its center is inside the clip rectangle; `radius` is half its size.
@@ -517,7 +517,7 @@ impl Canvas {
     /// Lines of text that fill a rectangle from its top, broken between words; the height that
     /// they take.
     pub fn paragraph(&mut self, rect: Rect, text: &str, style: TextStyle) -> f64 {
-        let line_height = (style.size * 1.4).round();
+        let line_height = line_height(style.size);
         let x = match style.align {
             Align::Start => rect.x,
             Align::Middle => rect.center().0,
@@ -647,6 +647,15 @@ impl Canvas {
 /// Width of a line of text, CSS pixels.
 pub fn text_width(text: &str, size: f64) -> f64 {
     font::width(text) * size
+}
+
+/// Height of a paragraph of this width, CSS pixels.
+pub fn paragraph_height(text: &str, size: f64, width: f64) -> f64 {
+    break_lines(text, size, width).len() as f64 * line_height(size)
+}
+
+fn line_height(size: f64) -> f64 {
+    (size * 1.4).round()
 }
 
 /// Lines of text no wider than `width`, broken between words; a longer word has its own line.

@@ -21,6 +21,7 @@ pub mod contract;
 mod figure;
 mod font;
 pub mod gallery;
+mod labels;
 mod photo;
 pub mod pointing;
 mod scenes;

@@ -510,8 +510,8 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
         solution: || {
             vec![Event::HandleMoved {
                 id: "p1".to_owned(),
-                x: 100.0,
-                y: 100.0,
+                x: 262.0,
+                y: 205.0,
             }]
         },
     },

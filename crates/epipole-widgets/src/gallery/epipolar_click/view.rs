@@ -2,8 +2,9 @@
 
 use super::model::{EpipolarClick, Geometry, Match};
 use super::words;
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle, text_width};
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, paragraph_height};
 use crate::contract::{Layout, Panel, Rect, View, format_number};
+use crate::labels::Labels;
 use crate::photo::Photo;
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
 use crate::theme::Role;
@@ -71,10 +72,7 @@ impl View for EpipolarClickView {
         canvas.clipped(second.rect, |canvas| {
             draw_second(model, geometry.as_ref(), second, canvas);
         });
-        if let Some(geometry) = &geometry {
-            draw_epipole(canvas, first, &geometry.epipole1, "e₁");
-            draw_epipole(canvas, second, &geometry.epipole2, "e₂");
-        } else {
+        if geometry.is_none() {
             draw_notice(canvas, second.rect, words::NO_BASELINE);
         }
     }
@@ -94,7 +92,10 @@ impl EpipolarClickView {
         canvas: &mut Canvas,
     ) {
         let (cameras, scene) = (model.cameras(), scenes::still_life());
-        let titles = ["Photograph 1: click or drag", "Photograph 2: the lines"];
+        let titles = [
+            "Photograph 1: click or drag a point",
+            "Photograph 2: its match is on its line",
+        ];
         for index in 0..2 {
             let rect = panels[index].rect;
             let place = (rect.x, rect.y - TITLE / 2.0);
@@ -115,31 +116,35 @@ fn series(index: usize) -> (Role, Shape) {
     (Role::Series(index as u8), Shape::of_series(index))
 }
 
-/// The points, and through the selected one the line of all points that share its epipolar line.
+/// The points, and through each the faint line of all points that share its epipolar line.
 fn draw_first(
     model: &EpipolarClick,
     geometry: Option<&Geometry>,
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    let selected = model.selected();
     if let Some(geometry) = geometry {
         for (index, point) in model.points() {
             if let Some(line) = model.line1(geometry, &point) {
                 let (role, _) = series(index);
-                draw_line(canvas, panel, &line, Stroke::solid(role, 1.0).dotted());
+                draw_line(canvas, panel, &line, Stroke::solid(role, 1.25).dotted());
             }
         }
     }
+    let mut labels = Labels::new(panel.rect);
     for (index, point) in model.points() {
         let (role, shape) = series(index);
         let place = panel.canvas_from_world((point.x, point.y));
-        if selected == Some(index) {
-            let ring = Stroke::solid(Role::Grip, 2.0).cased();
-            canvas.circle(place, MARKER + 5.0, ring);
-        }
+        draw_selection(model, index, place, canvas);
         canvas.marker(place, MARKER, shape, role, true);
-        draw_number(canvas, panel.rect, place, index, None);
+        labels.keep_free(place, MARKER + 3.0);
+    }
+    if let Some(geometry) = geometry {
+        draw_epipole(canvas, panel, &mut labels, &geometry.epipole1, "e₁");
+    }
+    for (index, point) in model.points() {
+        let place = panel.canvas_from_world((point.x, point.y));
+        draw_number(canvas, &mut labels, place, index, "");
     }
 }
 
@@ -150,8 +155,8 @@ fn draw_second(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    let selected = model.selected();
     if let Some(geometry) = geometry {
+        let selected = model.selected();
         for (index, point) in model.points() {
             if let Some(line) = model.line2(geometry, &point) {
                 let (role, _) = series(index);
@@ -160,28 +165,47 @@ fn draw_second(
             }
         }
     }
+    let mut labels = Labels::new(panel.rect);
+    let mut texts = Vec::new();
     for (index, point) in model.points() {
         let (role, shape) = series(index);
         let found = model.find_match(&point);
         let Some(pixel) = found.pixel() else { continue };
         let place = panel.canvas_from_world((pixel.x, pixel.y));
-        if selected == Some(index) && in_picture(&pixel) {
-            let ring = Stroke::solid(Role::Grip, 2.0).cased();
-            canvas.circle(place, MARKER + 5.0, ring);
-        }
         match found {
-            Match::Visible(_) => {
-                canvas.marker(place, MARKER, shape, role, true);
-                draw_number(canvas, panel.rect, place, index, None);
+            Match::Visible(_) | Match::Hidden(..) => {
+                draw_selection(model, index, place, canvas);
+                labels.keep_free(place, MARKER + 3.0);
+                if let Match::Hidden(_, by) = found {
+                    canvas.hollow_marker(place, MARKER, shape, role, true);
+                    texts.push((index, place, format!(" hidden by {by}")));
+                } else {
+                    canvas.marker(place, MARKER, shape, role, true);
+                    texts.push((index, place, String::new()));
+                }
             }
-            Match::Hidden(_, by) => {
-                canvas.hollow_marker(place, MARKER, shape, role, true);
-                let text = format!("hidden by {by}");
-                draw_number(canvas, panel.rect, place, index, Some(&text));
+            Match::Outside(_) => {
+                if let Some((from, to)) = border_arrow(panel.rect, place) {
+                    canvas.arrow(from, to, Stroke::solid(role, 2.5).cased());
+                    texts.push((index, from, " is outside".to_owned()));
+                }
             }
-            Match::Outside(_) => draw_outside(canvas, panel, place, index),
             Match::Behind | Match::Nothing => {}
         }
+    }
+    if let Some(geometry) = geometry {
+        draw_epipole(canvas, panel, &mut labels, &geometry.epipole2, "e₂");
+    }
+    for (index, place, text) in texts {
+        draw_number(canvas, &mut labels, place, index, &text);
+    }
+}
+
+/// A ring around the point that the readouts speak of.
+fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mut Canvas) {
+    if model.selected() == Some(index) {
+        let ring = Stroke::solid(Role::Grip, 2.0).cased();
+        canvas.circle(place, MARKER + 5.0, ring);
     }
 }
 
@@ -198,36 +222,16 @@ fn draw_line(canvas: &mut Canvas, panel: &Panel, line: &Line2, stroke: Stroke) {
 }
 
 /// The number of a point beside its marker, perhaps with words.
-fn draw_number(canvas: &mut Canvas, rect: Rect, place: Place, index: usize, words: Option<&str>) {
+fn draw_number(canvas: &mut Canvas, labels: &mut Labels, place: Place, index: usize, words: &str) {
     let (role, _) = series(index);
-    let text = match words {
-        Some(words) => format!("{} {words}", index + 1),
-        None => format!("{}", index + 1),
-    };
-    let width = text_width(&text, TEXT);
-    let y = if place.1 - 14.0 > rect.y + 8.0 {
-        place.1 - 15.0
-    } else {
-        place.1 + 16.0
-    };
-    let left = (place.0 + 9.0).min(rect.right() - width - 4.0);
-    canvas.label((left, y), &text, TextStyle::new(role, TEXT).cased());
-}
-
-/// An arrow at the border towards a match beyond it.
-fn draw_outside(canvas: &mut Canvas, panel: &Panel, place: Place, index: usize) {
-    let (role, _) = series(index);
-    let Some((from, to)) = border_arrow(panel.rect, place) else {
-        return;
-    };
-    canvas.arrow(from, to, Stroke::solid(role, 2.5).cased());
-    draw_number(canvas, panel.rect, from, index, Some("is outside"));
+    let text = format!("{}{words}", index + 1);
+    let style = TextStyle::new(role, TEXT).cased();
+    labels.draw(canvas, &Labels::around(place, 11.0), &text, style);
 }
 
 /// From inside the border to the border, towards a place outside.
 fn border_arrow(rect: Rect, place: Place) -> Option<(Place, Place)> {
     const LENGTH: f64 = 26.0;
-    let center = rect.center();
     let inner = rect.inset(3.0);
     let to = (
         place.0.clamp(inner.x, inner.right()),
@@ -235,78 +239,86 @@ fn border_arrow(rect: Rect, place: Place) -> Option<(Place, Place)> {
     );
     let direction = Vector2::new(place.0 - to.0, place.1 - to.1).try_normalize(1e-9)?;
     let from = (to.0 - LENGTH * direction.x, to.1 - LENGTH * direction.y);
-    (rect.width > 4.0 * LENGTH && center.0.is_finite()).then_some((from, to))
+    Some((from, to))
 }
 
 /// The epipole, or at the border an arrow towards it.
-fn draw_epipole(canvas: &mut Canvas, panel: &Panel, epipole: &Epipole, name: &str) {
+fn draw_epipole(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    labels: &mut Labels,
+    epipole: &Epipole,
+    name: &str,
+) {
     let rect = panel.rect;
     let style = TextStyle::new(Role::Ink, TEXT).cased();
-    let stroke = Stroke::solid(Role::Ink, 2.5);
+    let stroke = Stroke::solid(Role::Ink, 2.5).cased();
     match epipole {
         Epipole::Finite(pixel) if in_picture(pixel) => {
             let place = panel.canvas_from_world((pixel.x, pixel.y));
             canvas.marker(place, 7.0, Shape::Ring, Role::Ink, true);
             canvas.marker(place, 2.0, Shape::Disk, Role::Ink, false);
-            let y = if place.1 + 28.0 < rect.bottom() {
-                place.1 + 19.0
-            } else {
-                place.1 - 19.0
-            };
-            let half = text_width(name, TEXT) / 2.0 + 4.0;
-            let x = place.0.clamp(rect.x + half, rect.right() - half);
-            canvas.label((x, y), name, style.middle());
+            labels.keep_free(place, 9.0);
+            let text = format!("epipole {name}");
+            labels.draw(canvas, &Labels::around(place, 13.0), &text, style);
         }
         Epipole::Finite(pixel) => {
             let place = panel.canvas_from_world((pixel.x, pixel.y));
-            if let Some((from, to)) = border_arrow(rect, place) {
-                canvas.arrow(from, to, stroke.cased());
-                let distance_px = libm::hypot(
-                    (place.0 - to.0) / panel.scale_x(),
-                    (place.1 - to.1) / panel.scale_x(),
-                );
-                let text = format!("{name}, {} px away", format_number(distance_px, 0));
-                label_inside(canvas, rect, from, &text);
-            }
+            let Some((from, to)) = border_arrow(rect, place) else {
+                return;
+            };
+            canvas.arrow(from, to, stroke);
+            let distance = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
+            let text = format!("epipole {name}, {} px away", format_number(distance, 0));
+            labels.draw(canvas, &beside_arrow(from, to), &text, style);
         }
         Epipole::AtInfinity(direction) => {
             let center = rect.center();
             for sign in [-1.0, 1.0] {
-                let far = (
-                    center.0 + sign * direction.x * 1e5,
-                    center.1 + sign * direction.y * 1e5,
+                // Far beyond the border, along the line through the middle.
+                let far = 1e3 * (rect.width + rect.height) * sign;
+                let (x, y) = (center.0 + far * direction.x, center.1 + far * direction.y);
+                let to_border = |start: f64, size: f64| start.abs() / (size / 2.0).max(1e-9);
+                let times = to_border(x - center.0, rect.width)
+                    .max(to_border(y - center.1, rect.height))
+                    .max(1.0);
+                let border = (
+                    center.0 + (x - center.0) / times,
+                    center.1 + (y - center.1) / times,
                 );
-                let clamped = (
-                    far.0.clamp(rect.x - 1.0, rect.right() + 1.0),
-                    far.1.clamp(rect.y - 1.0, rect.bottom() + 1.0),
-                );
-                if let Some((from, to)) = border_arrow(rect, clamped) {
-                    canvas.arrow(from, to, stroke.cased());
-                    label_inside(canvas, rect, from, &format!("{name} at infinity"));
+                let unit = Vector2::new(sign * direction.x, sign * direction.y);
+                let from = (border.0 - 26.0 * unit.x, border.1 - 26.0 * unit.y);
+                let to = (border.0 - 3.0 * unit.x, border.1 - 3.0 * unit.y);
+                canvas.arrow(from, to, stroke);
+                if sign < 0.0 {
+                    let text = format!("epipole {name} at infinity");
+                    labels.draw(canvas, &beside_arrow(from, to), &text, style);
                 }
             }
         }
     }
 }
 
-/// A label above a place, within the panel.
-fn label_inside(canvas: &mut Canvas, rect: Rect, place: Place, text: &str) {
-    let half = text_width(text, TEXT) / 2.0 + 5.0;
-    let x = place
-        .0
-        .clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
-    let y = if place.1 - 26.0 > rect.y {
-        place.1 - 16.0
-    } else {
-        place.1 + 17.0
-    };
-    let style = TextStyle::new(Role::Ink, TEXT).middle().cased();
-    canvas.label((x, y), text, style);
+/// Places for the label of an arrow at the border.
+fn beside_arrow(from: Place, to: Place) -> [(Place, Align); 4] {
+    let middle = ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0);
+    let leans_left = to.0 < from.0;
+    let align = if leans_left { Align::Start } else { Align::End };
+    let x = if leans_left { to.0 + 4.0 } else { to.0 - 4.0 };
+    [
+        ((x, middle.1 - 15.0), align),
+        ((x, middle.1 + 16.0), align),
+        ((x, middle.1 - 30.0), align),
+        ((x, middle.1 + 31.0), align),
+    ]
 }
 
 /// Words over a photograph.
 fn draw_notice(canvas: &mut Canvas, rect: Rect, text: &str) {
-    let plate = Rect::new(rect.x, rect.y, rect.width, rect.height * 0.45);
-    canvas.fill_rect(plate, Role::Background, 0.9);
-    canvas.paragraph(plate.inset(12.0), text, TextStyle::new(Role::Ink, TEXT));
+    let width = rect.inset(12.0).width;
+    let height = paragraph_height(text, TEXT, width) + 16.0;
+    let plate = Rect::new(rect.x, rect.bottom() - height, rect.width, height);
+    canvas.fill_rect(plate, Role::Background, 0.92);
+    let inside = Rect::new(rect.x + 12.0, plate.y + 8.0, width, height);
+    canvas.paragraph(inside, text, TextStyle::new(Role::Ink, TEXT));
 }

@@ -53,8 +53,8 @@ pub(super) fn epipole(epipole: &Epipole) -> String {
         Epipole::Finite(place) => {
             let at = format!(
                 "at ({}, {})",
-                format_number(place.x, 0),
-                format_number(place.y, 0)
+                format_number(place.x, 1),
+                format_number(place.y, 1)
             );
             if in_picture(place) {
                 format!("{at}, inside the picture")
