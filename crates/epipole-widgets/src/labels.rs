@@ -64,16 +64,16 @@ impl Labels {
         }
     }
 
-    /// The four places around a mark, right above first.
+    /// Six places around a mark, right above first.
     pub(crate) fn around((x, y): Place, distance: f64) -> [(Place, Align); 6] {
-        let up = distance + 4.0;
+        let up = distance + 8.0;
         [
-            ((x + distance * 0.8, y - up), Align::Start),
-            ((x - distance * 0.8, y - up), Align::End),
-            ((x + distance * 0.8, y + up), Align::Start),
-            ((x - distance * 0.8, y + up), Align::End),
-            ((x + distance + 4.0, y), Align::Start),
-            ((x - distance - 4.0, y), Align::End),
+            ((x + distance * 0.6, y - up), Align::Start),
+            ((x - distance * 0.6, y - up), Align::End),
+            ((x + distance * 0.6, y + up), Align::Start),
+            ((x - distance * 0.6, y + up), Align::End),
+            ((x + distance + 3.0, y), Align::Start),
+            ((x - distance - 3.0, y), Align::End),
         ]
     }
 

@@ -36,7 +36,7 @@ const KNOBS: &[Knob] = &[Knob::Slider(&BASELINE), Knob::Slider(&FOCAL)];
 /// The smallest and largest distance of the object from the line between the cameras, meters.
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
 /// How far the object can stand to either side of the left camera's axis, meters.
-pub(super) const SIDE_RANGE_M: [f64; 2] = [-1.2, 1.2];
+pub(super) const SIDE_RANGE_M: [f64; 2] = [-0.8, 0.8];
 /// The error of a disparity that the figure asks about, pixels.
 pub(super) const ERROR_PX: f64 = 1.0;
 
@@ -75,7 +75,7 @@ impl StereoSlider {
 
     /// The middle of the object in the frame of the left camera, which is the world's.
     pub(super) fn object_in_world(&self) -> Point3<f64> {
-        Point3::new(self.x_m, scenes::OBJECT_Y_M, self.z_m)
+        Point3::new(self.x_m, scenes::BALL_Y_M, self.z_m)
     }
 
     /// The left and the right camera.

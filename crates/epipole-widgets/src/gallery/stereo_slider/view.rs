@@ -1,8 +1,9 @@
 //! Drawing of `stereo-slider`: both photographs on top, the view from above below.
 
 use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, StereoSlider};
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle, text_width};
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
+use crate::labels::Labels;
 use crate::photo::Photo;
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
 use crate::theme::Role;
@@ -16,6 +17,8 @@ const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(1), Shape::Square),
 ];
+/// The table: left, right, near and far edge, meters.
+const TABLE_M: [f64; 4] = [-0.95, 0.95, 0.35, 11.35];
 /// What an uncertain pixel leaves open.
 const UNCERTAIN: Role = Role::Series(3);
 
@@ -46,8 +49,8 @@ impl View for StereoSliderView {
             id: "top",
             rect: Rect::new(0.0, top_y, width, top_height),
             x_axis: Axis {
-                start: -1.5,
-                end: 1.5,
+                start: -1.15,
+                end: 1.15,
             },
             y_axis: Axis {
                 start: DEPTH_RANGE_M[1] + 0.8,
@@ -68,7 +71,8 @@ impl View for StereoSliderView {
     }
 
     fn refine(&mut self, model: &StereoSlider) -> bool {
-        let (Ok(cameras), scene) = (model.cameras(), scenes::long_table(model.object_m())) else {
+        let (Ok(cameras), Ok(scene)) = (model.cameras(), scenes::long_table(model.object_m()))
+        else {
             return false;
         };
         let arrangement = model.object_in_world().coords.into();
@@ -80,28 +84,27 @@ impl View for StereoSliderView {
 impl StereoSliderView {
     fn draw_photographs(&mut self, model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
         let panels = [layout.panel("left"), layout.panel("right")];
-        let (Ok(cameras), Ok(pixels)) = (model.cameras(), model.pixels()) else {
-            return;
+        let made = (|| {
+            let scene = scenes::long_table(model.object_m())?;
+            Ok((model.cameras()?, model.pixels()?, scene))
+        })();
+        let (cameras, pixels, scene) = match made {
+            Ok(made) => made,
+            Err(error) => return draw_refusal(canvas, layout, &error),
         };
-        let scene = scenes::long_table(model.object_m());
         let arrangement = model.object_in_world().coords.into();
         for index in 0..2 {
             let rect = panels[index].rect;
             let title = ["Left photograph", "Right photograph"][index];
-            let middle = (rect.x + 6.0, TITLE / 2.0);
             let (role, shape) = CAMERAS[index];
-            canvas.marker(middle, 5.0, shape, role, false);
+            canvas.marker((rect.x + 6.0, TITLE / 2.0), 5.0, shape, role, false);
             let place = (rect.x + 18.0, TITLE / 2.0);
             canvas.label(place, title, TextStyle::new(Role::Ink, TEXT));
             let picture =
                 self.photos[index].picture(&scene, &cameras[index], arrangement, PHOTO_SIZE);
             match picture {
                 Ok(picture) => canvas.photograph(rect, picture),
-                Err(error) => {
-                    canvas.panel(rect);
-                    let style = TextStyle::new(Role::Ink, TEXT);
-                    canvas.paragraph(rect.inset(10.0), &error.to_string(), style);
-                }
+                Err(error) => return draw_refusal(canvas, layout, &error),
             }
         }
         // One row through both photographs, and through the gap between them.
@@ -114,72 +117,63 @@ impl StereoSliderView {
         for index in 0..2 {
             let panel = panels[index];
             let (role, shape) = CAMERAS[index];
-            let place = panel.canvas_from_world((pixels[index].x, row_of(&pixels[index])));
+            let place = panel.canvas_from_world((pixels[index].x, pixels[index].y));
+            let mut labels = Labels::new(panel.rect);
+            let style = TextStyle::new(role, TEXT).cased();
+            if !scenes::in_picture(&pixels[index]) {
+                let at = (panel.rect.center().0, place.1 - 16.0);
+                let text = "the ball is outside";
+                labels.draw(canvas, &[(at, Align::Middle)], text, style);
+                continue;
+            }
             canvas.clipped(panel.rect, |canvas| {
                 if index == 1 {
                     let left = panel.canvas_from_world((pixels[0].x, pixels[0].y));
-                    draw_disparity(canvas, panel.rect, left, place, model.measured());
+                    draw_disparity(canvas, &mut labels, left, place, model.measured());
                 }
                 canvas.marker(place, 5.0, shape, role, true);
             });
-            if panel.rect.contains(place) {
-                let text = format!("u = {}", format_number(pixels[index].x, 1));
-                draw_beside(canvas, panel.rect, (place.0, place.1 - 18.0), &text, role);
-            } else {
-                let text = "the object is outside";
-                let (x, y) = panel.rect.center();
-                let style = TextStyle::new(Role::Ink, TEXT).middle().cased();
-                canvas.label((x, y), text, style);
-            }
+            labels.keep_free(place, 6.0);
+            let text = format!("u = {}", format_number(pixels[index].x, 1));
+            let above = ((place.0, place.1 - 19.0), Align::Middle);
+            let higher = ((place.0, place.1 - 36.0), Align::Middle);
+            labels.draw(canvas, &[above, higher], &text, style);
         }
     }
 }
 
-fn row_of(pixel: &nalgebra::Point2<f64>) -> f64 {
-    pixel.y
+/// Why there are no photographs, in their place.
+fn draw_refusal(canvas: &mut Canvas, layout: &Layout, error: &epipole::Error) {
+    for id in ["left", "right"] {
+        let rect = layout.panel(id).rect;
+        canvas.panel(rect);
+        let style = TextStyle::new(Role::Ink, TEXT);
+        canvas.paragraph(rect.inset(10.0), &error.to_string(), style);
+    }
 }
 
 /// In the right photograph: where the left one has the object, and how far it moved.
 fn draw_disparity(
     canvas: &mut Canvas,
-    rect: Rect,
+    labels: &mut Labels,
     left: Place,
     right: Place,
     measured: Option<Measured>,
 ) {
     let Some(measured) = measured else { return };
-    let y = left.1 + 17.0;
-    let role = Role::Ink;
-    let stroke = Stroke::solid(role, 1.5).cased();
+    let y = left.1 + 16.0;
+    let stroke = Stroke::solid(Role::Ink, 1.5).cased();
     canvas.line((right.0, y), (left.0, y), stroke);
     for x in [right.0, left.0] {
         canvas.line((x, y - 5.0), (x, y + 5.0), stroke);
     }
-    let (hue, shape) = CAMERAS[0];
-    let hollow = if shape == Shape::Disk {
-        Shape::Ring
-    } else {
-        shape
-    };
-    canvas.marker(left, 5.0, hollow, hue, true);
+    let (role, shape) = CAMERAS[0];
+    canvas.hollow_marker(left, 5.0, shape, role, true);
+    labels.keep_free(left, 6.0);
     let text = format!("d = {} px", format_number(measured.disparity_px, 1));
-    draw_beside(
-        canvas,
-        rect,
-        ((left.0 + right.0) / 2.0, y + 17.0),
-        &text,
-        role,
-    );
-}
-
-/// A cased label centered on a place, moved so that it stays within the panel.
-fn draw_beside(canvas: &mut Canvas, rect: Rect, place: Place, text: &str, role: Role) {
-    let half = text_width(text, TEXT) / 2.0 + 4.0;
-    let x = place
-        .0
-        .clamp(rect.x + half, (rect.right() - half).max(rect.x + half));
-    let y = place.1.clamp(rect.y + 10.0, rect.bottom() - 10.0);
-    canvas.label((x, y), text, TextStyle::new(role, TEXT).middle().cased());
+    let below = (((left.0 + right.0) / 2.0, y + 17.0), Align::Middle);
+    let style = TextStyle::new(Role::Ink, TEXT).cased();
+    labels.draw(canvas, &[below], &text, style);
 }
 
 fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
@@ -187,9 +181,9 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
     let rect = panel.rect;
     let narrow = layout.width < 500.0;
     let title = if narrow {
-        "From above (sideways stretched)"
+        "From above, stretched sideways"
     } else {
-        "The same from above, stretched sideways so that the baseline can be seen"
+        "From above, stretched sideways so that the baseline can be seen"
     };
     let place = (rect.x, rect.y - TITLE / 2.0);
     canvas.label(place, title, TextStyle::new(Role::Ink, TEXT));
@@ -237,6 +231,11 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
 
 fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
     let rect = panel.rect;
+    let (left, far) = panel.canvas_from_world((TABLE_M[0], TABLE_M[3]));
+    let (right, near) = panel.canvas_from_world((TABLE_M[1], TABLE_M[2]));
+    let table = Rect::new(left, far, right - left, near - far);
+    canvas.fill_rect(table, Role::Grip, 0.08);
+    let style = TextStyle::new(Role::Muted, SMALL);
     for meters in 0..=10 {
         let z = f64::from(meters);
         let y = panel.canvas_from_world((0.0, z)).1;
@@ -246,8 +245,7 @@ fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
             Stroke::solid(Role::Grid, 1.0),
         );
         if meters % 2 == 0 && meters > 0 {
-            let style = TextStyle::new(Role::Muted, SMALL).cased();
-            canvas.label((rect.x + 8.0, y), &format!("{meters} m"), style);
+            canvas.label((rect.x + 8.0, y), &format!("{meters} m"), style.cased());
         }
     }
 }
@@ -304,41 +302,52 @@ fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, me
 fn draw_numbers(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measured: Measured) {
     let (x_m, z_m) = model.object_m();
     let rect = panel.rect;
-    let place = panel.canvas_from_world((x_m, z_m));
-    let text = format!("Z = {} m", format_number(measured.depth_m, 2));
-    let width = text_width(&text, TEXT);
-    let style = TextStyle::new(Role::Ink, TEXT).cased();
-    let fits = place.0 + 16.0 + width < rect.right() - 4.0;
-    if fits {
-        canvas.label((place.0 + 16.0, place.1), &text, style);
-    } else {
-        canvas.label((place.0 - 16.0, place.1), &text, style.end());
-    }
-    let near = format_number(measured.interval.near_m, 2);
-    let range = match measured.interval.far_m {
-        Some(far_m) => format!("{near} to {} m", format_number(far_m, 2)),
-        None => format!("{near} m to infinity"),
-    };
-    let text = if rect.width < 500.0 {
-        format!("±1 px: {range}")
-    } else {
-        format!("±1 px of disparity: {range}")
-    };
-    // Above the band on the side away from the object; below it where there is no room above.
+    let near_m = measured.interval.near_m;
     let far_m = measured.interval.far_m.unwrap_or(f64::INFINITY);
     let far_y = panel
         .canvas_from_world((0.0, far_m.min(panel.y_axis.start)))
         .1;
-    let near_y = panel.canvas_from_world((0.0, measured.interval.near_m)).1;
-    let y = if far_y - 14.0 > rect.y + 8.0 {
-        far_y - 11.0
-    } else {
-        near_y + 12.0
-    };
-    let style = TextStyle::new(UNCERTAIN, TEXT).cased();
-    if x_m < 0.0 {
-        canvas.label((rect.right() - 8.0, y), &text, style.end());
-    } else {
-        canvas.label((rect.x + 44.0, y), &text, style);
+    let near_y = panel.canvas_from_world((0.0, near_m)).1;
+    let object = panel.canvas_from_world((x_m, z_m));
+    let mut labels = Labels::new(rect.inset(2.0));
+    labels.keep_free(object, 10.0);
+    // Nothing is written across the edges of the band.
+    for y in [near_y, far_y] {
+        for index in 0..=(rect.width / 8.0) as usize {
+            labels.keep_free((rect.x + 8.0 * index as f64, y), 2.0);
+        }
     }
+    let reach = match measured.interval.far_m {
+        Some(far_m) => format!(
+            "{} to {} m",
+            format_number(near_m, 2),
+            format_number(far_m, 2)
+        ),
+        None => format!("{} m to infinity", format_number(near_m, 2)),
+    };
+    let text = if rect.width < 500.0 {
+        format!("±1 px: {reach}")
+    } else {
+        format!("±1 px of disparity: {reach}")
+    };
+    // On the side away from the object.
+    let (x, align) = if x_m < 0.0 {
+        (rect.right() - 8.0, Align::End)
+    } else {
+        (rect.x + 44.0, Align::Start)
+    };
+    let places = [far_y - 12.0, near_y + 12.0, (near_y + far_y) / 2.0].map(|y| ((x, y), align));
+    let style = TextStyle::new(UNCERTAIN, TEXT).cased();
+    labels.draw(canvas, &places, &text, style);
+    let text = format!("Z = {} m", format_number(measured.depth_m, 2));
+    let (x, y) = object;
+    let places = [
+        ((x + 15.0, y + 18.0), Align::Start),
+        ((x + 17.0, y), Align::Start),
+        ((x + 15.0, y - 18.0), Align::Start),
+        ((x - 17.0, y), Align::End),
+        ((x - 15.0, y - 18.0), Align::End),
+    ];
+    let style = TextStyle::new(Role::Ink, TEXT).cased();
+    labels.draw(canvas, &places, &text, style);
 }
