@@ -34,3 +34,17 @@ pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     found.sort();
     found
 }
+
+/// The Rust listings of the chapters, run as documentation tests.
+#[cfg(doctest)]
+pub mod listings {
+    /// Chapter "One point, one line".
+    #[doc = include_str!("../content/epipolar.md")]
+    pub struct Epipolar;
+    /// Chapter "Let the data vote".
+    #[doc = include_str!("../content/ransac.md")]
+    pub struct Ransac;
+    /// Chapter "Two eyes in a row".
+    #[doc = include_str!("../content/stereo.md")]
+    pub struct Stereo;
+}

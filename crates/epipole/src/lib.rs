@@ -6,10 +6,12 @@
 //! |---|---|
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
+//! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`robust`] | the RANSAC engine; lines and similarities |
+//! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
-//! | [`stereo`] | depth from disparity |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
@@ -25,6 +27,8 @@ mod error;
 
 pub mod camera;
 pub mod epipolar;
+pub mod feature;
+pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;

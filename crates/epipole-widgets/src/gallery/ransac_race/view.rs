@@ -96,17 +96,16 @@ impl View for RansacRaceView {
         let plane = layout.panel("plane");
         canvas.panel(plane.rect);
         canvas.clipped(plane.rect.inset(1.0), |canvas| {
-            if let Some(candidate) = model.candidate() {
-                if let Some(line) = &candidate.line {
-                    band(canvas, plane, line, model.epsilon_px());
-                }
+            let candidate = model.candidate().and_then(|candidate| candidate.line);
+            if let Some(line) = &candidate {
+                band(canvas, plane, line, model.epsilon_px());
             }
             draw_line(canvas, plane, model.truth(), truth_stroke());
             if let Some(line) = model.least_squares() {
                 draw_line(canvas, plane, line, least_squares_stroke());
             }
-            if let Some(line) = model.candidate().and_then(|candidate| candidate.line) {
-                draw_line(canvas, plane, &line, candidate_stroke());
+            if let Some(line) = &candidate {
+                draw_line(canvas, plane, line, candidate_stroke());
             }
             if let Some(best) = model.best() {
                 draw_line(canvas, plane, &best.line, best_stroke());
