@@ -27,6 +27,11 @@ impl Labels {
         self.taken.push(Rect::new(x, y, 2.0 * radius, 2.0 * radius));
     }
 
+    /// Keeps labels away from what is drawn in a rectangle.
+    pub(crate) fn keep_rect_free(&mut self, rect: Rect) {
+        self.taken.push(rect);
+    }
+
     /// Draws a label at the first of some places where it covers nothing, or else where it covers
     /// least. A place is where the label begins, ends or has its middle, at half its height.
     pub(crate) fn draw(

@@ -195,66 +195,47 @@ impl Model for StereoSlider {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let mut readouts = Vec::new();
-        if let Ok([left, right]) = self.pixels() {
-            readouts.push(Readout::number(
-                "u-left",
-                "Column on the left",
-                left.x,
-                1,
-                "px",
-            ));
-            readouts.push(Readout::number(
+        let pixels = self.pixels().ok();
+        let measured = self.measured();
+        let interval = measured.map(|measured| measured.interval);
+        let digits = interval.map_or(2, |interval| depth_digits(&interval));
+        let say = |id, label, value: Option<f64>, digits, unit, otherwise: &str| match value {
+            Some(value) => Readout::number(id, label, value, digits, unit),
+            None => Readout::words(id, label, otherwise),
+        };
+        let column = |index: usize| pixels.map(|pixels| pixels[index].x);
+        let disparity_px = pixels.map(|[left, right]| left.x - right.x);
+        let depth_m = measured.map(|measured| measured.depth_m);
+        let near_m = interval.map(|interval| interval.near_m);
+        let far_m = interval.and_then(|interval| interval.far_m);
+        let unknown = "not determined";
+        let far = if interval.is_some() {
+            "infinitely far"
+        } else {
+            unknown
+        };
+        vec![
+            say("u-left", "Column on the left", column(0), 1, "px", unknown),
+            say(
                 "u-right",
                 "Column on the right",
-                right.x,
+                column(1),
                 1,
                 "px",
-            ));
-        }
-        match self.measured() {
-            Some(measured) => {
-                let interval = measured.interval;
-                readouts.push(Readout::number(
-                    "disparity",
-                    "Disparity d",
-                    measured.disparity_px,
-                    1,
-                    "px",
-                ));
-                readouts.push(Readout::number(
-                    "depth",
-                    "Depth Z = f B / d",
-                    measured.depth_m,
-                    2,
-                    "m",
-                ));
-                readouts.push(Readout::number(
-                    "near",
-                    "Nearest, if d is 1 px larger",
-                    interval.near_m,
-                    2,
-                    "m",
-                ));
-                readouts.push(match interval.far_m {
-                    Some(far_m) => {
-                        Readout::number("far", "Farthest, if d is 1 px smaller", far_m, 2, "m")
-                    }
-                    None => {
-                        Readout::words("far", "Farthest, if d is 1 px smaller", "infinitely far")
-                    }
-                });
-            }
-            None => {
-                readouts.push(Readout::number("disparity", "Disparity d", 0.0, 1, "px"));
-                readouts.push(Readout::words(
-                    "depth",
-                    "Depth Z = f B / d",
-                    "not determined",
-                ));
-            }
-        }
-        readouts
+                unknown,
+            ),
+            say("disparity", "Disparity d", disparity_px, 1, "px", unknown),
+            say("depth", "Depth Z = f B / d", depth_m, 2, "m", unknown),
+            say(
+                "near",
+                "Depth if d is 1 px larger",
+                near_m,
+                digits,
+                "m",
+                unknown,
+            ),
+            say("far", "Depth if d is 1 px smaller", far_m, digits, "m", far),
+        ]
     }
 
     fn describe(&self) -> String {
@@ -262,19 +243,14 @@ impl Model for StereoSlider {
             return NO_BASELINE.to_owned();
         };
         let number = format_number;
-        let reach = match measured.interval.far_m {
-            Some(far_m) => format!("{} m", number(far_m, 2)),
-            None => "infinity".to_owned(),
-        };
         let mut sentence = format!(
             "With a baseline of {} m and a focal length of {} px, the object at {} m has a \
-             disparity of {} px. One pixel of error moves its depth anywhere between {} m and \
-             {reach}.",
+             disparity of {} px. With one pixel of error the depth could be anything from {}.",
             number(self.baseline_m(), 2),
             number(self.focal_px(), 0),
             number(measured.depth_m, 2),
             number(measured.disparity_px, 1),
-            number(measured.interval.near_m, 2),
+            reach(&measured.interval),
         );
         if let Some(missing) = self.missing_from() {
             sentence.push_str(&format!(
@@ -286,6 +262,27 @@ impl Model for StereoSlider {
 
     fn challenges() -> &'static [Challenge<Self>] {
         CHALLENGES
+    }
+}
+
+/// An interval of depths in words, such as "2.71 to 2.90 m".
+pub(super) fn reach(interval: &DepthInterval) -> String {
+    let near_m = interval.near_m;
+    match interval.far_m {
+        Some(far_m) => {
+            let digits = depth_digits(interval);
+            let (near, far) = (format_number(near_m, digits), format_number(far_m, digits));
+            format!("{near} to {far} m")
+        }
+        None => format!("{} m to infinity", format_number(near_m, 2)),
+    }
+}
+
+/// Digits that tell the ends of an interval apart.
+fn depth_digits(interval: &DepthInterval) -> usize {
+    match interval.far_m {
+        Some(far_m) if far_m - interval.near_m < 0.1 => 3,
+        _ => 2,
     }
 }
 
@@ -402,7 +399,7 @@ mod tests {
         }
         model.update(&moved(0.0, 8.0)).unwrap();
         assert_eq!(model.measured().unwrap().interval.far_m, None);
-        assert!(model.describe().contains("between") && model.describe().contains("infinity"));
+        assert!(model.describe().contains("from") && model.describe().contains("infinity"));
     }
 
     #[test]

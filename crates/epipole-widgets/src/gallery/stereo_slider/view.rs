@@ -1,6 +1,6 @@
 //! Drawing of `stereo-slider`: both photographs on top, the view from above below.
 
-use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, StereoSlider};
+use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, StereoSlider, reach};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
 use crate::labels::Labels;
@@ -12,6 +12,7 @@ const TEXT: f64 = 13.0;
 const SMALL: f64 = 12.0;
 /// Height of a line of text above a panel.
 const TITLE: f64 = 24.0;
+const MARKER: f64 = 4.5;
 /// Each camera has a hue and a shape, in its photograph and in the view from above.
 const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
@@ -123,6 +124,7 @@ impl StereoSliderView {
             if !scenes::in_picture(&pixels[index]) {
                 let at = (panel.rect.center().0, place.1 - 16.0);
                 let text = "the ball is outside";
+                let style = TextStyle::new(Role::Ink, TEXT).cased();
                 labels.draw(canvas, &[(at, Align::Middle)], text, style);
                 continue;
             }
@@ -131,7 +133,7 @@ impl StereoSliderView {
                     let left = panel.canvas_from_world((pixels[0].x, pixels[0].y));
                     draw_disparity(canvas, &mut labels, left, place, model.measured());
                 }
-                canvas.marker(place, 5.0, shape, role, true);
+                canvas.marker(place, MARKER, shape, role, true);
             });
             labels.keep_free(place, 6.0);
             let text = format!("u = {}", format_number(pixels[index].x, 1));
@@ -168,7 +170,7 @@ fn draw_disparity(
         canvas.line((x, y - 5.0), (x, y + 5.0), stroke);
     }
     let (role, shape) = CAMERAS[0];
-    canvas.hollow_marker(left, 5.0, shape, role, true);
+    canvas.hollow_marker(left, MARKER, shape, role, true);
     labels.keep_free(left, 6.0);
     let text = format!("d = {} px", format_number(measured.disparity_px, 1));
     let below = (((left.0 + right.0) / 2.0, y + 17.0), Align::Middle);
@@ -195,6 +197,7 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
     let (x_m, z_m) = model.object_m();
     let baseline_m = model.baseline_m();
     let measured = model.measured();
+    let mut labels = Labels::new(rect.inset(2.0));
     canvas.clipped(inner, |canvas| {
         if let Some(measured) = measured {
             draw_uncertainty(canvas, panel, model, measured);
@@ -216,11 +219,11 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
             let end = at(camera_x + (x_m - camera_x) * beyond, panel.y_axis.start);
             canvas.line(at(x_m, z_m), end, Stroke::solid(role, 1.0).dotted());
         }
-        draw_cameras(canvas, panel, baseline_m);
+        draw_cameras(canvas, panel, &mut labels, baseline_m);
         canvas.grip(at(x_m, z_m), Role::Grip);
     });
     match measured {
-        Some(measured) => draw_numbers(canvas, panel, model, measured),
+        Some(measured) => draw_numbers(canvas, panel, &mut labels, model, measured),
         None => {
             let text_rect = Rect::new(rect.x + 44.0, rect.y + 14.0, rect.width - 60.0, 90.0);
             let style = TextStyle::new(Role::Ink, TEXT).cased();
@@ -234,8 +237,13 @@ fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
     let (left, far) = panel.canvas_from_world((TABLE_M[0], TABLE_M[3]));
     let (right, near) = panel.canvas_from_world((TABLE_M[1], TABLE_M[2]));
     let table = Rect::new(left, far, right - left, near - far);
-    canvas.fill_rect(table, Role::Grip, 0.08);
+    canvas.fill_rect(table, Role::Grid, 0.45);
     let style = TextStyle::new(Role::Muted, SMALL);
+    let place = (
+        right - 8.0,
+        panel.canvas_from_world((0.0, DEPTH_RANGE_M[1] + 0.4)).1,
+    );
+    canvas.label(place, "table", style.end());
     for meters in 0..=10 {
         let z = f64::from(meters);
         let y = panel.canvas_from_world((0.0, z)).1;
@@ -250,29 +258,28 @@ fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
     }
 }
 
-fn draw_cameras(canvas: &mut Canvas, panel: &Panel, baseline_m: f64) {
-    for (index, camera_x) in [0.0, baseline_m].into_iter().enumerate() {
-        let (role, shape) = CAMERAS[index];
-        let (x, y) = panel.canvas_from_world((camera_x, 0.0));
-        canvas.marker((x, y), 5.5, shape, role, true);
-        let style = TextStyle::new(role, TEXT).cased();
-        if index == 0 {
-            canvas.label((x - 12.0, y), "left camera", style.end());
-        } else {
-            canvas.label((x + 12.0, y), "right camera", style);
-        }
-    }
+fn draw_cameras(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels, baseline_m: f64) {
     let (left, y) = panel.canvas_from_world((0.0, 0.0));
     let right = panel.canvas_from_world((baseline_m, 0.0)).0;
-    let y = y + 14.0;
     let stroke = Stroke::solid(Role::Ink, 1.5);
-    canvas.line((left, y), (right, y), stroke);
-    for x in [left, right] {
-        canvas.line((x, y - 4.0), (x, y + 4.0), stroke);
+    canvas.line((left, y + 14.0), (right, y + 14.0), stroke);
+    for (index, x) in [left, right].into_iter().enumerate() {
+        let (role, shape) = CAMERAS[index];
+        canvas.line((x, y + 10.0), (x, y + 18.0), stroke);
+        canvas.marker((x, y), 5.5, shape, role, true);
+        let style = TextStyle::new(role, TEXT).cased();
+        let (place, text) = if index == 0 {
+            (((x - 12.0, y), Align::End), "left camera")
+        } else {
+            (((x + 12.0, y), Align::Start), "right camera")
+        };
+        labels.draw(canvas, &[place], text, style);
     }
+    labels.keep_rect_free(Rect::new(left - 6.0, y - 6.0, right - left + 12.0, 24.0));
     let text = format!("B = {} m", format_number(baseline_m, 2));
     let style = TextStyle::new(Role::Ink, TEXT).cased();
-    canvas.label((right + 12.0, y + 4.0), &text, style);
+    let place = ((right + 12.0, y + 19.0), Align::Start);
+    labels.draw(canvas, &[place], &text, style);
 }
 
 /// The depths that one pixel more or less leaves open: a band, and the part of the left ray in it.
@@ -299,7 +306,13 @@ fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, me
     canvas.line(near, far, Stroke::solid(UNCERTAIN, 5.0));
 }
 
-fn draw_numbers(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measured: Measured) {
+fn draw_numbers(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    labels: &mut Labels,
+    model: &StereoSlider,
+    measured: Measured,
+) {
     let (x_m, z_m) = model.object_m();
     let rect = panel.rect;
     let near_m = measured.interval.near_m;
@@ -309,7 +322,6 @@ fn draw_numbers(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measur
         .1;
     let near_y = panel.canvas_from_world((0.0, near_m)).1;
     let object = panel.canvas_from_world((x_m, z_m));
-    let mut labels = Labels::new(rect.inset(2.0));
     labels.keep_free(object, 10.0);
     // Nothing is written across the edges of the band.
     for y in [near_y, far_y] {
@@ -317,14 +329,7 @@ fn draw_numbers(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measur
             labels.keep_free((rect.x + 8.0 * index as f64, y), 2.0);
         }
     }
-    let reach = match measured.interval.far_m {
-        Some(far_m) => format!(
-            "{} to {} m",
-            format_number(near_m, 2),
-            format_number(far_m, 2)
-        ),
-        None => format!("{} m to infinity", format_number(near_m, 2)),
-    };
+    let reach = reach(&measured.interval);
     let text = if rect.width < 500.0 {
         format!("±1 px: {reach}")
     } else {
