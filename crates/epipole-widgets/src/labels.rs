@@ -32,6 +32,23 @@ impl Labels {
         self.taken.push(rect);
     }
 
+    /// Keeps labels away from a line, as far as it is inside.
+    pub(crate) fn keep_line_free(&mut self, from: Place, to: Place) {
+        const STEP: f64 = 8.0;
+        let length = libm::hypot(to.0 - from.0, to.1 - from.1);
+        if !(length > 0.0 && length < 1e5) {
+            return;
+        }
+        let direction = ((to.0 - from.0) / length, (to.1 - from.1) / length);
+        for index in 0..=(length / STEP) as usize {
+            let along = STEP * index as f64;
+            let place = (from.0 + along * direction.0, from.1 + along * direction.1);
+            if self.bounds.contains(place) {
+                self.keep_free(place, 2.0);
+            }
+        }
+    }
+
     /// Draws a label at the first of some places where it covers nothing, or else where it covers
     /// least. A place is where the label begins, ends or has its middle, at half its height.
     pub(crate) fn draw(
@@ -115,11 +132,17 @@ mod tests {
         for _ in 0..4 {
             labels.draw(
                 &mut canvas,
-                &Labels::around((195.0, 50.0), 10.0),
+                &Labels::around((150.0, 50.0), 10.0),
                 "label",
                 style,
             );
         }
+        labels.draw(
+            &mut canvas,
+            &[((500.0, -20.0), Align::Middle)],
+            "label",
+            style,
+        );
         for (index, rect) in labels.taken.iter().enumerate() {
             assert!(rect.x >= 0.0 && rect.right() <= 200.0, "{rect:?}");
             for other in &labels.taken[..index] {

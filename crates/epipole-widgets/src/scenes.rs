@@ -20,6 +20,9 @@ pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
 /// Where the middle of the long table's ball is below the cameras, meters.
 pub(crate) const BALL_Y_M: f64 = 0.14;
 
+/// What the scene calls it.
+pub(crate) const BALL: &str = "the ball";
+
 /// The still life of the book.
 pub(crate) fn still_life() -> Scene {
     Scene::still_life()

@@ -123,15 +123,17 @@ fn draw_first(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
+    let mut labels = Labels::new(panel.rect);
     if let Some(geometry) = geometry {
         for (index, point) in model.points() {
             if let Some(line) = model.line1(geometry, &point) {
                 let (role, _) = series(index);
-                draw_line(canvas, panel, &line, Stroke::solid(role, 1.25).dotted());
+                let stroke = Stroke::solid(role, 1.25).dotted();
+                let (from, to) = draw_line(canvas, panel, &line, stroke);
+                labels.keep_line_free(from, to);
             }
         }
     }
-    let mut labels = Labels::new(panel.rect);
     for (index, point) in model.points() {
         let (role, shape) = series(index);
         let place = panel.canvas_from_world((point.x, point.y));
@@ -155,17 +157,19 @@ fn draw_second(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
+    let mut labels = Labels::new(panel.rect);
     if let Some(geometry) = geometry {
         let selected = model.selected();
         for (index, point) in model.points() {
             if let Some(line) = model.line2(geometry, &point) {
                 let (role, _) = series(index);
                 let width = if selected == Some(index) { 2.5 } else { 1.75 };
-                draw_line(canvas, panel, &line, Stroke::solid(role, width).cased());
+                let stroke = Stroke::solid(role, width).cased();
+                let (from, to) = draw_line(canvas, panel, &line, stroke);
+                labels.keep_line_free(from, to);
             }
         }
     }
-    let mut labels = Labels::new(panel.rect);
     let mut texts = Vec::new();
     for (index, point) in model.points() {
         let (role, shape) = series(index);
@@ -209,7 +213,8 @@ fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mu
     }
 }
 
-fn draw_line(canvas: &mut Canvas, panel: &Panel, line: &Line2, stroke: Stroke) {
+/// Draws a line of the image plane, and says from where to where.
+fn draw_line(canvas: &mut Canvas, panel: &Panel, line: &Line2, stroke: Stroke) -> (Place, Place) {
     let center = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) * 0.5;
     let foot = line.nearest(&center);
     let end = |sign: f64| {
@@ -219,6 +224,7 @@ fn draw_line(canvas: &mut Canvas, panel: &Panel, line: &Line2, stroke: Stroke) {
         ))
     };
     canvas.line(end(-1.0), end(1.0), stroke);
+    (end(-1.0), end(1.0))
 }
 
 /// The number of a point beside its marker, perhaps with words.

@@ -59,6 +59,17 @@ pub(super) struct Measured {
     pub(super) interval: DepthInterval,
 }
 
+/// How a photograph shows the middle of the object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sight {
+    /// Nothing is in the way.
+    Clear,
+    /// This is in the way.
+    Hidden(&'static str),
+    /// It is beyond the picture's edge.
+    Outside,
+}
+
 impl StereoSlider {
     pub(super) fn baseline_m(&self) -> f64 {
         self.settings.number(&BASELINE)
@@ -120,7 +131,7 @@ impl StereoSlider {
         Handle {
             id: "object".to_owned(),
             panel: "top",
-            label: "Object, seen from above".to_owned(),
+            label: "Ball, seen from above".to_owned(),
             value_text: format!(
                 "{:.2} m away, {:.2} m to the {side}",
                 self.z_m,
@@ -136,16 +147,47 @@ impl StereoSlider {
         }
     }
 
-    /// Which photographs do not show the object's middle, in words.
-    pub(super) fn missing_from(&self) -> Option<&'static str> {
-        let Ok([left, right]) = self.pixels() else {
-            return Some("both photographs");
+    /// How each photograph shows the middle of the object.
+    pub(super) fn sights(&self) -> Result<[Sight; 2], epipole::Error> {
+        let scene = scenes::long_table(self.object_m())?;
+        let (cameras, pixels) = (self.cameras()?, self.pixels()?);
+        let sight = |index: usize| {
+            if !scenes::in_picture(&pixels[index]) {
+                return Sight::Outside;
+            }
+            let center = cameras[index].center_in_world();
+            let hit = scene.cast(&center, &(self.object_in_world() - center));
+            match hit {
+                Some(hit) if hit.object != scenes::BALL => Sight::Hidden(hit.object),
+                _ => Sight::Clear,
+            }
         };
-        match (scenes::in_picture(&left), scenes::in_picture(&right)) {
-            (true, true) => None,
-            (true, false) => Some("the right photograph"),
-            (false, true) => Some("the left photograph"),
-            (false, false) => Some("both photographs"),
+        Ok([sight(0), sight(1)])
+    }
+
+    /// What keeps a real pair from measuring the object, as a sentence.
+    fn trouble(&self) -> Option<String> {
+        let Ok(sights) = self.sights() else {
+            return Some("It is not on the table.".to_owned());
+        };
+        let sides = ["left", "right"];
+        match sights {
+            [Sight::Clear, Sight::Clear] => None,
+            [Sight::Outside, Sight::Outside] => Some("Neither photograph shows it.".to_owned()),
+            [Sight::Hidden(by), Sight::Hidden(other)] if by == other => {
+                Some(format!("In both photographs it is hidden by {by}."))
+            }
+            _ => (0..2).find_map(|index| match sights[index] {
+                Sight::Clear => None,
+                Sight::Outside => Some(format!(
+                    "The {} photograph does not show it, so a real pair could not measure it.",
+                    sides[index]
+                )),
+                Sight::Hidden(by) => Some(format!(
+                    "In the {} photograph it is hidden by {by}, so a real pair could not measure it.",
+                    sides[index]
+                )),
+            }),
         }
     }
 }
@@ -153,7 +195,7 @@ impl StereoSlider {
 impl Model for StereoSlider {
     const NAME: &'static str = "stereo-slider";
     const TITLE: &'static str = "Depth from disparity";
-    const HELP: &'static str = "Drag the object in the view from above, or move it with the arrow \
+    const HELP: &'static str = "Drag the ball in the view from above, or move it with the arrow \
         keys; a click in a photograph moves it sideways. Set the baseline and the focal length \
         with the sliders.";
 
@@ -244,7 +286,7 @@ impl Model for StereoSlider {
         };
         let number = format_number;
         let mut sentence = format!(
-            "With a baseline of {} m and a focal length of {} px, the object at {} m has a \
+            "With a baseline of {} m and a focal length of {} px, the ball at {} m has a \
              disparity of {} px. With one pixel of error the depth could be anything from {}.",
             number(self.baseline_m(), 2),
             number(self.focal_px(), 0),
@@ -252,10 +294,9 @@ impl Model for StereoSlider {
             number(measured.disparity_px, 1),
             reach(&measured.interval),
         );
-        if let Some(missing) = self.missing_from() {
-            sentence.push_str(&format!(
-                " It lies outside {missing}, so a real pair could not measure it."
-            ));
+        if let Some(trouble) = self.trouble() {
+            sentence.push(' ');
+            sentence.push_str(&trouble);
         }
         sentence
     }
@@ -383,6 +424,27 @@ mod tests {
             .unwrap();
         assert!(model.measured().is_none());
         assert_eq!(model.describe(), NO_BASELINE);
+    }
+
+    #[test]
+    fn what_hides_the_ball_is_named() {
+        let mut model = StereoSlider::new();
+        assert_eq!(model.sights(), Ok([Sight::Clear, Sight::Clear]));
+        model.update(&moved(-0.3, 0.9)).unwrap();
+        let value = Value::Number(0.4);
+        let id = "baseline".into();
+        model.update(&Event::Set { id, value }).unwrap();
+        assert_eq!(model.sights().unwrap()[1], Sight::Outside);
+        assert!(
+            model
+                .describe()
+                .contains("The right photograph does not show it")
+        );
+        let hidden = (8..100).any(|tenths| {
+            model.update(&moved(0.6, f64::from(tenths) / 10.0)).unwrap();
+            matches!(model.sights(), Ok([Sight::Hidden(by), _]) if model.describe().contains(by))
+        });
+        assert!(hidden);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Drawing of `stereo-slider`: both photographs on top, the view from above below.
 
-use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, StereoSlider, reach};
+use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, Sight, StereoSlider, reach};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
 use crate::labels::Labels;
@@ -87,9 +87,9 @@ impl StereoSliderView {
         let panels = [layout.panel("left"), layout.panel("right")];
         let made = (|| {
             let scene = scenes::long_table(model.object_m())?;
-            Ok((model.cameras()?, model.pixels()?, scene))
+            Ok((model.cameras()?, model.pixels()?, model.sights()?, scene))
         })();
-        let (cameras, pixels, scene) = match made {
+        let (cameras, pixels, sights, scene) = match made {
             Ok(made) => made,
             Err(error) => return draw_refusal(canvas, layout, &error),
         };
@@ -121,7 +121,7 @@ impl StereoSliderView {
             let place = panel.canvas_from_world((pixels[index].x, pixels[index].y));
             let mut labels = Labels::new(panel.rect);
             let style = TextStyle::new(role, TEXT).cased();
-            if !scenes::in_picture(&pixels[index]) {
+            if sights[index] == Sight::Outside {
                 let at = (panel.rect.center().0, place.1 - 16.0);
                 let text = "the ball is outside";
                 let style = TextStyle::new(Role::Ink, TEXT).cased();
@@ -133,10 +133,16 @@ impl StereoSliderView {
                     let left = panel.canvas_from_world((pixels[0].x, pixels[0].y));
                     draw_disparity(canvas, &mut labels, left, place, model.measured());
                 }
-                canvas.marker(place, MARKER, shape, role, true);
+                match sights[index] {
+                    Sight::Clear => canvas.marker(place, MARKER, shape, role, true),
+                    _ => canvas.hollow_marker(place, MARKER, shape, role, true),
+                }
             });
             labels.keep_free(place, 6.0);
-            let text = format!("u = {}", format_number(pixels[index].x, 1));
+            let text = match sights[index] {
+                Sight::Hidden(by) => format!("hidden by {by}"),
+                _ => format!("u = {}", format_number(pixels[index].x, 1)),
+            };
             let above = ((place.0, place.1 - 19.0), Align::Middle);
             let higher = ((place.0, place.1 - 36.0), Align::Middle);
             labels.draw(canvas, &[above, higher], &text, style);
@@ -192,12 +198,12 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
     canvas.panel(rect);
     let at = |x: f64, z: f64| panel.canvas_from_world((x, z));
     let inner = rect.inset(1.0);
-    canvas.clipped(inner, |canvas| draw_grid(canvas, panel));
+    let mut labels = Labels::new(rect.inset(2.0));
+    canvas.clipped(inner, |canvas| draw_grid(canvas, panel, &mut labels));
 
     let (x_m, z_m) = model.object_m();
     let baseline_m = model.baseline_m();
     let measured = model.measured();
-    let mut labels = Labels::new(rect.inset(2.0));
     canvas.clipped(inner, |canvas| {
         if let Some(measured) = measured {
             draw_uncertainty(canvas, panel, model, measured);
@@ -232,12 +238,12 @@ fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
     }
 }
 
-fn draw_grid(canvas: &mut Canvas, panel: &Panel) {
+fn draw_grid(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels) {
     let rect = panel.rect;
     let (left, far) = panel.canvas_from_world((TABLE_M[0], TABLE_M[3]));
     let (right, near) = panel.canvas_from_world((TABLE_M[1], TABLE_M[2]));
     let table = Rect::new(left, far, right - left, near - far);
-    canvas.fill_rect(table, Role::Grid, 0.45);
+    canvas.fill_rect(table, Role::Grid, 0.35);
     let style = TextStyle::new(Role::Muted, SMALL);
     let place = (
         right - 8.0,
