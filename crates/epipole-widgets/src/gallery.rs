@@ -1,9 +1,10 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-use crate::contract::{Model, Problem, View};
+use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 mod epipolar_click;
+pub mod harris;
 pub mod ransac_race;
 mod stereo_slider;
 
@@ -16,11 +17,13 @@ pub struct Entry {
     /// What a reader can do with it.
     pub help: &'static str,
     pub(crate) make: fn() -> Box<dyn Stage>,
+    pub(crate) compute: fn(&[u8], Progress<'_>) -> JobResult,
 }
 
 /// Every figure, in the order of the book.
 pub static FIGURES: &[Entry] = &[
     entry::<epipolar_click::EpipolarClickView>(),
+    entry::<harris::View>(),
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
 ];
@@ -31,6 +34,7 @@ const fn entry<V: View>() -> Entry {
         title: V::Model::TITLE,
         help: V::Model::HELP,
         make: stage::set_up::<V>,
+        compute: stage::compute::<V>,
     }
 }
 
@@ -53,7 +57,7 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
-#[path = "../scaffold/figure.rs"]
+#[path = "../scaffold/mod.rs"]
 pub mod new_figure;
 
 #[cfg(test)]

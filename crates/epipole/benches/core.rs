@@ -31,7 +31,11 @@ fn line(criterion: &mut Criterion) {
     let points: Vec<Point2<f64>> = (0..200)
         .map(|index| {
             let u = random.uniform(0.0, 640.0);
-            let v = if index % 10 < 7 { 0.3 * u + random.normal() } else { random.uniform(0.0, 400.0) };
+            let v = if index % 10 < 7 {
+                0.3 * u + random.normal()
+            } else {
+                random.uniform(0.0, 400.0)
+            };
             Point2::new(u, v)
         })
         .collect();
@@ -46,7 +50,10 @@ fn line(criterion: &mut Criterion) {
 fn two_cameras(criterion: &mut Criterion) {
     let camera1 = still_life_camera(640, 480);
     let cam_from_world = Translation3::new(-0.3, 0.0, -0.2) * camera1.cam_from_world;
-    let camera2 = Camera { cam_from_world, ..camera1 };
+    let camera2 = Camera {
+        cam_from_world,
+        ..camera1
+    };
     criterion.bench_function("epipolar/fundamental-from-cameras", |bencher| {
         bencher.iter(|| fundamental_from_cameras(black_box(&camera1), black_box(&camera2)));
     });
