@@ -68,4 +68,24 @@ pub enum Error {
         /// Samples drawn.
         iterations: usize,
     },
+    /// Bytes that are no image, or not a whole one.
+    #[error("the image cannot be read: {why}")]
+    BadImage {
+        /// What is wrong, in words.
+        why: String,
+    },
+    /// An image with more pixels than the caller allows.
+    #[error("the image has {got} pixels, more than the limit of {limit}")]
+    TooManyPixels {
+        /// Width times height.
+        got: u64,
+        /// The limit, which the caller may raise.
+        limit: u64,
+    },
+    /// The caller asked to stop.
+    #[error("the work was cancelled")]
+    Cancelled,
+    /// The caller's progress callback asked to stop.
+    #[error("the computation was canceled")]
+    Canceled,
 }

@@ -6,14 +6,18 @@
 //! |---|---|
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
+//! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`robust`] | the RANSAC engine; lines and similarities |
+//! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | depth from disparity |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
 //!
@@ -30,12 +34,15 @@ pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
 pub mod homography;
+pub mod feature;
+pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
 pub mod stereo;
 pub mod triangulation;
 pub mod two_view;
+pub mod synthetic;
 
 pub use absolute_pose::find_absolute_pose;
 pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};

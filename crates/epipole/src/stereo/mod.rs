@@ -1,5 +1,22 @@
-//! Depth from two photographs taken side by side.
+//! Two photographs taken side by side: dense disparity and depth.
 
+mod block_matching;
+mod clean;
 mod depth;
+mod disparity_image;
+mod matching_cost;
+mod paths;
+mod prefilter;
+mod search;
+mod semi_global;
+mod simd;
+mod winner;
 
+pub use block_matching::StereoBm;
+pub use clean::remove_speckles;
 pub use depth::{DepthInterval, depth_from_disparity, depth_interval};
+pub use disparity_image::DisparityImage;
+pub use matching_cost::StereoCost;
+pub use prefilter::StereoPrefilter;
+pub use search::Progress;
+pub use semi_global::{StereoPaths, StereoSgm};

@@ -1,0 +1,72 @@
+# Every command a person types. `make serve` and `make test` install what they need.
+
+PORT ?= 8000
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+BOOK := cargo run --quiet -p epipole-book --
+
+.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless new-figure clean
+
+help: ## says what there is
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: setup-build setup-test ## installs what building and testing need
+
+serve: setup-build ## builds the book, serves it at http://localhost:$(PORT), rebuilds when files change
+	$(BOOK) serve --port $(PORT)
+
+build: setup-build ## builds the static site in target/book/
+	$(BOOK) build
+
+test: setup check test-rust test-listings test-browser ## runs every test
+
+check: setup-build ## format, lints and types, without running anything
+	cargo fmt --all --check
+	cargo clippy --quiet --workspace --all-targets -- -D warnings
+	cd web && npm run --silent check
+	@command -v cargo-deny >/dev/null && cargo deny --log-level error check licenses bans sources || echo "skipped: cargo deny is not installed"
+
+test-rust: setup-build ## unit tests, documentation tests, figures, layers
+	cargo test --workspace
+
+test-listings: setup-test ## the Python listings of the chapters
+	$(PYTHON) tests/listings/run.py
+
+test-browser: setup ## the book and the figures in a real browser
+	$(BOOK) build
+	cd tests/browser && npm test --silent
+
+bench: setup ## us and our peers on the same work
+	tests/bench.sh
+
+bless: setup-build ## makes the golden images anew; commit them alone, with the reason
+	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
+
+new-figure: ## writes a new figure: make new-figure NAME=two-cameras
+	@crates/epipole-widgets/scaffold/new-figure.sh "$(NAME)"
+
+clean: ## removes everything that was built or installed here
+	cargo clean
+	rm -rf web/node_modules tests/browser/node_modules $(VENV)
+
+setup-build: web/node_modules/.installed
+	@tests/tools/need.sh cargo rustup node npm
+	@rustup target list --installed | grep -q wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
+
+setup-test: setup-build tests/browser/node_modules/.installed $(VENV)/.installed
+	@tests/tools/chromium.sh >/dev/null
+
+web/node_modules/.installed: web/package-lock.json
+	@tests/tools/need.sh cargo rustup node npm
+	cd web && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+tests/browser/node_modules/.installed: tests/browser/package-lock.json
+	cd tests/browser && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+$(VENV)/.installed: tests/listings/requirements.txt
+	@tests/tools/need.sh python3
+	python3 -m venv $(VENV)
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check -r tests/listings/requirements.txt
+	@touch $@

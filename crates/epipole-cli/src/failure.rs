@@ -1,0 +1,61 @@
+//! Why a command could not do its work.
+
+use std::fmt;
+
+/// A kind that scripts can test and a sentence that people can read.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Failure {
+    pub(crate) kind: &'static str,
+    pub(crate) message: String,
+}
+
+impl Failure {
+    pub(crate) fn new(kind: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            kind,
+            message: message.into(),
+        }
+    }
+
+    /// The same failure, naming the file that it is about.
+    pub(crate) fn about(self, path: &std::path::Path) -> Self {
+        Self {
+            message: format!("{}: {}", path.display(), self.message),
+            ..self
+        }
+    }
+
+    /// `{"error": {"kind", "message"}}`.
+    pub(crate) fn to_json(&self) -> String {
+        let error = serde_json::json!({ "kind": self.kind, "message": self.message });
+        serde_json::json!({ "error": error }).to_string()
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.message.fmt(f)
+    }
+}
+
+impl From<epipole::Error> for Failure {
+    fn from(error: epipole::Error) -> Self {
+        use epipole::Error as E;
+        let kind = match error {
+            E::TooFew { .. } => "too-few",
+            E::NotFinite { .. } => "not-finite",
+            E::OutOfRange { .. } => "out-of-range",
+            E::Degenerate { .. } => "degenerate",
+            E::SizeMismatch { .. } => "size-mismatch",
+            E::NoConsensus { .. } => "no-consensus",
+            _ => "failed",
+        };
+        Self::new(kind, error.to_string())
+    }
+}
+
+impl From<epipole_widgets::contract::Problem> for Failure {
+    fn from(problem: epipole_widgets::contract::Problem) -> Self {
+        Self::new("figure", problem.to_string())
+    }
+}

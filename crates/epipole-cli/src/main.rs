@@ -1,0 +1,107 @@
+//! The command line `epipole`: features, matches, two-view geometry, stereo, structure from motion
+//! and the book's figures, from files to a table or to JSON.
+//!
+//! Standard output carries the result and nothing else; warnings and progress go to standard
+//! error. Exit status: 0 done, 1 could not do it, 2 wrong usage.
+
+mod commands;
+mod context;
+mod failure;
+mod features;
+mod files;
+mod photo;
+mod picture;
+mod progress;
+mod report;
+
+use clap::Parser;
+use commands::Command;
+use context::Context;
+use failure::Failure;
+use report::Report;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Multi-view geometry on your own photographs.
+#[derive(Debug, Parser)]
+#[command(name = "epipole", version, propagate_version = true)]
+struct Cli {
+    /// Print exactly one JSON object on standard output.
+    #[arg(long, global = true)]
+    json: bool,
+    /// Print no progress and no warnings.
+    #[arg(long, global = true)]
+    quiet: bool,
+    /// Seed of every random choice; equal seeds give equal results.
+    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    seed: u64,
+    /// Number of threads; all processors if not given.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return wrong_usage(&error),
+    };
+    let context = Context {
+        quiet: cli.quiet,
+        seed: cli.seed,
+    };
+    let start = Instant::now();
+    let outcome = set_threads(cli.threads).and_then(|()| cli.command.run(&context));
+    let time_ms = start.elapsed().as_secs_f64() * 1e3;
+    match outcome {
+        Ok(report) => print_report(report, time_ms, cli.json),
+        Err(failure) => {
+            print_failure(&failure, cli.json);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Help and version go where they belong; under `--json` a usage error is JSON too.
+fn wrong_usage(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() && std::env::args().any(|argument| argument == "--json") {
+        let message = error.to_string();
+        print_failure(
+            &Failure::new("usage", message.trim_start_matches("error: ").trim()),
+            true,
+        );
+    } else if error.print().is_err() {
+        return ExitCode::FAILURE;
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let threads = usize::from(threads.unwrap_or(0));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
+    pool.map_err(|error| Failure::new("threads", format!("the threads cannot be started: {error}")))
+}
+
+fn print_report(report: Report, time_ms: f64, json: bool) -> ExitCode {
+    let text = if json {
+        report.into_json(time_ms)
+    } else {
+        report.into_table(time_ms)
+    };
+    match files::print(&text) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
+fn print_failure(failure: &Failure, json: bool) {
+    if json {
+        // Nobody is left to tell if standard output is closed; the exit status still says it.
+        let _ = files::print(&failure.to_json());
+    } else {
+        eprintln!("error: {}", failure.message);
+    }
+}

@@ -1,0 +1,19 @@
+//! Challenges: goals that the reader reaches by operating the figure.
+
+use super::event::Event;
+
+/// A goal, how to know that it is reached, and one way to reach it.
+///
+/// A test proves for every challenge that the default state fails it and the solution solves it.
+pub struct Challenge<M> {
+    /// Permanent name.
+    pub id: &'static str,
+    /// The goal as a request to the reader.
+    pub goal: &'static str,
+    /// A nudge for a reader who is stuck.
+    pub hint: &'static str,
+    /// Whether the present state reaches the goal.
+    pub check: fn(&M) -> bool,
+    /// Events that lead from the default state to the goal.
+    pub solution: fn() -> Vec<Event>,
+}

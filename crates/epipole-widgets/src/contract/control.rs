@@ -1,0 +1,254 @@
+//! Controls: what a reader sets beside the picture. Each becomes a native input of the page.
+
+use super::readout::format_number;
+use serde::Serialize;
+
+/// A number that the reader slides.
+#[derive(Debug, PartialEq)]
+pub struct Slider {
+    /// Permanent name: attribute, URL parameter and property.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// Unit after the value, such as "m"; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Distance between neighboring values, counted from `min`.
+    pub step: f64,
+    /// Value at the start; it must make the figure's point.
+    pub default: f64,
+    /// Digits after the decimal point, enough to tell neighboring values apart.
+    pub digits: usize,
+    /// False keeps it out of the page: it is then part of the permalink only.
+    pub visible: bool,
+}
+
+/// Something that is on or off.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Toggle {
+    /// Permanent name.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// State at the start.
+    pub default: bool,
+}
+
+/// One of a few named options.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Permanent name.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// Permanent name and label of each option.
+    pub options: &'static [(&'static str, &'static str)],
+    /// Index of the option at the start.
+    pub default: usize,
+}
+
+/// Something that happens when pressed.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Button {
+    /// Permanent name.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// What kind of action it is.
+    pub role: ButtonRole,
+}
+
+/// What pressing a button does, so that a page can place and mark it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ButtonRole {
+    /// Starts and stops an animation.
+    Run,
+    /// One step of it.
+    Step,
+    /// Back to the start of it.
+    Restart,
+    /// Anything else.
+    Action,
+}
+
+/// A control with its present value: what a page needs to show it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Control {
+    /// Permanent name.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// Kind, range and value.
+    #[serde(flatten)]
+    pub kind: ControlKind,
+    /// The value in words for a screen reader, such as "0.30 m".
+    pub value_text: String,
+    /// False when it can do nothing now; it stays discoverable.
+    pub enabled: bool,
+    /// False keeps it out of the page.
+    pub visible: bool,
+}
+
+/// The four kinds of control.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum ControlKind {
+    /// A number in steps.
+    Slider {
+        /// Unit after the value.
+        unit: &'static str,
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+        /// Distance between neighboring values.
+        step: f64,
+        /// Value at the start.
+        default: f64,
+        /// Digits after the decimal point.
+        digits: usize,
+        /// Present value.
+        value: f64,
+    },
+    /// On or off.
+    Toggle {
+        /// State at the start.
+        default: bool,
+        /// Present state.
+        value: bool,
+    },
+    /// One of several.
+    Choice {
+        /// Permanent name and label of each option.
+        options: &'static [(&'static str, &'static str)],
+        /// Permanent name of the option at the start.
+        default: &'static str,
+        /// Permanent name of the present option.
+        value: &'static str,
+    },
+    /// An action.
+    Button {
+        /// What pressing it does.
+        role: ButtonRole,
+        /// True while the animation that it starts is running.
+        pressed: bool,
+    },
+}
+
+impl Slider {
+    /// The nearest value on the slider's grid.
+    pub fn snap(&self, value: f64) -> f64 {
+        let steps = ((value.clamp(self.min, self.max) - self.min) / self.step).round();
+        // The last step may be shorter; printing and reading `digits` digits gives this number.
+        round_to_digits((self.min + steps * self.step).min(self.max), self.digits)
+    }
+
+    pub(super) fn with_value(&'static self, value: f64) -> Control {
+        let number = format_number(value, self.digits);
+        Control {
+            id: self.id,
+            label: self.label,
+            value_text: if self.unit.is_empty() {
+                number
+            } else {
+                format!("{number} {}", self.unit)
+            },
+            kind: ControlKind::Slider {
+                unit: self.unit,
+                min: self.min,
+                max: self.max,
+                step: self.step,
+                default: self.default,
+                digits: self.digits,
+                value,
+            },
+            enabled: true,
+            visible: self.visible,
+        }
+    }
+}
+
+impl Toggle {
+    pub(super) fn with_value(&'static self, value: bool) -> Control {
+        Control {
+            id: self.id,
+            label: self.label,
+            value_text: if value { "on" } else { "off" }.to_owned(),
+            kind: ControlKind::Toggle {
+                default: self.default,
+                value,
+            },
+            enabled: true,
+            visible: true,
+        }
+    }
+}
+
+impl Choice {
+    pub(super) fn with_value(&'static self, index: usize) -> Control {
+        Control {
+            id: self.id,
+            label: self.label,
+            value_text: self.options[index].1.to_owned(),
+            kind: ControlKind::Choice {
+                options: self.options,
+                default: self.options[self.default].0,
+                value: self.options[index].0,
+            },
+            enabled: true,
+            visible: true,
+        }
+    }
+}
+
+impl Button {
+    /// The button as a control; `pressed` while the animation that it starts is running.
+    pub fn control(&'static self, enabled: bool, pressed: bool) -> Control {
+        Control {
+            id: self.id,
+            label: self.label,
+            value_text: String::new(),
+            kind: ControlKind::Button {
+                role: self.role,
+                pressed,
+            },
+            enabled,
+            visible: true,
+        }
+    }
+}
+
+/// `value` with `digits` digits after the decimal point: what printing and reading it gives.
+pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
+    // Parsing cannot fail on a number that `format!` has just written.
+    format!("{value:.digits$}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLIDER: Slider = Slider {
+        id: "baseline",
+        label: "Baseline",
+        unit: "m",
+        min: 0.05,
+        max: 0.5,
+        step: 0.1,
+        default: 0.25,
+        digits: 2,
+        visible: true,
+    };
+
+    #[test]
+    fn values_snap_to_the_grid_and_stay_in_range() {
+        assert_eq!(SLIDER.snap(0.26), 0.25);
+        assert_eq!(SLIDER.snap(-3.0), 0.05);
+        assert_eq!(SLIDER.snap(9.0), 0.5);
+        assert_eq!(SLIDER.snap(0.149_999), 0.15);
+    }
+}

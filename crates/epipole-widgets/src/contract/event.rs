@@ -1,0 +1,105 @@
+//! Events: the only way that a figure's state changes.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Something that the reader, a permalink or the passing of time does to a figure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum Event {
+    /// A slider, toggle or choice takes a value.
+    Set {
+        /// The control.
+        id: String,
+        /// Its new value.
+        value: Value,
+    },
+    /// A button is pressed.
+    Press {
+        /// The control.
+        id: String,
+    },
+    /// A handle is moved, by mouse, finger or arrow keys.
+    HandleMoved {
+        /// The handle.
+        id: String,
+        /// New place in the world units of its panel.
+        x: f64,
+        /// New place in the world units of its panel.
+        y: f64,
+    },
+    /// A removable handle is removed.
+    HandleRemoved {
+        /// The handle.
+        id: String,
+    },
+    /// A click or tap in a panel, on no handle.
+    Clicked {
+        /// The panel.
+        panel: String,
+        /// Place in the panel's world units.
+        x: f64,
+        /// Place in the panel's world units.
+        y: f64,
+    },
+    /// Time passes while an animation is running.
+    Tick {
+        /// Seconds since the last tick.
+        dt_s: f64,
+    },
+    /// Everything returns to the defaults.
+    Reset,
+}
+
+/// The value of a control, as written in an attribute or a URL, or as a page's input gives it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// On or off.
+    Flag(bool),
+    /// A slider's value.
+    Number(f64),
+    /// The text of any value.
+    Text(String),
+}
+
+impl Value {
+    /// The value as a finite number.
+    pub fn number(&self) -> Option<f64> {
+        let number = match self {
+            Self::Number(number) => *number,
+            Self::Text(text) => text.trim().parse().ok()?,
+            Self::Flag(_) => return None,
+        };
+        number.is_finite().then_some(number)
+    }
+
+    /// The value as on or off; an attribute without a value is on.
+    pub fn flag(&self) -> Option<bool> {
+        match self {
+            Self::Flag(flag) => Some(*flag),
+            Self::Number(_) => None,
+            Self::Text(text) => match text.trim() {
+                "" | "true" | "on" | "1" => Some(true),
+                "false" | "off" | "0" => Some(false),
+                _ => None,
+            },
+        }
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flag(flag) => flag.fmt(f),
+            Self::Number(number) => number.fmt(f),
+            Self::Text(text) => text.fmt(f),
+        }
+    }
+}

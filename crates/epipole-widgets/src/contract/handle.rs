@@ -1,0 +1,45 @@
+//! Handles: points in the picture that the reader moves.
+
+use super::control::round_to_digits;
+use serde::Serialize;
+
+/// A draggable point, in the world units of its panel.
+///
+/// A page makes each handle focusable; a drag and the arrow keys give the same event.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Handle {
+    /// Permanent name; also its URL parameter, with the value `x,y`.
+    pub id: String,
+    /// The panel that it lives in.
+    pub panel: &'static str,
+    /// What a screen reader calls it.
+    pub label: String,
+    /// Its place in words, such as "2.80 m away, 0.40 m to the right".
+    pub value_text: String,
+    /// Place, world units.
+    pub x: f64,
+    /// Place, world units.
+    pub y: f64,
+    /// Smallest and largest x.
+    pub x_range: [f64; 2],
+    /// Smallest and largest y.
+    pub y_range: [f64; 2],
+    /// How far one press of an arrow key moves it along x and y.
+    pub step: [f64; 2],
+    /// Digits after the decimal point that its place is kept with.
+    pub digits: usize,
+    /// Whether the reader may remove it.
+    pub removable: bool,
+}
+
+impl Handle {
+    /// The nearest place within its ranges, with its digits; `None` for NaN and infinities.
+    pub fn admit(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        let admit = |value: f64, [low, high]: [f64; 2]| {
+            value
+                .is_finite()
+                .then(|| round_to_digits(value.clamp(low, high), self.digits))
+        };
+        Some((admit(x, self.x_range)?, admit(y, self.y_range)?))
+    }
+}

@@ -1,0 +1,185 @@
+//! Where things are in the picture: the one transform between world units and the page.
+
+use serde::Serialize;
+
+/// An axis-parallel rectangle in CSS pixels, origin at the picture's top left corner, y down.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rect {
+    /// Left edge.
+    pub x: f64,
+    /// Top edge.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Rect {
+    /// A rectangle from its top left corner and size.
+    pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self {
+            x,
+            y,
+            width,
+            height,
+        }
+    }
+
+    /// Right edge.
+    pub fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    /// Bottom edge.
+    pub fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+
+    /// The middle.
+    pub fn center(&self) -> (f64, f64) {
+        (self.x + self.width / 2.0, self.y + self.height / 2.0)
+    }
+
+    /// Whether a point is inside or on the edge.
+    pub fn contains(&self, (x, y): (f64, f64)) -> bool {
+        (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
+    }
+
+    /// The rectangle without a margin on every side; never of negative size.
+    pub fn inset(&self, margin: f64) -> Self {
+        Self::new(
+            self.x + margin,
+            self.y + margin,
+            (self.width - 2.0 * margin).max(0.0),
+            (self.height - 2.0 * margin).max(0.0),
+        )
+    }
+}
+
+/// How one world coordinate runs along one side of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Axis {
+    /// World value at the panel's left or top edge.
+    pub start: f64,
+    /// World value at its right or bottom edge; smaller than `start` where the axis runs up.
+    pub end: f64,
+}
+
+/// A part of the picture with a world of its own: a photograph, a plot, a view from above.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Panel {
+    /// Permanent name.
+    pub id: &'static str,
+    /// Its place on the page.
+    pub rect: Rect,
+    /// World units from left to right.
+    pub x_axis: Axis,
+    /// World units from top to bottom.
+    pub y_axis: Axis,
+    /// Whether a click on no handle means something here.
+    pub clickable: bool,
+}
+
+impl Panel {
+    /// A panel that shows a photograph: world units are its pixels, centers at integers.
+    pub fn photograph(id: &'static str, rect: Rect, width_px: u32, height_px: u32) -> Self {
+        Self {
+            id,
+            rect,
+            x_axis: Axis {
+                start: -0.5,
+                end: f64::from(width_px) - 0.5,
+            },
+            y_axis: Axis {
+                start: -0.5,
+                end: f64::from(height_px) - 0.5,
+            },
+            clickable: false,
+        }
+    }
+
+    /// The place on the page of a place in the world.
+    pub fn canvas_from_world(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let along = |value: f64, axis: Axis| (value - axis.start) / (axis.end - axis.start);
+        (
+            self.rect.x + along(x, self.x_axis) * self.rect.width,
+            self.rect.y + along(y, self.y_axis) * self.rect.height,
+        )
+    }
+
+    /// The place in the world of a place on the page.
+    pub fn world_from_canvas(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let at = |axis: Axis, share: f64| axis.start + share * (axis.end - axis.start);
+        (
+            at(self.x_axis, (x - self.rect.x) / self.rect.width.max(1e-9)),
+            at(self.y_axis, (y - self.rect.y) / self.rect.height.max(1e-9)),
+        )
+    }
+
+    /// CSS pixels per world unit along x.
+    pub fn scale_x(&self) -> f64 {
+        self.rect.width / (self.x_axis.end - self.x_axis.start).abs()
+    }
+}
+
+/// The picture's size and its panels, for one width of the page.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Layout {
+    /// Width, CSS pixels.
+    pub width: f64,
+    /// Height, CSS pixels.
+    pub height: f64,
+    /// The panels; none overlap.
+    pub panels: Vec<Panel>,
+}
+
+impl Layout {
+    /// The panel of this name.
+    ///
+    /// # Panics
+    /// If the view has none; views name their own panels, and tests draw every view.
+    pub fn panel(&self, id: &str) -> &Panel {
+        self.panels
+            .iter()
+            .find(|panel| panel.id == id)
+            .expect("the view lays out this panel")
+    }
+
+    /// The panel under a place on the page.
+    pub fn panel_at(&self, place: (f64, f64)) -> Option<&Panel> {
+        self.panels.iter().find(|panel| panel.rect.contains(place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_returns_from_the_world() {
+        let panel = Panel {
+            id: "top",
+            rect: Rect::new(10.0, 20.0, 300.0, 200.0),
+            x_axis: Axis {
+                start: -1.0,
+                end: 1.0,
+            },
+            y_axis: Axis {
+                start: 5.0,
+                end: 0.0,
+            },
+            clickable: true,
+        };
+        assert_eq!(panel.canvas_from_world((0.0, 5.0)), (160.0, 20.0));
+        let (x, y) = panel.world_from_canvas(panel.canvas_from_world((0.3, 1.7)));
+        assert!((x - 0.3).abs() < 1e-12 && (y - 1.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn pixel_centers_of_a_photograph_are_inside_their_pixels() {
+        let panel = Panel::photograph("left", Rect::new(0.0, 0.0, 640.0, 480.0), 320, 240);
+        assert_eq!(panel.canvas_from_world((0.0, 0.0)), (1.0, 1.0));
+        assert_eq!(panel.canvas_from_world((319.0, 239.0)), (639.0, 479.0));
+    }
+}

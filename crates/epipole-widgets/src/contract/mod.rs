@@ -1,0 +1,27 @@
+//! What a figure promises: plain data that controls, pages, posters, permalinks, tests and the
+//! command line are all made from.
+
+mod challenge;
+mod control;
+mod event;
+mod handle;
+mod job;
+mod layout;
+mod model;
+mod problem;
+mod readout;
+mod settings;
+mod view;
+
+pub use challenge::Challenge;
+pub(crate) use control::round_to_digits;
+pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Slider, Toggle};
+pub use event::{Event, Value};
+pub use handle::Handle;
+pub use job::{Job, JobResult, PhotoSlot, Progress};
+pub use layout::{Axis, Layout, Panel, Rect};
+pub use model::Model;
+pub use problem::Problem;
+pub use readout::{Readout, ReadoutValue, format_number};
+pub use settings::{Knob, Settings};
+pub use view::View;

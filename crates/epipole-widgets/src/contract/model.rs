@@ -1,0 +1,89 @@
+//! The model of a figure: state and mathematics, no drawing and no clock.
+
+use super::{
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout,
+};
+use image::RgbImage;
+
+/// State and mathematics of a figure.
+///
+/// A model is made in its default state, which must make the figure's point without being touched.
+/// Units are those of the world (meters, pixels of the photograph), never of the screen.
+pub trait Model: Sized + 'static {
+    /// Permanent name, as in `<epipole-figure name="…">`.
+    const NAME: &'static str;
+    /// Title of the figure.
+    const TITLE: &'static str;
+    /// What a reader can do with it: pointer and keys, one or two sentences.
+    const HELP: &'static str;
+
+    /// The default state.
+    fn new() -> Self;
+
+    /// Sliders, toggles, choices and buttons with their present values.
+    fn controls(&self) -> Vec<Control>;
+
+    /// The draggable points. A handle's id must not be a control's.
+    fn handles(&self) -> Vec<Handle> {
+        Vec::new()
+    }
+
+    /// The only way that state changes. Values of controls arrive unchecked, places of handles
+    /// within their ranges and digits, clicks within their panel; a [`Event::Reset`] never
+    /// arrives, it makes a new model.
+    ///
+    /// # Errors
+    /// A sentence for the reader; the state is then as it was.
+    fn update(&mut self, event: &Event) -> Result<(), Problem>;
+
+    /// Puts back a handle that the reader had added and that the default state lacks, as told by a
+    /// permalink; false if this is no such handle or there is no room for it.
+    fn restore_handle(&mut self, _id: &str, _x: f64, _y: f64) -> bool {
+        false
+    }
+
+    /// True while the model wants [`Event::Tick`].
+    fn is_running(&self) -> bool {
+        false
+    }
+
+    /// The computation that the present state waits for; `None` once its result is there.
+    fn job(&self) -> Option<Job> {
+        None
+    }
+
+    /// Carries out a job. A function of the request alone, so that it can run anywhere.
+    ///
+    /// # Errors
+    /// A sentence for the reader, also when `progress` ended it.
+    fn compute(_request: &[u8], _progress: Progress<'_>) -> JobResult {
+        Ok(Vec::new())
+    }
+
+    /// Takes the result of the job that the model waits for; never that of an older one.
+    fn job_done(&mut self, _result: JobResult) {}
+
+    /// Places for photographs of the reader's own.
+    fn photo_slots(&self) -> &'static [PhotoSlot] {
+        &[]
+    }
+
+    /// Takes the reader's own photograph. It is not part of the permalink.
+    ///
+    /// # Errors
+    /// A sentence for the reader if it cannot be used; the state is then as it was.
+    fn take_photo(&mut self, _slot: &str, _photo: RgbImage) -> Result<(), Problem> {
+        Ok(())
+    }
+
+    /// The numbers beside the picture. Every number is finite.
+    fn readouts(&self) -> Vec<Readout>;
+
+    /// What the figure shows now, in one or two plain sentences.
+    fn describe(&self) -> String;
+
+    /// Goals for the reader.
+    fn challenges() -> &'static [Challenge<Self>] {
+        &[]
+    }
+}

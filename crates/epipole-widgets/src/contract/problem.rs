@@ -1,0 +1,48 @@
+//! What can go wrong between a reader and a figure, in sentences.
+
+/// Why a figure could not do what it was asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// No figure has this name.
+    #[error("there is no figure \"{name}\"; the figures are {known}")]
+    UnknownFigure {
+        /// The name asked for.
+        name: String,
+        /// The names that exist, comma-separated.
+        known: String,
+    },
+    /// The figure has no parameter of this name.
+    #[error("the figure {figure} has no parameter \"{name}\"; its parameters are {known}")]
+    UnknownParameter {
+        /// The figure's name.
+        figure: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names that exist, comma-separated.
+        known: String,
+    },
+    /// A value that the parameter does not take.
+    #[error("\"{value}\" is not a value of {name}: it takes {expected}")]
+    BadValue {
+        /// The parameter's name.
+        name: String,
+        /// The value given.
+        value: String,
+        /// What it takes, in words.
+        expected: String,
+    },
+    /// The picture cannot be drawn at this size.
+    #[error(
+        "a picture of {width} by {height} pixels cannot be drawn; both sides must be 1 to 8192"
+    )]
+    BadSize {
+        /// Width in device pixels.
+        width: f64,
+        /// Height in device pixels.
+        height: f64,
+    },
+    /// The mathematics behind the figure refused.
+    #[error(transparent)]
+    Core(#[from] epipole::Error),
+}

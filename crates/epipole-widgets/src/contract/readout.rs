@@ -1,0 +1,92 @@
+//! Readouts: the numbers that a figure shows beside the picture.
+
+use serde::Serialize;
+
+/// A value with its label and unit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Readout {
+    /// Permanent name.
+    pub id: &'static str,
+    /// What the reader reads.
+    pub label: &'static str,
+    /// The value.
+    pub value: ReadoutValue,
+    /// Unit after a number; empty for a pure number.
+    pub unit: &'static str,
+    /// The value as shown, with its unit.
+    pub text: String,
+}
+
+/// What a readout can say.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum ReadoutValue {
+    /// A finite number.
+    Number(f64),
+    /// Words, where a number would not do or there is none.
+    Text(String),
+}
+
+impl Readout {
+    /// A number; one that is not finite becomes the words "no value".
+    pub fn number(
+        id: &'static str,
+        label: &'static str,
+        value: f64,
+        digits: usize,
+        unit: &'static str,
+    ) -> Self {
+        if !value.is_finite() {
+            return Self::words(id, label, "no value");
+        }
+        let number = format_number(value, digits);
+        let text = if unit.is_empty() {
+            number
+        } else {
+            format!("{number} {unit}")
+        };
+        Self {
+            id,
+            label,
+            value: ReadoutValue::Number(value),
+            unit,
+            text,
+        }
+    }
+
+    /// A count.
+    pub fn count(id: &'static str, label: &'static str, value: usize) -> Self {
+        Self::number(id, label, value as f64, 0, "")
+    }
+
+    /// Words.
+    pub fn words(id: &'static str, label: &'static str, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self {
+            id,
+            label,
+            value: ReadoutValue::Text(text.clone()),
+            unit: "",
+            text,
+        }
+    }
+}
+
+/// A number as a reader reads it: fixed digits, a true minus sign, and no minus before zero.
+///
+/// ```
+/// use epipole_widgets::contract::format_number;
+/// assert_eq!(format_number(-2.345, 1), "−2.3");
+/// assert_eq!(format_number(-0.001, 2), "0.00");
+/// assert_eq!(format_number(1177.0, 0), "1177");
+/// ```
+pub fn format_number(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(magnitude) if magnitude.bytes().all(|b| b == b'0' || b == b'.') => {
+            magnitude.to_owned()
+        }
+        Some(magnitude) => format!("\u{2212}{magnitude}"),
+        None => text,
+    }
+}

@@ -1,0 +1,218 @@
+//! The present values of a model's sliders, toggles and choices.
+
+use super::control::{Choice, Control, Slider, Toggle};
+use super::event::Value;
+use super::problem::Problem;
+
+/// One entry of a model's list of settings.
+#[derive(Debug, Clone, Copy)]
+pub enum Knob {
+    /// A number.
+    Slider(&'static Slider),
+    /// On or off.
+    Toggle(&'static Toggle),
+    /// One of several.
+    Choice(&'static Choice),
+}
+
+impl Knob {
+    fn id(self) -> &'static str {
+        match self {
+            Self::Slider(slider) => slider.id,
+            Self::Toggle(toggle) => toggle.id,
+            Self::Choice(choice) => choice.id,
+        }
+    }
+}
+
+/// The values of a list of knobs, read by the knob itself, so that a misspelt name cannot compile.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    knobs: &'static [Knob],
+    /// A slider's value, 0 or 1 of a toggle, the index of a choice.
+    values: Vec<f64>,
+}
+
+impl Settings {
+    /// All knobs at their defaults.
+    pub fn new(knobs: &'static [Knob]) -> Self {
+        let default = |knob: &Knob| match knob {
+            Knob::Slider(slider) => slider.default,
+            Knob::Toggle(toggle) => f64::from(u8::from(toggle.default)),
+            Knob::Choice(choice) => choice.default as f64,
+        };
+        Self {
+            knobs,
+            values: knobs.iter().map(default).collect(),
+        }
+    }
+
+    fn raw(&self, id: &str) -> f64 {
+        let index = self.knobs.iter().position(|knob| knob.id() == id);
+        // A knob outside the model's list is a mistake of the model; every model is built in tests.
+        self.values[index.expect("the knob is in the model's list")]
+    }
+
+    /// A slider's value.
+    pub fn number(&self, slider: &'static Slider) -> f64 {
+        self.raw(slider.id)
+    }
+
+    /// A slider's value as a count.
+    pub fn count(&self, slider: &'static Slider) -> usize {
+        self.raw(slider.id).max(0.0) as usize
+    }
+
+    /// Whether a toggle is on.
+    pub fn flag(&self, toggle: &'static Toggle) -> bool {
+        self.raw(toggle.id) != 0.0
+    }
+
+    /// The index of the chosen option.
+    pub fn chosen(&self, choice: &'static Choice) -> usize {
+        self.raw(choice.id) as usize
+    }
+
+    /// The knobs with their values, in the model's order.
+    pub fn controls(&self) -> Vec<Control> {
+        let control = |(knob, value): (&Knob, &f64)| match knob {
+            Knob::Slider(slider) => slider.with_value(*value),
+            Knob::Toggle(toggle) => toggle.with_value(*value != 0.0),
+            Knob::Choice(choice) => choice.with_value(*value as usize),
+        };
+        self.knobs.iter().zip(&self.values).map(control).collect()
+    }
+
+    /// Sets one knob; a slider's value is snapped to its grid. Says whether anything changed.
+    ///
+    /// # Errors
+    /// [`Problem::BadValue`] for a value of the wrong kind, outside the range or not finite.
+    /// An `id` that is not in the list is no error: `Ok(None)`.
+    pub fn set(&mut self, id: &str, value: &Value) -> Result<Option<bool>, Problem> {
+        let Some(index) = self.knobs.iter().position(|knob| knob.id() == id) else {
+            return Ok(None);
+        };
+        let bad = |expected: String| Problem::BadValue {
+            name: id.to_owned(),
+            value: value.to_string(),
+            expected,
+        };
+        let new = match self.knobs[index] {
+            Knob::Slider(slider) => {
+                let expected = || {
+                    let unit = if slider.unit.is_empty() { "" } else { " " };
+                    format!(
+                        "a number from {} to {}{unit}{}",
+                        slider.min, slider.max, slider.unit
+                    )
+                };
+                let number = value.number().ok_or_else(|| bad(expected()))?;
+                // Half a step of grace: a permalink may hold a rounded value.
+                let grace = slider.step / 2.0;
+                if !(slider.min - grace..=slider.max + grace).contains(&number) {
+                    return Err(bad(expected()));
+                }
+                slider.snap(number)
+            }
+            Knob::Toggle(_) => {
+                let flag = value
+                    .flag()
+                    .ok_or_else(|| bad("true or false".to_owned()))?;
+                f64::from(u8::from(flag))
+            }
+            Knob::Choice(choice) => {
+                let name = value.to_string();
+                let index = choice.options.iter().position(|option| option.0 == name);
+                index.ok_or_else(|| {
+                    let names: Vec<&str> = choice.options.iter().map(|option| option.0).collect();
+                    bad(names.join(" or "))
+                })? as f64
+            }
+        };
+        let changed = self.values[index] != new;
+        self.values[index] = new;
+        Ok(Some(changed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COUNT: Slider = Slider {
+        id: "count",
+        label: "Points",
+        unit: "",
+        min: 2.0,
+        max: 10.0,
+        step: 1.0,
+        default: 5.0,
+        digits: 0,
+        visible: true,
+    };
+    const NOISE: Toggle = Toggle {
+        id: "noise",
+        label: "Noise",
+        default: true,
+    };
+    const METHOD: Choice = Choice {
+        id: "method",
+        label: "Method",
+        options: &[("bm", "Block matching"), ("sgm", "Semi-global")],
+        default: 1,
+    };
+    const KNOBS: &[Knob] = &[
+        Knob::Slider(&COUNT),
+        Knob::Toggle(&NOISE),
+        Knob::Choice(&METHOD),
+    ];
+
+    #[test]
+    fn every_kind_is_set_and_read() {
+        let mut settings = Settings::new(KNOBS);
+        assert_eq!(settings.set("count", &Value::Number(7.2)), Ok(Some(true)));
+        assert_eq!(settings.set("noise", &Value::from("false")), Ok(Some(true)));
+        assert_eq!(settings.set("method", &Value::from("bm")), Ok(Some(true)));
+        assert_eq!(settings.set("method", &Value::from("bm")), Ok(Some(false)));
+        assert_eq!(settings.set("other", &Value::from("bm")), Ok(None));
+        assert_eq!(settings.count(&COUNT), 7);
+        assert!(!settings.flag(&NOISE));
+        assert_eq!(settings.chosen(&METHOD), 0);
+    }
+
+    #[test]
+    fn bad_values_are_named_with_what_is_taken() {
+        let mut settings = Settings::new(KNOBS);
+        for (id, value, sentence) in [
+            (
+                "count",
+                "many",
+                "\"many\" is not a value of count: it takes a number from 2 to 10",
+            ),
+            (
+                "count",
+                "11",
+                "\"11\" is not a value of count: it takes a number from 2 to 10",
+            ),
+            (
+                "count",
+                "NaN",
+                "\"NaN\" is not a value of count: it takes a number from 2 to 10",
+            ),
+            (
+                "noise",
+                "maybe",
+                "\"maybe\" is not a value of noise: it takes true or false",
+            ),
+            (
+                "method",
+                "fast",
+                "\"fast\" is not a value of method: it takes bm or sgm",
+            ),
+        ] {
+            let problem = settings.set(id, &Value::from(value)).unwrap_err();
+            assert_eq!(problem.to_string(), sentence);
+        }
+        assert_eq!(settings.count(&COUNT), 5, "a refused value changes nothing");
+    }
+}

@@ -1,0 +1,637 @@
+//! Points on a hidden line among outliers; least squares and the core's own RANSAC, sample by
+//! sample.
+//!
+//! The state is the settings, the points and how many samples have been drawn. Everything else is
+//! computed from these anew after each event: a run of a few hundred samples takes well under a
+//! millisecond, and so a permalink replays exactly.
+
+use crate::contract::{
+    Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
+    Slider, Value, format_number, round_to_digits,
+};
+use epipole::math::{Line2, random::Random};
+use epipole::robust::{
+    Budget, LineEstimator, Ransac, RansacOptions, ScoreKind, Step, fit_line_total_least_squares,
+};
+use nalgebra::Point2;
+
+/// The plane that the points lie in, pixels.
+pub(super) const WIDTH_PX: f64 = 640.0;
+/// The plane that the points lie in, pixels.
+pub(super) const HEIGHT_PX: f64 = 400.0;
+/// Standard deviation of a good point's distance from the true line.
+const NOISE_PX: f64 = 4.0;
+const CONFIDENCE: f64 = 0.99;
+const MAX_SAMPLES: usize = 500;
+const MAX_ADDED: usize = 24;
+const SAMPLES_PER_SECOND: f64 = 4.0;
+/// Places of points are kept to a tenth of a pixel.
+const DIGITS: usize = 1;
+
+const OUTLIERS: Slider = Slider {
+    id: "outliers",
+    label: "Share of outliers",
+    unit: "",
+    min: 0.0,
+    max: 0.9,
+    step: 0.05,
+    default: 0.4,
+    digits: 2,
+    visible: true,
+};
+const EPSILON: Slider = Slider {
+    id: "epsilon",
+    label: "Threshold ε",
+    unit: "px",
+    min: 2.0,
+    max: 40.0,
+    step: 1.0,
+    default: 10.0,
+    digits: 0,
+    visible: true,
+};
+const COUNT: Slider = Slider {
+    id: "points",
+    label: "Number of points",
+    unit: "",
+    min: 8.0,
+    max: 120.0,
+    step: 2.0,
+    default: 60.0,
+    digits: 0,
+    visible: true,
+};
+const SEED: Slider = Slider {
+    id: "seed",
+    label: "Seed",
+    unit: "",
+    min: 1.0,
+    max: 99.0,
+    step: 1.0,
+    default: 7.0,
+    digits: 0,
+    visible: true,
+};
+const ITERATIONS: Slider = Slider {
+    id: "iterations",
+    label: "Samples drawn",
+    unit: "",
+    min: 0.0,
+    max: MAX_SAMPLES as f64,
+    step: 1.0,
+    default: 9.0,
+    digits: 0,
+    visible: false,
+};
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&OUTLIERS),
+    Knob::Slider(&EPSILON),
+    Knob::Slider(&COUNT),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ITERATIONS),
+];
+
+const RUN: Button = Button {
+    id: "run",
+    label: "Run",
+    role: ButtonRole::Run,
+};
+const STEP: Button = Button {
+    id: "step",
+    label: "Step",
+    role: ButtonRole::Step,
+};
+const RESTART: Button = Button {
+    id: "restart",
+    label: "Start over",
+    role: ButtonRole::Restart,
+};
+
+/// A point and where it came from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Datum {
+    /// Number in its name, from 1.
+    pub(super) number: usize,
+    pub(super) place: Point2<f64>,
+    pub(super) added: bool,
+}
+
+/// The last sample and its line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Candidate {
+    /// Indices into the points.
+    pub(super) sample: Vec<usize>,
+    pub(super) line: Option<Line2>,
+    pub(super) is_inlier: Vec<bool>,
+}
+
+/// The largest consensus so far.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Best {
+    /// Total least squares through the consensus.
+    pub(super) line: Line2,
+    pub(super) is_inlier: Vec<bool>,
+    pub(super) num_inliers: usize,
+}
+
+/// What follows from the settings, the points and the number of samples.
+#[derive(Debug, Clone, Default)]
+struct Outcome {
+    least_squares: Option<Line2>,
+    candidate: Option<Candidate>,
+    best: Option<Best>,
+    /// Samples really drawn: no more than the budget asked for.
+    iterations: usize,
+    budget: Option<u64>,
+    finished: bool,
+    /// Why there is no run, as a sentence.
+    problem: Option<String>,
+}
+
+/// The model of `ransac-race`.
+pub struct RansacRace {
+    settings: Settings,
+    truth: Line2,
+    data: Vec<Datum>,
+    outcome: Outcome,
+    running: bool,
+    since_sample_s: f64,
+}
+
+impl RansacRace {
+    pub(super) fn data(&self) -> &[Datum] {
+        &self.data
+    }
+
+    pub(super) fn truth(&self) -> &Line2 {
+        &self.truth
+    }
+
+    pub(super) fn least_squares(&self) -> Option<&Line2> {
+        self.outcome.least_squares.as_ref()
+    }
+
+    pub(super) fn candidate(&self) -> Option<&Candidate> {
+        self.outcome.candidate.as_ref()
+    }
+
+    pub(super) fn best(&self) -> Option<&Best> {
+        self.outcome.best.as_ref()
+    }
+
+    pub(super) fn finished(&self) -> bool {
+        self.outcome.finished
+    }
+
+    pub(super) fn epsilon_px(&self) -> f64 {
+        self.settings.number(&EPSILON)
+    }
+
+    pub(super) fn problem(&self) -> Option<&str> {
+        self.outcome.problem.as_deref()
+    }
+
+    /// New points on a new hidden line; what the reader had moved or added is gone.
+    fn scatter(&mut self) {
+        let mut random = Random::new(self.settings.count(&SEED) as u64);
+        let count = self.settings.count(&COUNT);
+        let num_outliers = (self.settings.number(&OUTLIERS) * count as f64).round() as usize;
+        let place = |u: f64, v: f64| {
+            let keep =
+                |value: f64, size: f64| round_to_digits(value.clamp(4.0, size - 4.0), DIGITS);
+            Point2::new(keep(u, WIDTH_PX), keep(v, HEIGHT_PX))
+        };
+        let angle = random.uniform(-0.42, 0.42);
+        let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+        let middle_v = HEIGHT_PX / 2.0 + random.uniform(-50.0, 50.0);
+        let middle = Point2::new(WIDTH_PX / 2.0, middle_v);
+        self.truth = Line2 {
+            a: -sin,
+            b: cos,
+            c: sin * middle.x - cos * middle.y,
+        };
+        let mut places = Vec::with_capacity(count);
+        for _ in num_outliers..count {
+            let along = random.uniform(-0.46, 0.46) * WIDTH_PX;
+            let across = NOISE_PX * random.normal();
+            places.push(place(
+                middle.x + along * cos - across * sin,
+                middle.y + along * sin + across * cos,
+            ));
+        }
+        for _ in 0..num_outliers {
+            // Half of the outliers anywhere, half on one side, as a repeated pattern gives them.
+            let (u, v) = (random.unit(), random.unit());
+            let side = random.unit() < 0.5;
+            let (u, v) = if side {
+                (0.55 + 0.42 * u, 0.04 + 0.3 * v)
+            } else {
+                (u, v)
+            };
+            let v = if side && sin < 0.0 { 1.0 - v } else { v };
+            places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
+        }
+        let datum = |(index, place)| Datum {
+            number: index + 1,
+            place,
+            added: false,
+        };
+        self.data = places.into_iter().enumerate().map(datum).collect();
+    }
+
+    /// Fits both ways to the present points and replays the samples.
+    fn compute(&mut self) {
+        let places: Vec<Point2<f64>> = self.data.iter().map(|datum| datum.place).collect();
+        let mut outcome = Outcome::default();
+        match fit_line_total_least_squares(&places) {
+            Ok(line) => outcome.least_squares = Some(line),
+            Err(error) => outcome.problem = Some(format!("There is no fit: {error}.")),
+        }
+        let options = RansacOptions {
+            max_error_px: self.epsilon_px(),
+            confidence: CONFIDENCE,
+            min_iterations: 1,
+            max_iterations: MAX_SAMPLES,
+            seed: self.settings.count(&SEED) as u64,
+            score: ScoreKind::InlierCount,
+            budget: Budget::WithReplacement,
+            // The reader sees the plain loop: candidates come straight from two points.
+            local_optimization: false,
+            score_every_trial: true,
+            ..RansacOptions::default()
+        };
+        let run = LineEstimator::new(places.clone()).and_then(|e| Ransac::new(e, options));
+        match run {
+            Ok(mut run) => self.replay(&mut run, &places, &mut outcome),
+            Err(error) => outcome.problem = Some(format!("There is no fit: {error}.")),
+        }
+        self.outcome = outcome;
+    }
+
+    fn replay(
+        &self,
+        run: &mut Ransac<LineEstimator<'_>>,
+        places: &[Point2<f64>],
+        outcome: &mut Outcome,
+    ) {
+        let epsilon_px = self.epsilon_px();
+        let consensus = |line: &Line2| -> Vec<bool> {
+            places
+                .iter()
+                .map(|place| line.signed_distance(place).abs() < epsilon_px)
+                .collect()
+        };
+        let mut best_line = None;
+        for _ in 0..self.settings.count(&ITERATIONS) {
+            let Step::Trial(trial) = run.step() else {
+                break;
+            };
+            outcome.iterations = trial.iteration;
+            if trial.is_best {
+                best_line = trial.model;
+            }
+            outcome.candidate = Some(Candidate {
+                sample: trial.sample.to_vec(),
+                line: trial.model,
+                is_inlier: trial.model.as_ref().map_or_else(Vec::new, consensus),
+            });
+        }
+        if let Some(line) = best_line {
+            let is_inlier = consensus(&line);
+            let chosen: Vec<Point2<f64>> = places
+                .iter()
+                .zip(&is_inlier)
+                .filter(|(_, is)| **is)
+                .map(|(p, _)| *p)
+                .collect();
+            // A consensus without a direction of its own keeps the line of its sample.
+            let line = fit_line_total_least_squares(&chosen).unwrap_or(line);
+            outcome.best = Some(Best {
+                line,
+                num_inliers: chosen.len(),
+                is_inlier,
+            });
+        }
+        let required = run.required_iterations();
+        outcome.budget = (required <= 1_000_000).then_some(required);
+        outcome.finished = match outcome.budget {
+            Some(budget) => outcome.iterations as u64 >= budget.min(MAX_SAMPLES as u64),
+            None => outcome.iterations >= MAX_SAMPLES,
+        };
+    }
+
+    /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
+    /// for is kept: other data may need more of them.
+    fn run_to(&mut self, iterations: usize) -> Result<(), Problem> {
+        let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
+        self.settings.set(ITERATIONS.id, &value)?;
+        self.compute();
+        self.running &= !self.outcome.finished;
+        Ok(())
+    }
+
+    fn add(&mut self, number: usize, u: f64, v: f64) -> bool {
+        let added = self.data.iter().filter(|datum| datum.added).count();
+        if added >= MAX_ADDED || self.data.iter().any(|datum| datum.number == number) {
+            return false;
+        }
+        let place = Point2::new(round_to_digits(u, DIGITS), round_to_digits(v, DIGITS));
+        self.data.push(Datum {
+            number,
+            place,
+            added: true,
+        });
+        self.data.sort_by_key(|datum| datum.number);
+        self.compute();
+        true
+    }
+
+    fn angles_deg(&self) -> Angles {
+        let least_squares = self.least_squares();
+        let ransac = self.best().map(|best| &best.line);
+        let between = |a: Option<&Line2>, b: Option<&Line2>| Some(angle_between_deg(a?, b?));
+        Angles {
+            between: between(least_squares, ransac),
+            least_squares: between(least_squares, Some(&self.truth)),
+            ransac: between(ransac, Some(&self.truth)),
+        }
+    }
+}
+
+struct Angles {
+    between: Option<f64>,
+    least_squares: Option<f64>,
+    ransac: Option<f64>,
+}
+
+/// The acute angle between two lines, degrees.
+fn angle_between_deg(one: &Line2, other: &Line2) -> f64 {
+    let cross = one.a * other.b - one.b * other.a;
+    let dot = one.a * other.a + one.b * other.b;
+    libm::atan2(cross.abs(), dot.abs()).to_degrees()
+}
+
+fn number_of(id: &str) -> Option<usize> {
+    let number: usize = id.strip_prefix('p')?.parse().ok()?;
+    (id == format!("p{number}")).then_some(number)
+}
+
+impl Model for RansacRace {
+    const NAME: &'static str = "ransac-race";
+    const TITLE: &'static str = "The race";
+    const HELP: &'static str = "Run or step through the samples. Drag a point, or choose one and \
+        move it with the arrow keys; click on an empty place to add a point, press Delete to \
+        remove it.";
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            truth: Line2 {
+                a: 0.0,
+                b: 1.0,
+                c: 0.0,
+            },
+            data: Vec::new(),
+            outcome: Outcome::default(),
+            running: false,
+            since_sample_s: 0.0,
+        };
+        model.scatter();
+        model.compute();
+        model
+    }
+
+    fn controls(&self) -> Vec<Control> {
+        let can_step = !self.outcome.finished && self.outcome.problem.is_none();
+        let mut controls = self.settings.controls();
+        controls.extend([
+            RUN.control(self.outcome.problem.is_none(), self.running),
+            STEP.control(can_step, false),
+            RESTART.control(self.outcome.iterations > 0, false),
+        ]);
+        controls
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        let handle = |datum: &Datum| Handle {
+            id: format!("p{}", datum.number),
+            panel: "plane",
+            label: format!("Point {}", datum.number),
+            value_text: format!(
+                "{} px across, {} px down",
+                format_number(datum.place.x, 0),
+                format_number(datum.place.y, 0)
+            ),
+            x: datum.place.x,
+            y: datum.place.y,
+            x_range: [0.0, WIDTH_PX],
+            y_range: [0.0, HEIGHT_PX],
+            step: [10.0, 10.0],
+            digits: DIGITS,
+            removable: self.data.len() > 2,
+        };
+        self.data.iter().map(handle).collect()
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        match event {
+            Event::Set { id, value } => {
+                if self.settings.set(id, value)? == Some(true) {
+                    if [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
+                        self.scatter();
+                    }
+                    let iterations = self.settings.count(&ITERATIONS);
+                    self.run_to(iterations)?;
+                }
+            }
+            Event::Press { id } => match &**id {
+                "run" if self.running => self.running = false,
+                "run" => {
+                    if self.outcome.finished {
+                        self.run_to(0)?;
+                    }
+                    self.running = true;
+                    self.since_sample_s = 0.0;
+                }
+                "step" => {
+                    self.running = false;
+                    self.run_to(self.outcome.iterations + 1)?;
+                }
+                _ => {
+                    self.running = false;
+                    self.run_to(0)?;
+                }
+            },
+            Event::HandleMoved { id, x, y } => {
+                let number = number_of(id);
+                if let Some(datum) = self.data.iter_mut().find(|d| Some(d.number) == number) {
+                    datum.place = Point2::new(*x, *y);
+                    self.compute();
+                }
+            }
+            Event::HandleRemoved { id } => {
+                let number = number_of(id);
+                self.data.retain(|datum| Some(datum.number) != number);
+                self.compute();
+            }
+            Event::Clicked { x, y, .. } => {
+                let last = self
+                    .data
+                    .iter()
+                    .map(|datum| datum.number)
+                    .max()
+                    .unwrap_or(0);
+                self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
+            }
+            Event::Tick { dt_s } => {
+                self.since_sample_s += dt_s;
+                if self.since_sample_s >= 1.0 / SAMPLES_PER_SECOND {
+                    self.since_sample_s -= 1.0 / SAMPLES_PER_SECOND;
+                    self.run_to(self.outcome.iterations + 1)?;
+                }
+            }
+            Event::Reset => {}
+        }
+        Ok(())
+    }
+
+    fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
+        let first = self.settings.count(&COUNT) + 1;
+        let inside = (0.0..=WIDTH_PX).contains(&x) && (0.0..=HEIGHT_PX).contains(&y);
+        let number = number_of(id).filter(|number| (first..first + 1000).contains(number));
+        inside && number.is_some_and(|number| self.add(number, x, y))
+    }
+
+    fn is_running(&self) -> bool {
+        self.running
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let of = |count: usize| format!("{count} of {}", self.data.len());
+        let inliers_now = self.candidate().map_or_else(
+            || "no sample yet".to_owned(),
+            |candidate| of(candidate.is_inlier.iter().filter(|is| **is).count()),
+        );
+        let best = self
+            .best()
+            .map_or_else(|| "none yet".to_owned(), |best| of(best.num_inliers));
+        let budget = match self.outcome.budget {
+            Some(budget) => {
+                Readout::number("budget", "Samples needed (99 %)", budget as f64, 0, "")
+            }
+            None => Readout::words("budget", "Samples needed (99 %)", "not known yet"),
+        };
+        let angle = |id, label, angle: Option<f64>| match angle {
+            Some(degrees) => Readout::number(id, label, degrees, 1, "°"),
+            None => Readout::words(id, label, "no line yet"),
+        };
+        let angles = self.angles_deg();
+        vec![
+            Readout::count("iterations", "Samples drawn", self.outcome.iterations),
+            budget,
+            Readout::words("inliers", "Inliers of this sample", inliers_now),
+            Readout::words("best", "Best so far", best),
+            angle("ransac-error", "RANSAC from the truth", angles.ransac),
+            angle(
+                "least-squares-error",
+                "Least squares from the truth",
+                angles.least_squares,
+            ),
+            angle("between", "Between the two fits", angles.between),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        if let Some(problem) = &self.outcome.problem {
+            return problem.clone();
+        }
+        let angles = self.angles_deg();
+        let degrees = |angle: Option<f64>| format_number(angle.unwrap_or(0.0), 1);
+        let least_squares = degrees(angles.least_squares);
+        let Some(best) = self.best() else {
+            return format!(
+                "{} points, no sample drawn yet. Least squares is {least_squares}° from the true \
+                 line.",
+                self.data.len()
+            );
+        };
+        let end = if self.outcome.finished {
+            " No more samples are needed for 99 % confidence.".to_owned()
+        } else {
+            match self.outcome.budget {
+                Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
+                None => String::new(),
+            }
+        };
+        let plural = if self.outcome.iterations == 1 {
+            "sample"
+        } else {
+            "samples"
+        };
+        format!(
+            "After {} {plural}, RANSAC's best line has {} of {} points within {} px and is {}° \
+             from the true line; least squares is {least_squares}° off.{end}",
+            self.outcome.iterations,
+            best.num_inliers,
+            self.data.len(),
+            format_number(self.epsilon_px(), 0),
+            degrees(angles.ransac),
+        )
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        &[
+            Challenge {
+                id: "agree",
+                goal: "Make least squares and RANSAC agree within 1°.",
+                hint: "What is it that only one of the two can bear?",
+                check: |model| model.angles_deg().between.is_some_and(|angle| angle < 1.0),
+                solution: || vec![set("outliers", 0.0), set("iterations", 40.0)],
+            },
+            Challenge {
+                id: "long-run",
+                goal: "Find data for which more than 100 samples are needed.",
+                hint: "Every sample must be lucky twice.",
+                check: |model| model.outcome.budget.is_some_and(|budget| budget > 100),
+                solution: || {
+                    vec![
+                        set("epsilon", 4.0),
+                        set("outliers", 0.9),
+                        set("iterations", 500.0),
+                    ]
+                },
+            },
+            Challenge {
+                id: "one-bad-point",
+                goal: "Without outliers, drag one point until least squares is 5° off while RANSAC \
+                       stays within 2°.",
+                hint: "Few points, and a long lever.",
+                check: |model| {
+                    let angles = model.angles_deg();
+                    model.settings.number(&OUTLIERS) == 0.0
+                        && angles.least_squares.is_some_and(|angle| angle > 5.0)
+                        && angles.ransac.is_some_and(|angle| angle < 2.0)
+                },
+                solution: || {
+                    vec![
+                        set("outliers", 0.0),
+                        set("points", 8.0),
+                        set("iterations", 20.0),
+                        Event::HandleMoved {
+                            id: "p1".to_owned(),
+                            x: 640.0,
+                            y: 0.0,
+                        },
+                    ]
+                },
+            },
+        ]
+    }
+}
+
+fn set(id: &str, value: f64) -> Event {
+    Event::Set {
+        id: id.to_owned(),
+        value: Value::Number(value),
+    }
+}

@@ -1,0 +1,166 @@
+//! Color roles: a view says what a mark means, the theme says which color that is.
+//!
+//! Hues follow Okabe & Ito 2008 ("Color universal design"), darkened on light pages and lightened
+//! on dark ones until marks have a contrast of at least 3:1 and text 4.5:1 with the surface.
+//! Color is never the only channel: views also vary shape, dash or label.
+
+use std::str::FromStr;
+
+/// What a mark means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// The page behind the panels.
+    Background,
+    /// A panel.
+    Surface,
+    /// The border of a panel.
+    Edge,
+    /// Grid lines and ticks.
+    Grid,
+    /// Text and axes.
+    Ink,
+    /// Secondary text.
+    Muted,
+    /// The casing around marks that lie on a photograph.
+    Halo,
+    /// A fit that is only being tried.
+    Candidate,
+    /// The best so far, or the one that counts.
+    Best,
+    /// Data that agree.
+    Inlier,
+    /// Data that disagree.
+    Outlier,
+    /// What is really so.
+    Truth,
+    /// Something to compare with.
+    Reference,
+    /// The thing that the reader holds.
+    Grip,
+    /// One of several things of equal rank, told apart by hue and by shape.
+    Series(u8),
+}
+
+/// A color, red, green, blue.
+pub type Rgb = [u8; 3];
+
+/// The reader's choice of colors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Theme {
+    /// Dark on light.
+    #[default]
+    Light,
+    /// Light on dark.
+    Dark,
+    /// Black, white and the strongest hues.
+    HighContrast,
+}
+
+impl Theme {
+    /// Every theme with its permanent name.
+    pub const ALL: [(Self, &'static str); 3] = [
+        (Self::Light, "light"),
+        (Self::Dark, "dark"),
+        (Self::HighContrast, "high-contrast"),
+    ];
+
+    /// The color of a role.
+    pub fn color(self, role: Role) -> Rgb {
+        let [light, dark, contrast] = match role {
+            Role::Background => [0xffffff, 0x16181c, 0x000000],
+            Role::Surface => [0xf7f6f3, 0x1f2228, 0x000000],
+            Role::Edge => [0xc9c6be, 0x454a54, 0xffffff],
+            Role::Grid => [0xe4e1da, 0x2f333b, 0x5a5a5a],
+            Role::Ink => [0x1d1f23, 0xeceae4, 0xffffff],
+            Role::Muted => [0x5d6068, 0xa9acb4, 0xe6e6e6],
+            Role::Halo => [0xffffff, 0x0e0f12, 0x000000],
+            Role::Candidate => [0x1c86c7, 0x56b4e9, 0x7fd0ff],
+            Role::Best => [0x00558c, 0xd9efff, 0xffffff],
+            Role::Inlier => [0x00795a, 0x2fc79b, 0x4dffc8],
+            Role::Outlier => [0xc24a00, 0xf08a45, 0xff9d4d],
+            Role::Truth => [0xa2487b, 0xe39ac2, 0xffb0e0],
+            Role::Reference => [0x75777d, 0x9b9ea6, 0xbdbdbd],
+            Role::Grip => [0xb35a00, 0xf5b335, 0xffd500],
+            Role::Series(index) => match index % 6 {
+                0 => [0x0069a8, 0x6cbdf0, 0x7fd0ff],
+                1 => [0xc24a00, 0xf08a45, 0xff9d4d],
+                2 => [0x00795a, 0x2fc79b, 0x4dffc8],
+                3 => [0xa2487b, 0xe39ac2, 0xffb0e0],
+                4 => [0x8a6a00, 0xf0e442, 0xffff66],
+                _ => [0x4b4e55, 0xc4c7cf, 0xffffff],
+            },
+        };
+        let hex: u32 = match self {
+            Self::Light => light,
+            Self::Dark => dark,
+            Self::HighContrast => contrast,
+        };
+        [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8]
+    }
+}
+
+impl FromStr for Theme {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.iter().find(|(_, known)| *known == name);
+        found.map(|(theme, _)| *theme).ok_or_else(|| {
+            format!("there is no theme \"{name}\"; the themes are light, dark, high-contrast")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance and contrast ratio of WCAG 2.2.
+    fn contrast(a: Rgb, b: Rgb) -> f64 {
+        let luminance = |rgb: Rgb| {
+            let [r, g, b] = rgb.map(|channel| {
+                let c = f64::from(channel) / 255.0;
+                if c <= 0.04045 {
+                    c / 12.92
+                } else {
+                    libm::pow((c + 0.055) / 1.055, 2.4)
+                }
+            });
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn text_and_marks_stand_out_on_every_surface() {
+        for (theme, name) in Theme::ALL {
+            for surface in [Role::Background, Role::Surface] {
+                let behind = theme.color(surface);
+                for text in [Role::Ink, Role::Muted] {
+                    let ratio = contrast(theme.color(text), behind);
+                    assert!(
+                        ratio >= 4.5,
+                        "{text:?} on {surface:?} in {name}: {ratio:.2}"
+                    );
+                }
+                let series = (0..6).map(Role::Series);
+                let marks = [
+                    Role::Candidate,
+                    Role::Best,
+                    Role::Inlier,
+                    Role::Outlier,
+                    Role::Truth,
+                    Role::Reference,
+                    Role::Grip,
+                ];
+                for mark in marks.into_iter().chain(series) {
+                    let ratio = contrast(theme.color(mark), behind);
+                    assert!(
+                        ratio >= 3.0,
+                        "{mark:?} on {surface:?} in {name}: {ratio:.2}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Lists of vectors that describe keypoints.
+
+use crate::{Error, Result};
+
+/// Descriptors of equal length, as bytes or as floats.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Descriptors {
+    dimension: usize,
+    values: Values,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Values {
+    Bytes(Vec<u8>),
+    Floats(Vec<f32>),
+}
+
+impl Descriptors {
+    /// Descriptors of whole numbers 0 to 255, one after the other.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a dimension of 0 or above 4096, [`Error::SizeMismatch`] for
+    /// values that do not fill whole descriptors.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// let descriptors = epipole::feature::Descriptors::from_bytes(2, vec![1, 2, 3, 4])?;
+    /// assert_eq!((descriptors.len(), descriptors.get(1)), (2, Some(vec![3.0, 4.0])));
+    /// # Ok(()) }
+    /// ```
+    pub fn from_bytes(dimension: usize, values: Vec<u8>) -> Result<Self> {
+        check(dimension, values.len())?;
+        Ok(Self {
+            dimension,
+            values: Values::Bytes(values),
+        })
+    }
+
+    /// Descriptors of finite numbers, one after the other.
+    ///
+    /// # Errors
+    /// As [`Descriptors::from_bytes`], and [`Error::NotFinite`] for a value that is NaN or
+    /// infinite.
+    ///
+    /// ```
+    /// assert!(epipole::feature::Descriptors::from_floats(2, vec![0.5; 3]).is_err());
+    /// ```
+    pub fn from_floats(dimension: usize, values: Vec<f32>) -> Result<Self> {
+        check(dimension, values.len())?;
+        if values.iter().any(|v| !v.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "every value of a descriptor",
+            });
+        }
+        Ok(Self {
+            dimension,
+            values: Values::Floats(values),
+        })
+    }
+
+    /// How many descriptors there are.
+    pub fn len(&self) -> usize {
+        let total = match &self.values {
+            Values::Bytes(values) => values.len(),
+            Values::Floats(values) => values.len(),
+        };
+        total / self.dimension
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Numbers in one descriptor.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Descriptor `index` as floats, or `None` past the end.
+    pub fn get(&self, index: usize) -> Option<Vec<f32>> {
+        let range = index.checked_mul(self.dimension)?..(index + 1).checked_mul(self.dimension)?;
+        match &self.values {
+            Values::Bytes(values) => {
+                Some(values.get(range)?.iter().map(|&v| f32::from(v)).collect())
+            }
+            Values::Floats(values) => Some(values.get(range)?.to_vec()),
+        }
+    }
+
+    /// All values as bytes, if that is how they are kept.
+    pub fn as_bytes(&self) -> Option<&[u8]> {
+        match &self.values {
+            Values::Bytes(values) => Some(values),
+            Values::Floats(_) => None,
+        }
+    }
+
+    /// All values as floats.
+    pub fn to_floats(&self) -> Vec<f32> {
+        match &self.values {
+            Values::Bytes(values) => values.iter().map(|&v| f32::from(v)).collect(),
+            Values::Floats(values) => values.clone(),
+        }
+    }
+
+    pub(crate) fn values(&self) -> &Values {
+        &self.values
+    }
+}
+
+fn check(dimension: usize, count: usize) -> Result<()> {
+    if !(1..=4096).contains(&dimension) {
+        return Err(Error::OutOfRange {
+            what: "the length of a descriptor",
+            requirement: "between 1 and 4096",
+            value: dimension as f64,
+        });
+    }
+    if !count.is_multiple_of(dimension) {
+        return Err(Error::SizeMismatch {
+            what: "the last descriptor and the others",
+            first: count % dimension,
+            second: dimension,
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_must_fit() {
+        assert!(Descriptors::from_bytes(0, vec![]).is_err());
+        assert!(Descriptors::from_bytes(4097, vec![]).is_err());
+        assert!(Descriptors::from_bytes(3, vec![0; 7]).is_err());
+        assert!(Descriptors::from_floats(1, vec![f32::NAN]).is_err());
+        let none = Descriptors::from_floats(128, vec![]).unwrap();
+        assert!(none.is_empty() && none.get(0).is_none());
+        assert_eq!(none.get(usize::MAX - 1), None);
+    }
+}

@@ -1,0 +1,33 @@
+//! Features: corners, scale-invariant keypoints, their descriptors, matching and tracking.
+//!
+//! Detectors refuse images with NaN or infinite pixels, and find nothing, without an error, in
+//! images that are flat or too small. Lists are in a fixed order, strongest first, that does not
+//! depend on the number of threads. Gray values are taken to lie in [0, 1].
+
+mod corners;
+mod descriptors;
+mod good_features;
+mod keypoint;
+mod matching;
+mod nms;
+mod parallel;
+mod patch;
+mod refine;
+mod sift;
+mod structure_tensor;
+
+pub use corners::{harris_response, min_eigenvalue_response};
+pub use descriptors::Descriptors;
+pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
+pub use keypoint::Keypoint;
+pub use matching::{
+    BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors,
+    match_descriptors_with_progress, match_hamming, nearest_two, nearest_two_hamming,
+};
+pub use nms::non_maximum_suppression;
+pub use patch::describe_patches;
+pub use refine::{RefineOptions, refine_corners};
+pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
+pub use structure_tensor::{
+    Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
+};

@@ -1,0 +1,133 @@
+//! Local maxima of a response.
+
+use super::Keypoint;
+use crate::imaging::{GrayImage32, require_finite};
+use crate::{Error, Result};
+
+/// The pixels whose response exceeds `threshold` and every other response within `radius` columns
+/// and rows, strongest first.
+///
+/// * `radius`: pixels, ≥ 1; the window is `2 radius + 1` wide and is cut off at the image's edge
+///
+/// Of equal maxima within a window the first in reading order stays. Positions are whole pixels.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a NaN or infinite response or threshold, [`Error::OutOfRange`] for a
+/// radius of 0.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::non_maximum_suppression;
+/// use epipole::imaging::gray_from_values;
+/// let response = gray_from_values(5, 1, vec![0.0, 2.0, 1.0, 0.5, 3.0])?;
+/// let peaks = non_maximum_suppression(&response, 1, 0.9)?;
+/// assert_eq!(peaks.iter().map(|p| p.u).collect::<Vec<_>>(), [4.0, 1.0]);
+/// # Ok(()) }
+/// ```
+pub fn non_maximum_suppression(
+    response: &GrayImage32,
+    radius: usize,
+    threshold: f32,
+) -> Result<Vec<Keypoint>> {
+    require_finite(response)?;
+    if !threshold.is_finite() {
+        return Err(Error::NotFinite {
+            what: "the threshold of the response",
+        });
+    }
+    if radius == 0 {
+        return Err(Error::OutOfRange {
+            what: "the radius of non-maximum suppression in pixels",
+            requirement: "at least 1",
+            value: 0.0,
+        });
+    }
+    let (width, height) = (response.width() as usize, response.height() as usize);
+    let values = response.as_raw();
+    let mut peaks = Vec::new();
+    for v in 0..height {
+        let row = &values[v * width..(v + 1) * width];
+        for (u, &value) in row.iter().enumerate() {
+            if value > threshold && is_peak(values, width, height, u, v, radius) {
+                peaks.push(Keypoint::at(u as f64, v as f64, value));
+            }
+        }
+    }
+    strongest_first(&mut peaks);
+    Ok(peaks)
+}
+
+/// Orders by response, equal ones by place, so that the order never depends on the search.
+pub(crate) fn strongest_first(keypoints: &mut [Keypoint]) {
+    keypoints.sort_by(stronger);
+}
+
+/// The order of [`strongest_first`].
+pub(crate) fn stronger(a: &Keypoint, b: &Keypoint) -> std::cmp::Ordering {
+    b.response
+        .total_cmp(&a.response)
+        .then(a.v.total_cmp(&b.v))
+        .then(a.u.total_cmp(&b.u))
+        .then(a.octave.cmp(&b.octave))
+        .then(a.scale_px.total_cmp(&b.scale_px))
+        .then(a.angle_rad.total_cmp(&b.angle_rad))
+}
+
+fn is_peak(values: &[f32], width: usize, height: usize, u: usize, v: usize, radius: usize) -> bool {
+    let value = values[v * width + u];
+    let columns = u.saturating_sub(radius)..=(u.saturating_add(radius)).min(width - 1);
+    for y in v.saturating_sub(radius)..=(v.saturating_add(radius)).min(height - 1) {
+        for x in columns.clone() {
+            let other = values[y * width + x];
+            let earlier = (y, x) < (v, u);
+            if other > value || (earlier && other == value) {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plateau_keeps_one_pixel() {
+        let flat = GrayImage32::from_pixel(6, 5, image::Luma([1.0]));
+        let peaks = non_maximum_suppression(&flat, 2, 0.5).unwrap();
+        assert_eq!(peaks.len(), 1);
+        assert_eq!((peaks[0].u, peaks[0].v), (0.0, 0.0));
+        assert!(non_maximum_suppression(&flat, 2, 1.0).unwrap().is_empty());
+    }
+
+    #[test]
+    fn peaks_are_the_maxima_of_their_windows() {
+        let image = crate::imaging::fixture::gray32("texture.npy");
+        let peaks = non_maximum_suppression(&image, 3, 0.0).unwrap();
+        assert!(peaks.len() > 5);
+        for p in &peaks {
+            for q in &peaks {
+                assert!(p == q || (p.u - q.u).abs() > 3.0 || (p.v - q.v).abs() > 3.0);
+            }
+            for (u, v, value) in image.enumerate_pixels() {
+                let near = (f64::from(u) - p.u).abs() <= 3.0 && (f64::from(v) - p.v).abs() <= 3.0;
+                assert!(!near || value.0[0] <= p.response);
+            }
+        }
+        assert!(peaks.is_sorted_by(|a, b| a.response >= b.response));
+    }
+
+    #[test]
+    fn bad_input_is_refused_and_empty_is_empty() {
+        let image = GrayImage32::new(3, 3);
+        assert!(non_maximum_suppression(&image, 0, 0.0).is_err());
+        assert!(non_maximum_suppression(&image, 1, f32::NAN).is_err());
+        let nan = GrayImage32::from_pixel(3, 3, image::Luma([f32::NAN]));
+        assert!(non_maximum_suppression(&nan, 1, 0.0).is_err());
+        let empty = non_maximum_suppression(&GrayImage32::new(0, 0), 1, 0.0).unwrap();
+        assert!(empty.is_empty());
+        let huge = non_maximum_suppression(&GrayImage32::new(3, 3), usize::MAX, -1.0).unwrap();
+        assert_eq!(huge.len(), 1);
+    }
+}

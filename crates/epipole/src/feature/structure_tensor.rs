@@ -1,0 +1,317 @@
+//! The structure tensor: how the gradient is spread around each pixel.
+
+use crate::imaging::separable::{Ring, filter_along_row, in_bands, pad_row};
+use crate::imaging::{
+    Border, DerivativeFilter, Gradient, GrayImage32, derivative, gaussian_kernel,
+};
+use crate::{Error, Result};
+use std::ops::Range;
+
+/// Weights of the neighbors in the structure tensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Window {
+    /// A square of so many pixels, each with weight 1. An even square reaches one pixel further
+    /// up and left, as in OpenCV.
+    Box(usize),
+    /// A Gaussian of this standard deviation in pixels; its weights sum to 1.
+    Gaussian(f64),
+}
+
+/// The units of the structure tensor and of the responses made from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scaling {
+    /// Sums of products of the filter's answers as they are: whole numbers for whole gray values.
+    #[default]
+    Textbook,
+    /// OpenCV's: the derivative is divided by `2^(k−1) b` for a k×k filter and a box of b pixels
+    /// (1 for a Gaussian). On gray values in [0, 1] responses equal those of OpenCV for 8 bits.
+    OpenCv,
+}
+
+/// How a structure tensor is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StructureTensorOptions {
+    /// The filter for the derivatives.
+    pub derivative: DerivativeFilter,
+    /// The weights of the neighbors.
+    pub window: Window,
+    /// The units.
+    pub scaling: Scaling,
+    /// What lies beyond the image; derivatives beyond a constant border count as 0.
+    pub border: Border,
+}
+
+impl Default for StructureTensorOptions {
+    /// Sobel 3×3, a box of 3×3 pixels, textbook scaling, mirrored border.
+    fn default() -> Self {
+        Self {
+            derivative: DerivativeFilter::Sobel3,
+            window: Window::Box(3),
+            scaling: Scaling::Textbook,
+            border: Border::Reflect101,
+        }
+    }
+}
+
+/// The symmetric matrix `M = Σ w [Iᵤ² IᵤIᵥ; IᵤIᵥ Iᵥ²]` at each pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StructureTensor {
+    /// `Σ w Iᵤ²`.
+    pub uu: GrayImage32,
+    /// `Σ w Iᵤ Iᵥ`.
+    pub uv: GrayImage32,
+    /// `Σ w Iᵥ²`.
+    pub vv: GrayImage32,
+}
+
+impl StructureTensor {
+    /// The two eigenvalues at a pixel, the larger first; `None` outside the image.
+    ///
+    /// `λ = (M₁₁ + M₂₂)/2 ± √(((M₁₁ − M₂₂)/2)² + M₁₂²)`; two small ones mean a flat patch, one
+    /// large an edge, two large a corner.
+    ///
+    /// ```
+    /// use epipole::feature::StructureTensor;
+    /// use epipole::imaging::gray_from_values;
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// let one = |value| gray_from_values(1, 1, vec![value]);
+    /// let tensor = StructureTensor { uu: one(2.0)?, uv: one(1.0)?, vv: one(2.0)? };
+    /// assert_eq!(tensor.eigenvalues(0, 0), Some((3.0, 1.0)));
+    /// # Ok(()) }
+    /// ```
+    pub fn eigenvalues(&self, u: u32, v: u32) -> Option<(f32, f32)> {
+        let [a, b, c] = [&self.uu, &self.uv, &self.vv]
+            .map(|image| image.get_pixel_checked(u, v).map(|p| p.0[0]));
+        let (a, b, c) = (a?, b?, c?);
+        let (mean, half) = (0.5 * (a + c), 0.5 * (a - c));
+        let radius = (half * half + b * b).sqrt();
+        Some((mean + radius, mean - radius))
+    }
+}
+
+/// The structure tensor of an image.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a NaN or infinite pixel, [`Error::OutOfRange`] for a window of size 0
+/// or above 255, or a σ outside (0, 31].
+///
+/// Source: Förstner & Gülch 1987; Bigün & Granlund 1987.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{StructureTensorOptions, structure_tensor};
+/// use epipole::imaging::gray_from_values;
+/// // A vertical step: Sobel answers 4 on both sides of it, a 3×3 box sums nine squares.
+/// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
+/// let tensor = structure_tensor(&step, &StructureTensorOptions::default())?;
+/// assert_eq!(tensor.eigenvalues(2, 1), Some((96.0, 0.0)));
+/// # Ok(()) }
+/// ```
+pub fn structure_tensor(
+    image: &GrayImage32,
+    options: &StructureTensorOptions,
+) -> Result<StructureTensor> {
+    let [uu, uv, vv] = with_tensor(image, options, |sums, out: [&mut [f32]; 3]| {
+        for (sum, out) in sums.into_iter().zip(out) {
+            out.copy_from_slice(sum);
+        }
+    })?;
+    Ok(StructureTensor { uu, uv, vv })
+}
+
+/// Computes the tensor row by row and lets `finish` make the output rows from it, so that the
+/// tensor itself need not be stored.
+pub(crate) fn with_tensor<const N: usize>(
+    image: &GrayImage32,
+    options: &StructureTensorOptions,
+    finish: impl Fn([&[f32]; 3], [&mut [f32]; N]) + Sync,
+) -> Result<[GrayImage32; N]> {
+    crate::imaging::require_finite(image)?;
+    let (kernel, block) = window_kernel(options.window)?;
+    let scale = match options.scaling {
+        Scaling::Textbook => 1.0,
+        Scaling::OpenCv => {
+            let size = match options.derivative {
+                DerivativeFilter::Sobel3 => 4.0,
+                DerivativeFilter::Sobel5 => 16.0,
+                // OpenCV halves once more for Scharr, whose kernel sums to 32.
+                DerivativeFilter::Scharr => 8.0,
+            };
+            1.0 / (size * block)
+        }
+    };
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let mut outputs: [Vec<f32>; N] = std::array::from_fn(|_| vec![0.0; width * height]);
+    if width > 0 && height > 0 {
+        let gradient = derivative(image, options.derivative, options.border);
+        in_bands(&mut outputs, width, |rows, band| {
+            tensor_rows(
+                &gradient,
+                scale * scale,
+                &kernel,
+                options.border,
+                rows,
+                band,
+                &finish,
+            );
+        });
+    }
+    Ok(outputs.map(|values| {
+        GrayImage32::from_raw(image.width(), image.height(), values)
+            .expect("one value was computed for each pixel")
+    }))
+}
+
+/// The window's weights along one axis and the factor that OpenCV divides derivatives by.
+fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
+    match window {
+        Window::Box(size) if (1..=255).contains(&size) => {
+            let mut kernel = vec![1.0; size];
+            if size % 2 == 0 {
+                // An odd kernel whose last weight is nothing.
+                kernel.push(0.0);
+            }
+            Ok((kernel, size as f32))
+        }
+        Window::Box(size) => Err(Error::OutOfRange {
+            what: "the window of a structure tensor in pixels",
+            requirement: "between 1 and 255",
+            value: size as f64,
+        }),
+        Window::Gaussian(sigma_px) if sigma_px > 0.0 && sigma_px <= 31.0 => {
+            let size = (8.0 * sigma_px + 1.0).round() as usize | 1;
+            Ok((gaussian_kernel(sigma_px, size)?, 1.0))
+        }
+        Window::Gaussian(sigma_px) => Err(Error::OutOfRange {
+            what: "the Gaussian window of a structure tensor in pixels",
+            requirement: "greater than 0 and at most 31",
+            value: sigma_px,
+        }),
+    }
+}
+
+fn tensor_rows<const N: usize>(
+    gradient: &Gradient,
+    scale_sq: f32,
+    kernel: &[f32],
+    border: Border,
+    rows: Range<usize>,
+    mut band: [&mut [f32]; N],
+    finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
+) {
+    let (width, height) = (gradient.du.width() as usize, gradient.du.height() as usize);
+    let border = match border {
+        Border::Constant(_) => Border::Constant(0.0),
+        other => other,
+    };
+    let radius = kernel.len() / 2;
+    let mut rings: [Ring; 3] = std::array::from_fn(|_| Ring::new(kernel.len(), width));
+    let mut sums: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; width]);
+    let (mut product, mut padded) = (vec![0.0; width], Vec::new());
+    for y in rows.clone() {
+        let newest = (y + radius) as isize;
+        let first = if y == rows.start {
+            newest - 2 * radius as isize
+        } else {
+            newest
+        };
+        for row in first..=newest {
+            let source = border.index(row, height);
+            for (k, ring) in rings.iter_mut().enumerate() {
+                let row = source.map(|m| {
+                    let du = &gradient.du.as_raw()[m * width..(m + 1) * width];
+                    let dv = &gradient.dv.as_raw()[m * width..(m + 1) * width];
+                    let (a, b) = [(du, du), (du, dv), (dv, dv)][k];
+                    for ((product, a), b) in product.iter_mut().zip(a).zip(b) {
+                        *product = a * b * scale_sq;
+                    }
+                    product.as_slice()
+                });
+                pad_row(row, width, radius, border, &mut padded);
+                filter_along_row(&padded, kernel, ring.push());
+            }
+        }
+        for (ring, sums) in rings.iter().zip(&mut sums) {
+            ring.combine(kernel, sums);
+        }
+        let from = (y - rows.start) * width;
+        let out = band.each_mut().map(|image| &mut image[from..from + width]);
+        finish([&sums[0], &sums[1], &sums[2]], out);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The exact integers of scikit-image's own test: a square of ones, Sobel, almost no window.
+    #[test]
+    fn a_bright_pixel_gives_exact_integers() {
+        let mut image = GrayImage32::new(5, 5);
+        image.put_pixel(2, 2, image::Luma([1.0]));
+        let options = StructureTensorOptions {
+            window: Window::Box(1),
+            ..StructureTensorOptions::default()
+        };
+        let tensor = structure_tensor(&image, &options).unwrap();
+        #[rustfmt::skip]
+        assert_eq!(tensor.uu.as_raw(), &[
+            0.0, 0.0, 0.0, 0.0, 0.0,
+            0.0, 1.0, 0.0, 1.0, 0.0,
+            0.0, 4.0, 0.0, 4.0, 0.0,
+            0.0, 1.0, 0.0, 1.0, 0.0,
+            0.0, 0.0, 0.0, 0.0, 0.0,
+        ]);
+        #[rustfmt::skip]
+        assert_eq!(tensor.uv.as_raw(), &[
+            0.0, 0.0, 0.0, 0.0, 0.0,
+            0.0, 1.0, 0.0, -1.0, 0.0,
+            0.0, 0.0, 0.0, 0.0, 0.0,
+            0.0, -1.0, 0.0, 1.0, 0.0,
+            0.0, 0.0, 0.0, 0.0, 0.0,
+        ]);
+    }
+
+    #[test]
+    fn bad_windows_and_pixels_are_refused() {
+        let image = GrayImage32::new(5, 5);
+        for window in [
+            Window::Box(0),
+            Window::Box(999),
+            Window::Gaussian(0.0),
+            Window::Gaussian(f64::NAN),
+            Window::Gaussian(1e9),
+        ] {
+            let options = StructureTensorOptions {
+                window,
+                ..Default::default()
+            };
+            assert!(structure_tensor(&image, &options).is_err());
+        }
+        let mut image = image;
+        image.put_pixel(1, 1, image::Luma([f32::NAN]));
+        assert_eq!(
+            structure_tensor(&image, &StructureTensorOptions::default()),
+            Err(Error::NotFinite {
+                what: "every pixel of the image"
+            })
+        );
+    }
+
+    #[test]
+    fn a_gaussian_window_is_a_blur_of_products() {
+        let image = GrayImage32::from_fn(20, 15, |u, v| image::Luma([((u * v) % 7) as f32]));
+        let options = StructureTensorOptions {
+            window: Window::Gaussian(1.5),
+            ..StructureTensorOptions::default()
+        };
+        let tensor = structure_tensor(&image, &options).unwrap();
+        let gradient = crate::imaging::sobel(&image, Border::Reflect101);
+        let mut product = gradient.du.clone();
+        for (p, dv) in product.as_mut().iter_mut().zip(gradient.dv.as_raw()) {
+            *p *= dv;
+        }
+        let blurred = crate::imaging::gaussian_blur(&product, 1.5, Border::Reflect101).unwrap();
+        crate::imaging::fixture::assert_close(&tensor.uv, &blurred, 1e-6, "uv");
+    }
+}

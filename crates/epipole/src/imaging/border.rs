@@ -1,0 +1,76 @@
+//! What an image holds beyond its edge.
+
+/// The value of pixels outside the image.
+///
+/// ```
+/// use epipole::imaging::Border;
+/// // The row  a b c d  seen two pixels beyond its left edge.
+/// assert_eq!(Border::Replicate.index(-2, 4), Some(0)); // a a|a b c d
+/// assert_eq!(Border::Reflect101.index(-2, 4), Some(2)); // c b|a b c d
+/// assert_eq!(Border::Constant(0.5).index(-2, 4), None); // .5 .5|a b c d
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Border {
+    /// The edge pixel goes on for ever: `aaa|abcd|ddd`.
+    Replicate,
+    /// Mirrored about the edge pixel, which appears once: `dcb|abcd|cba`. OpenCV's default.
+    #[default]
+    Reflect101,
+    /// One value everywhere outside, in the image's own units.
+    Constant(f32),
+}
+
+impl Border {
+    /// The index inside `0..len` that stands for `index`, or `None` for a constant border or an
+    /// empty row.
+    pub fn index(self, index: isize, len: usize) -> Option<usize> {
+        if len == 0 {
+            return None;
+        }
+        let last = len as isize - 1;
+        if (0..=last).contains(&index) {
+            return Some(index as usize);
+        }
+        match self {
+            Self::Constant(_) => None,
+            Self::Replicate => Some(index.clamp(0, last) as usize),
+            Self::Reflect101 => {
+                if last == 0 {
+                    return Some(0);
+                }
+                let folded = index.rem_euclid(2 * last);
+                Some(folded.min(2 * last - folded) as usize)
+            }
+        }
+    }
+
+    /// The constant, or zero where the border repeats pixels.
+    pub(crate) fn constant(self) -> f32 {
+        match self {
+            Self::Constant(value) => value,
+            Self::Replicate | Self::Reflect101 => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reflection_wider_than_the_row_folds_back_and_forth() {
+        let seen: Vec<usize> = (-5..8)
+            .map(|i| Border::Reflect101.index(i, 3).unwrap())
+            .collect();
+        assert_eq!(seen, [1, 0, 1, 2, 1, 0, 1, 2, 1, 0, 1, 2, 1]);
+    }
+
+    #[test]
+    fn one_pixel_and_none() {
+        for border in [Border::Replicate, Border::Reflect101] {
+            assert_eq!(border.index(-9, 1), Some(0));
+            assert_eq!(border.index(4, 1), Some(0));
+            assert_eq!(border.index(0, 0), None);
+        }
+    }
+}

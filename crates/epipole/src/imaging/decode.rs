@@ -1,0 +1,326 @@
+//! Photographs from the bytes of a PNG, JPEG or WebP file.
+
+use super::exif::focal_length_px;
+use super::gray::{GrayImage32, from_vec, rgb_to_gray};
+use crate::{Error, Result};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
+use std::io::Cursor;
+
+/// What [`decode_gray`] and [`decode_rgb`] accept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DecodeOptions {
+    /// The largest width × height; a file that promises more is refused before memory is taken.
+    pub max_pixels: u64,
+    /// Turn the image upright as its EXIF orientation says.
+    pub apply_orientation: bool,
+}
+
+impl Default for DecodeOptions {
+    /// At most 64 megapixels, turned upright.
+    fn default() -> Self {
+        Self {
+            max_pixels: 64_000_000,
+            apply_orientation: true,
+        }
+    }
+}
+
+/// An image and what its file says about the camera.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decoded<I> {
+    /// The pixels.
+    pub image: I,
+    /// A first guess of the focal length from the EXIF data, pixels of this image; `None` where
+    /// the file says nothing. With the principal point in the middle it makes a first guess of K.
+    pub focal_px: Option<f64>,
+}
+
+/// The gray image in [0, 1] of a PNG, JPEG or WebP file.
+///
+/// Colors become gray as in [`rgb_to_gray`]; sixteen-bit gray keeps its depth; transparency is
+/// ignored.
+///
+/// # Errors
+/// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
+/// [`Error::TooManyPixels`] beyond the limit.
+///
+/// ```
+/// use epipole::imaging::{DecodeOptions, decode_gray};
+/// assert!(decode_gray(b"not an image", &DecodeOptions::default()).is_err());
+/// ```
+pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<GrayImage32>> {
+    let (image, focal_px) = decode(bytes, options)?;
+    let (width, height) = (image.width(), image.height());
+    let values = match &image {
+        DynamicImage::ImageLuma16(gray) => scaled(gray.as_raw(), 1),
+        DynamicImage::ImageLumaA16(gray) => scaled(gray.as_raw(), 2),
+        DynamicImage::ImageLuma8(gray) => bytes_to_unit(gray.as_raw(), 1),
+        DynamicImage::ImageLumaA8(gray) => bytes_to_unit(gray.as_raw(), 2),
+        color => bytes_to_unit(rgb_to_gray(&color.to_rgb8()).as_raw(), 1),
+    };
+    Ok(Decoded {
+        image: from_vec(width, height, values),
+        focal_px,
+    })
+}
+
+/// The color image of a PNG, JPEG or WebP file; gray files give three equal channels.
+///
+/// # Errors
+/// As [`decode_gray`].
+///
+/// ```
+/// use epipole::imaging::{DecodeOptions, decode_rgb};
+/// assert!(decode_rgb(&[], &DecodeOptions::default()).is_err());
+/// ```
+pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbImage>> {
+    let (image, focal_px) = decode(bytes, options)?;
+    Ok(Decoded {
+        image: image.into_rgb8(),
+        focal_px,
+    })
+}
+
+fn bytes_to_unit(raw: &[u8], stride: usize) -> Vec<f32> {
+    let values = raw.iter().step_by(stride);
+    values.map(|&v| f32::from(v) / 255.0).collect()
+}
+
+fn scaled(raw: &[u16], stride: usize) -> Vec<f32> {
+    let values = raw.iter().step_by(stride);
+    values.map(|&v| f32::from(v) / 65535.0).collect()
+}
+
+fn bad(error: &image::ImageError) -> Error {
+    Error::BadImage {
+        why: error.to_string(),
+    }
+}
+
+fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<(DynamicImage, Option<f64>)> {
+    let reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| Error::BadImage {
+            why: error.to_string(),
+        })?;
+    if reader.format() == Some(image::ImageFormat::Jpeg) && !jpeg_is_whole(bytes) {
+        return Err(Error::BadImage {
+            why: "the JPEG file ends before its picture does".to_owned(),
+        });
+    }
+    let mut reader = reader;
+    // Width times height is checked below, against the caller's own limit.
+    reader.no_limits();
+    let mut decoder = reader.into_decoder().map_err(|error| bad(&error))?;
+    let (width, height) = decoder.dimensions();
+    let got = u64::from(width) * u64::from(height);
+    if got > options.max_pixels {
+        return Err(Error::TooManyPixels {
+            got,
+            limit: options.max_pixels,
+        });
+    }
+    if got == 0 {
+        return Err(Error::BadImage {
+            why: "it has no pixels".to_owned(),
+        });
+    }
+    // Metadata that cannot be read is treated as absent: the picture matters more.
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let exif = decoder.exif_metadata().unwrap_or(None);
+    let mut image = DynamicImage::from_decoder(decoder).map_err(|error| bad(&error))?;
+    let focal_px = exif.and_then(|data| focal_length_px(&data, width, height));
+    if options.apply_orientation {
+        image.apply_orientation(orientation);
+    }
+    Ok((image, focal_px))
+}
+
+/// Whether a JPEG file reaches its end-of-image marker; the decoder alone would fill what is
+/// missing with gray.
+fn jpeg_is_whole(bytes: &[u8]) -> bool {
+    let mut at = 2;
+    while at + 1 < bytes.len() {
+        if bytes[at] != 0xFF {
+            // Entropy-coded data, or padding between segments.
+            at += 1;
+            continue;
+        }
+        match bytes[at + 1] {
+            0xD9 => return true,
+            // A stuffed byte, a fill byte, a restart or another marker without a length.
+            0xFF => at += 1,
+            0x00 | 0x01 | 0xD0..=0xD8 => at += 2,
+            _ => {
+                let Some(length) = bytes.get(at + 2..at + 4) else {
+                    return false;
+                };
+                at += 2 + usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);
+            }
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::imaging::fixture;
+    use image::{GrayImage, ImageEncoder, ImageFormat, Luma};
+
+    fn png(image: &DynamicImage) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        image
+            .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
+            .unwrap();
+        bytes
+    }
+
+    fn sample() -> GrayImage {
+        GrayImage::from_fn(40, 30, |u, v| Luma([((u * 7 + v * 13) % 256) as u8]))
+    }
+
+    /// A TIFF structure with an orientation and a 35 mm equivalent focal length.
+    fn exif(orientation: u16, focal_35mm: u16) -> Vec<u8> {
+        let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
+        data.extend(2u16.to_le_bytes());
+        for (tag, kind, value) in [(0x0112u16, 3u16, u32::from(orientation)), (0x8769, 4, 38)] {
+            data.extend(tag.to_le_bytes());
+            data.extend(kind.to_le_bytes());
+            data.extend(1u32.to_le_bytes());
+            data.extend(value.to_le_bytes());
+        }
+        data.extend(0u32.to_le_bytes());
+        assert_eq!(data.len(), 38);
+        data.extend(1u16.to_le_bytes());
+        data.extend(0xA405u16.to_le_bytes());
+        data.extend(3u16.to_le_bytes());
+        data.extend(1u32.to_le_bytes());
+        data.extend(u32::from(focal_35mm).to_le_bytes());
+        data.extend(0u32.to_le_bytes());
+        data
+    }
+
+    #[test]
+    fn a_gray_png_comes_back_exactly() {
+        let image = sample();
+        let decoded = decode_gray(
+            &png(&DynamicImage::ImageLuma8(image.clone())),
+            &DecodeOptions::default(),
+        )
+        .unwrap();
+        assert_eq!(crate::imaging::gray_to_u8(&decoded.image), image);
+        assert_eq!(decoded.focal_px, None);
+    }
+
+    #[test]
+    fn sixteen_bits_are_kept() {
+        let deep = image::ImageBuffer::from_fn(5, 4, |u, v| Luma([(u * 1000 + v * 77) as u16]));
+        let bytes = png(&DynamicImage::ImageLuma16(deep));
+        let decoded = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
+        let value = decoded.image.get_pixel(3, 2).0[0];
+        assert!((value - 3154.0 / 65535.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn orientation_and_focal_length_are_read() {
+        let image = sample();
+        let mut bytes = Vec::new();
+        let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
+        // Orientation 6: the camera was turned; upright is a quarter turn clockwise.
+        encoder.set_exif_metadata(exif(6, 28)).unwrap();
+        encoder
+            .write_image(image.as_raw(), 40, 30, image::ExtendedColorType::L8)
+            .unwrap();
+        let decoded = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
+        assert_eq!(decoded.image.dimensions(), (30, 40));
+        // The stored top-left pixel stands at the top right.
+        let stored = f32::from(image.get_pixel(0, 0).0[0]) / 255.0;
+        assert_eq!(decoded.image.get_pixel(29, 0).0[0], stored);
+        // The diagonal is 50 pixels and stands for 43.2666 mm of film.
+        let focal_px = decoded.focal_px.unwrap();
+        assert!(
+            (focal_px - 28.0 * 50.0 / 1872f64.sqrt()).abs() < 1e-9,
+            "{focal_px}"
+        );
+        let options = DecodeOptions {
+            apply_orientation: false,
+            ..DecodeOptions::default()
+        };
+        let stored = decode_rgb(&bytes, &options).unwrap();
+        assert_eq!(stored.image.dimensions(), (40, 30));
+    }
+
+    #[test]
+    fn truncated_and_corrupt_files_are_errors() {
+        let mut formats = vec![png(&DynamicImage::ImageLuma8(sample()))];
+        for (format, image) in [
+            (ImageFormat::Jpeg, DynamicImage::ImageLuma8(sample())),
+            (
+                ImageFormat::WebP,
+                DynamicImage::ImageLuma8(sample()).to_rgb8().into(),
+            ),
+        ] {
+            let mut bytes = Vec::new();
+            image
+                .write_to(&mut Cursor::new(&mut bytes), format)
+                .unwrap();
+            formats.push(bytes);
+        }
+        for bytes in formats {
+            let options = DecodeOptions::default();
+            assert!(decode_gray(&bytes, &options).is_ok());
+            for keep in [
+                0,
+                1,
+                7,
+                20,
+                bytes.len() / 3,
+                bytes.len() / 2,
+                bytes.len() * 9 / 10,
+            ] {
+                let result = decode_gray(&bytes[..keep], &options);
+                assert!(
+                    matches!(result, Err(Error::BadImage { .. })),
+                    "{keep}: {result:?}"
+                );
+            }
+            // A flipped byte may pass as another picture, but never panics.
+            for k in 0..bytes.len() {
+                let mut corrupt = bytes.clone();
+                corrupt[k] ^= 0x55;
+                let _ = decode_gray(&corrupt, &options);
+            }
+        }
+    }
+
+    #[test]
+    fn the_limit_is_checked_before_decoding_and_can_be_raised() {
+        let bytes = png(&DynamicImage::ImageLuma8(sample()));
+        let mut options = DecodeOptions {
+            max_pixels: 1199,
+            ..DecodeOptions::default()
+        };
+        assert_eq!(
+            decode_gray(&bytes, &options),
+            Err(Error::TooManyPixels {
+                got: 1200,
+                limit: 1199
+            })
+        );
+        options.max_pixels = 1200;
+        assert!(decode_gray(&bytes, &options).is_ok());
+    }
+
+    #[test]
+    fn a_photograph_from_the_data_folder() {
+        let Some(path) = fixture::data("multiview/fountain_p11/0000.jpg") else {
+            return;
+        };
+        let bytes = std::fs::read(path).unwrap();
+        let gray = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
+        assert_eq!(gray.image.dimensions(), (768, 512));
+        assert!(crate::imaging::is_finite(&gray.image));
+    }
+}

@@ -1,0 +1,153 @@
+//! Gaussian kernels and blurs.
+
+use super::separable::filter;
+use super::{Border, GrayImage32};
+use crate::{Error, Result};
+
+/// Samples of a Gaussian that sum to one: `g[i] ∝ exp(−(i − r)² / 2σ²)`, `size = 2r + 1`.
+///
+/// * `sigma_px`: standard deviation, pixels, > 0
+/// * `size`: an odd number of samples
+///
+/// # Errors
+/// [`Error::OutOfRange`] for an even size, or for a σ that is not positive and finite.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// let g = epipole::imaging::gaussian_kernel(1.0, 3)?;
+/// // e^(−1/2) = 0.6065: 0.6065 / (1 + 2 · 0.6065) = 0.2741.
+/// assert!((g[0] - 0.2741).abs() < 1e-4 && (g[1] - 0.4519).abs() < 1e-4);
+/// # Ok(()) }
+/// ```
+pub fn gaussian_kernel(sigma_px: f64, size: usize) -> Result<Vec<f32>> {
+    require_sigma(sigma_px)?;
+    if size.is_multiple_of(2) {
+        return Err(Error::OutOfRange {
+            what: "the size of a Gaussian kernel",
+            requirement: "odd",
+            value: size as f64,
+        });
+    }
+    let weights = samples(sigma_px, size / 2);
+    Ok(weights.iter().map(|&w| w as f32).collect())
+}
+
+/// Normalized samples at −radius..=radius, in double precision.
+pub(crate) fn samples(sigma_px: f64, radius: usize) -> Vec<f64> {
+    let mut weights: Vec<f64> = (0..=2 * radius)
+        .map(|i| {
+            let x = i as f64 - radius as f64;
+            libm::exp(-0.5 * x * x / (sigma_px * sigma_px))
+        })
+        .collect();
+    let sum: f64 = weights.iter().sum();
+    for w in &mut weights {
+        *w /= sum;
+    }
+    weights
+}
+
+fn require_sigma(sigma_px: f64) -> Result<()> {
+    if sigma_px > 0.0 && sigma_px <= 1000.0 {
+        return Ok(());
+    }
+    Err(Error::OutOfRange {
+        what: "the standard deviation of a Gaussian in pixels",
+        requirement: "greater than 0 and at most 1000",
+        value: sigma_px,
+    })
+}
+
+/// Radius that holds all but 1/16 000 of a Gaussian, as OpenCV chooses it for float images.
+pub(crate) fn radius_for(sigma_px: f64) -> usize {
+    ((sigma_px * 8.0 + 1.0).round() as usize | 1) / 2
+}
+
+/// The image blurred by a Gaussian of standard deviation `sigma_px`, cut off at about 4σ.
+///
+/// `size = round(8σ + 1) | 1` samples, as OpenCV's `GaussianBlur` takes for float images when no
+/// size is given.
+///
+/// * `sigma_px`: pixels, in (0, 1000]
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a σ outside that range.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::imaging::{Border, gaussian_blur, gray_from_values};
+/// let flat = gray_from_values(2, 2, vec![0.5; 4])?;
+/// let blurred = gaussian_blur(&flat, 2.0, Border::Reflect101)?;
+/// assert!(blurred.as_raw().iter().all(|v| (v - 0.5).abs() < 1e-6));
+/// # Ok(()) }
+/// ```
+pub fn gaussian_blur(image: &GrayImage32, sigma_px: f64, border: Border) -> Result<GrayImage32> {
+    require_sigma(sigma_px)?;
+    let kernel = gaussian_kernel(sigma_px, 2 * radius_for(sigma_px) + 1)?;
+    let [blurred] = filter(image, [(&kernel, &kernel)], border);
+    Ok(blurred)
+}
+
+/// A smoothing kernel and its derivative, both sampled to 4σ: `g` sums to one, and `g'` gives a
+/// ramp of slope 1 the value 1.
+pub(crate) fn derivative_kernels(sigma_px: f64) -> Result<(Vec<f32>, Vec<f32>)> {
+    require_sigma(sigma_px)?;
+    let radius = radius_for(sigma_px).max(1);
+    let smooth = samples(sigma_px, radius);
+    let moment: f64 = (0..=2 * radius)
+        .map(|i| {
+            let x = i as f64 - radius as f64;
+            x * x * smooth[i]
+        })
+        .sum();
+    if moment <= 0.0 {
+        // So narrow that only the center weighs: the derivative is a centered difference.
+        return Ok((vec![0.0, 1.0, 0.0], vec![-0.5, 0.0, 0.5]));
+    }
+    let derivative = (0..=2 * radius).map(|i| {
+        let x = i as f64 - radius as f64;
+        (x * smooth[i] / moment) as f32
+    });
+    let derivative = derivative.collect();
+    Ok((smooth.iter().map(|&w| w as f32).collect(), derivative))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::imaging::{fixture, separable_filter};
+
+    #[test]
+    fn blur_equals_opencv() {
+        let image = fixture::gray32("texture.npy");
+        for (name, sigma_px, border) in [
+            ("gauss_s1.5_reflect101.npy", 1.5, Border::Reflect101),
+            ("gauss_s0.8_replicate.npy", 0.8, Border::Replicate),
+        ] {
+            let ours = gaussian_blur(&image, sigma_px, border).unwrap();
+            fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
+        }
+        let kernel = gaussian_kernel(1.1, 5).unwrap();
+        let ours = separable_filter(&image, &kernel, &kernel, Border::Constant(0.0)).unwrap();
+        let name = "gauss_5_s1.1_constant.npy";
+        fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
+    }
+
+    #[test]
+    fn sigmas_outside_the_range_are_refused() {
+        let image = GrayImage32::new(4, 4);
+        for sigma_px in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
+            assert!(gaussian_blur(&image, sigma_px, Border::Replicate).is_err());
+            assert!(gaussian_kernel(sigma_px, 3).is_err());
+        }
+        assert!(gaussian_kernel(1.0, 4).is_err());
+        assert!(gaussian_kernel(1.0, 0).is_err());
+    }
+
+    #[test]
+    fn a_very_narrow_derivative_is_still_a_derivative() {
+        let (smooth, derivative) = derivative_kernels(0.01).unwrap();
+        assert!(smooth.iter().chain(&derivative).all(|w| w.is_finite()));
+        assert_eq!(derivative, [-0.5, 0.0, 0.5]);
+    }
+}

@@ -1,0 +1,50 @@
+//! Gray images: decoding, borders, filters, gradients, pyramids, resizing and warps.
+//!
+//! Pixel centers are at integers and (u, v) = (column, row). Filters are sums over pixels: a NaN
+//! pixel makes the results that touch it NaN, and nothing else; [`is_finite`] tells beforehand.
+//! An image without pixels gives an image without pixels.
+//!
+//! Image types are those of the `image` crate: [`GrayImage32`] for floats, `image::GrayImage` for
+//! bytes.
+
+pub(crate) mod approx;
+mod border;
+mod bytes;
+#[cfg(feature = "decode")]
+mod decode;
+#[cfg(feature = "decode")]
+mod exif;
+#[cfg(test)]
+pub(crate) mod fixture;
+mod gaussian;
+mod gradient;
+mod gray;
+mod integral;
+mod pyramid;
+mod resize;
+mod sample;
+pub(crate) mod separable;
+pub(crate) mod simd;
+mod warp;
+
+pub use border::Border;
+pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, pyramid_down_u8};
+#[cfg(feature = "decode")]
+pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
+pub use gaussian::{gaussian_blur, gaussian_kernel};
+pub use gradient::{
+    DerivativeFilter, Gradient, centered_difference, derivative, gaussian_derivative, scharr, sobel,
+};
+pub(crate) use gray::require_finite;
+pub use gray::{
+    BT601_WEIGHTS, BT709_WEIGHTS, GrayImage32, gray_from_values, gray_to_f32, gray_to_u8,
+    is_finite, rgb_to_gray, rgb_to_gray_f32,
+};
+pub use integral::{IntegralImage, box_filter};
+pub use pyramid::{
+    from_laplacian_pyramid, gaussian_pyramid, laplacian_pyramid, pyramid_down, pyramid_up,
+};
+pub use resize::resize;
+pub use sample::{sample_bicubic, sample_bilinear};
+pub use separable::separable_filter;
+pub use warp::{Interpolation, WarpOptions, warp_affine, warp_perspective};

@@ -1,0 +1,182 @@
+//! Images seen through an affine map or a homography.
+
+use super::gray::from_vec;
+use super::{Border, GrayImage32, sample_bicubic, sample_bilinear};
+use crate::{Error, Result};
+use nalgebra::{Matrix2x3, Matrix3};
+
+/// How a warp reads between pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Interpolation {
+    /// The four pixels around.
+    #[default]
+    Bilinear,
+    /// The sixteen pixels around, Catmull–Rom.
+    Bicubic,
+}
+
+/// Where a warp gets its pixels, and how many.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WarpOptions {
+    /// Width of the result, pixels.
+    pub width: u32,
+    /// Height of the result, pixels.
+    pub height: u32,
+    /// How to read between pixels.
+    pub interpolation: Interpolation,
+    /// What lies beyond the image.
+    pub border: Border,
+}
+
+impl WarpOptions {
+    /// A result of the given size, bilinear, black beyond the image.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            interpolation: Interpolation::Bilinear,
+            border: Border::Constant(0.0),
+        }
+    }
+}
+
+/// The image moved by an affine map: `out(x') = I(x)` where `x' = A x`, `A` = `out_from_image`.
+///
+/// * `out_from_image`: `[a b c; d e f]`, pixels to pixels, as OpenCV's `warpAffine` takes it
+///
+/// # Errors
+/// [`Error::NotFinite`] and [`Error::Degenerate`] as [`warp_perspective`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::imaging::{WarpOptions, gray_from_values, warp_affine};
+/// use nalgebra::Matrix2x3;
+/// let image = gray_from_values(3, 1, vec![1.0, 2.0, 3.0])?;
+/// let right = Matrix2x3::new(1.0, 0.0, 1.0, 0.0, 1.0, 0.0);
+/// let moved = warp_affine(&image, &right, &WarpOptions::new(3, 1))?;
+/// assert_eq!(moved.as_raw(), &[0.0, 1.0, 2.0]);
+/// # Ok(()) }
+/// ```
+pub fn warp_affine(
+    image: &GrayImage32,
+    out_from_image: &Matrix2x3<f64>,
+    options: &WarpOptions,
+) -> Result<GrayImage32> {
+    let mut map = Matrix3::identity();
+    map.fixed_view_mut::<2, 3>(0, 0).copy_from(out_from_image);
+    warp_perspective(image, &map, options)
+}
+
+/// The image moved by a homography: `out(x') = I(x)` where `x' ~ H x`, `H` = `out_from_image`.
+///
+/// * `out_from_image`: pixels to pixels, any scale, as OpenCV's `warpPerspective` takes it
+///
+/// Pixels of the result that no finite pixel maps to read the border's constant, 0 unless set. The
+/// map is followed backwards, pixel by pixel; a map that shrinks the image aliases, so
+/// [`resize`](super::resize()) or blur first.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a matrix that is not finite, [`Error::Degenerate`] for one without an
+/// inverse.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::imaging::{WarpOptions, gray_from_values, warp_perspective};
+/// use nalgebra::Matrix3;
+/// let image = gray_from_values(2, 1, vec![1.0, 3.0])?;
+/// let wider = Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into());
+/// let out = warp_perspective(&image, &wider, &WarpOptions::new(3, 1))?;
+/// assert_eq!(out.as_raw(), &[1.0, 2.0, 3.0]);
+/// # Ok(()) }
+/// ```
+pub fn warp_perspective(
+    image: &GrayImage32,
+    out_from_image: &Matrix3<f64>,
+    options: &WarpOptions,
+) -> Result<GrayImage32> {
+    if out_from_image.iter().any(|v| !v.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "every entry of the warp's matrix",
+        });
+    }
+    let singular = Error::Degenerate {
+        what: "the warp's inverse",
+        why: "its matrix maps the image to a line or a point",
+    };
+    let scale = out_from_image.amax();
+    if scale == 0.0 {
+        return Err(singular);
+    }
+    let image_from_out = (out_from_image / scale)
+        .try_inverse()
+        .ok_or(singular.clone())?;
+    if image_from_out.iter().any(|v| !v.is_finite()) {
+        return Err(singular);
+    }
+    let m = image_from_out;
+    let mut values = Vec::with_capacity(options.width as usize * options.height as usize);
+    for row in 0..options.height {
+        let y = f64::from(row);
+        for column in 0..options.width {
+            let x = f64::from(column);
+            let w = m[(2, 0)] * x + m[(2, 1)] * y + m[(2, 2)];
+            let u = (m[(0, 0)] * x + m[(0, 1)] * y + m[(0, 2)]) / w;
+            let v = (m[(1, 0)] * x + m[(1, 1)] * y + m[(1, 2)]) / w;
+            values.push(match options.interpolation {
+                Interpolation::Bilinear => sample_bilinear(image, u, v, options.border),
+                Interpolation::Bicubic => sample_bicubic(image, u, v, options.border),
+            });
+        }
+    }
+    Ok(from_vec(options.width, options.height, values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::imaging::fixture;
+
+    #[test]
+    fn warps_equal_scipy() {
+        let image = fixture::gray32("texture.npy");
+        let mut options = WarpOptions::new(45, 35);
+        options.border = Border::Replicate;
+        let affine = Matrix2x3::new(0.9, 0.3, 2.0, -0.2, 1.1, 5.0);
+        let ours = warp_affine(&image, &affine, &options).unwrap();
+        let name = "warp_affine.npy";
+        fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
+        let homography = Matrix3::new(1.1, 0.2, -3.0, -0.1, 0.9, 4.0, 1e-3, -2e-3, 1.0);
+        let ours = warp_perspective(&image, &homography, &options).unwrap();
+        let name = "warp_perspective.npy";
+        fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
+    }
+
+    #[test]
+    fn matrices_without_an_inverse_are_refused() {
+        let image = GrayImage32::new(4, 4);
+        let options = WarpOptions::new(4, 4);
+        for matrix in [
+            Matrix3::zeros(),
+            Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0),
+        ] {
+            let result = warp_perspective(&image, &matrix, &options);
+            assert!(matches!(result, Err(Error::Degenerate { .. })));
+        }
+        let nan = Matrix3::repeat(f64::NAN);
+        assert!(warp_perspective(&image, &nan, &options).is_err());
+    }
+
+    #[test]
+    fn a_horizon_inside_the_result_gives_no_nan() {
+        let image = GrayImage32::from_pixel(8, 8, image::Luma([1.0]));
+        let map = Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, -0.25, 0.0, 1.0);
+        for interpolation in [Interpolation::Bilinear, Interpolation::Bicubic] {
+            let options = WarpOptions {
+                interpolation,
+                ..WarpOptions::new(40, 8)
+            };
+            let out = warp_perspective(&image, &map, &options).unwrap();
+            assert!(crate::imaging::is_finite(&out));
+        }
+    }
+}

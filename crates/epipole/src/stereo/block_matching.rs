@@ -1,0 +1,395 @@
+//! Block matching.
+
+use super::DisparityImage;
+use super::clean::{close_gaps, remove_speckles};
+use super::prefilter::StereoPrefilter;
+use super::search::{Progress, Search, report, to_eight_bits};
+use super::simd::{Kernel, run_widest};
+use super::winner::{Selector, Tests};
+use crate::{Error, Result};
+use image::{GrayImage, ImageBuffer, Luma};
+use std::ops::ControlFlow;
+
+/// Dense disparity of a rectified pair by comparing square windows.
+///
+/// The answer at (u, v) is the d that minimizes
+/// `Σ |L(u+i, v+j) − R(u+i−d, v+j)|` over the window, where L and R are the pre-filtered
+/// pictures; a parabola through the sums at d − 1, d, d + 1 gives its fraction.
+///
+/// A pixel has no answer (NaN) where the window holds too little texture, the best match lies
+/// outside the right picture, another disparity fits nearly as well, the right picture disagrees,
+/// or only a small speckle of pixels holds it. Windows reach over the picture's border by
+/// repeating it. Pictures without texture get no answers, not an error.
+///
+/// Source: Konolige 1997, "Small vision systems: hardware and implementation".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::stereo::StereoBm;
+/// use image::{GrayImage, Luma};
+/// // A pattern, and the same moved 3 pixels to the left.
+/// let gray = |u: u32, v: u32| Luma([((u * u * 7 + v * v * 5 + u * v * 3) % 251) as u8]);
+/// let left = GrayImage::from_fn(40, 24, gray);
+/// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
+/// let matcher = StereoBm { num_disparities: 8, window_px: 9, ..Default::default() };
+/// let disparity = matcher.compute(&left, &right)?;
+/// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
+/// # Ok(()) }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct StereoBm {
+    /// The smallest disparity looked for, pixels; negative for cameras that converge.
+    pub min_disparity_px: i32,
+    /// How many disparities are looked for, from the smallest on; 1 to 4096.
+    pub num_disparities: u32,
+    /// Side of the window, pixels; odd, at most the picture's shorter side. The sums must fit 15
+    /// bits: `2 prefilter_cap window² ≤ 32766`, so at most 21 with a cap of 31.
+    pub window_px: u32,
+    /// What is compared.
+    pub prefilter: StereoPrefilter,
+    /// Pre-filtered values are limited to plus or minus this, 1 to 63.
+    pub prefilter_cap: u8,
+    /// The smallest mean, per pixel of the window, of the pre-filtered left values' magnitudes;
+    /// 0: no such test.
+    pub min_texture: f32,
+    /// Percent by which the sums of all disparities two or more away from the best must be
+    /// higher, 0 to 99; 0: no such test.
+    pub uniqueness_percent: u32,
+    /// The largest difference between the disparities seen from the left and from the right,
+    /// pixels; none: no such test.
+    pub left_right_max_px: Option<u32>,
+    /// Answers that hang together in fewer pixels than this are removed; 0 or 1: none.
+    pub speckle_size: u32,
+    /// Neighbors whose disparities differ by no more than this hang together, pixels.
+    pub speckle_range_px: f32,
+    /// The longest gap along a row or a column, pixels, that is closed by interpolation where
+    /// the answers at its two ends hang together; 0: none.
+    pub max_gap_px: u32,
+}
+
+impl Default for StereoBm {
+    /// Disparities 0 to 63, windows of 15×15.
+    fn default() -> Self {
+        Self {
+            min_disparity_px: 0,
+            num_disparities: 64,
+            window_px: 15,
+            prefilter: StereoPrefilter::default(),
+            prefilter_cap: 31,
+            min_texture: 0.5,
+            uniqueness_percent: 10,
+            left_right_max_px: Some(1),
+            speckle_size: 100,
+            speckle_range_px: 2.0,
+            max_gap_px: 0,
+        }
+    }
+}
+
+impl StereoBm {
+    /// The disparities of `left`.
+    ///
+    /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
+    /// pictures, [`Error::OutOfRange`] for an option outside its range or a window larger than
+    /// the picture.
+    pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
+        self.compute_with(left, right, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest
+    /// value of both pictures become 0 and 255.
+    ///
+    /// # Errors
+    /// As [`StereoBm::compute`], and [`Error::NotFinite`] for NaN or infinities.
+    pub fn compute_f32(
+        &self,
+        left: &ImageBuffer<Luma<f32>, Vec<f32>>,
+        right: &ImageBuffer<Luma<f32>, Vec<f32>>,
+    ) -> Result<DisparityImage> {
+        let (left, right) = to_eight_bits(left, right)?;
+        self.compute(&left, &right)
+    }
+
+    /// As [`StereoBm::compute`], telling `progress` the share done, and stopping when it says so.
+    ///
+    /// # Errors
+    /// As [`StereoBm::compute`], and [`Error::Canceled`].
+    pub fn compute_with(
+        &self,
+        left: &GrayImage,
+        right: &GrayImage,
+        progress: Progress,
+    ) -> Result<DisparityImage> {
+        let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
+        self.check(&search)?;
+        let values = run_widest(Blocks {
+            search,
+            options: self,
+            progress,
+        })?;
+        let mut disparity = search.image(values);
+        remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
+        close_gaps(
+            &mut disparity,
+            self.max_gap_px as usize,
+            self.speckle_range_px,
+        );
+        Ok(disparity)
+    }
+
+    fn check(&self, search: &Search) -> Result<()> {
+        let (window, cap) = (u64::from(self.window_px), u64::from(self.prefilter_cap));
+        let shorter = search.width.min(search.height) as u64;
+        for (what, requirement, value, good) in [
+            (
+                "the window",
+                "an odd number of pixels, at least 3",
+                f64::from(self.window_px),
+                window % 2 == 1 && window >= 3,
+            ),
+            (
+                "the window",
+                "no larger than the shorter side of the pictures",
+                f64::from(self.window_px),
+                window <= shorter,
+            ),
+            (
+                "the cap of the pre-filter",
+                "from 1 to 63",
+                f64::from(self.prefilter_cap),
+                (1..=63).contains(&cap),
+            ),
+            (
+                "the number of pixels in the window times twice the cap of the pre-filter",
+                "at most 32766",
+                (self.window_px as f64)
+                    * (self.window_px as f64)
+                    * 2.0
+                    * f64::from(self.prefilter_cap),
+                window.saturating_mul(window).saturating_mul(2 * cap) <= 32766,
+            ),
+            (
+                "the smallest texture",
+                "at least 0",
+                f64::from(self.min_texture),
+                self.min_texture >= 0.0,
+            ),
+            (
+                "the uniqueness",
+                "from 0 to 99 percent",
+                f64::from(self.uniqueness_percent),
+                self.uniqueness_percent < 100,
+            ),
+        ] {
+            if !good {
+                return Err(Error::OutOfRange {
+                    what,
+                    requirement,
+                    value,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+struct Blocks<'a, 'b> {
+    search: Search<'a>,
+    options: &'a StereoBm,
+    progress: Progress<'b>,
+}
+
+impl Kernel for Blocks<'_, '_> {
+    type Output = Result<Vec<f32>>;
+
+    #[inline(always)]
+    fn run(self) -> Result<Vec<f32>> {
+        let (search, options) = (self.search, self.options);
+        let mut values = vec![0.0; search.width * search.height];
+        let left = options.prefilter.apply(search.left, options.prefilter_cap);
+        let right = options.prefilter.apply(search.right, options.prefilter_cap);
+        let mut windows = Windows::new(search, options, &left, &right, 0);
+        let tests = Tests {
+            uniqueness_percent: options.uniqueness_percent,
+            left_right_max: options.left_right_max_px,
+        };
+        let mut selector = Selector::new(search, tests);
+        let mut sums = vec![0; search.width * search.num_cells];
+        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
+            if v % 16 == 0 {
+                report(self.progress, v as f32 / search.height as f32)?;
+            }
+            windows.next_row(&mut sums);
+            selector.row(&mut sums, out);
+            windows.forget_flat(out);
+        }
+        Ok(values)
+    }
+}
+
+/// Sums over windows, kept from row to row.
+struct Windows<'a> {
+    search: Search<'a>,
+    radius: usize,
+    cap: u8,
+    /// Windows whose sum of magnitudes is below this are flat.
+    min_texture: f32,
+    left: &'a [u8],
+    right: &'a [u8],
+    /// The row that comes next.
+    v: usize,
+    /// Absolute differences of each column summed over the window's rows: width × `num_cells`.
+    columns: Vec<i16>,
+    /// Magnitudes of the left's columns, summed likewise.
+    textures: Vec<i32>,
+    /// The sums over the window of one pixel.
+    window: Vec<i16>,
+    /// The right rows that enter and leave the window, from their ends on.
+    entering: Vec<u8>,
+    leaving: Vec<u8>,
+}
+
+impl<'a> Windows<'a> {
+    /// Before row `first`.
+    #[inline(always)]
+    fn new(
+        search: Search<'a>,
+        options: &StereoBm,
+        left: &'a [u8],
+        right: &'a [u8],
+        first: usize,
+    ) -> Self {
+        let padded = search.width + search.num_cells;
+        let side = options.window_px as f32;
+        let mut windows = Self {
+            search,
+            radius: options.window_px as usize / 2,
+            cap: options.prefilter_cap,
+            min_texture: options.min_texture * side * side,
+            left,
+            right,
+            v: first,
+            columns: vec![0; search.width * search.num_cells],
+            textures: vec![0; search.width],
+            window: vec![0; search.num_cells],
+            entering: vec![0; padded],
+            leaving: vec![0; padded],
+        };
+        // The window around the row before the first, rows outside repeated.
+        let radius = windows.radius as isize;
+        for k in -radius..=radius {
+            windows.add_row(windows.clamped(first as isize - 1 + k));
+        }
+        windows
+    }
+
+    #[inline(always)]
+    fn clamped(&self, v: isize) -> usize {
+        v.clamp(0, self.search.height as isize - 1) as usize
+    }
+
+    #[inline(always)]
+    fn add_row(&mut self, v: usize) {
+        let (width, n) = (self.search.width, self.search.num_cells);
+        let left = self.search.row_of(self.left, v);
+        reverse(
+            &self.search,
+            self.search.row_of(self.right, v),
+            &mut self.entering,
+        );
+        for (u, cells) in self.columns.chunks_exact_mut(n).enumerate() {
+            let row = &self.entering[width - 1 - u..][..n];
+            for d in 0..n {
+                cells[d] += i16::from(left[u].abs_diff(row[d]));
+            }
+            self.textures[u] += i32::from(left[u].abs_diff(self.cap));
+        }
+    }
+
+    /// The sums of the next row: width × `num_cells`.
+    #[inline(always)]
+    fn next_row(&mut self, sums: &mut [i16]) {
+        let (width, n, radius) = (self.search.width, self.search.num_cells, self.radius);
+        let new = self.clamped((self.v + radius) as isize);
+        let old = self.clamped(self.v as isize - 1 - radius as isize);
+        self.v += 1;
+        let (new_left, old_left) = (
+            self.search.row_of(self.left, new),
+            self.search.row_of(self.left, old),
+        );
+        for (row, to) in [(new, &mut self.entering), (old, &mut self.leaving)] {
+            reverse(&self.search, self.search.row_of(self.right, row), to);
+        }
+        for u in 0..width + radius {
+            if u < width {
+                let cells = &mut self.columns[u * n..(u + 1) * n];
+                let entering = &self.entering[width - 1 - u..][..n];
+                let leaving = &self.leaving[width - 1 - u..][..n];
+                let (gray_in, gray_out) = (new_left[u], old_left[u]);
+                for d in 0..n {
+                    let gain = i16::from(gray_in.abs_diff(entering[d]));
+                    let loss = i16::from(gray_out.abs_diff(leaving[d]));
+                    cells[d] += gain - loss;
+                }
+                self.textures[u] +=
+                    i32::from(gray_in.abs_diff(self.cap)) - i32::from(gray_out.abs_diff(self.cap));
+            }
+            let window = &mut self.window[..n];
+            let column = |u: usize| u.min(width - 1) * n..(u.min(width - 1) + 1) * n;
+            if u == 0 {
+                // Columns left of the picture repeat the first.
+                for (sum, first) in window.iter_mut().zip(&self.columns[column(0)]) {
+                    *sum = first * radius as i16;
+                }
+            }
+            let entering = &self.columns[column(u)];
+            if u < radius {
+                for d in 0..n {
+                    window[d] += entering[d];
+                }
+            } else {
+                let leaving = &self.columns[column(u.saturating_sub(2 * radius))];
+                let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
+                for d in 0..n {
+                    let sum = window[d] + entering[d];
+                    out[d] = sum;
+                    window[d] = sum - leaving[d];
+                }
+            }
+        }
+    }
+
+    /// Takes back the answers of the last row where the window is flat.
+    #[inline(always)]
+    fn forget_flat(&self, disparities: &mut [f32]) {
+        if self.min_texture <= 0.0 {
+            return;
+        }
+        let last = self.search.width - 1;
+        let mut sum = self.textures[0] * self.radius as i32;
+        for u in 0..self.radius {
+            sum += self.textures[u.min(last)];
+        }
+        for (u, value) in disparities.iter_mut().enumerate() {
+            sum += self.textures[(u + self.radius).min(last)];
+            if (sum as f32) < self.min_texture {
+                *value = f32::NAN;
+            }
+            sum -= self.textures[u.saturating_sub(self.radius)];
+        }
+    }
+}
+
+/// A right row from its end on: cell d of column u is at `width − 1 − u + d`. The border repeats
+/// outside.
+#[inline(always)]
+fn reverse(search: &Search, row: &[u8], reversed: &mut [u8]) {
+    let last = search.width as i64 - 1;
+    let begin = last - i64::from(search.min_disparity);
+    for (j, value) in reversed.iter_mut().enumerate() {
+        *value = row[(begin - j as i64).clamp(0, last) as usize];
+    }
+}

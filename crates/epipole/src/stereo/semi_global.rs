@@ -1,0 +1,374 @@
+//! Semi-global matching.
+
+use super::DisparityImage;
+use super::clean::{close_gaps, remove_speckles};
+use super::matching_cost::{CostRows, StereoCost};
+use super::paths::{Penalties, Sweep};
+use super::search::{Progress, Search, report, to_eight_bits};
+use super::simd::{Kernel, run_widest};
+use super::winner::{Selector, Tests};
+use crate::{Error, Result};
+use image::{GrayImage, ImageBuffer, Luma};
+use std::ops::ControlFlow;
+
+/// How many directions the costs are gathered from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StereoPaths {
+    /// Along the row and the column, both ways.
+    Four,
+    /// Along the row both ways and from the three pixels above: the memory of a few rows is
+    /// enough, and one thread works.
+    Five,
+    /// Along rows, columns and diagonals, both ways.
+    #[default]
+    Eight,
+}
+
+/// Dense disparity of a rectified pair by semi-global matching.
+///
+/// The answer minimizes, along straight paths from 4, 5 or 8 directions,
+/// `Σ_p C(p, d_p) + P1 [|d_p − d_q| = 1] + P2 [|d_p − d_q| > 1]` over neighbors p, q, where C is
+/// the [`StereoCost`] between the left pixel and the right pixel `u − d`.
+///
+/// A pixel has no answer (NaN) where its best match lies outside the right picture, another
+/// disparity fits nearly as well, the right picture disagrees, or only a small speckle of pixels
+/// holds it. Pictures without any texture get no answers, not an error.
+///
+/// Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::stereo::StereoSgm;
+/// use image::{GrayImage, Luma};
+/// // A pattern, and the same moved 3 pixels to the left.
+/// let gray = |u: u32, v: u32| Luma([((u * u * 7 + v * v * 5 + u * v * 3) % 251) as u8]);
+/// let left = GrayImage::from_fn(40, 24, gray);
+/// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
+/// let matcher = StereoSgm { num_disparities: 8, speckle_size: 0, ..Default::default() };
+/// let disparity = matcher.compute(&left, &right)?;
+/// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
+/// # Ok(()) }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct StereoSgm {
+    /// The smallest disparity looked for, pixels; negative for cameras that converge.
+    pub min_disparity_px: i32,
+    /// How many disparities are looked for, from the smallest on; 1 to 4096.
+    pub num_disparities: u32,
+    /// What is compared.
+    pub cost: StereoCost,
+    /// The largest cost of a difference of gray values, 1 to 63.
+    pub gray_cap: u8,
+    /// Directions.
+    pub paths: StereoPaths,
+    /// P1: the penalty for a change of disparity by one between neighbors.
+    pub small_step_penalty: u8,
+    /// P2: the penalty for a larger change; at least P1, at most 150.
+    pub large_step_penalty: u8,
+    /// The difference of gray values between two neighbors that halves P2 (never below P1), since
+    /// the edges of objects are mostly edges of the picture. 0: P2 is the same everywhere.
+    pub edge_gray: u8,
+    /// Percent by which the costs of all disparities two or more away from the best must be
+    /// higher, 0 to 99; 0: no such test.
+    pub uniqueness_percent: u32,
+    /// The largest difference between the disparities seen from the left and from the right,
+    /// pixels; none: no such test.
+    pub left_right_max_px: Option<u32>,
+    /// Answers that hang together in fewer pixels than this are removed; 0 or 1: none.
+    pub speckle_size: u32,
+    /// Neighbors whose disparities differ by no more than this hang together, pixels.
+    pub speckle_range_px: f32,
+    /// The longest gap along a row or a column, pixels, that is closed by interpolation where
+    /// the answers at its two ends hang together; 0: none.
+    pub max_gap_px: u32,
+}
+
+impl Default for StereoSgm {
+    /// Disparities 0 to 63, eight paths.
+    fn default() -> Self {
+        Self {
+            min_disparity_px: 0,
+            num_disparities: 64,
+            cost: StereoCost::default(),
+            gray_cap: 30,
+            paths: StereoPaths::default(),
+            small_step_penalty: 20,
+            large_step_penalty: 100,
+            edge_gray: 10,
+            uniqueness_percent: 5,
+            left_right_max_px: Some(1),
+            speckle_size: 100,
+            speckle_range_px: 2.0,
+            max_gap_px: 12,
+        }
+    }
+}
+
+/// P2 does not fall below this for a step of gray values, or textures would tear surfaces apart.
+const MIN_LARGE_STEP_PENALTY: u8 = 20;
+/// The cost of a candidate outside the right picture: more than a good match, less than a bad
+/// one, so that disparities continue beyond the border.
+const OUTSIDE_COST: u8 = 12;
+
+impl StereoSgm {
+    /// The disparities of `left`.
+    ///
+    /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
+    /// pictures, [`Error::OutOfRange`] for an option outside its range or a volume (pixels ×
+    /// disparities) too large for memory.
+    pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
+        self.compute_with(left, right, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest
+    /// value of both pictures become 0 and 255.
+    ///
+    /// # Errors
+    /// As [`StereoSgm::compute`], and [`Error::NotFinite`] for NaN or infinities.
+    pub fn compute_f32(
+        &self,
+        left: &ImageBuffer<Luma<f32>, Vec<f32>>,
+        right: &ImageBuffer<Luma<f32>, Vec<f32>>,
+    ) -> Result<DisparityImage> {
+        let (left, right) = to_eight_bits(left, right)?;
+        self.compute(&left, &right)
+    }
+
+    /// As [`StereoSgm::compute`], telling `progress` the share done, and stopping when it says so.
+    ///
+    /// # Errors
+    /// As [`StereoSgm::compute`], and [`Error::Canceled`].
+    pub fn compute_with(
+        &self,
+        left: &GrayImage,
+        right: &GrayImage,
+        progress: Progress,
+    ) -> Result<DisparityImage> {
+        let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
+        self.check()?;
+        let task = Task {
+            search,
+            options: self,
+            penalties: self.penalties(),
+        };
+        let values = match self.paths {
+            StereoPaths::Five => run_widest(FivePaths {
+                task: &task,
+                progress,
+            })?,
+            StereoPaths::Four => task.both_ways::<2>(progress)?,
+            StereoPaths::Eight => task.both_ways::<4>(progress)?,
+        };
+        let mut disparity = search.image(values);
+        remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
+        close_gaps(
+            &mut disparity,
+            self.max_gap_px as usize,
+            self.speckle_range_px,
+        );
+        Ok(disparity)
+    }
+
+    fn check(&self) -> Result<()> {
+        let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
+        for (what, requirement, value, good) in [
+            (
+                "the largest cost of a difference of gray values",
+                "from 1 to 63",
+                f64::from(self.gray_cap),
+                (1..=63).contains(&self.gray_cap),
+            ),
+            (
+                "the penalty for a large step",
+                "at least that for a small step, and at most 150",
+                f64::from(p2),
+                p1 <= p2 && p2 <= 150,
+            ),
+            (
+                "the uniqueness",
+                "from 0 to 99 percent",
+                f64::from(self.uniqueness_percent),
+                self.uniqueness_percent < 100,
+            ),
+        ] {
+            if !good {
+                return Err(Error::OutOfRange {
+                    what,
+                    requirement,
+                    value,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn penalties(&self) -> Penalties {
+        let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
+        let lowest = p1.max(MIN_LARGE_STEP_PENALTY).min(p2);
+        Penalties {
+            p1,
+            p2_of_gray_step: std::array::from_fn(|step| {
+                if self.edge_gray == 0 {
+                    return p2;
+                }
+                let edge = usize::from(self.edge_gray);
+                ((usize::from(p2) * edge / (edge + step)) as u8).max(lowest)
+            }),
+        }
+    }
+
+    fn tests(&self) -> Tests {
+        Tests {
+            uniqueness_percent: self.uniqueness_percent,
+            left_right_max: self.left_right_max_px,
+        }
+    }
+}
+
+/// A checked search with its options.
+struct Task<'a> {
+    search: Search<'a>,
+    options: &'a StereoSgm,
+    penalties: Penalties,
+}
+
+impl Task<'_> {
+    fn cost_rows(&self) -> CostRows<'_> {
+        let options = self.options;
+        CostRows::new(self.search, options.cost, options.gray_cap, OUTSIDE_COST)
+    }
+
+    fn row_cells(&self) -> usize {
+        self.search.width * self.search.num_cells
+    }
+
+    /// Paths down the picture, then up, N each; the sums of all pixels are kept in between.
+    fn both_ways<const N: usize>(&self, progress: Progress) -> Result<Vec<f32>> {
+        let num_cells = self.search.check_volume()?;
+        let mut volume = Volume {
+            costs: vec![0; num_cells],
+            sums: vec![0; num_cells],
+        };
+        run_widest(Down::<N> {
+            task: self,
+            volume: &mut volume,
+            progress: &mut *progress,
+        })?;
+        run_widest(Up::<N> {
+            task: self,
+            volume: &mut volume,
+            progress,
+        })
+    }
+}
+
+/// The costs and sums of all pixels, height × width × `num_cells`.
+struct Volume {
+    costs: Vec<u8>,
+    sums: Vec<i16>,
+}
+
+/// Half of the paths, and the costs on the way.
+struct Down<'a, 'b, const N: usize> {
+    task: &'a Task<'a>,
+    volume: &'a mut Volume,
+    progress: Progress<'b>,
+}
+
+impl<const N: usize> Kernel for Down<'_, '_, N> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run(self) -> Result<()> {
+        let task = self.task;
+        let search = task.search;
+        let mut cost_rows = task.cost_rows();
+        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, false);
+        let rows = self
+            .volume
+            .costs
+            .chunks_exact_mut(task.row_cells())
+            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()));
+        for (v, (costs, sums)) in rows.enumerate() {
+            if v % 16 == 0 {
+                report(self.progress, 0.5 * v as f32 / search.height as f32)?;
+            }
+            cost_rows.row(v, costs);
+            let gray = search.row_of(search.left.as_raw(), v);
+            sweep.next_row::<false>(costs, gray, &task.penalties, sums);
+        }
+        Ok(())
+    }
+}
+
+/// The other half, and the winners on the way.
+struct Up<'a, 'b, const N: usize> {
+    task: &'a Task<'a>,
+    volume: &'a mut Volume,
+    progress: Progress<'b>,
+}
+
+impl<const N: usize> Kernel for Up<'_, '_, N> {
+    type Output = Result<Vec<f32>>;
+
+    #[inline(always)]
+    fn run(self) -> Result<Vec<f32>> {
+        let task = self.task;
+        let search = task.search;
+        let mut values = vec![0.0; search.width * search.height];
+        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, true);
+        let mut selector = Selector::new(search, task.options.tests());
+        let rows = self
+            .volume
+            .costs
+            .chunks_exact(task.row_cells())
+            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()))
+            .zip(values.chunks_exact_mut(search.width));
+        for (v, ((costs, sums), out)) in rows.enumerate().rev() {
+            if v % 16 == 0 {
+                report(self.progress, 1.0 - 0.5 * v as f32 / search.height as f32)?;
+            }
+            let gray = search.row_of(search.left.as_raw(), v);
+            sweep.next_row::<true>(costs, gray, &task.penalties, sums);
+            selector.row(sums, out);
+        }
+        Ok(values)
+    }
+}
+
+/// Down the picture and along the row both ways, with the memory of a few rows.
+struct FivePaths<'a, 'b> {
+    task: &'a Task<'a>,
+    progress: Progress<'b>,
+}
+
+impl Kernel for FivePaths<'_, '_> {
+    type Output = Result<Vec<f32>>;
+
+    #[inline(always)]
+    fn run(self) -> Result<Vec<f32>> {
+        let task = self.task;
+        let search = task.search;
+        let mut cost_rows = task.cost_rows();
+        let mut costs = vec![0; task.row_cells()];
+        let mut sums = vec![0; task.row_cells()];
+        let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
+        let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
+        let mut selector = Selector::new(search, task.options.tests());
+        let mut values = vec![0.0; search.width * search.height];
+        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
+            if v % 16 == 0 {
+                report(self.progress, v as f32 / search.height as f32)?;
+            }
+            cost_rows.row(v, &mut costs);
+            let gray = search.row_of(search.left.as_raw(), v);
+            down.next_row::<false>(&costs, gray, &task.penalties, &mut sums);
+            back.next_row::<true>(&costs, gray, &task.penalties, &mut sums);
+            selector.row(&mut sums, out);
+        }
+        Ok(values)
+    }
+}

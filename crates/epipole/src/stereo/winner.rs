@@ -1,0 +1,160 @@
+//! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
+
+use super::search::Search;
+
+/// Disparities of a block that are compared at once.
+const LANES: usize = 16;
+
+/// What makes an answer credible.
+#[derive(Clone, Copy)]
+pub(super) struct Tests {
+    /// Percent by which every other disparity (two or more away) must cost more; below 100.
+    pub(super) uniqueness_percent: u32,
+    /// Largest difference between the left picture's and the right picture's answer.
+    pub(super) left_right_max: Option<u32>,
+}
+
+/// Selects answers row by row.
+pub(super) struct Selector<'a> {
+    search: Search<'a>,
+    tests: Tests,
+    /// The best sum of each right pixel and its disparity, from the row's end on.
+    right_sums: Vec<i16>,
+    right_winners: Vec<i16>,
+}
+
+impl<'a> Selector<'a> {
+    pub(super) fn new(search: Search<'a>, tests: Tests) -> Self {
+        let len = search.width + search.num_cells;
+        Self {
+            search,
+            tests,
+            right_sums: vec![0; len],
+            right_winners: vec![0; len],
+        }
+    }
+
+    /// * `sums`: width × `num_cells`; those beyond the last disparity are ignored
+    /// * `disparities`: the row's answers, NaN for none
+    #[inline(always)]
+    pub(super) fn row(&mut self, sums: &mut [i16], disparities: &mut [f32]) {
+        let (n, count) = (self.search.num_cells, self.search.num_disparities);
+        if count < n {
+            for cells in sums.chunks_exact_mut(n) {
+                cells[count..].fill(i16::MAX);
+            }
+        }
+        if self.tests.left_right_max.is_some() {
+            self.match_from_the_right(sums);
+        }
+        for (u, (cells, out)) in sums.chunks_exact(n).zip(disparities).enumerate() {
+            let (best, winner) = minimum(cells);
+            let offset = refine(cells, winner);
+            let good = self.search.cells_inside(u).contains(&winner)
+                && self.is_unique(cells, best, winner)
+                && self.is_mutual(u, winner, offset);
+            *out = if good {
+                (self.search.min_disparity + winner as i32) as f32 + offset
+            } else {
+                f32::NAN
+            };
+        }
+    }
+
+    /// The best left pixel of each right pixel, along the diagonals of the row's sums.
+    #[inline(always)]
+    fn match_from_the_right(&mut self, sums: &[i16]) {
+        let n = self.search.num_cells;
+        self.right_sums.fill(i16::MAX);
+        for (u, cells) in sums.chunks_exact(n).enumerate() {
+            let at = self.search.width - 1 - u;
+            let best = &mut self.right_sums[at..at + n];
+            let winner = &mut self.right_winners[at..at + n];
+            let cells = &cells[..n];
+            for d in 0..n {
+                let better = cells[d] < best[d];
+                winner[d] = if better { d as i16 } else { winner[d] };
+                best[d] = best[d].min(cells[d]);
+            }
+        }
+    }
+
+    /// No other disparity, apart from the winner's neighbors, comes close.
+    #[inline(always)]
+    fn is_unique(&self, cells: &[i16], best: i16, winner: usize) -> bool {
+        let percent = self.tests.uniqueness_percent as i32;
+        if percent == 0 {
+            return true;
+        }
+        let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX)) as i16;
+        let mut below = [0i16; LANES];
+        for block in cells.chunks_exact(LANES) {
+            for i in 0..LANES {
+                below[i] += i16::from(block[i] <= limit);
+            }
+        }
+        let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
+        let expected = cells[near].iter().filter(|&&s| s <= limit).count();
+        below.iter().map(|&x| x as usize).sum::<usize>() <= expected
+    }
+
+    /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
+    #[inline(always)]
+    fn is_mutual(&self, u: usize, winner: usize, offset: f32) -> bool {
+        let Some(max) = self.tests.left_right_max else {
+            return true;
+        };
+        let second = if offset > 0.0 {
+            winner + 1
+        } else {
+            winner.saturating_sub(1)
+        };
+        let inside = self.search.cells_inside(u);
+        [winner, second].into_iter().any(|d| {
+            inside.contains(&d) && {
+                let other = self.right_winners[self.search.width - 1 - u + d] as usize;
+                other.abs_diff(winner) <= max as usize
+            }
+        })
+    }
+}
+
+/// The smallest sum and its first place.
+#[inline(always)]
+fn minimum(cells: &[i16]) -> (i16, usize) {
+    let mut best = [i16::MAX; LANES];
+    let mut block_of_best = [0i16; LANES];
+    for (k, block) in cells.chunks_exact(LANES).enumerate() {
+        for i in 0..LANES {
+            let better = block[i] < best[i];
+            block_of_best[i] = if better { k as i16 } else { block_of_best[i] };
+            best[i] = best[i].min(block[i]);
+        }
+    }
+    let lowest = best.iter().fold(i16::MAX, |m, &x| m.min(x));
+    let mut place = i16::MAX;
+    for i in 0..LANES {
+        let here = block_of_best[i] * LANES as i16 + i as i16;
+        place = place.min(if best[i] == lowest { here } else { i16::MAX });
+    }
+    (lowest, place as usize)
+}
+
+/// How far the vertex of the parabola through the winner and its neighbors lies from the winner,
+/// −½ to ½.
+#[inline(always)]
+fn refine(cells: &[i16], winner: usize) -> f32 {
+    if winner == 0 || winner + 1 >= cells.len() || cells[winner + 1] == i16::MAX {
+        return 0.0;
+    }
+    let [below, best, above] = [
+        f32::from(cells[winner - 1]),
+        f32::from(cells[winner]),
+        f32::from(cells[winner + 1]),
+    ];
+    let curvature = below + above - 2.0 * best;
+    if curvature <= 0.0 {
+        return 0.0;
+    }
+    0.5 * (below - above) / curvature
+}

@@ -1,0 +1,198 @@
+//! Things in a room: a shape, where it stands, and what is painted on it.
+
+use super::light::{LightMap, Proxy};
+use super::shape::{Contact, Ray, Shape};
+use super::texture::Texture;
+use nalgebra::{Matrix3, Point3, Vector3};
+use std::sync::Arc;
+
+/// What one chart of a shape looks like.
+#[derive(Debug, Clone)]
+pub(crate) struct Paint {
+    pub(crate) texture: Arc<Texture>,
+    /// Texture coordinates are chart coordinates times this, plus `offset`.
+    pub(crate) scale: [f32; 2],
+    pub(crate) offset: [f32; 2],
+    pub(crate) tint: [f32; 3],
+    /// Strength of reflections, 0 for matte things; the texture's fourth channel modulates it.
+    pub(crate) gloss: f32,
+    /// Light of its own, as from a window pane.
+    pub(crate) glow: f32,
+    /// Cells of the light map across and down.
+    pub(crate) light_cells: [usize; 2],
+}
+
+impl Paint {
+    pub(crate) fn new(texture: &Arc<Texture>) -> Self {
+        Self {
+            texture: Arc::clone(texture),
+            scale: [1.0, 1.0],
+            offset: [0.0, 0.0],
+            tint: [1.0; 3],
+            gloss: 0.0,
+            glow: 0.0,
+            light_cells: [8, 8],
+        }
+    }
+
+    pub(crate) fn repeated(mut self, across: f32, down: f32) -> Self {
+        self.scale = [across, down];
+        self
+    }
+
+    pub(crate) fn shifted(mut self, s: f32, t: f32) -> Self {
+        self.offset = [s, t];
+        self
+    }
+
+    pub(crate) fn tinted(mut self, tint: [f32; 3]) -> Self {
+        self.tint = tint;
+        self
+    }
+
+    pub(crate) fn glossy(mut self, gloss: f32) -> Self {
+        self.gloss = gloss;
+        self
+    }
+
+    pub(crate) fn glowing(mut self, glow: f32) -> Self {
+        self.glow = glow;
+        self
+    }
+
+    pub(crate) fn lit(mut self, across: usize, down: usize) -> Self {
+        self.light_cells = [across, down];
+        self
+    }
+}
+
+/// A thing: its surface is found by rays and colored from its paints and light maps.
+#[derive(Debug)]
+pub(crate) struct Body {
+    pub(crate) name: &'static str,
+    pub(crate) shape: Shape,
+    pub(crate) local_from_world: Matrix3<f64>,
+    /// The origin of its own frame, in the world.
+    pub(crate) center: Vector3<f64>,
+    /// One per chart of the shape.
+    pub(crate) paints: Vec<Paint>,
+    /// One per chart, filled in by [`super::light::bake`].
+    pub(crate) lights: Vec<LightMap>,
+    /// Simple stand-ins that darken their surroundings.
+    pub(crate) proxies: Vec<Proxy>,
+    /// Whether it can shade itself: hollow things do, convex ones need no test.
+    pub(crate) hollow: bool,
+}
+
+impl Body {
+    /// A thing standing upright at a place, painted the same all over.
+    pub(crate) fn new(name: &'static str, shape: Shape, center: [f64; 3], paint: &Paint) -> Self {
+        let paints = vec![paint.clone(); shape.num_charts()];
+        Self {
+            name,
+            shape,
+            local_from_world: Matrix3::identity(),
+            center: Vector3::from(center),
+            paints,
+            lights: Vec::new(),
+            proxies: Vec::new(),
+            hollow: false,
+        }
+    }
+
+    /// Turned about the vertical axis; positive turns x toward z.
+    pub(crate) fn turned(self, yaw_rad: f64) -> Self {
+        self.rotated(yaw_rad, 0.0)
+    }
+
+    /// Tipped over about its own z axis, then turned about the vertical one.
+    #[rustfmt::skip]
+    pub(crate) fn rotated(mut self, yaw_rad: f64, tip_rad: f64) -> Self {
+        let (sin, cos) = libm::sincos(yaw_rad);
+        let world_from_tipped = Matrix3::new(
+            cos, 0.0, -sin,
+            0.0, 1.0, 0.0,
+            sin, 0.0, cos,
+        );
+        let (sin, cos) = libm::sincos(tip_rad);
+        let tipped_from_local = Matrix3::new(
+            cos, -sin, 0.0,
+            sin, cos,  0.0,
+            0.0, 0.0,  1.0,
+        );
+        self.local_from_world = (world_from_tipped * tipped_from_local).transpose();
+        self
+    }
+
+    pub(crate) fn painted(mut self, chart: usize, paint: &Paint) -> Self {
+        self.paints[chart] = paint.clone();
+        self
+    }
+
+    pub(crate) fn hollow(mut self) -> Self {
+        self.hollow = true;
+        self
+    }
+
+    /// Its own box is its stand-in.
+    pub(crate) fn boxed(mut self) -> Self {
+        let (half, center) = self.shape.bounds();
+        self.proxies = vec![Proxy::Box {
+            center: self.center + self.local_from_world.transpose() * center,
+            local_from_world: self.local_from_world,
+            half,
+        }];
+        self
+    }
+
+    /// These are its stand-ins, given relative to its center.
+    pub(crate) fn standing_for(mut self, proxies: &[Proxy]) -> Self {
+        self.proxies = proxies
+            .iter()
+            .map(|proxy| proxy.moved(&self.center))
+            .collect();
+        self
+    }
+
+    /// A ray of the world in the frame of this body, moved by `shift`.
+    pub(crate) fn local_ray(&self, ray: &Ray, shift: &Vector3<f64>) -> Ray {
+        Ray {
+            origin: self.local_from_world * (ray.origin - self.center - shift),
+            direction: self.local_from_world * ray.direction,
+        }
+    }
+
+    /// The first contact of a ray of the world.
+    pub(crate) fn meet(
+        &self,
+        ray: &Ray,
+        shift: &Vector3<f64>,
+        near: f64,
+        far: f64,
+    ) -> Option<Contact> {
+        self.shape.meet(&self.local_ray(ray, shift), near, far)
+    }
+
+    pub(crate) fn normal_in_world(&self, normal: &Vector3<f64>) -> Vector3<f64> {
+        self.local_from_world.tr_mul(normal)
+    }
+
+    /// Whether it is the room, which encloses everything else.
+    pub(crate) fn is_room(&self) -> bool {
+        matches!(&self.shape, Shape::Cuboid(cuboid) if cuboid.is_room())
+    }
+
+    /// Center and radius of a sphere around it.
+    pub(crate) fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
+        let (half, center) = self.shape.bounds();
+        (
+            self.center + self.local_from_world.tr_mul(&center),
+            half.norm(),
+        )
+    }
+
+    pub(crate) fn contains(&self, x_in_world: &Point3<f64>, shift: &Vector3<f64>) -> bool {
+        self.shape
+            .contains(&(self.local_from_world * (x_in_world.coords - self.center - shift)))
+    }
+}

@@ -1,0 +1,474 @@
+//! Light: a window, the glow of the room, and maps of both on every surface.
+//!
+//! Nothing in a scene moves its light, so shadows and the shade near contacts are computed once,
+//! when the scene is built, and a pixel only looks them up.
+
+use super::body::Body;
+use super::noise::split;
+use super::shading::single;
+use super::shape::{Ray, Shape};
+use nalgebra::{Matrix3, Vector3};
+
+/// Offset that lifts a surface point off its own surface, metres.
+const LIFT_M: f64 = 2e-4;
+
+/// Heights above a surface at which the room's openness is probed, metres, and their weights.
+const PROBES: [(f64, f32); 5] = [
+    (0.006, 0.16),
+    (0.02, 0.20),
+    (0.05, 0.22),
+    (0.12, 0.22),
+    (0.28, 0.20),
+];
+
+/// What shines: a rectangle such as a window, and soft light from six sides.
+#[derive(Debug, Clone)]
+pub(crate) struct Lighting {
+    pub(crate) center: Vector3<f64>,
+    /// Half sides of the rectangle; u × v points into the room.
+    pub(crate) half_u: Vector3<f64>,
+    pub(crate) half_v: Vector3<f64>,
+    pub(crate) color: [f32; 3],
+    /// Distance at which the rectangle has full strength; `None` if far away, for even light.
+    pub(crate) reference_m: Option<f64>,
+    /// Light on surfaces that face −x, +x, −y (up), +y, −z, +z.
+    pub(crate) sides: [[f32; 3]; 6],
+    pub(crate) mirror: Mirror,
+}
+
+/// The rectangle in the form in which reflections meet it.
+#[derive(Debug, Clone)]
+pub(crate) struct Mirror {
+    /// Its plane: `normal · x = offset`.
+    pub(crate) normal: [f32; 3],
+    pub(crate) offset: f32,
+    /// `u · x − u_offset` is −1 … 1 from edge to edge.
+    pub(crate) u: [f32; 3],
+    pub(crate) u_offset: f32,
+    pub(crate) v: [f32; 3],
+    pub(crate) v_offset: f32,
+}
+
+impl Lighting {
+    /// * `center`, `half_u`, `half_v`: the rectangle, metres; u × v points into the room
+    /// * `reference_m`: where it has full strength; `None` if far away
+    /// * `sides`: soft light on surfaces that face −x, +x, −y (up), +y, −z, +z
+    pub(crate) fn new(
+        [center, half_u, half_v]: [Vector3<f64>; 3],
+        color: [f32; 3],
+        reference_m: Option<f64>,
+        sides: [[f32; 3]; 6],
+    ) -> Self {
+        let normal = half_u.cross(&half_v).normalize();
+        let (u, v) = (
+            half_u / half_u.norm_squared(),
+            half_v / half_v.norm_squared(),
+        );
+        let mirror = Mirror {
+            normal: single(&normal),
+            offset: normal.dot(&center) as f32,
+            u: single(&u),
+            u_offset: u.dot(&center) as f32,
+            v: single(&v),
+            v_offset: v.dot(&center) as f32,
+        };
+        Self {
+            center,
+            half_u,
+            half_v,
+            color,
+            reference_m,
+            sides,
+            mirror,
+        }
+    }
+
+    /// Soft light from all around on a surface with this normal: the sides mixed by the squares
+    /// of the normal's components (McTaggart 2004).
+    #[inline]
+    pub(crate) fn ambient(&self, normal: [f32; 3]) -> [f32; 3] {
+        let mut color = [0.0; 3];
+        for axis in 0..3 {
+            let side = self.sides[2 * axis + usize::from(normal[axis] > 0.0)];
+            let weight = normal[axis] * normal[axis];
+            for i in 0..3 {
+                color[i] += weight * side[i];
+            }
+        }
+        color
+    }
+}
+
+/// A simple body for the shade near contacts, with a cheap distance.
+#[derive(Debug, Clone)]
+pub(crate) enum Proxy {
+    Box {
+        center: Vector3<f64>,
+        local_from_world: Matrix3<f64>,
+        half: Vector3<f64>,
+    },
+    Ball {
+        center: Vector3<f64>,
+        radius: f64,
+    },
+    /// An upright cylinder, `center` in its middle.
+    Post {
+        center: Vector3<f64>,
+        radius: f64,
+        half_height: f64,
+    },
+    Room {
+        center: Vector3<f64>,
+        half: Vector3<f64>,
+    },
+}
+
+impl Proxy {
+    pub(crate) fn moved(&self, by: &Vector3<f64>) -> Self {
+        let mut moved = self.clone();
+        match &mut moved {
+            Self::Box { center, .. }
+            | Self::Ball { center, .. }
+            | Self::Post { center, .. }
+            | Self::Room { center, .. } => *center += by,
+        }
+        moved
+    }
+
+    fn distance(&self, p: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Box {
+                center,
+                local_from_world,
+                half,
+            } => {
+                let q = (local_from_world * (p - center)).abs() - half;
+                let outside = q.map(|x| x.max(0.0)).norm();
+                outside + q.max().min(0.0)
+            }
+            Self::Ball { center, radius } => (p - center).norm() - radius,
+            Self::Post {
+                center,
+                radius,
+                half_height,
+            } => {
+                let d = p - center;
+                let side = (d.x * d.x + d.z * d.z).sqrt() - radius;
+                let end = d.y.abs() - half_height;
+                let (a, b) = (side.max(0.0), end.max(0.0));
+                (a * a + b * b).sqrt() + side.max(end).min(0.0)
+            }
+            Self::Room { center, half } => (half - (p - center).abs()).min(),
+        }
+    }
+}
+
+/// Light on a chart: red, green, blue, and the part of the window that is seen.
+#[derive(Debug, Clone)]
+pub(crate) struct LightMap {
+    width: usize,
+    height: usize,
+    wraps: bool,
+    cells: Vec<[f32; 4]>,
+}
+
+impl LightMap {
+    /// Light at chart coordinates (s, t), between the centers of four cells.
+    #[inline]
+    pub(crate) fn sample(&self, s: f32, t: f32) -> [f32; 4] {
+        let (x, fx) = split(s * self.width as f32 - 0.5);
+        let (y, fy) = split(t * self.height as f32 - 0.5);
+        let (w, h) = (self.width as i32, self.height as i32);
+        let (x0, x1) = if self.wraps {
+            (
+                if x < 0 { w - 1 } else { x.min(w - 1) },
+                if x + 1 >= w { 0 } else { x + 1 },
+            )
+        } else {
+            (x.clamp(0, w - 1), (x + 1).clamp(0, w - 1))
+        };
+        let (y0, y1) = (y.clamp(0, h - 1), (y + 1).clamp(0, h - 1));
+        let cell = |x: i32, y: i32| self.cells[(y * w + x) as usize];
+        let (a, b, c, d) = (cell(x0, y0), cell(x1, y0), cell(x0, y1), cell(x1, y1));
+        let mut light = [0.0; 4];
+        for i in 0..4 {
+            let upper = a[i] + (b[i] - a[i]) * fx;
+            let lower = c[i] + (d[i] - c[i]) * fx;
+            light[i] = upper + (lower - upper) * fy;
+        }
+        light
+    }
+
+    #[cfg(test)]
+    pub(crate) fn bytes(&self) -> usize {
+        16 * self.cells.len()
+    }
+}
+
+/// Sixteen places on the window, spread evenly in both directions (Roberts 2018, the R2
+/// sequence).
+fn window_places(lighting: &Lighting) -> [Vector3<f64>; 16] {
+    std::array::from_fn(|i| {
+        let i = i as f64 + 1.0;
+        let (a, b) = (i * 0.754_877_666_246_692_7, i * 0.569_840_290_998_053_2);
+        let (a, b) = (2.0 * (a - a.floor()) - 1.0, 2.0 * (b - b.floor()) - 1.0);
+        lighting.center + lighting.half_u * a + lighting.half_v * b
+    })
+}
+
+/// Directions of the upper half space, more of them near its pole, as cosines demand.
+fn dome() -> [Vector3<f64>; 14] {
+    std::array::from_fn(|i| {
+        let share = (i as f64 + 0.5) / 14.0;
+        let (sin, cos) = libm::sincos(i as f64 * 2.399_963_229_728_653);
+        let r = share.sqrt();
+        Vector3::new(r * cos, r * sin, (1.0 - share).sqrt())
+    })
+}
+
+/// Everything that casts shade, gathered once.
+pub(crate) struct Shade<'a> {
+    lighting: &'a Lighting,
+    places: [Vector3<f64>; 16],
+    dome: [Vector3<f64>; 14],
+    casters: Vec<(usize, &'a Body, Vector3<f64>, f64)>,
+    /// With the index of the body that each belongs to.
+    proxies: Vec<(usize, &'a Proxy)>,
+}
+
+impl<'a> Shade<'a> {
+    pub(crate) fn new(bodies: &'a [Body], lighting: &'a Lighting) -> Self {
+        let transparent =
+            |body: &Body| body.is_room() || body.paints.iter().any(|paint| paint.glow > 0.0);
+        Self {
+            lighting,
+            places: window_places(lighting),
+            dome: dome(),
+            casters: bodies
+                .iter()
+                .enumerate()
+                .filter(|(_, body)| !transparent(body))
+                .map(|(index, body)| {
+                    let (center, radius) = body.bounding_sphere();
+                    (index, body, center, radius)
+                })
+                .collect(),
+            proxies: bodies
+                .iter()
+                .enumerate()
+                .flat_map(|(index, body)| body.proxies.iter().map(move |proxy| (index, proxy)))
+                .collect(),
+        }
+    }
+
+    /// Part of the window's light that reaches a point, weighted with the cosine at its surface,
+    /// and the plain part of the window that is seen.
+    fn window(&self, own: usize, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> (f64, f64) {
+        let origin = p + n * LIFT_M;
+        let to_center = self.lighting.center - origin;
+        let distance_sq = to_center.norm_squared();
+        let spread = (self.lighting.half_u + self.lighting.half_v).norm();
+        let mut near: Vec<&Body> = Vec::new();
+        for (index, caster, center, radius) in &self.casters {
+            if *index == own && !body.hollow {
+                continue;
+            }
+            // Does the cone from the point to the window touch the caster's sphere?
+            let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
+            let off = (center - (origin + to_center * along)).norm();
+            if off < radius + spread * along.max(0.02) {
+                near.push(caster);
+            }
+        }
+        let zero = Vector3::zeros();
+        let (mut lit, mut seen) = (0.0, 0.0);
+        for place in &self.places {
+            let direction = place - origin;
+            let cosine = n.dot(&direction) / direction.norm();
+            if cosine <= 0.0 {
+                continue;
+            }
+            let ray = Ray { origin, direction };
+            if near
+                .iter()
+                .all(|caster| caster.meet(&ray, &zero, 1e-9, 0.999).is_none())
+            {
+                lit += cosine;
+                seen += 1.0;
+            }
+        }
+        let strength = self
+            .lighting
+            .reference_m
+            .map_or(1.0, |reference| reference * reference / distance_sq);
+        (lit / 16.0 * strength, seen / 16.0)
+    }
+
+    /// How open the surroundings of a surface point are, from 0 to 1 (after Evans 2006: compare
+    /// heights above the surface with distances to whatever is near).
+    fn openness(&self, own: usize, p: &Vector3<f64>, n: &Vector3<f64>) -> f32 {
+        let reach = PROBES[PROBES.len() - 1].0 * 2.0;
+        let mut near: Vec<&Proxy> = Vec::new();
+        for (index, proxy) in &self.proxies {
+            if *index != own && proxy.distance(p) < reach {
+                near.push(proxy);
+            }
+        }
+        let mut open = 1.0;
+        for (height, weight) in PROBES {
+            let probe = p + n * height;
+            let distance = near
+                .iter()
+                .fold(height, |least, proxy| proxy.distance(&probe).min(least))
+                .max(0.0);
+            open -= weight * (1.0 - (distance / height) as f32);
+        }
+        open
+    }
+
+    /// The part of the upper half space that a hollow body leaves open above its own surface.
+    fn own_openness(&self, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> f32 {
+        let side = if n.x.abs() < 0.7 {
+            Vector3::x()
+        } else {
+            Vector3::y()
+        };
+        let u = n.cross(&side).normalize();
+        let v = n.cross(&u);
+        let zero = Vector3::zeros();
+        let origin = p + n * (5.0 * LIFT_M);
+        let num_open = self
+            .dome
+            .iter()
+            .filter(|d| {
+                let direction = u * d.x + v * d.y + n * d.z;
+                let ray = Ray { origin, direction };
+                body.meet(&ray, &zero, 1e-9, 0.3).is_none()
+            })
+            .count();
+        num_open as f32 / self.dome.len() as f32
+    }
+
+    /// Light at one point of a surface.
+    fn at(&self, own: usize, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> [f32; 4] {
+        let (lit, seen) = self.window(own, body, p, n);
+        let mut open = self.openness(own, p, n);
+        if body.hollow {
+            open *= 0.25 + 0.75 * self.own_openness(body, p, n);
+        }
+        let soft = self.lighting.ambient([n.x as f32, n.y as f32, n.z as f32]);
+        let key = self.lighting.color.map(|channel| channel * lit as f32);
+        // What is enclosed is lit by warm neighbors: the shade loses blue before red.
+        let shade = [open * (1.1 - 0.1 * open), open, open * (0.9 + 0.1 * open)];
+        [
+            key[0] + soft[0] * shade[0],
+            key[1] + soft[1] * shade[1],
+            key[2] + soft[2] * shade[2],
+            seen as f32,
+        ]
+    }
+
+    /// The light map of one chart.
+    fn chart(&self, own: usize, body: &Body, chart: usize) -> LightMap {
+        let [width, height] = body.paints[chart].light_cells;
+        let mut cells = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let s = (x as f64 + 0.5) / width as f64;
+                let t = (y as f64 + 0.5) / height as f64;
+                let (point, normal) = body.shape.point(chart, s, t);
+                let p = body.center + body.local_from_world.tr_mul(&point);
+                let n = body.normal_in_world(&normal);
+                cells.push(self.at(own, body, &p, &n));
+            }
+        }
+        LightMap {
+            width,
+            height,
+            wraps: !matches!(body.shape, Shape::Cuboid(_)),
+            cells,
+        }
+    }
+
+    /// How much darker a plane becomes because these bodies stand on it: window light and soft
+    /// light (first and second number) on a square of `side_m` around the origin of the plane
+    /// y = 0.
+    pub(crate) fn decal(&self, cells: usize, side_m: f64, ground: &Body) -> Decal {
+        let mut factors = Vec::with_capacity(cells * cells);
+        let up = Vector3::new(0.0, -1.0, 0.0);
+        for y in 0..cells {
+            for x in 0..cells {
+                let p = Vector3::new(
+                    ((x as f64 + 0.5) / cells as f64 - 0.5) * side_m,
+                    0.0,
+                    ((y as f64 + 0.5) / cells as f64 - 0.5) * side_m,
+                );
+                let (_, seen) = self.window(usize::MAX, ground, &p, &up);
+                let open = self.openness(usize::MAX, &p, &up);
+                // The edge of the square must not show.
+                let rim = |i: usize| (i.min(cells - 1 - i) as f32 / 3.0).min(1.0);
+                let fade = rim(x).min(rim(y));
+                factors.push([1.0 - (1.0 - seen as f32) * fade, 1.0 - (1.0 - open) * fade]);
+            }
+        }
+        Decal {
+            cells,
+            side_m,
+            factors,
+        }
+    }
+}
+
+/// The shade that a movable thing throws on the table, carried along with it.
+#[derive(Debug)]
+pub(crate) struct Decal {
+    cells: usize,
+    side_m: f64,
+    factors: Vec<[f32; 2]>,
+}
+
+impl Decal {
+    /// Factors for window and soft light at a place relative to the thing's foot; `None` outside.
+    pub(crate) fn sample(&self, x_m: f64, z_m: f64) -> Option<[f32; 2]> {
+        let n = self.cells as f64;
+        let (x, z) = (
+            (x_m / self.side_m + 0.5) * n - 0.5,
+            (z_m / self.side_m + 0.5) * n - 0.5,
+        );
+        if !(x >= 0.0 && z >= 0.0 && x < n - 1.0 && z < n - 1.0) {
+            return None;
+        }
+        let (x0, fx) = split(x as f32);
+        let (z0, fz) = split(z as f32);
+        let at = |dx: usize, dz: usize| {
+            let x = (x0 as usize + dx).min(self.cells - 1);
+            let z = (z0 as usize + dz).min(self.cells - 1);
+            self.factors[z * self.cells + x]
+        };
+        let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
+        Some([0, 1].map(|i| {
+            let upper = a[i] + (b[i] - a[i]) * fx;
+            let lower = c[i] + (d[i] - c[i]) * fx;
+            upper + (lower - upper) * fz
+        }))
+    }
+}
+
+/// Computes the light maps of all bodies.
+pub(crate) fn bake(bodies: &mut [Body], lighting: &Lighting) {
+    let maps: Vec<Vec<LightMap>> = {
+        let shade = Shade::new(bodies, lighting);
+        bodies
+            .iter()
+            .enumerate()
+            .map(|(index, body)| {
+                (0..body.paints.len())
+                    .map(|chart| shade.chart(index, body, chart))
+                    .collect()
+            })
+            .collect()
+    };
+    for (body, lights) in bodies.iter_mut().zip(maps) {
+        body.lights = lights;
+    }
+}

@@ -1,0 +1,594 @@
+//! Photographs of a scene.
+//!
+//! One ray a pixel finds the surface; where neighboring pixels see different surfaces, eight more
+//! rays smooth the edge. Textures are already averaged over a pixel's width, so nothing else needs
+//! more rays. A pixel depends on its neighbors' rays alone, never on how the work was divided.
+
+use super::body::Body;
+use super::scene::Scene;
+use super::shading::{self, Look};
+use super::shape::{Contact, Ray};
+use crate::camera::Camera;
+use crate::{Error, Result};
+use image::{ImageBuffer, Luma, RgbImage};
+use nalgebra::{Matrix3, Point2, Vector2, Vector3};
+use std::ops::Range;
+
+/// Side of the squares of pixels that share a list of candidates.
+const TILE: u32 = 8;
+const NEAR: f64 = 1e-9;
+
+/// Offsets of the extra rays at an edge: no two share a row or a column.
+const EDGE_OFFSETS: [(f64, f64); 8] = [
+    (-0.4375, 0.0625),
+    (-0.3125, -0.3125),
+    (-0.1875, 0.3125),
+    (-0.0625, -0.1875),
+    (0.0625, 0.1875),
+    (0.1875, -0.4375),
+    (0.3125, 0.4375),
+    (0.4375, -0.0625),
+];
+
+/// How carefully to render.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// One ray a pixel: for small pictures while something is dragged.
+    Draft,
+    /// Smooth edges and textures.
+    Full,
+}
+
+/// A rendered picture with its ground truth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Photograph {
+    /// The picture, sRGB.
+    pub image: RgbImage,
+    /// Depth along the optical axis at every pixel center, metres; finite everywhere, since a
+    /// room has walls.
+    pub depth_m: ImageBuffer<Luma<f32>, Vec<f32>>,
+}
+
+impl Photograph {
+    /// A black picture at depth 0, to be filled by [`Scene::render_rows`].
+    pub fn blank(width: u32, height: u32) -> Self {
+        Self {
+            image: RgbImage::new(width, height),
+            depth_m: ImageBuffer::new(width, height),
+        }
+    }
+}
+
+/// A body as one camera sees it.
+struct Seen<'a> {
+    body: &'a Body,
+    origin: Vector3<f64>,
+    local_from_cam: Matrix3<f64>,
+    /// Pixels that may show it: columns and rows, both ends included.
+    columns: (i64, i64),
+    rows: (i64, i64),
+    /// No point of it is nearer than this depth; infinite for the room, which is behind all.
+    nearest: f64,
+    /// Its number in the scene.
+    number: usize,
+}
+
+/// What one ray found.
+#[derive(Clone, Copy)]
+struct Sample {
+    /// Body and chart.
+    key: u32,
+    depth_m: f32,
+    inverse_depth: f32,
+    color: [f32; 3],
+}
+
+struct View<'a> {
+    scene: &'a Scene,
+    seen: Vec<Seen<'a>>,
+    center: Vector3<f64>,
+    world_from_cam: Matrix3<f64>,
+    principal: Point2<f64>,
+    inverse_focal: Vector2<f64>,
+    pixel_rad: f64,
+    width: u32,
+    height: u32,
+    sampling: Sampling,
+}
+
+impl Scene {
+    /// A photograph of the scene with its depth.
+    ///
+    /// * `camera`: must stand in the room and not inside an object; its intrinsics are for a
+    ///   picture of `width × height` pixels
+    ///
+    /// Equal inputs give equal bytes on every platform, with any number of threads.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for no pixels or more than 16 million; [`Error::NotFinite`] or
+    /// [`Error::Degenerate`] for a camera that is nowhere, inside an object or outside of the
+    /// room.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::synthetic::{Sampling, Scene, still_life_camera};
+    /// let camera = still_life_camera(64, 48);
+    /// let photograph = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
+    /// assert_eq!(photograph.image.dimensions(), (64, 48));
+    /// // The table is nearer at the bottom of the picture than the wall at its top.
+    /// assert!(photograph.depth_m[(5, 47)].0[0] < photograph.depth_m[(5, 0)].0[0]);
+    /// # Ok(()) }
+    /// ```
+    pub fn render(
+        &self,
+        camera: &Camera,
+        width: u32,
+        height: u32,
+        sampling: Sampling,
+    ) -> Result<Photograph> {
+        self.check(camera, width, height)?;
+        let mut target = Photograph::blank(width, height);
+        let view = View::new(self, camera, width, height, sampling);
+        let band = Band {
+            first: 0,
+            rgb: &mut target.image,
+            depth_m: &mut target.depth_m,
+        };
+        render_bands(&view, band);
+        Ok(target)
+    }
+
+    /// Renders some rows of a photograph into `target`, made by [`Photograph::blank`].
+    ///
+    /// Any slices that cover the picture give exactly the pixels of [`Scene::render`], so a
+    /// picture can be refined a few rows at a time. Rows beyond the picture are ignored.
+    ///
+    /// # Errors
+    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the target is not
+    /// `width × height`.
+    pub fn render_rows(
+        &self,
+        camera: &Camera,
+        width: u32,
+        height: u32,
+        sampling: Sampling,
+        rows: Range<u32>,
+        target: &mut Photograph,
+    ) -> Result<()> {
+        self.check(camera, width, height)?;
+        for (got_width, got_height) in [target.image.dimensions(), target.depth_m.dimensions()] {
+            for (first, second) in [(width, got_width), (height, got_height)] {
+                if first != second {
+                    return Err(Error::SizeMismatch {
+                        what: "the photograph and its target",
+                        first: first as usize,
+                        second: second as usize,
+                    });
+                }
+            }
+        }
+        let (start, end) = (rows.start.min(height), rows.end.min(height));
+        if start >= end {
+            return Ok(());
+        }
+        let view = View::new(self, camera, width, height, sampling);
+        let (from, to) = ((start * width) as usize, (end * width) as usize);
+        view.render(Band {
+            first: start,
+            rgb: &mut target.image.as_flat_samples_mut().samples[3 * from..3 * to],
+            depth_m: &mut target.depth_m.as_flat_samples_mut().samples[from..to],
+        });
+        Ok(())
+    }
+}
+
+/// Some rows of the picture that is being made.
+struct Band<'a> {
+    first: u32,
+    rgb: &'a mut [u8],
+    depth_m: &'a mut [f32],
+}
+
+#[cfg(not(feature = "parallel"))]
+fn render_bands(view: &View, band: Band) {
+    view.render(band);
+}
+
+#[cfg(feature = "parallel")]
+fn render_bands(view: &View, band: Band) {
+    use rayon::prelude::*;
+    const ROWS: usize = 32;
+    let width = view.width as usize;
+    band.rgb
+        .par_chunks_mut(3 * width * ROWS)
+        .zip(band.depth_m.par_chunks_mut(width * ROWS))
+        .enumerate()
+        .for_each(|(index, (rgb, depth_m))| {
+            view.render(Band {
+                first: band.first + (index * ROWS) as u32,
+                rgb,
+                depth_m,
+            });
+        });
+}
+
+impl<'a> View<'a> {
+    fn new(scene: &'a Scene, camera: &Camera, width: u32, height: u32, sampling: Sampling) -> Self {
+        let center = camera.center_in_world().coords;
+        let k = &camera.intrinsics;
+        let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
+        let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
+        let world_from_cam = cam_from_world.matrix().transpose();
+        let mut seen: Vec<Seen> = scene
+            .placed()
+            .enumerate()
+            .map(|(number, (body, shift))| {
+                let (columns, rows, nearest) = outline(camera, body, &shift);
+                Seen {
+                    body,
+                    origin: body.local_from_world * (center - body.center - shift),
+                    local_from_cam: body.local_from_world * world_from_cam,
+                    columns,
+                    rows,
+                    nearest,
+                    number,
+                }
+            })
+            .collect();
+        // From front to back; the order of bodies decides between equals.
+        seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
+        Self {
+            scene,
+            seen,
+            center,
+            world_from_cam,
+            principal: k.principal_point(),
+            inverse_focal,
+            pixel_rad: (inverse_focal.x * inverse_focal.y).sqrt(),
+            width,
+            height,
+            sampling,
+        }
+    }
+
+    /// For each tile of a row of tiles, the bodies that it may show.
+    fn candidates(&self, tile_row: u32, lists: &mut Vec<Vec<u16>>) {
+        lists.resize(self.width.div_ceil(TILE) as usize, Vec::new());
+        lists.iter_mut().for_each(Vec::clear);
+        let tile = i64::from(TILE);
+        let (top, bottom) = (
+            i64::from(tile_row) * tile,
+            i64::from(tile_row) * tile + tile - 1,
+        );
+        for (index, seen) in self.seen.iter().enumerate() {
+            if seen.rows.1 < top || seen.rows.0 > bottom {
+                continue;
+            }
+            let first = seen.columns.0.max(0) / tile;
+            let last = seen.columns.1.min(i64::from(self.width) - 1);
+            if last < 0 {
+                continue;
+            }
+            for list in lists
+                .iter_mut()
+                .take((last / tile + 1) as usize)
+                .skip(first as usize)
+            {
+                list.push(index as u16);
+            }
+        }
+    }
+
+    /// What the ray through an image point finds among the candidates.
+    #[inline]
+    fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
+        let x = (u - self.principal.x) * self.inverse_focal.x;
+        let y = (v - self.principal.y) * self.inverse_focal.y;
+        let turn = |m: &Matrix3<f64>| {
+            Vector3::new(
+                m.m11 * x + m.m12 * y + m.m13,
+                m.m21 * x + m.m22 * y + m.m23,
+                m.m31 * x + m.m32 * y + m.m33,
+            )
+        };
+        let mut nearest = Contact {
+            along: f64::INFINITY,
+            part: 0,
+        };
+        let mut found = usize::MAX;
+        for &index in candidates {
+            let seen = &self.seen[usize::from(index)];
+            if seen.nearest > nearest.along {
+                break;
+            }
+            let ray = Ray {
+                origin: seen.origin,
+                direction: turn(&seen.local_from_cam),
+            };
+            if let Some(contact) = seen.body.shape.meet(&ray, NEAR, nearest.along) {
+                nearest = contact;
+                found = usize::from(index);
+            }
+        }
+        let Some(seen) = self.seen.get(found) else {
+            return Sample {
+                key: u32::MAX,
+                depth_m: f32::MAX,
+                inverse_depth: 0.0,
+                color: [0.0; 3],
+            };
+        };
+        let local = seen.origin + turn(&seen.local_from_cam) * nearest.along;
+        let place = seen.body.shape.place(&local, nearest.part);
+        let direction_in_world = turn(&self.world_from_cam);
+        let x_in_world = self.center + direction_in_world * nearest.along;
+        let decal = match &self.scene.movable {
+            Some((movable, shift)) if movable.ground == seen.number => movable
+                .decal
+                .sample(x_in_world.x - shift.x, x_in_world.z - shift.z),
+            _ => None,
+        };
+        let look = Look {
+            x_in_world: shading::single(&x_in_world),
+            direction_in_world: shading::single(&direction_in_world),
+            pixel_m: (nearest.along * self.pixel_rad) as f32,
+            decal,
+            smooth: self.sampling == Sampling::Full,
+        };
+        let color = shading::color(seen.body, &place, &self.scene.fixed.lighting, &look);
+        Sample {
+            key: (seen.number as u32) << 8 | place.chart as u32,
+            depth_m: nearest.along as f32,
+            inverse_depth: 1.0 / nearest.along as f32,
+            color,
+        }
+    }
+
+    fn render(&self, band: Band) {
+        let width = self.width as usize;
+        let num_rows = (band.rgb.len() / (3 * width)) as u32;
+        // Edges are found by comparison with the rows above and below.
+        let margin = u32::from(self.sampling == Sampling::Full);
+        let first = band.first.saturating_sub(margin);
+        let end = (band.first + num_rows + margin).min(self.height);
+        let mut samples = Vec::with_capacity((end - first) as usize * width);
+        let mut lists = Vec::new();
+        let mut listed = u32::MAX;
+        for row in first..end {
+            if row / TILE != listed {
+                listed = row / TILE;
+                self.candidates(listed, &mut lists);
+            }
+            for column in 0..self.width {
+                samples.push(self.trace(
+                    f64::from(column),
+                    f64::from(row),
+                    &lists[(column / TILE) as usize],
+                ));
+            }
+        }
+        let film = &self.scene.fixed.film;
+        let middle = (
+            (self.width as f32 - 1.0) / 2.0,
+            (self.height as f32 - 1.0) / 2.0,
+        );
+        let corner_sq = middle.0 * middle.0 + middle.1 * middle.1 + 1.0;
+        listed = u32::MAX;
+        for row in band.first..band.first + num_rows {
+            if row / TILE != listed {
+                listed = row / TILE;
+                self.candidates(listed, &mut lists);
+            }
+            let offset = (row - first) as usize * width;
+            let target = (row - band.first) as usize * width;
+            for column in 0..width {
+                let sample = samples[offset + column];
+                band.depth_m[target + column] = sample.depth_m;
+                let mut color = sample.color;
+                if self.sampling == Sampling::Full && is_edge(&samples, width, offset, column) {
+                    // A bright reflection must not outweigh its pixel, so each ray is bounded.
+                    let mut sum = [color[0].min(1.5), color[1].min(1.5), color[2].min(1.5)];
+                    let list = &lists[column / TILE as usize];
+                    for (du, dv) in EDGE_OFFSETS {
+                        let extra = self.trace(column as f64 + du, f64::from(row) + dv, list);
+                        for i in 0..3 {
+                            sum[i] += extra.color[i].min(1.5);
+                        }
+                    }
+                    color = [sum[0] / 9.0, sum[1] / 9.0, sum[2] / 9.0];
+                }
+                let (x, y) = (column as f32 - middle.0, row as f32 - middle.1);
+                let vignette = 1.0 - 0.2 * (x * x + y * y) / corner_sq;
+                let color = [
+                    color[0] * vignette,
+                    color[1] * vignette,
+                    color[2] * vignette,
+                ];
+                let pixel = film.develop(color, column as u32, row);
+                band.rgb[3 * (target + column)..3 * (target + column) + 3].copy_from_slice(&pixel);
+            }
+        }
+    }
+}
+
+/// Whether a pixel's neighbors see another surface, or the same one folded.
+fn is_edge(samples: &[Sample], width: usize, offset: usize, column: usize) -> bool {
+    let at = offset + column;
+    let here = &samples[at];
+    let left = &samples[at - usize::from(column > 0)];
+    let right = &samples[at + usize::from(column + 1 < width)];
+    let above = &samples[if at >= width { at - width } else { at }];
+    let below = &samples[if at + width < samples.len() {
+        at + width
+    } else {
+        at
+    }];
+    if [left, right, above, below]
+        .iter()
+        .any(|other| other.key != here.key)
+    {
+        return true;
+    }
+    // Inverse depth is linear on a plane.
+    let bend = |a: &Sample, b: &Sample| {
+        (a.inverse_depth + b.inverse_depth - 2.0 * here.inverse_depth).abs()
+    };
+    let inside = column > 0 && column + 1 < width;
+    let limit = 0.006 * here.inverse_depth;
+    (inside && bend(left, right) > limit)
+        || (at >= width && at + width < samples.len() && bend(above, below) > limit)
+}
+
+/// Columns and rows between which a body appears, around the corners of its box, and a depth
+/// that is not beyond its nearest point.
+fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (i64, i64), f64) {
+    let everywhere = (i64::MIN, i64::MAX);
+    if body.is_room() {
+        return (everywhere, everywhere, f64::INFINITY);
+    }
+    let (half, center) = body.shape.bounds();
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut nearest = f64::INFINITY;
+    let mut num_behind = 0;
+    for corner in 0..8 {
+        let sign = |bit: i32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
+        let x_in_world = body.local_from_world.tr_mul(&local) + body.center + shift;
+        let x_in_cam = camera.cam_from_world * nalgebra::Point3::from(x_in_world);
+        nearest = nearest.min(x_in_cam.z - 1e-9);
+        match camera.intrinsics.project(&x_in_cam) {
+            Ok(pixel) if x_in_cam.z > 1e-6 => {
+                for i in 0..2 {
+                    low[i] = low[i].min(pixel[i]);
+                    high[i] = high[i].max(pixel[i]);
+                }
+            }
+            _ => num_behind += 1,
+        }
+    }
+    match num_behind {
+        // One pixel more for the rays between pixel centers.
+        0 => {
+            let range = |i: usize| (low[i].floor() as i64 - 1, high[i].ceil() as i64 + 1);
+            (range(0), range(1), nearest)
+        }
+        // Nothing of it lies in front of the camera.
+        8 => ((1, 0), (1, 0), nearest),
+        _ => (everywhere, everywhere, nearest),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Intrinsics;
+    use crate::synthetic::still_life_camera;
+
+    fn fingerprint(bytes: &[u8]) -> u64 {
+        bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        })
+    }
+
+    /// The picture is part of the contract: natively and in the browser it has these bytes.
+    #[test]
+    fn bytes_are_pinned() {
+        let camera = still_life_camera(96, 72);
+        let scene = Scene::still_life();
+        let photograph = scene.render(&camera, 96, 72, Sampling::Full).unwrap();
+        let draft = scene.render(&camera, 96, 72, Sampling::Draft).unwrap();
+        assert_eq!(
+            (
+                fingerprint(&photograph.image),
+                fingerprint(&draft.image),
+                photograph
+                    .depth_m
+                    .iter()
+                    .fold(0u64, |sum, depth| sum.wrapping_mul(31)
+                        + u64::from(depth.to_bits()))
+            ),
+            PINNED
+        );
+        assert_eq!(photograph.depth_m, draft.depth_m);
+    }
+
+    const PINNED: (u64, u64, u64) = (
+        957_760_244_409_160_640,
+        13_568_254_789_158_502_066,
+        2_003_876_323_505_076_712,
+    );
+
+    #[test]
+    fn slices_equal_the_whole() {
+        let camera = still_life_camera(80, 60);
+        let scene = Scene::still_life();
+        for sampling in [Sampling::Draft, Sampling::Full] {
+            let whole = scene.render(&camera, 80, 60, sampling).unwrap();
+            let mut sliced = Photograph::blank(80, 60);
+            for rows in [40..60, 0..1, 1..17, 17..39, 39..40, 90..99] {
+                scene
+                    .render_rows(&camera, 80, 60, sampling, rows, &mut sliced)
+                    .unwrap();
+            }
+            assert!(whole == sliced, "{sampling:?}");
+        }
+    }
+
+    /// Every pixel's depth is that of a ray cast through all bodies without any shortcuts.
+    #[test]
+    fn depth_equals_exact_rays() {
+        let scene = Scene::still_life();
+        let front = still_life_camera(64, 48);
+        for (dx, dz, yaw) in [(0.0, 0.0, 0.0), (0.5, 0.3, -0.35), (-0.5, 0.5, 0.35)] {
+            let turn = nalgebra::Isometry3::rotation(Vector3::new(0.0, yaw, 0.0));
+            let camera = Camera {
+                intrinsics: front.intrinsics,
+                cam_from_world: turn
+                    * front.cam_from_world
+                    * nalgebra::Translation3::new(-dx, 0.0, -dz),
+            };
+            let photograph = scene.render(&camera, 64, 48, Sampling::Draft).unwrap();
+            for (u, v, depth) in photograph.depth_m.enumerate_pixels() {
+                let pixel = Point2::new(f64::from(u), f64::from(v));
+                let hit = scene
+                    .cast(&camera.center_in_world(), &camera.ray_in_world(&pixel))
+                    .unwrap();
+                let error = (f64::from(depth.0[0]) - hit.distance_along).abs();
+                assert!(error < 1e-6 * hit.distance_along, "{u} {v}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_requests_are_refused() {
+        let scene = Scene::still_life();
+        let camera = still_life_camera(64, 48);
+        for (width, height) in [(0, 48), (64, 0), (8000, 8000), (u32::MAX, u32::MAX)] {
+            assert!(matches!(
+                scene.render(&camera, width, height, Sampling::Draft),
+                Err(Error::OutOfRange { .. })
+            ));
+        }
+        let at = |x: f64, y: f64, z: f64| Camera {
+            intrinsics: Intrinsics::centered(60.0, 64, 48).unwrap(),
+            cam_from_world: nalgebra::Isometry3::translation(-x, -y, -z),
+        };
+        // In the table top, and far outside of the room.
+        for camera in [at(0.0, 0.01, 0.0), at(0.0, -50.0, 0.0)] {
+            assert!(matches!(
+                scene.render(&camera, 64, 48, Sampling::Draft),
+                Err(Error::Degenerate { .. })
+            ));
+        }
+        assert!(matches!(
+            scene.render(&at(f64::NAN, 0.0, 0.0), 64, 48, Sampling::Draft),
+            Err(Error::NotFinite { .. })
+        ));
+        let mut target = Photograph::blank(8, 8);
+        target.depth_m = ImageBuffer::new(4, 4);
+        assert!(matches!(
+            scene.render_rows(&camera, 8, 8, Sampling::Draft, 0..8, &mut target),
+            Err(Error::SizeMismatch { .. })
+        ));
+    }
+}

@@ -1,0 +1,260 @@
+//! Who may import whom: the arrows of `ARCHITECTURE.md`, read from the sources.
+
+use epipole_tests::{files_below, root};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// A crate and the crates of the house that it may name.
+const CRATES: &[(&str, &[&str])] = &[
+    ("epipole", &[]),
+    ("epipole-widgets", &["epipole"]),
+    ("epipole-web", &["epipole", "epipole-widgets"]),
+    ("epipole-book", &["epipole", "epipole-widgets"]),
+    ("epipole-cli", &["epipole", "epipole-widgets"]),
+];
+
+/// A dependency that only one crate may name, so that it stays in one place.
+const RESERVED: &[(&str, &str)] = &[
+    ("tiny-skia", "epipole-widgets"),
+    ("ttf-parser", "epipole-widgets"),
+    ("wasm-bindgen", "epipole-web"),
+    ("web-sys", "epipole-web"),
+    ("js-sys", "epipole-web"),
+];
+
+/// The rooms of the core: each may use those before it.
+const ROOMS: &[&str] = &[
+    "math",
+    "optim",
+    "imaging",
+    "camera",
+    "robust",
+    "feature",
+    "epipolar",
+    "homography",
+    "absolute_pose",
+    "triangulation",
+    "stereo",
+    "sfm",
+    "synthetic",
+];
+
+fn manifest(name: &str) -> toml::Table {
+    let path = root().join("crates").join(name).join("Cargo.toml");
+    let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    text.parse()
+        .unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The names in every table of dependencies that ends up in the crate itself.
+fn dependencies(manifest: &toml::Table) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut take = |table: Option<&toml::Value>| {
+        names.extend(
+            table
+                .and_then(toml::Value::as_table)
+                .into_iter()
+                .flat_map(|t| t.keys().cloned()),
+        );
+    };
+    take(manifest.get("dependencies"));
+    take(manifest.get("build-dependencies"));
+    let targets = manifest.get("target").and_then(toml::Value::as_table);
+    for target in targets.into_iter().flat_map(toml::Table::values) {
+        take(target.get("dependencies"));
+    }
+    names
+}
+
+#[test]
+fn every_crate_is_on_the_map() {
+    let mut found: Vec<String> = fs::read_dir(root().join("crates"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    found.sort();
+    let mut known: Vec<&str> = CRATES.iter().map(|(name, _)| *name).collect();
+    known.sort_unstable();
+    assert_eq!(found, known);
+}
+
+#[test]
+fn crates_name_only_the_crates_below_them() {
+    for (name, allowed) in CRATES {
+        let named = dependencies(&manifest(name));
+        let house = named
+            .iter()
+            .filter(|dependency| dependency.starts_with("epipole"));
+        let wrong: Vec<&String> = house.filter(|d| !allowed.contains(&d.as_str())).collect();
+        assert!(wrong.is_empty(), "{name} must not depend on {wrong:?}");
+    }
+}
+
+#[test]
+fn reserved_dependencies_stay_in_their_crate() {
+    for (name, _) in CRATES {
+        let named = dependencies(&manifest(name));
+        for (dependency, owner) in RESERVED {
+            assert!(
+                name == owner || !named.contains(*dependency),
+                "{name} must not depend on {dependency}: only {owner} may"
+            );
+        }
+    }
+}
+
+/// The rooms that a source file of the core names.
+fn rooms_named(text: &str) -> BTreeSet<&str> {
+    let mut named = BTreeSet::new();
+    for (place, _) in text.match_indices("crate::") {
+        let rest = &text[place + "crate::".len()..];
+        let end = rest
+            .find(|c: char| !c.is_alphanumeric() && c != '_')
+            .unwrap_or(rest.len());
+        named.insert(&rest[..end]);
+        // `use crate::{a::x, b::y};`
+        if let Some(list) = rest.strip_prefix('{') {
+            let mut depth = 0;
+            let mut start = true;
+            for (at, c) in list.char_indices() {
+                match c {
+                    '{' => depth += 1,
+                    '}' if depth == 0 => break,
+                    '}' => depth -= 1,
+                    ',' if depth == 0 => start = true,
+                    c if start && !c.is_whitespace() => {
+                        let word = &list[at..];
+                        let end = word
+                            .find(|c: char| !c.is_alphanumeric() && c != '_')
+                            .unwrap_or(word.len());
+                        named.insert(&word[..end]);
+                        start = false;
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    named
+}
+
+/// The part of a file that is not tests: tests may build their data with any room.
+fn before_tests(text: &str) -> String {
+    let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+    let comment = |line: &&str| !line.trim_start().starts_with("//");
+    code.lines().filter(comment).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn rooms_of_the_core_use_only_the_rooms_before_them() {
+    let source = root().join("crates/epipole/src");
+    let mut wrong = Vec::new();
+    for (rank, room) in ROOMS.iter().enumerate() {
+        let folder = source.join(room);
+        if !folder.is_dir() {
+            continue;
+        }
+        for file in files_below(&folder, &["rs"]) {
+            let text = before_tests(&fs::read_to_string(&file).unwrap());
+            for named in rooms_named(&text) {
+                if ROOMS
+                    .iter()
+                    .position(|other| *other == named)
+                    .is_some_and(|r| r > rank)
+                {
+                    let file = file.strip_prefix(&source).unwrap_or(&file);
+                    wrong.push(format!("{} names {named}", file.display()));
+                }
+            }
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "rooms that import a later one: {wrong:#?}"
+    );
+}
+
+#[test]
+fn every_room_of_the_core_is_on_the_map() {
+    let source = root().join("crates/epipole/src");
+    for entry in fs::read_dir(source).unwrap() {
+        let entry = entry.unwrap();
+        if entry.path().is_dir() && !files_below(&entry.path(), &["rs"]).is_empty() {
+            let name = entry.file_name().into_string().unwrap();
+            assert!(ROOMS.contains(&&*name), "the room {name} is not on the map");
+        }
+    }
+}
+
+/// `model.rs` of a figure: state and mathematics, no drawing, no clock.
+#[test]
+fn models_know_no_canvas_no_theme_and_no_clock() {
+    let forbidden = [
+        "canvas",
+        "theme",
+        "view",
+        "tiny_skia",
+        "Instant",
+        "SystemTime",
+        "std::time",
+    ];
+    let gallery = root().join("crates/epipole-widgets/src/gallery");
+    let models: Vec<_> = files_below(&gallery, &["rs"])
+        .into_iter()
+        .filter(|file| file.file_name().is_some_and(|name| name == "model.rs"))
+        .collect();
+    assert!(!models.is_empty());
+    for file in models {
+        let text = before_tests(&fs::read_to_string(&file).unwrap());
+        let words: BTreeSet<&str> = text
+            .split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':')
+            .collect();
+        for word in forbidden {
+            assert!(
+                !words
+                    .iter()
+                    .any(|w| w.split("::").any(|part| part == word) || *w == word),
+                "{} names {word}",
+                file.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn only_the_canvas_names_the_rasterizer() {
+    let source = root().join("crates/epipole-widgets/src");
+    for file in files_below(&source, &["rs"]) {
+        let text = before_tests(&fs::read_to_string(&file).unwrap());
+        let is_canvas = file == source.join("canvas.rs") || file.starts_with(source.join("canvas"));
+        assert!(
+            is_canvas || !text.contains("tiny_skia"),
+            "{} names tiny_skia",
+            file.display()
+        );
+    }
+}
+
+/// The repository speaks of the product, and of no machine.
+#[test]
+fn no_path_of_a_machine() {
+    let top = root();
+    let mut files = files_below(
+        &top.join("crates"),
+        &["rs", "toml", "md", "css", "ts", "hbs"],
+    );
+    files.extend(files_below(&top.join("content"), &["md", "toml"]));
+    let bad = [
+        concat!("/ho", "me/"),
+        concat!("/ro", "ot/"),
+        concat!("/wo", "rk/"),
+    ];
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap_or_default();
+        for path in bad {
+            assert!(!text.contains(path), "{} names {path}", file.display());
+        }
+    }
+    assert!(Path::new(&top).join("README.md").exists());
+}

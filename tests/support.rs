@@ -1,0 +1,50 @@
+//! What the tests across crates share.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The top of the repository.
+pub fn root() -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    manifest.parent().unwrap_or(manifest).to_owned()
+}
+
+/// Every file below `folder` with one of the extensions, sorted.
+///
+/// # Panics
+/// If the folder cannot be read.
+pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(&folder);
+        let entries = entries.unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+        for entry in entries.flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path
+                .extension()
+                .is_some_and(|e| extensions.iter().any(|x| e == *x))
+            {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The Rust listings of the chapters, run as documentation tests.
+#[cfg(doctest)]
+pub mod listings {
+    /// Chapter "One point, one line".
+    #[doc = include_str!("../content/epipolar.md")]
+    pub struct Epipolar;
+    /// Chapter "Let the data vote".
+    #[doc = include_str!("../content/ransac.md")]
+    pub struct Ransac;
+    /// Chapter "Two eyes in a row".
+    #[doc = include_str!("../content/stereo.md")]
+    pub struct Stereo;
+}
