@@ -13,6 +13,7 @@
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //!
 //! # Conventions
 //!
@@ -34,6 +35,7 @@ pub mod optim;
 pub mod robust;
 pub mod stereo;
 pub mod synthetic;
+pub mod sfm;
 
 pub use error::Error;
 
