@@ -12,8 +12,8 @@
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
-//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
 //!
@@ -33,9 +33,9 @@ pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
+pub mod sfm;
 pub mod stereo;
 pub mod synthetic;
-pub mod sfm;
 
 pub use error::Error;
 
