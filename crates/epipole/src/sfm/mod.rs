@@ -9,9 +9,12 @@
 mod alignment;
 mod bal;
 mod bundle;
+mod export;
 mod g2o;
 mod pose_graph;
+mod reconstruction;
 mod tokens;
+mod tracks;
 mod union_find;
 
 pub use alignment::{
@@ -20,4 +23,7 @@ pub use alignment::{
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal};
 pub use bundle::{Bundle, BundleOptions, Gauge, Observation, RadialDistortion, adjust_bundle};
+pub use export::ColmapModel;
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
+pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
+pub use tracks::{PairMatches, TrackElement, build_tracks};
