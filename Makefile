@@ -50,14 +50,14 @@ clean: ## removes everything that was built or installed here
 	rm -rf web/node_modules tests/browser/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
-	@tests/tools/need.sh cargo node npm
+	@tests/tools/need.sh cargo rustup node npm
 	@rustup target list --installed | grep -q wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
 
 setup-test: setup-build tests/browser/node_modules/.installed $(VENV)/.installed
 	@tests/tools/chromium.sh >/dev/null
 
 web/node_modules/.installed: web/package-lock.json
-	@tests/tools/need.sh cargo node npm
+	@tests/tools/need.sh cargo rustup node npm
 	cd web && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 

@@ -118,5 +118,18 @@ start = cv2.goodFeaturesToTrack(corners, 40, 0.2, 9, blockSize=3)[:, :]
 fine = cv2.cornerSubPix(corners, start.copy(), (4, 4), (-1, -1), (3, 100, 1e-5))
 save("subpix_start", start[:, 0].astype(np.float32))
 save("subpix_refined", fine[:, 0].astype(np.float32))
+
+# ---------------------------------------------------------------- SIFT
+blobs = np.zeros((120, 150))
+v, u = np.mgrid[0:120, 0:150].astype(np.float64)
+for _ in range(45):
+    x, y, size, height = rng.uniform(0, 150), rng.uniform(0, 120), rng.uniform(1.5, 7), rng.uniform(-0.5, 0.5)
+    blobs += height * np.exp(-((u - x) ** 2 + (v - y) ** 2 + 0.5 * (u - x) * (v - y)) / (2 * size * size))
+blobs = np.round(255 * (blobs - blobs.min()) / (blobs.max() - blobs.min())).astype(np.uint8)
+save("sift_image", blobs.astype(np.float32) / np.float32(255))
+sift = cv2.SIFT_create(enable_precise_upscale=True)
+keypoints = sift.detect(blobs, None)
+# OpenCV's size is the diameter, twice the blur.
+save("sift_keypoints", np.array([[k.pt[0], k.pt[1], k.size / 2] for k in keypoints], np.float32))
 total = sum(os.path.getsize(os.path.join(OUT, f)) for f in os.listdir(OUT))
 print(len(os.listdir(OUT)), "files,", total, "bytes")

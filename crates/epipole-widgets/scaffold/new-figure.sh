@@ -13,7 +13,7 @@ gallery=$here/../src/gallery
 module=$(printf %s "$name" | tr - _)
 type=$(printf %s "$name" | awk -F- '{ for (i = 1; i <= NF; i++) printf "%s%s", toupper(substr($i, 1, 1)), substr($i, 2) }')
 title=$(printf %s "$name" | tr - ' ' | awk '{ print toupper(substr($0, 1, 1)) substr($0, 2) }')
-if [ -e "$gallery/$module.rs" ]; then
+if [ -e "$gallery/$module" ]; then
     echo "the figure $name exists already" >&2
     exit 1
 fi
@@ -21,7 +21,7 @@ mkdir -p "$gallery/$module"
 fill() {
     sed -e "s/new-figure/$name/g" -e "s/NewFigure/$type/g" -e "s/New figure/$title/g" "$1" >"$2"
 }
-fill "$here/figure.rs" "$gallery/$module.rs"
+fill "$here/mod.rs" "$gallery/$module/mod.rs"
 fill "$here/model.rs" "$gallery/$module/model.rs"
 fill "$here/view.rs" "$gallery/$module/view.rs"
 list=$here/../src/gallery.rs

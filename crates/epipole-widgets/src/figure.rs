@@ -4,10 +4,15 @@
 //! outside this crate sees a model or a view.
 
 use crate::canvas::{Canvas, Picture};
-use crate::contract::{Control, ControlKind, Event, Handle, Layout, Problem, Readout, Value};
+use crate::contract::{
+    Control, ControlKind, Event, Handle, Job, JobResult, Layout, PhotoSlot, Problem, Progress,
+    Readout, Value,
+};
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
 use crate::theme::Theme;
+use image::RgbImage;
+use std::ops::ControlFlow;
 
 /// Width of a poster and of a page's figure column, CSS pixels.
 pub const POSTER_WIDTH: f64 = 760.0;
@@ -105,6 +110,56 @@ impl Figure {
     /// True while the figure wants [`Event::Tick`].
     pub fn is_running(&self) -> bool {
         self.stage.is_running()
+    }
+
+    /// The computation that the figure waits for, if any.
+    pub fn job(&self) -> Option<Job> {
+        self.stage.job()
+    }
+
+    /// Carries out a job of the figure `name`; needs no figure, so a worker can do it.
+    ///
+    /// # Errors
+    /// [`Problem::UnknownFigure`], or a sentence about the data.
+    pub fn compute(name: &str, request: &[u8], progress: Progress<'_>) -> JobResult {
+        (gallery::find(name)?.compute)(request, progress)
+    }
+
+    /// Hands the result of the job with this [`key`](Job::key) to the figure. An answer that the
+    /// figure no longer waits for is dropped; says whether it was used.
+    pub fn job_done(&mut self, key: u64, result: JobResult) -> bool {
+        let wanted = self.job().is_some_and(|job| job.key() == key);
+        if wanted {
+            self.stage.job_done(result);
+        }
+        wanted
+    }
+
+    /// Carries out what the figure waits for, here and now.
+    pub fn finish_job(&mut self) {
+        // A figure may go through several stages, but not through endlessly many.
+        for _ in 0..16 {
+            let Some(job) = self.job() else { return };
+            let result = (self.entry.compute)(&job.request, &mut |_| ControlFlow::Continue(()));
+            self.stage.job_done(result);
+        }
+    }
+
+    /// Places for photographs of the reader's own.
+    pub fn photo_slots(&self) -> &'static [PhotoSlot] {
+        self.stage.photo_slots()
+    }
+
+    /// Puts a photograph of the reader's own into a slot.
+    ///
+    /// # Errors
+    /// [`Problem::UnknownParameter`] for a slot that the figure lacks, or a sentence about the
+    /// photograph.
+    pub fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
+        if self.photo_slots().iter().all(|known| known.id != slot) {
+            return Err(self.unknown(slot));
+        }
+        self.stage.take_photo(slot, photo)
     }
 
     /// Panels and height for a width of the page, CSS pixels.
@@ -380,6 +435,7 @@ impl Figure {
         scale: f64,
         theme: Theme,
     ) -> Result<&Picture, Problem> {
+        self.finish_job();
         self.draw(width, scale, theme)?;
         while self.refine() {}
         self.draw(width, scale, theme)

@@ -1,8 +1,9 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-use crate::contract::{Model, Problem, View};
+use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+pub mod harris;
 pub mod ransac_race;
 
 /// A figure's entry in the list.
@@ -14,10 +15,11 @@ pub struct Entry {
     /// What a reader can do with it.
     pub help: &'static str,
     pub(crate) make: fn() -> Box<dyn Stage>,
+    pub(crate) compute: fn(&[u8], Progress<'_>) -> JobResult,
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[entry::<ransac_race::View>()];
+pub static FIGURES: &[Entry] = &[entry::<harris::View>(), entry::<ransac_race::View>()];
 
 const fn entry<V: View>() -> Entry {
     Entry {
@@ -25,6 +27,7 @@ const fn entry<V: View>() -> Entry {
         title: V::Model::TITLE,
         help: V::Model::HELP,
         make: stage::set_up::<V>,
+        compute: stage::compute::<V>,
     }
 }
 
@@ -47,7 +50,7 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
-#[path = "../scaffold/figure.rs"]
+#[path = "../scaffold/mod.rs"]
 pub mod new_figure;
 
 #[cfg(test)]

@@ -1,8 +1,12 @@
 //! A model together with its view, with the types erased, so that figures can stand in one list.
 
 use crate::canvas::Canvas;
-use crate::contract::{Control, Event, Handle, Layout, Model, Problem, Readout, View};
+use crate::contract::{
+    Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Progress, Readout,
+    View,
+};
 use crate::figure::ChallengeStatus;
+use image::RgbImage;
 
 /// What [`Figure`](crate::Figure) needs of any model and view.
 pub(crate) trait Stage {
@@ -15,6 +19,10 @@ pub(crate) trait Stage {
     fn is_running(&self) -> bool;
     fn update(&mut self, event: &Event) -> Result<(), Problem>;
     fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool;
+    fn job(&self) -> Option<Job>;
+    fn job_done(&mut self, result: JobResult);
+    fn photo_slots(&self) -> &'static [PhotoSlot];
+    fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem>;
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
     fn refine(&mut self) -> bool;
@@ -23,6 +31,11 @@ pub(crate) trait Stage {
 struct Pair<V: View> {
     model: V::Model,
     view: V,
+}
+
+/// Carries out a job of the model that `V` draws.
+pub(crate) fn compute<V: View>(request: &[u8], progress: Progress<'_>) -> JobResult {
+    V::Model::compute(request, progress)
 }
 
 /// A model in its default state, with its view.
@@ -77,6 +90,22 @@ impl<V: View> Stage for Pair<V> {
 
     fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
         self.model.restore_handle(id, x, y)
+    }
+
+    fn job(&self) -> Option<Job> {
+        self.model.job()
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.model.job_done(result);
+    }
+
+    fn photo_slots(&self) -> &'static [PhotoSlot] {
+        self.model.photo_slots()
+    }
+
+    fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
+        self.model.take_photo(slot, photo)
     }
 
     fn layout(&self, width: f64) -> Layout {

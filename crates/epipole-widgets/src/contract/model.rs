@@ -1,6 +1,9 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
-use super::{Challenge, Control, Event, Handle, Problem, Readout};
+use super::{
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout,
+};
+use image::RgbImage;
 
 /// State and mathematics of a figure.
 ///
@@ -42,6 +45,35 @@ pub trait Model: Sized + 'static {
     /// True while the model wants [`Event::Tick`].
     fn is_running(&self) -> bool {
         false
+    }
+
+    /// The computation that the present state waits for; `None` once its result is there.
+    fn job(&self) -> Option<Job> {
+        None
+    }
+
+    /// Carries out a job. A function of the request alone, so that it can run anywhere.
+    ///
+    /// # Errors
+    /// A sentence for the reader, also when `progress` ended it.
+    fn compute(_request: &[u8], _progress: Progress<'_>) -> JobResult {
+        Ok(Vec::new())
+    }
+
+    /// Takes the result of the job that the model waits for; never that of an older one.
+    fn job_done(&mut self, _result: JobResult) {}
+
+    /// Places for photographs of the reader's own.
+    fn photo_slots(&self) -> &'static [PhotoSlot] {
+        &[]
+    }
+
+    /// Takes the reader's own photograph. It is not part of the permalink.
+    ///
+    /// # Errors
+    /// A sentence for the reader if it cannot be used; the state is then as it was.
+    fn take_photo(&mut self, _slot: &str, _photo: RgbImage) -> Result<(), Problem> {
+        Ok(())
     }
 
     /// The numbers beside the picture. Every number is finite.

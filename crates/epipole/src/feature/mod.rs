@@ -8,18 +8,26 @@ mod corners;
 mod descriptors;
 mod good_features;
 mod keypoint;
+mod matching;
 mod nms;
+mod parallel;
 mod patch;
 mod refine;
+mod sift;
 mod structure_tensor;
 
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
+pub use matching::{
+    BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors,
+    match_descriptors_with_progress, match_hamming, nearest_two, nearest_two_hamming,
+};
 pub use nms::non_maximum_suppression;
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
+pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };

@@ -59,15 +59,18 @@ pub fn non_maximum_suppression(
 
 /// Orders by response, equal ones by place, so that the order never depends on the search.
 pub(crate) fn strongest_first(keypoints: &mut [Keypoint]) {
-    keypoints.sort_by(|a, b| {
-        b.response
-            .total_cmp(&a.response)
-            .then(a.v.total_cmp(&b.v))
-            .then(a.u.total_cmp(&b.u))
-            .then(a.octave.cmp(&b.octave))
-            .then(a.scale_px.total_cmp(&b.scale_px))
-            .then(a.angle_rad.total_cmp(&b.angle_rad))
-    });
+    keypoints.sort_by(stronger);
+}
+
+/// The order of [`strongest_first`].
+pub(crate) fn stronger(a: &Keypoint, b: &Keypoint) -> std::cmp::Ordering {
+    b.response
+        .total_cmp(&a.response)
+        .then(a.v.total_cmp(&b.v))
+        .then(a.u.total_cmp(&b.u))
+        .then(a.octave.cmp(&b.octave))
+        .then(a.scale_px.total_cmp(&b.scale_px))
+        .then(a.angle_rad.total_cmp(&b.angle_rad))
 }
 
 fn is_peak(values: &[f32], width: usize, height: usize, u: usize, v: usize, radius: usize) -> bool {

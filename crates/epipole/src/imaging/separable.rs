@@ -70,6 +70,25 @@ pub(crate) fn filter<const N: usize>(
     outputs.map(|values| from_vec(image.width(), image.height(), values))
 }
 
+/// The image under one kernel along both axes, into an image whose memory is used again.
+pub(crate) fn filter_into(
+    image: &GrayImage32,
+    kernel: &[f32],
+    border: Border,
+    target: &mut GrayImage32,
+) {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let mut outputs = [std::mem::take(target).into_raw()];
+    outputs[0].resize(width * height, 0.0);
+    if width > 0 && height > 0 {
+        in_bands(&mut outputs, width, |rows, band| {
+            filter_rows(image, &[(kernel, kernel)], border, rows, band);
+        });
+    }
+    let [values] = outputs;
+    *target = from_vec(image.width(), image.height(), values);
+}
+
 /// Splits equally large images into bands of rows and works on the bands, in parallel where the
 /// feature allows. The work on a band must not depend on where bands begin.
 pub(crate) fn in_bands<const N: usize, T: Send>(

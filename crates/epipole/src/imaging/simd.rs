@@ -5,7 +5,7 @@
 //! addition, so both copies give the same bits, which are also those of WebAssembly.
 
 // Calling a function that was compiled for AVX2 is unsafe; each call below follows the check that
-// the processor has it.
+// the processor has its features.
 #![allow(unsafe_code)]
 
 /// Defines a function whose body is compiled for the baseline and again for AVX2, and which picks
@@ -22,12 +22,14 @@ macro_rules! dispatched {
 
             #[cfg(target_arch = "x86_64")]
             {
-                #[target_feature(enable = "avx2")]
+                #[target_feature(enable = "avx2,popcnt")]
                 fn wide $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? {
                     portable $(::<$constant>)? ($($argument),*)
                 }
-                if std::is_x86_feature_detected!("avx2") {
-                    // SAFETY: the processor has AVX2, as was just checked.
+                if std::is_x86_feature_detected!("avx2")
+                    && std::is_x86_feature_detected!("popcnt")
+                {
+                    // SAFETY: the processor has both features, as was just checked.
                     return unsafe { wide $(::<$constant>)? ($($argument),*) };
                 }
             }

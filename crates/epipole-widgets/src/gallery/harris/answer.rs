@@ -1,0 +1,224 @@
+//! The long computation behind `harris`: the picture, its response and the local maxima.
+
+use crate::contract::{Problem, Progress};
+use epipole::feature::{
+    StructureTensorOptions, Window, harris_response, non_maximum_suppression, structure_tensor,
+};
+use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
+use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use image::{Rgb, RgbImage};
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Size of the test pattern, pixels.
+pub(super) const PATTERN_SIZE: (u32, u32) = (240, 180);
+/// Size of the rendered photograph, pixels.
+pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
+/// Half the window of non-maximum suppression, pixels.
+const SUPPRESSION_RADIUS_PX: usize = 4;
+/// More maxima than this help nobody.
+const MAX_PEAKS: usize = 4000;
+
+/// Where the picture comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) enum Source {
+    /// A tilted square on a plain ground, with a little noise.
+    Pattern,
+    /// The rendered still life.
+    StillLife,
+    /// The reader's own: width, height, RGB bytes.
+    Own(u32, u32, Vec<u8>),
+}
+
+/// Everything that the answer depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Request {
+    pub(super) source: Source,
+    pub(super) k: f32,
+    pub(super) window_px: usize,
+}
+
+/// What the computation finds, as it travels.
+#[derive(Serialize, Deserialize)]
+struct Wire {
+    size: (u32, u32),
+    rgb: Vec<u8>,
+    response: Vec<f32>,
+    peaks: Vec<(u32, u32)>,
+}
+
+/// What the computation finds.
+pub(super) struct Answer {
+    pub(super) picture: RgbImage,
+    gray: GrayImage32,
+    /// Harris response, in gray levels to the fourth power.
+    pub(super) response: GrayImage32,
+    /// Local maxima, strongest first.
+    pub(super) peaks: Vec<(u32, u32)>,
+    pub(super) window_px: usize,
+    pub(super) k: f32,
+}
+
+/// The structure tensor at one pixel and what follows from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Probe {
+    pub(super) a: f64,
+    pub(super) b: f64,
+    pub(super) c: f64,
+    pub(super) lambda1: f64,
+    pub(super) lambda2: f64,
+    pub(super) response: f64,
+}
+
+/// Sobel's 3×3 filter answers 8 times the slope; divided by it, gradients are gray levels a pixel.
+fn gray_levels(picture: &RgbImage) -> GrayImage32 {
+    let mut gray = rgb_to_gray_f32(picture, &BT601_WEIGHTS);
+    gray.pixels_mut()
+        .for_each(|pixel| pixel.0[0] *= 255.0 / 8.0);
+    gray
+}
+
+fn options(window_px: usize) -> StructureTensorOptions {
+    StructureTensorOptions {
+        window: Window::Box(window_px),
+        ..StructureTensorOptions::default()
+    }
+}
+
+impl Request {
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        postcard::to_allocvec(self).unwrap_or_default()
+    }
+
+    /// Carries out the computation.
+    ///
+    /// # Errors
+    /// A sentence about the picture.
+    pub(super) fn compute(bytes: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, Problem> {
+        let unreadable = |_| epipole::Error::Degenerate {
+            what: "the corner response",
+            why: "the request cannot be read",
+        };
+        let request: Self = postcard::from_bytes(bytes).map_err(unreadable)?;
+        let picture = match request.source {
+            Source::Pattern => pattern(),
+            Source::StillLife => still_life(progress)?,
+            Source::Own(width, height, rgb) => RgbImage::from_raw(width, height, rgb)
+                .unwrap_or_else(|| RgbImage::new(width.min(1), height.min(1))),
+        };
+        let gray = gray_levels(&picture);
+        let response = harris_response(&gray, request.k, &options(request.window_px))?;
+        if progress(0.8).is_break() {
+            return Err(cancelled());
+        }
+        let mut peaks = non_maximum_suppression(&response, SUPPRESSION_RADIUS_PX, 0.0)?;
+        peaks.truncate(MAX_PEAKS);
+        let wire = Wire {
+            size: picture.dimensions(),
+            rgb: picture.into_raw(),
+            response: response.into_raw(),
+            peaks: peaks
+                .iter()
+                .map(|peak| (peak.u as u32, peak.v as u32))
+                .collect(),
+        };
+        Ok(postcard::to_allocvec(&wire).unwrap_or_default())
+    }
+}
+
+fn cancelled() -> Problem {
+    epipole::Error::Degenerate {
+        what: "the corner response",
+        why: "the computation was ended",
+    }
+    .into()
+}
+
+impl Answer {
+    /// Reads the answer to `request`; `None` if it is no answer.
+    pub(super) fn from_bytes(bytes: &[u8], request: &Request) -> Option<Self> {
+        let wire: Wire = postcard::from_bytes(bytes).ok()?;
+        let picture = RgbImage::from_raw(wire.size.0, wire.size.1, wire.rgb)?;
+        Some(Self {
+            gray: gray_levels(&picture),
+            response: GrayImage32::from_raw(wire.size.0, wire.size.1, wire.response)?,
+            peaks: wire.peaks,
+            window_px: request.window_px,
+            k: request.k,
+            picture,
+        })
+    }
+
+    /// The largest response of the picture; positive, so that shares of it make sense.
+    pub(super) fn strongest(&self) -> f32 {
+        let first = self.peaks.first();
+        first.map_or(f32::MIN_POSITIVE, |&(u, v)| {
+            self.response.get_pixel(u, v).0[0]
+        })
+    }
+
+    /// The structure tensor at a pixel, from a piece of the picture that is just large enough.
+    pub(super) fn probe(&self, u: u32, v: u32) -> Option<Probe> {
+        let reach = self.window_px as u32 / 2 + 2;
+        let (left, top) = (u.saturating_sub(reach), v.saturating_sub(reach));
+        let right = (u + reach + 1).min(self.gray.width());
+        let bottom = (v + reach + 1).min(self.gray.height());
+        if u >= right || v >= bottom {
+            return None;
+        }
+        let piece = image::imageops::crop_imm(&self.gray, left, top, right - left, bottom - top);
+        let tensor = structure_tensor(&piece.to_image(), &options(self.window_px)).ok()?;
+        let (lambda1, lambda2) = tensor.eigenvalues(u - left, v - top)?;
+        let at = |image: &GrayImage32| f64::from(image.get_pixel(u - left, v - top).0[0]);
+        let (a, b, c) = (at(&tensor.uu), at(&tensor.uv), at(&tensor.vv));
+        let response = a * c - b * b - f64::from(self.k) * (a + c) * (a + c);
+        let (lambda1, lambda2) = (f64::from(lambda1), f64::from(lambda2).max(0.0));
+        Some(Probe {
+            a,
+            b,
+            c,
+            lambda1,
+            lambda2,
+            response,
+        })
+    }
+}
+
+/// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, faint noise.
+fn pattern() -> RgbImage {
+    let mut random = epipole::math::random::Random::new(5);
+    let (width, height) = PATTERN_SIZE;
+    let angle = 15.0_f64.to_radians();
+    let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+    let half = 46.0;
+    RgbImage::from_fn(width, height, |u, v| {
+        let x = f64::from(u) - f64::from(width - 1) / 2.0;
+        let y = f64::from(v) - f64::from(height - 1) / 2.0;
+        let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
+        let cover = (0.5 - outside).clamp(0.0, 1.0);
+        let gray = 215.0 - 150.0 * cover + 2.5 * random.normal();
+        Rgb([gray.round() as u8; 3])
+    })
+}
+
+fn still_life(progress: Progress<'_>) -> Result<RgbImage, Problem> {
+    let (width, height) = STILL_LIFE_SIZE;
+    let camera = still_life_camera(width, height);
+    let scene = Scene::still_life();
+    let mut photograph = epipole::synthetic::Photograph::blank(width, height);
+    for first in (0..height).step_by(60) {
+        let rows = first..first + 60;
+        scene.render_rows(
+            &camera,
+            width,
+            height,
+            Sampling::Full,
+            rows,
+            &mut photograph,
+        )?;
+        if progress(0.7 * f64::from(first + 60) / f64::from(height)) == ControlFlow::Break(()) {
+            return Err(cancelled());
+        }
+    }
+    Ok(photograph.image)
+}

@@ -1,0 +1,117 @@
+//! Exact search among descriptors of numbers.
+//!
+//! The first list is cut into pieces, which threads share; a piece is compared with the second
+//! list tile by tile. Distances are compared squared; roots are taken of the two that remain.
+
+use super::floats::Floats;
+use super::integers::Integers;
+use super::{Descriptors, Found, Neighbors, parallel};
+use crate::feature::descriptors::Values;
+use crate::{Error, Result};
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// Descriptors of the first list that share a walk over the second.
+const ROWS: usize = 64;
+/// Descriptors of the first list between two reports of progress.
+const REPORT: usize = 1024;
+
+pub(super) fn search(
+    first: &Descriptors,
+    second: &Descriptors,
+    progress: &mut dyn FnMut(f32) -> bool,
+) -> Result<Found> {
+    if first.dimension() != second.dimension() {
+        return Err(Error::SizeMismatch {
+            what: "the descriptors of the two images",
+            first: first.dimension(),
+            second: second.dimension(),
+        });
+    }
+    if !progress(0.0) {
+        return Err(Error::Cancelled);
+    }
+    if first.is_empty() || second.is_empty() {
+        return Ok(Found {
+            rows: Vec::new(),
+            columns: vec![0; second.len()],
+        });
+    }
+    let n = first.dimension();
+    if let (Some(a), Some(b)) = (whole_bytes(first), whole_bytes(second)) {
+        let second = Integers::new(&b, n);
+        let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
+        return gather(first.len(), b.len() / n, scan, progress);
+    }
+    let a = first.to_floats();
+    let second = Floats::new(second.to_floats(), n);
+    let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
+    gather(first.len(), second.count(), scan, progress)
+}
+
+/// What a walk over the second list found for a piece of the first.
+pub(super) struct Scanned<D> {
+    /// Nearest index, its squared distance, that of the second nearest.
+    pub(super) rows: Vec<(usize, D, D)>,
+    /// For each of the second list: squared distance and place in the piece.
+    pub(super) columns: Vec<(D, usize)>,
+}
+
+/// A type of squared distance.
+trait Distance: Copy + PartialOrd + Send + Sync + Into<f64> {
+    const FARTHEST: Self;
+}
+impl Distance for i32 {
+    const FARTHEST: Self = i32::MAX;
+}
+impl Distance for f32 {
+    const FARTHEST: Self = f32::INFINITY;
+}
+
+fn gather<D: Distance>(
+    num_rows: usize,
+    num_columns: usize,
+    scan: impl Fn(&Range<usize>) -> Scanned<D> + Sync + Send,
+    progress: &mut dyn FnMut(f32) -> bool,
+) -> Result<Found> {
+    let root = |squared: D| squared.into().sqrt();
+    let mut rows = Vec::with_capacity(num_rows);
+    let mut nearest = vec![(D::FARTHEST, 0); num_columns];
+    for group in parallel::pieces(num_rows, REPORT) {
+        let pieces: Vec<_> = parallel::pieces(group.len(), ROWS)
+            .into_iter()
+            .map(|piece| piece.start + group.start..piece.end + group.start)
+            .collect();
+        for (piece, scanned) in pieces.iter().zip(parallel::map(&pieces, &scan)) {
+            rows.extend(scanned.rows.iter().map(|&(index, near, second)| Neighbors {
+                index,
+                distance: root(near) as f32,
+                second_distance: (num_columns > 1).then(|| root(second) as f32),
+            }));
+            // Pieces come in order, so that of equally near ones the first stays.
+            for (held, (distance, row)) in nearest.iter_mut().zip(scanned.columns) {
+                if distance < held.0 {
+                    *held = (distance, piece.start + row);
+                }
+            }
+        }
+        if !progress(group.end as f32 / num_rows as f32) {
+            return Err(Error::Cancelled);
+        }
+    }
+    Ok(Found {
+        rows,
+        columns: nearest.into_iter().map(|(_, row)| row).collect(),
+    })
+}
+
+/// The values as bytes, if all are whole numbers from 0 to 255.
+fn whole_bytes(descriptors: &Descriptors) -> Option<Cow<'_, [u8]>> {
+    match descriptors.values() {
+        Values::Bytes(values) => Some(Cow::Borrowed(values)),
+        Values::Floats(values) => values
+            .iter()
+            .all(|&v| f32::from(v as u8) == v)
+            .then(|| Cow::Owned(values.iter().map(|&v| v as u8).collect())),
+    }
+}

@@ -1,0 +1,390 @@
+//! Matches between the features of two images: exact nearest neighbors and tests of them.
+
+mod dense;
+mod dots;
+mod floats;
+mod hamming;
+mod integers;
+
+use super::{Descriptors, parallel};
+use crate::{Error, Result};
+
+pub use hamming::{BinaryDescriptors, match_hamming, nearest_two_hamming};
+
+/// Which nearest neighbors count as matches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MatchOptions {
+    /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
+    /// the test out. Lowe 2004, §7.1.
+    pub max_ratio: Option<f32>,
+    /// Each must be the other's nearest.
+    pub mutual: bool,
+    /// The largest distance, ≥ 0; `None` for any.
+    pub max_distance: Option<f32>,
+    /// No feature of the second image in two matches: the closest stays. Mutual matches are
+    /// unique already.
+    pub unique: bool,
+}
+
+impl Default for MatchOptions {
+    /// Ratio 0.8, mutual, any distance.
+    fn default() -> Self {
+        Self {
+            max_ratio: Some(0.8),
+            mutual: true,
+            max_distance: None,
+            unique: true,
+        }
+    }
+}
+
+/// A feature of the first image and the one of the second that it was matched with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Match {
+    /// Index in the first list.
+    pub index1: usize,
+    /// Index in the second list.
+    pub index2: usize,
+    /// Euclidean distance of the descriptors, or the number of bits that differ.
+    pub distance: f32,
+    /// This distance over that of the second nearest, in [0, 1]; 0 if there is no second, 1 if
+    /// both are 0.
+    pub ratio: f32,
+}
+
+/// The two nearest descriptors in the second list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbors {
+    /// Index of the nearest; of equally near ones the lowest.
+    pub index: usize,
+    /// Its distance.
+    pub distance: f32,
+    /// Distance of the second nearest; `None` if the second list has one entry only.
+    pub second_distance: Option<f32>,
+}
+
+impl Neighbors {
+    fn ratio(&self) -> f32 {
+        match self.second_distance {
+            None => 0.0,
+            Some(second) if second > 0.0 => self.distance / second,
+            Some(_) => 1.0,
+        }
+    }
+}
+
+/// For each descriptor of `first` its two nearest in `second`, by Euclidean distance, exactly.
+///
+/// Empty lists give an empty result. Whole numbers from 0 to 255, such as SIFT's, are compared in
+/// integers, whether kept as bytes or as floats; other numbers in `f32`.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] for descriptors of different length.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Descriptors, nearest_two};
+/// let first = Descriptors::from_bytes(2, vec![0, 0])?;
+/// let second = Descriptors::from_bytes(2, vec![30, 40, 6, 8])?;
+/// let near = nearest_two(&first, &second)?[0];
+/// assert_eq!((near.index, near.distance, near.second_distance), (1, 10.0, Some(50.0)));
+/// # Ok(()) }
+/// ```
+pub fn nearest_two(first: &Descriptors, second: &Descriptors) -> Result<Vec<Neighbors>> {
+    Ok(dense::search(first, second, &mut |_| true)?.rows)
+}
+
+/// Matches between two lists of descriptors, in the order of the first list.
+///
+/// Empty lists give no matches. See [`Match`] for what becomes of a lone candidate.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] for descriptors of different length, [`Error::OutOfRange`] for an
+/// option outside its range.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Descriptors, MatchOptions, match_descriptors};
+/// let first = Descriptors::from_floats(1, vec![0.0, 5.0])?;
+/// let second = Descriptors::from_floats(1, vec![5.5, 0.25, 40.0])?;
+/// let matches = match_descriptors(&first, &second, &MatchOptions::default())?;
+/// assert_eq!((matches[0].index1, matches[0].index2, matches[0].distance), (0, 1, 0.25));
+/// assert_eq!((matches[1].index1, matches[1].index2, matches[1].distance), (1, 0, 0.5));
+/// # Ok(()) }
+/// ```
+pub fn match_descriptors(
+    first: &Descriptors,
+    second: &Descriptors,
+    options: &MatchOptions,
+) -> Result<Vec<Match>> {
+    match_descriptors_with_progress(first, second, options, &mut |_| true)
+}
+
+/// [`match_descriptors`] that reports how far it is and can be stopped.
+///
+/// * `progress`: called with the share of the work that is done, in [0, 1]; it returns whether to
+///   go on
+///
+/// # Errors
+/// As [`match_descriptors`], and [`Error::Cancelled`] if `progress` said so.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Descriptors, MatchOptions, match_descriptors_with_progress};
+/// let list = Descriptors::from_bytes(1, vec![1, 2])?;
+/// let options = MatchOptions::default();
+/// let stopped = match_descriptors_with_progress(&list, &list, &options, &mut |_| false);
+/// assert_eq!(stopped, Err(epipole::Error::Cancelled));
+/// # Ok(()) }
+/// ```
+pub fn match_descriptors_with_progress(
+    first: &Descriptors,
+    second: &Descriptors,
+    options: &MatchOptions,
+    progress: &mut dyn FnMut(f32) -> bool,
+) -> Result<Vec<Match>> {
+    check(options)?;
+    let found = dense::search(first, second, progress)?;
+    Ok(select(&found.rows, &found.columns, options))
+}
+
+/// Nearest neighbors both ways.
+struct Found {
+    /// For each of the first list.
+    rows: Vec<Neighbors>,
+    /// For each of the second list the index of its nearest in the first.
+    columns: Vec<usize>,
+}
+
+fn check(options: &MatchOptions) -> Result<()> {
+    if let Some(ratio) = options.max_ratio.filter(|&r| !(r > 0.0 && r <= 1.0)) {
+        return Err(Error::OutOfRange {
+            what: "the largest ratio of distances",
+            requirement: "greater than 0 and at most 1",
+            value: f64::from(ratio),
+        });
+    }
+    if let Some(distance) = options.max_distance.filter(|&d| d.is_nan() || d < 0.0) {
+        return Err(Error::OutOfRange {
+            what: "the largest distance of a match",
+            requirement: "0 or more",
+            value: f64::from(distance),
+        });
+    }
+    Ok(())
+}
+
+fn select(rows: &[Neighbors], columns: &[usize], options: &MatchOptions) -> Vec<Match> {
+    let mut matches: Vec<Match> = rows
+        .iter()
+        .enumerate()
+        .filter(|(k, near)| !options.mutual || columns[near.index] == *k)
+        .map(|(k, near)| Match {
+            index1: k,
+            index2: near.index,
+            distance: near.distance,
+            ratio: near.ratio(),
+        })
+        .filter(|m| {
+            options
+                .max_ratio
+                .is_none_or(|limit| m.ratio < limit || limit == 1.0)
+        })
+        .filter(|m| options.max_distance.is_none_or(|limit| m.distance <= limit))
+        .collect();
+    if options.unique && !options.mutual {
+        // The closest of each second index; of equally close ones the first.
+        let mut closest: Vec<Option<usize>> = vec![None; columns.len()];
+        for (k, m) in matches.iter().enumerate() {
+            let held = &mut closest[m.index2];
+            if held.is_none_or(|h| m.distance < matches[h].distance) {
+                *held = Some(k);
+            }
+        }
+        let mut k = 0;
+        matches.retain(|m| {
+            k += 1;
+            closest[m.index2] == Some(k - 1)
+        });
+    }
+    matches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    fn random_bytes(count: usize, dimension: usize, seed: u64) -> Vec<u8> {
+        let mut random = Random::new(seed);
+        (0..count * dimension)
+            .map(|_| random.below(256) as u8)
+            .collect()
+    }
+
+    /// Distances in f64, one pair after the other.
+    fn brute_force(a: &Descriptors, b: &Descriptors) -> Vec<(usize, f64, Option<f64>)> {
+        let rows = |d: &Descriptors| (0..d.len()).map(|k| d.get(k).unwrap()).collect::<Vec<_>>();
+        let (a, b) = (rows(a), rows(b));
+        a.iter()
+            .map(|x| {
+                let mut all: Vec<(f64, usize)> = b
+                    .iter()
+                    .enumerate()
+                    .map(|(k, y)| {
+                        let squares = x
+                            .iter()
+                            .zip(y)
+                            .map(|(p, q)| f64::from(p - q) * f64::from(p - q));
+                        (squares.sum::<f64>().sqrt(), k)
+                    })
+                    .collect();
+                all.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+                (all[0].1, all[0].0, all.get(1).map(|s| s.0))
+            })
+            .collect()
+    }
+
+    fn assert_neighbors(a: &Descriptors, b: &Descriptors) {
+        let near = nearest_two(a, b).unwrap();
+        for (got, want) in near.iter().zip(brute_force(a, b)) {
+            assert_eq!(got.index, want.0);
+            assert!((f64::from(got.distance) - want.1).abs() <= 1e-5 * want.1.max(1.0));
+            assert_eq!(got.second_distance.is_some(), want.2.is_some());
+            if let (Some(got), Some(want)) = (got.second_distance, want.2) {
+                assert!((f64::from(got) - want).abs() <= 1e-5 * want.max(1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn neighbors_are_those_of_brute_force() {
+        for (n1, n2, dimension) in [
+            (1, 1, 1),
+            (1, 2, 3),
+            (5, 1, 128),
+            (7, 9, 2),
+            (70, 130, 128),
+            (33, 3, 17),
+            (600, 65, 8),
+        ] {
+            let a = random_bytes(n1, dimension, 1);
+            let b = random_bytes(n2, dimension, 2);
+            let floats = |v: &[u8], scale: f32| v.iter().map(|&x| f32::from(x) * scale).collect();
+            for scale in [1.0, 0.37] {
+                let a = Descriptors::from_floats(dimension, floats(&a, scale)).unwrap();
+                let b = Descriptors::from_floats(dimension, floats(&b, scale)).unwrap();
+                assert_neighbors(&a, &b);
+            }
+            let a = Descriptors::from_bytes(dimension, a).unwrap();
+            let b = Descriptors::from_bytes(dimension, b).unwrap();
+            assert_neighbors(&a, &b);
+        }
+    }
+
+    #[test]
+    fn equal_descriptors_go_to_the_lowest_index() {
+        let a = Descriptors::from_bytes(2, vec![1, 1, 1, 1]).unwrap();
+        let b = Descriptors::from_bytes(2, vec![9, 9, 1, 1, 1, 1]).unwrap();
+        let near = nearest_two(&a, &b).unwrap();
+        assert_eq!((near[0].index, near[1].index), (1, 1));
+        let all = MatchOptions {
+            max_ratio: None,
+            ..MatchOptions::default()
+        };
+        let matches = match_descriptors(&a, &b, &all).unwrap();
+        assert_eq!(matches.len(), 1);
+        assert_eq!(
+            (matches[0].index1, matches[0].index2, matches[0].ratio),
+            (0, 1, 1.0)
+        );
+        assert!(
+            match_descriptors(&a, &b, &MatchOptions::default())
+                .unwrap()
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn each_option_does_what_it_says() {
+        let a = Descriptors::from_bytes(1, vec![10, 12, 100]).unwrap();
+        let b = Descriptors::from_bytes(1, vec![11, 103, 200]).unwrap();
+        let none = MatchOptions {
+            max_ratio: None,
+            mutual: false,
+            max_distance: None,
+            unique: false,
+        };
+        let pairs = |options: MatchOptions| {
+            let matches = match_descriptors(&a, &b, &options).unwrap();
+            matches
+                .iter()
+                .map(|m| (m.index1, m.index2))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(pairs(none), [(0, 0), (1, 0), (2, 1)]);
+        assert_eq!(
+            pairs(MatchOptions {
+                unique: true,
+                ..none
+            }),
+            [(0, 0), (2, 1)]
+        );
+        assert_eq!(
+            pairs(MatchOptions {
+                mutual: true,
+                ..none
+            }),
+            [(0, 0), (2, 1)]
+        );
+        assert_eq!(
+            pairs(MatchOptions {
+                max_distance: Some(2.0),
+                ..none
+            }),
+            [(0, 0), (1, 0)]
+        );
+        assert_eq!(
+            pairs(MatchOptions {
+                max_ratio: Some(0.02),
+                ..none
+            }),
+            [(0, 0), (1, 0)]
+        );
+    }
+
+    #[test]
+    fn none_one_and_unequal() {
+        let none = Descriptors::from_bytes(3, vec![]).unwrap();
+        let one = Descriptors::from_bytes(3, vec![1, 2, 3]).unwrap();
+        let options = MatchOptions::default();
+        for (a, b) in [(&none, &none), (&one, &none), (&none, &one)] {
+            assert!(match_descriptors(a, b, &options).unwrap().is_empty());
+        }
+        let lone = match_descriptors(&one, &one, &options).unwrap();
+        assert_eq!((lone.len(), lone[0].ratio), (1, 0.0));
+        let other = Descriptors::from_bytes(2, vec![1, 2]).unwrap();
+        assert_eq!(
+            match_descriptors(&one, &other, &options),
+            Err(Error::SizeMismatch {
+                what: "the descriptors of the two images",
+                first: 3,
+                second: 2
+            })
+        );
+        for max_ratio in [0.0, -1.0, 1.5, f32::NAN] {
+            let options = MatchOptions {
+                max_ratio: Some(max_ratio),
+                ..options
+            };
+            assert!(match_descriptors(&one, &one, &options).is_err());
+        }
+        for max_distance in [-1.0, f32::NAN] {
+            let options = MatchOptions {
+                max_distance: Some(max_distance),
+                ..options
+            };
+            assert!(match_descriptors(&one, &one, &options).is_err());
+        }
+    }
+}

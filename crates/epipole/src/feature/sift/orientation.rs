@@ -1,0 +1,72 @@
+//! Directions of a keypoint: peaks of the histogram of gradients around it.
+
+use super::SiftOptions;
+use super::descriptor::{Samples, Scratch};
+use crate::imaging::GrayImage32;
+use std::f32::consts::{PI, TAU};
+
+const NUM_BINS: usize = 36;
+
+/// The directions of the gradients around a place, strongest first, in (−π, π].
+///
+/// The weights fall off as a Gaussian of 1.5 times the keypoint's blur; each gradient is shared
+/// by the two bins around it; the histogram is smoothed by `[1 4 6 4 1]/16`, and a parabola gives
+/// the peak between bins.
+///
+/// Source: Lowe 2004, §5.
+pub(super) fn directions(
+    layer: &GrayImage32,
+    center: (f32, f32),
+    sigma: f32,
+    options: &SiftOptions,
+) -> Vec<f32> {
+    let mut histogram = [0.0f32; NUM_BINS + 1];
+    let spread = 1.5 * sigma;
+    let radius = 3.0 * spread;
+    let mut scratch = Scratch::default();
+    let falloff = -0.5 / (spread * spread);
+    let rows = Samples::new(layer, center, radius);
+    rows.for_each_row(
+        &mut scratch,
+        |dy, _| {
+            let half = (radius * radius - dy * dy).max(0.0).sqrt();
+            (-half, half)
+        },
+        |samples| {
+            samples.gradients(falloff, 1.0);
+            for k in 0..samples.len() {
+                let bin = samples.angle[k] * (NUM_BINS as f32 / TAU) + 0.5 * NUM_BINS as f32;
+                let low = (bin as usize).min(NUM_BINS - 1);
+                let share = (bin - low as f32) * samples.weight[k];
+                histogram[low] += samples.weight[k] - share;
+                histogram[low + 1] += share;
+            }
+        },
+    );
+    // Bin 36 is bin 0 again: both lie at an angle of ±π.
+    histogram[0] += histogram[NUM_BINS];
+    let h = |k: usize| histogram[k % NUM_BINS];
+    let smooth: [f32; NUM_BINS] = std::array::from_fn(|k| {
+        let k = k + NUM_BINS;
+        ((h(k - 2) + h(k + 2)) + 4.0 * (h(k - 1) + h(k + 1)) + 6.0 * h(k)) / 16.0
+    });
+    let strongest = smooth.iter().fold(0.0f32, |m, &v| m.max(v));
+    if strongest <= 0.0 {
+        // No gradient at all: any direction is as good.
+        return vec![0.0];
+    }
+    let mut peaks: Vec<(f32, f32)> = Vec::new();
+    for k in 0..NUM_BINS {
+        let (left, here) = (smooth[(k + NUM_BINS - 1) % NUM_BINS], smooth[k]);
+        let right = smooth[(k + 1) % NUM_BINS];
+        if here > left && here >= right && here >= options.orientation_peak_ratio * strongest {
+            let offset = 0.5 * (left - right) / (left - 2.0 * here + right);
+            let angle = (k as f32 + offset) * (TAU / NUM_BINS as f32) - PI;
+            let angle = if angle <= -PI { angle + TAU } else { angle };
+            peaks.push((here, angle));
+        }
+    }
+    peaks.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
+    peaks.truncate(options.max_orientations);
+    peaks.into_iter().map(|(_, angle)| angle).collect()
+}

@@ -1,0 +1,223 @@
+//! The scale space: octaves of increasingly blurred layers, a few of them in memory at a time.
+//!
+//! Every step is symmetric about the middle of the image. Doubling puts new samples half way
+//! between old ones, `2w − 1` of them, and none outside. Halving keeps every second sample where
+//! their number is odd; where it is even it takes the places half way between pairs, so that both
+//! ends are treated alike. Sampling every second pixel of an even row would shift the grid by half
+//! a pixel between an image and its mirror image, and up-sampling as photographs are resized would
+//! shift all keypoints by a quarter.
+
+use super::SiftOptions;
+use crate::imaging::separable::filter_into;
+use crate::imaging::{Border, GrayImage32, gaussian_kernel};
+
+/// Octaves with fewer samples along an axis hold no extremum far enough from their edge.
+const SMALLEST_SIDE: u32 = 2 * super::extrema::MARGIN as u32 + 2;
+
+/// The first layer of an octave, and where its samples lie in the image.
+pub(super) struct OctaveGrid {
+    pub(super) base: GrayImage32,
+    /// Pixels of the image per sample.
+    pub(super) step: f64,
+    /// Place of the first sample, pixels of the image.
+    pub(super) origin_u: f64,
+    pub(super) origin_v: f64,
+    /// log₂ of the step.
+    pub(super) octave: i32,
+}
+
+impl OctaveGrid {
+    /// The first octave of an image, if it is large enough.
+    pub(super) fn first(image: &GrayImage32, options: &SiftOptions) -> Option<Self> {
+        if image.width().min(image.height()) < 2 {
+            return None;
+        }
+        let blur_to = |from: f64| (options.sigma_px * options.sigma_px - from * from).sqrt();
+        let (unblurred, blur, step, octave);
+        if options.upsample {
+            unblurred = doubled(image);
+            blur = blur_to(2.0 * options.input_blur_px);
+            (step, octave) = (0.5, -1);
+        } else {
+            unblurred = image.clone();
+            blur = blur_to(options.input_blur_px);
+            (step, octave) = (1.0, 0);
+        }
+        let mut base = GrayImage32::default();
+        // The assumed blur may be all the blur that is wanted.
+        if blur > 0.01 {
+            blurred(&unblurred, blur, &mut base);
+        } else {
+            base = unblurred;
+        }
+        let grid = Self {
+            base,
+            step,
+            origin_u: 0.0,
+            origin_v: 0.0,
+            octave,
+        };
+        grid.large_enough()
+    }
+
+    fn large_enough(self) -> Option<Self> {
+        (self.base.width().min(self.base.height()) >= SMALLEST_SIDE).then_some(self)
+    }
+}
+
+/// One octave: a window of four layers, those that extrema of one layer need.
+pub(super) struct Octave {
+    grid: OctaveGrid,
+    /// Blur from one layer to the next.
+    increments: Vec<f64>,
+    layers_per_octave: usize,
+    sigma_px: f64,
+    /// `layers[k % 4]` is layer k, for the last four.
+    layers: [GrayImage32; 4],
+    newest: usize,
+}
+
+impl Octave {
+    pub(super) fn new(mut grid: OctaveGrid, options: &SiftOptions) -> Self {
+        let n = options.layers_per_octave;
+        let sigma = |k: usize| options.sigma_px * libm::exp2(k as f64 / n as f64);
+        let increments = (1..n + 3)
+            .map(|k| (sigma(k) * sigma(k) - sigma(k - 1) * sigma(k - 1)).sqrt())
+            .collect();
+        let mut layers: [GrayImage32; 4] = Default::default();
+        layers[0] = std::mem::take(&mut grid.base);
+        Self {
+            grid,
+            increments,
+            layers_per_octave: n,
+            sigma_px: options.sigma_px,
+            layers,
+            newest: 0,
+        }
+    }
+
+    pub(super) fn grid(&self) -> &OctaveGrid {
+        &self.grid
+    }
+
+    /// Makes the layers that extrema of `layer` need: up to `layer + 2`.
+    pub(super) fn advance_to(&mut self, layer: usize) {
+        while self.newest < layer + 2 {
+            let from = self.newest % 4;
+            let to = (self.newest + 1) % 4;
+            let mut target = std::mem::take(&mut self.layers[to]);
+            blurred(
+                &self.layers[from],
+                self.increments[self.newest],
+                &mut target,
+            );
+            self.layers[to] = target;
+            self.newest += 1;
+        }
+    }
+
+    /// A layer among the last four.
+    pub(super) fn layer(&self, k: usize) -> &GrayImage32 {
+        debug_assert!(k <= self.newest && self.newest < k + 4);
+        &self.layers[k % 4]
+    }
+
+    /// Blur of a layer between the layers, samples of this octave.
+    pub(super) fn sigma_at(&self, layer: f64) -> f64 {
+        self.sigma_px * libm::exp2(layer / self.layers_per_octave as f64)
+    }
+
+    /// The next octave, from the layer with twice the first one's blur.
+    pub(super) fn next_grid(&mut self) -> Option<OctaveGrid> {
+        let n = self.layers_per_octave;
+        // With more layers than the window holds it is made now and once more later.
+        let source = if n <= self.newest {
+            self.layer(n).clone()
+        } else {
+            let mut image = self.layer(self.newest).clone();
+            for k in self.newest..n {
+                let mut target = GrayImage32::default();
+                blurred(&image, self.increments[k], &mut target);
+                image = target;
+            }
+            image
+        };
+        let shift = |size: u32| if size % 2 == 1 { 0.0 } else { 0.5 };
+        OctaveGrid {
+            step: 2.0 * self.grid.step,
+            origin_u: self.grid.origin_u + shift(source.width()) * self.grid.step,
+            origin_v: self.grid.origin_v + shift(source.height()) * self.grid.step,
+            octave: self.grid.octave + 1,
+            base: halved(&source),
+        }
+        .large_enough()
+    }
+}
+
+/// Blurs into an image whose memory is used again.
+fn blurred(image: &GrayImage32, sigma: f64, target: &mut GrayImage32) {
+    let radius = (4.0 * sigma).ceil() as usize;
+    let kernel = gaussian_kernel(sigma, 2 * radius + 1).expect("the blur is positive and small");
+    filter_into(image, &kernel, Border::Reflect101, target);
+}
+
+/// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.
+fn doubled(image: &GrayImage32) -> GrayImage32 {
+    let (w, h) = (image.width() as usize, image.height() as usize);
+    let (width, height) = (2 * w - 1, 2 * h - 1);
+    let mut values = Vec::with_capacity(width * height);
+    let spread = |row: &[f32], values: &mut Vec<f32>| {
+        for pair in row.windows(2) {
+            values.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
+        }
+        values.push(row[w - 1]);
+    };
+    let mut between = vec![0.0; w];
+    for (v, row) in image.as_raw().chunks_exact(w).enumerate() {
+        if v > 0 {
+            let above = &image.as_raw()[(v - 1) * w..v * w];
+            for ((mean, a), b) in between.iter_mut().zip(above).zip(row) {
+                *mean = 0.5 * (a + b);
+            }
+            spread(&between, &mut values);
+        }
+        spread(row, &mut values);
+    }
+    GrayImage32::from_raw(width as u32, height as u32, values)
+        .expect("one value was computed for each sample")
+}
+
+/// Half as many samples along each axis, symmetrically.
+fn halved(image: &GrayImage32) -> GrayImage32 {
+    let (w, h) = (image.width() as usize, image.height() as usize);
+    let (width, height) = (w.div_ceil(2), h.div_ceil(2));
+    let mut values = Vec::with_capacity(width * height);
+    // The cubic through four samples, half way between the middle two.
+    let middle = |a: f32, b: f32, c: f32, d: f32| 0.5625 * (b + c) - 0.0625 * (a + d);
+    let at = |k: isize, size: usize| k.clamp(0, size as isize - 1) as usize;
+    let mut row = vec![0.0; w];
+    for y in 0..height {
+        let source = |k: isize| {
+            let v = at(2 * y as isize + k, h);
+            &image.as_raw()[v * w..(v + 1) * w]
+        };
+        if h % 2 == 1 {
+            row.copy_from_slice(source(0));
+        } else {
+            let (a, b, c, d) = (source(-1), source(0), source(1), source(2));
+            for x in 0..w {
+                row[x] = middle(a[x], b[x], c[x], d[x]);
+            }
+        }
+        if w % 2 == 1 {
+            values.extend(row.iter().step_by(2));
+        } else {
+            values.extend((0..width).map(|x| {
+                let tap = |k: isize| row[at(2 * x as isize + k, w)];
+                middle(tap(-1), tap(0), tap(1), tap(2))
+            }));
+        }
+    }
+    GrayImage32::from_raw(width as u32, height as u32, values)
+        .expect("one value was computed for each sample")
+}
