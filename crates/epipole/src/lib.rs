@@ -14,6 +14,8 @@
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+
+//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
