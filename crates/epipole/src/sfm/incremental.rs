@@ -72,6 +72,20 @@ impl Default for SfmOptions {
 /// How far the work is.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SfmProgress {
+    /// Features of a photograph were found.
+    Detected {
+        /// Photographs done.
+        done: usize,
+        /// Photographs in all.
+        total: usize,
+    },
+    /// Features of a pair of photographs were matched.
+    Matched {
+        /// Pairs done.
+        done: usize,
+        /// Pairs in all.
+        total: usize,
+    },
     /// A pair of images was tested.
     Verified {
         /// Pairs done.
@@ -172,7 +186,11 @@ fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrinsics>> {
         });
     }
     for image in &input.images {
-        if !image.keypoints.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
+        if !image
+            .keypoints
+            .iter()
+            .all(|p| p.x.is_finite() && p.y.is_finite())
+        {
             return Err(Error::NotFinite {
                 what: "a keypoint's pixel",
             });
@@ -187,8 +205,14 @@ fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrinsics>> {
     }
     for (what, value) in [
         ("the largest epipolar error", options.max_epipolar_error_px),
-        ("the largest registration error", options.max_registration_error_px),
-        ("the largest reprojection error", options.max_reprojection_error_px),
+        (
+            "the largest registration error",
+            options.max_registration_error_px,
+        ),
+        (
+            "the largest reprojection error",
+            options.max_reprojection_error_px,
+        ),
         ("the smallest angle of a point", options.min_angle_deg),
         ("the smallest angle of a start", options.min_start_angle_deg),
     ] {
@@ -685,7 +709,11 @@ impl Builder<'_> {
     fn neighborhood(&self, image: usize, count: usize) -> Vec<usize> {
         let mut shared = vec![0; self.images.len()];
         for point in self.points.iter().flatten() {
-            if point.seen.iter().any(|element| element.image as usize == image) {
+            if point
+                .seen
+                .iter()
+                .any(|element| element.image as usize == image)
+            {
                 for element in &point.seen {
                     shared[element.image as usize] += 1;
                 }
@@ -727,7 +755,11 @@ impl Builder<'_> {
         };
         for (track, point) in self.points.iter().enumerate() {
             let Some(point) = point else { continue };
-            if !point.seen.iter().any(|element| is_free(element.image as usize)) {
+            if !point
+                .seen
+                .iter()
+                .any(|element| is_free(element.image as usize))
+            {
                 continue;
             }
             for element in &point.seen {
@@ -775,12 +807,9 @@ impl Builder<'_> {
             let factor = camera.intrinsics.fu_px() / self.intrinsics[image].fu_px();
             for k in &mut self.intrinsics {
                 let center = k.principal_point();
-                if let Ok(refined) = Intrinsics::new(
-                    k.fu_px() * factor,
-                    k.fv_px() * factor,
-                    center.x,
-                    center.y,
-                ) {
+                if let Ok(refined) =
+                    Intrinsics::new(k.fu_px() * factor, k.fv_px() * factor, center.x, center.y)
+                {
                     *k = refined;
                 }
             }

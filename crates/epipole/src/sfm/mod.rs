@@ -11,10 +11,15 @@ mod bal;
 mod bundle;
 mod export;
 mod g2o;
+mod incremental;
+mod photos;
 mod pose_graph;
 mod reconstruction;
+mod resection;
 mod tokens;
 mod tracks;
+mod triangulate_track;
+mod two_view_start;
 mod union_find;
 
 pub use alignment::{
@@ -24,6 +29,8 @@ pub use alignment::{
 pub use bal::{BalCamera, BalProblem, adjust_bal};
 pub use bundle::{Bundle, BundleOptions, Gauge, Observation, RadialDistortion, adjust_bundle};
 pub use export::ColmapModel;
+pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+pub use photos::{Photo, PhotoOptions, match_photos, reconstruct_photos};
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
 pub use tracks::{PairMatches, TrackElement, build_tracks};

@@ -35,7 +35,10 @@ fn nearest_to_rays(sights: &[Sight], chosen: impl Fn(usize) -> bool) -> Option<P
         right += across * sight.camera.center_in_world().coords;
     }
     let solved = normal.cholesky()?.solve(&right);
-    solved.iter().all(|x| x.is_finite()).then(|| Point3::from(solved))
+    solved
+        .iter()
+        .all(|x| x.is_finite())
+        .then(|| Point3::from(solved))
 }
 
 /// The largest angle under which a point sees two of the cameras, radians.
@@ -62,7 +65,12 @@ impl FixedProblem<3> for Refinement<'_> {
     type Parameters = Point3<f64>;
 
     fn accumulate(&self, point: &Point3<f64>, normal: &mut NormalEquations<3>) {
-        for (sight, _) in self.sights.iter().zip(self.inliers).filter(|(_, inlier)| **inlier) {
+        for (sight, _) in self
+            .sights
+            .iter()
+            .zip(self.inliers)
+            .filter(|(_, inlier)| **inlier)
+        {
             let rotation = sight.camera.cam_from_world.rotation.to_rotation_matrix();
             let p = sight.camera.cam_from_world * point;
             let k = &sight.camera.intrinsics;
@@ -80,7 +88,12 @@ impl FixedProblem<3> for Refinement<'_> {
 
     fn cost(&self, point: &Point3<f64>) -> f64 {
         let mut sum = 0.0;
-        for (sight, _) in self.sights.iter().zip(self.inliers).filter(|(_, inlier)| **inlier) {
+        for (sight, _) in self
+            .sights
+            .iter()
+            .zip(self.inliers)
+            .filter(|(_, inlier)| **inlier)
+        {
             sum += sight.error_sq(point);
         }
         0.5 * sum
@@ -133,7 +146,10 @@ pub(super) fn triangulate_track(
     let (_, mut point) = best?;
     let mut inliers: Vec<bool> = Vec::new();
     for _ in 0..2 {
-        inliers = sights.iter().map(|s| s.error_sq(&point) <= max_error_sq).collect();
+        inliers = sights
+            .iter()
+            .map(|s| s.error_sq(&point) <= max_error_sq)
+            .collect();
         if inliers.iter().filter(|inlier| **inlier).count() < 2 {
             return None;
         }
@@ -148,7 +164,10 @@ pub(super) fn triangulate_track(
         minimize_fixed(&problem, &mut point, &options).ok()?;
     }
     let chosen = sights.iter().zip(&inliers).filter(|(_, inlier)| **inlier);
-    if chosen.clone().any(|(sight, _)| sight.error_sq(&point) > max_error_sq) {
+    if chosen
+        .clone()
+        .any(|(sight, _)| sight.error_sq(&point) > max_error_sq)
+    {
         return None;
     }
     let centers = chosen.map(|(sight, _)| sight.camera.center_in_world());

@@ -44,7 +44,12 @@ pub(super) fn verify_pair(
     let cam2_from_cam1 = report.model.cam2_from_cam1();
     let mut angles = Vec::new();
     let mut matches = Vec::new();
-    for (n, _) in report.inliers.iter().enumerate().filter(|(_, inlier)| **inlier) {
+    for (n, _) in report
+        .inliers
+        .iter()
+        .enumerate()
+        .filter(|(_, inlier)| **inlier)
+    {
         let ray1 = cam2_from_cam1.rotation * intrinsics[0].ray(&pixels1[n]).normalize();
         let ray2 = intrinsics[1].ray(&pixels2[n]).normalize();
         angles.push(libm::acos(ray1.dot(&ray2).clamp(-1.0, 1.0)));
@@ -52,10 +57,7 @@ pub(super) fn verify_pair(
     }
     angles.sort_by(f64::total_cmp);
     Some(VerifiedPair {
-        pair: PairMatches {
-            matches,
-            ..*pair
-        },
+        pair: PairMatches { matches, ..*pair },
         cam2_from_cam1,
         median_angle_rad: angles.get(angles.len() / 2).copied().unwrap_or(0.0),
     })
