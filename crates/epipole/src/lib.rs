@@ -15,6 +15,7 @@
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 
+//! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
@@ -32,6 +33,7 @@ pub mod camera;
 pub mod epipolar;
 pub mod feature;
 pub mod imaging;
+pub mod homography;
 pub mod math;
 pub mod optim;
 pub mod robust;

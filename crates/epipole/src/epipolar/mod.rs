@@ -7,10 +7,13 @@ mod distance;
 mod eight_point;
 mod epipoles;
 mod essential;
+mod find_essential;
+mod find_fundamental;
 mod five_point;
 mod from_cameras;
 mod lines;
 mod normalize;
+mod plane_recovery;
 mod refine;
 pub(crate) mod sampson;
 mod seven_point;
@@ -25,6 +28,8 @@ pub use essential::{
     RelativePose, SelectedPose, decompose_essential, essential_8point, project_to_essential,
     select_pose,
 };
+pub use find_essential::{EssentialEstimator, estimate_relative_pose, find_essential};
+pub use find_fundamental::{FundamentalEstimator, find_fundamental};
 pub use five_point::essential_5point;
 pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
@@ -32,5 +37,6 @@ pub use from_cameras::{
 };
 pub use lines::{epipolar_line1, epipolar_line2};
 pub use normalize::Normalization;
+pub(crate) use refine::scaled as scaled_loss;
 pub use refine::{refine_fundamental, refine_relative_pose};
 pub use seven_point::{epipolar_row, fundamental_7point};

@@ -8,8 +8,8 @@ use crate::optim::RobustLoss;
 use crate::robust::{MatchSet, Support};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-const LANES: usize = 8;
-type Lanes = [f64; LANES];
+pub(crate) const LANES: usize = 8;
+pub(crate) type Lanes = [f64; LANES];
 
 /// Four coordinates of many matches, one list each.
 #[derive(Debug, Clone)]
@@ -48,7 +48,7 @@ impl Coordinates {
 
     /// Matches `start..start + 8`; beyond the end zeros, and the number of real ones.
     #[inline(always)]
-    fn lanes(&self, start: usize) -> ([Lanes; 4], usize) {
+    pub(crate) fn lanes(&self, start: usize) -> ([Lanes; 4], usize) {
         let count = (self.len() - start).min(LANES);
         let mut lanes = [[0.0; LANES]; 4];
         if count == LANES {
@@ -117,7 +117,7 @@ impl CommonFrame {
 
 /// Entries of F, row by row.
 #[inline(always)]
-fn entries(f: &Matrix3<f64>) -> [f64; 9] {
+pub(crate) fn entries(f: &Matrix3<f64>) -> [f64; 9] {
     [
         f[(0, 0)],
         f[(0, 1)],
@@ -216,7 +216,7 @@ pub(crate) fn inliers(
 }
 
 #[inline(always)]
-fn sum(lanes: &Lanes) -> f64 {
+pub(crate) fn sum(lanes: &Lanes) -> f64 {
     ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
         + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]))
 }

@@ -1,0 +1,1 @@
+//! Two views, whatever they show.
