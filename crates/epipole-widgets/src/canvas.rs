@@ -4,8 +4,10 @@
 //! at the clip rectangle by arithmetic, and a marker is drawn whole or not at all, so that no
 //! costly pixel masks are needed.
 
+mod glyphs;
+
 use crate::contract::{Problem, Rect};
-use crate::font::{self, CAP_HEIGHT, Pen};
+use crate::font::{self, CAP_HEIGHT};
 use crate::theme::{Rgb, Role, Theme};
 use image::RgbImage;
 use tiny_skia::{
@@ -386,20 +388,44 @@ impl Canvas {
         let head = (3.0 + 2.5 * stroke.width).min(length);
         let base = (to.0 - ux * head, to.1 - uy * head);
         let half = head * 0.45;
+        let tip = [
+            to,
+            (base.0 - uy * half, base.1 + ux * half),
+            (base.0 + uy * half, base.1 - ux * half),
+        ];
+        if stroke.cased {
+            self.polygon_outline(&tip, Stroke::solid(Role::Halo, 2.5));
+        }
         self.line(from, base, stroke);
-        self.polygon(
-            &[
-                to,
-                (base.0 - uy * half, base.1 + ux * half),
-                (base.0 + uy * half, base.1 - ux * half),
-            ],
-            stroke.role,
-            1.0,
-        );
+        self.polygon(&tip, stroke.role, 1.0);
     }
 
     /// A marker, drawn whole if its center is inside the clip rectangle; `radius` is half its size.
     pub fn marker(&mut self, center: Place, radius: f64, shape: Shape, role: Role, cased: bool) {
+        self.mark(center, radius, shape, role, cased, true);
+    }
+
+    /// The outline of a marker: the same thing, but only where it would be.
+    pub fn hollow_marker(
+        &mut self,
+        center: Place,
+        radius: f64,
+        shape: Shape,
+        role: Role,
+        cased: bool,
+    ) {
+        self.mark(center, radius, shape, role, cased, false);
+    }
+
+    fn mark(
+        &mut self,
+        center: Place,
+        radius: f64,
+        shape: Shape,
+        role: Role,
+        cased: bool,
+        filled: bool,
+    ) {
         if !self.clip.contains(center) {
             return;
         }
@@ -415,17 +441,13 @@ impl Canvas {
             }
             builder.close();
         };
-        let mut filled = true;
+        let filled = filled && !matches!(shape, Shape::Ring | Shape::Cross | Shape::Plus);
         match shape {
-            Shape::Disk | Shape::Ring => {
-                filled = shape == Shape::Disk;
-                builder.push_circle(x, y, r);
-            }
+            Shape::Disk | Shape::Ring => builder.push_circle(x, y, r),
             Shape::Square => polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
             Shape::Diamond => polygon(&[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]),
             Shape::Triangle => polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]),
             Shape::Cross | Shape::Plus => {
-                filled = false;
                 let d = if shape == Shape::Cross {
                     (0.8, 0.8)
                 } else {
@@ -471,13 +493,16 @@ impl Canvas {
             Align::Middle => place.0 - width / 2.0,
             Align::End => place.0 - width,
         };
-        let mut pen = PathPen(PathBuilder::new());
-        font::draw(text, left, place.1, style.size, &mut pen);
-        let Some(path) = pen.0.finish() else { return };
+        let place = (left * self.scale, place.1 * self.scale);
+        let size = style.size * self.scale;
+        let mut draw = |casing: f64, role: Role| {
+            let color = self.theme.color(role);
+            glyphs::draw(&mut self.pixmap, text, place, size, casing, color);
+        };
         if style.cased {
-            self.stroke_plain(&path, Role::Halo, 3.5, Dash::Solid);
+            draw(3.5 * self.scale, Role::Halo);
         }
-        self.fill_path(Some(path), style.role, 1.0);
+        draw(0.0, style.role);
     }
 
     /// A line of text whose capitals are centered on `place` vertically.
@@ -487,6 +512,23 @@ impl Canvas {
             text,
             style,
         );
+    }
+
+    /// Lines of text that fill a rectangle from its top, broken between words; the height that
+    /// they take.
+    pub fn paragraph(&mut self, rect: Rect, text: &str, style: TextStyle) -> f64 {
+        let line_height = line_height(style.size);
+        let x = match style.align {
+            Align::Start => rect.x,
+            Align::Middle => rect.center().0,
+            Align::End => rect.right(),
+        };
+        let lines = break_lines(text, style.size, rect.width);
+        for (index, line) in lines.iter().enumerate() {
+            let y = rect.y + (index as f64 + 0.5) * line_height;
+            self.label((x, y), line, style);
+        }
+        lines.len() as f64 * line_height
     }
 
     /// A photograph, scaled to fill `rect`.
@@ -506,31 +548,45 @@ impl Canvas {
         }
         let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
         let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
-        let source = photograph.as_raw();
         let stride = photo_width as usize * 3;
-        let target_stride = self.pixmap.width() as usize * 4;
-        // Two rows of the photograph, blended, then sampled along the row.
-        let mut blended = vec![0u16; stride];
-        let target = self.pixmap.data_mut();
-        for (y, row) in rows.taps.iter().enumerate() {
-            let upper = &source[row.first * stride..][..stride];
-            let lower = &source[row.second * stride..][..stride];
-            let weight = row.weight_256;
-            for ((sum, &a), &b) in blended.iter_mut().zip(upper).zip(lower) {
-                *sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
-            }
-            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
-            let pixels = target[start..][..columns.taps.len() * 4].chunks_exact_mut(4);
-            for (pixel, column) in pixels.zip(&columns.taps) {
-                let a = &blended[column.first * 3..][..3];
-                let b = &blended[column.second * 3..][..3];
-                let weight = u32::from(column.weight_256);
+        // Sixteen bits hold 255 · 256, so that many pixels are blended at once.
+        let across = |row: usize, stretched: &mut [u8]| {
+            let source = &photograph.as_raw()[row * stride..][..stride];
+            for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
+                let a = &source[column.first * 3..][..3];
+                let b = &source[column.second * 3..][..3];
+                let weight = column.weight_256;
                 for channel in 0..3 {
                     let sum =
-                        u32::from(a[channel]) * (256 - weight) + u32::from(b[channel]) * weight;
-                    pixel[channel] = ((sum + (1 << 15)) >> 16).min(255) as u8;
+                        u16::from(a[channel]) * (256 - weight) + u16::from(b[channel]) * weight;
+                    pixel[channel] = ((sum + 128) >> 8) as u8;
                 }
                 pixel[3] = 255;
+            }
+        };
+        // Two neighboring rows of the photograph, stretched to the target's width and kept while
+        // they last, then blended: the inner loop runs along memory.
+        let length = columns.taps.len() * 4;
+        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u8; length]));
+        let target_stride = self.pixmap.width() as usize * 4;
+        let target = self.pixmap.data_mut();
+        for (y, tap) in rows.taps.iter().enumerate() {
+            if stretched[1].0 == tap.first {
+                stretched.swap(0, 1);
+            }
+            for ((known, row), wanted) in stretched.iter_mut().zip([tap.first, tap.second]) {
+                if *known != wanted {
+                    across(wanted, row);
+                    *known = wanted;
+                }
+            }
+            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
+            let weight = tap.weight_256;
+            let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
+            let bytes = &mut target[start..][..length];
+            for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
+                let sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
+                *byte = ((sum + 128) >> 8) as u8;
             }
         }
     }
@@ -567,12 +623,13 @@ impl Canvas {
         let pattern = match dash {
             Dash::Solid => None,
             Dash::Dashed => StrokeDash::new(vec![6.0 + width, 4.0 + width], 0.0),
-            Dash::Dotted => StrokeDash::new(vec![0.1, 2.5 * width.max(1.0)], 0.0),
+            Dash::Dotted => StrokeDash::new(vec![1.2 * width, 2.5 + 1.5 * width], 0.0),
         };
-        let cap = if dash == Dash::Dashed {
-            LineCap::Butt
-        } else {
+        // Round ends on every dot would cost more than the rest of the picture.
+        let cap = if dash == Dash::Solid {
             LineCap::Round
+        } else {
+            LineCap::Butt
         };
         let skia_stroke = SkiaStroke {
             width,
@@ -592,28 +649,32 @@ pub fn text_width(text: &str, size: f64) -> f64 {
     font::width(text) * size
 }
 
-fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
-    Color::from_rgba8(r, g, b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8)
+/// Height of a paragraph of this width, CSS pixels.
+pub fn paragraph_height(text: &str, size: f64, width: f64) -> f64 {
+    break_lines(text, size, width).len() as f64 * line_height(size)
 }
 
-struct PathPen(PathBuilder);
+fn line_height(size: f64) -> f64 {
+    (size * 1.4).round()
+}
 
-impl Pen for PathPen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to(x, y);
+/// Lines of text no wider than `width`, broken between words; a longer word has its own line.
+fn break_lines(text: &str, size: f64, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}"), size) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
     }
+    lines
+}
 
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to(x, y);
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.0.quad_to(x1, y1, x, y);
-    }
-
-    fn close(&mut self) {
-        self.0.close();
-    }
+fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
+    Color::from_rgba8(r, g, b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
 /// Where each device pixel along one side takes its color from.
@@ -744,6 +805,14 @@ mod tests {
             .sum::<f64>()
             / 2.0;
         assert_eq!(area, 100.0);
+    }
+
+    #[test]
+    fn text_is_broken_between_words() {
+        let lines = break_lines("one two three four", 10.0, text_width("one two", 10.0));
+        assert_eq!(lines, ["one two", "three", "four"]);
+        assert_eq!(break_lines("long", 10.0, 1.0), ["long"]);
+        assert!(break_lines(" ", 10.0, 50.0).is_empty());
     }
 
     #[test]

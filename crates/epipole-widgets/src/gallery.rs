@@ -3,8 +3,10 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+mod epipolar_click;
 pub mod harris;
 pub mod ransac_race;
+mod stereo_slider;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -19,7 +21,12 @@ pub struct Entry {
 }
 
 /// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[entry::<harris::View>(), entry::<ransac_race::View>()];
+pub static FIGURES: &[Entry] = &[
+    entry::<epipolar_click::EpipolarClickView>(),
+    entry::<harris::View>(),
+    entry::<ransac_race::View>(),
+    entry::<stereo_slider::StereoSliderView>(),
+];
 
 const fn entry<V: View>() -> Entry {
     Entry {

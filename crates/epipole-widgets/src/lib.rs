@@ -21,8 +21,10 @@ pub mod contract;
 mod figure;
 mod font;
 pub mod gallery;
-
+mod labels;
+mod photo;
 pub mod pointing;
+mod scenes;
 mod stage;
 pub mod theme;
 

@@ -177,6 +177,11 @@ impl Body {
         self.local_from_world.tr_mul(normal)
     }
 
+    /// Whether it is the room, which encloses everything else.
+    pub(crate) fn is_room(&self) -> bool {
+        matches!(&self.shape, Shape::Cuboid(cuboid) if cuboid.is_room())
+    }
+
     /// Center and radius of a sphere around it.
     pub(crate) fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
         let (half, center) = self.shape.bounds();

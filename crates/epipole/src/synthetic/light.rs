@@ -5,6 +5,7 @@
 
 use super::body::Body;
 use super::noise::split;
+use super::shading::single;
 use super::shape::{Ray, Shape};
 use nalgebra::{Matrix3, Vector3};
 
@@ -32,11 +33,59 @@ pub(crate) struct Lighting {
     pub(crate) reference_m: Option<f64>,
     /// Light on surfaces that face −x, +x, −y (up), +y, −z, +z.
     pub(crate) sides: [[f32; 3]; 6],
+    pub(crate) mirror: Mirror,
+}
+
+/// The rectangle in the form in which reflections meet it.
+#[derive(Debug, Clone)]
+pub(crate) struct Mirror {
+    /// Its plane: `normal · x = offset`.
+    pub(crate) normal: [f32; 3],
+    pub(crate) offset: f32,
+    /// `u · x − u_offset` is −1 … 1 from edge to edge.
+    pub(crate) u: [f32; 3],
+    pub(crate) u_offset: f32,
+    pub(crate) v: [f32; 3],
+    pub(crate) v_offset: f32,
 }
 
 impl Lighting {
+    /// * `center`, `half_u`, `half_v`: the rectangle, metres; u × v points into the room
+    /// * `reference_m`: where it has full strength; `None` if far away
+    /// * `sides`: soft light on surfaces that face −x, +x, −y (up), +y, −z, +z
+    pub(crate) fn new(
+        [center, half_u, half_v]: [Vector3<f64>; 3],
+        color: [f32; 3],
+        reference_m: Option<f64>,
+        sides: [[f32; 3]; 6],
+    ) -> Self {
+        let normal = half_u.cross(&half_v).normalize();
+        let (u, v) = (
+            half_u / half_u.norm_squared(),
+            half_v / half_v.norm_squared(),
+        );
+        let mirror = Mirror {
+            normal: single(&normal),
+            offset: normal.dot(&center) as f32,
+            u: single(&u),
+            u_offset: u.dot(&center) as f32,
+            v: single(&v),
+            v_offset: v.dot(&center) as f32,
+        };
+        Self {
+            center,
+            half_u,
+            half_v,
+            color,
+            reference_m,
+            sides,
+            mirror,
+        }
+    }
+
     /// Soft light from all around on a surface with this normal: the sides mixed by the squares
     /// of the normal's components (McTaggart 2004).
+    #[inline]
     pub(crate) fn ambient(&self, normal: [f32; 3]) -> [f32; 3] {
         let mut color = [0.0; 3];
         for axis in 0..3 {
@@ -131,7 +180,10 @@ impl LightMap {
         let (y, fy) = split(t * self.height as f32 - 0.5);
         let (w, h) = (self.width as i32, self.height as i32);
         let (x0, x1) = if self.wraps {
-            ((x + w) % w, (x + 1) % w)
+            (
+                if x < 0 { w - 1 } else { x.min(w - 1) },
+                if x + 1 >= w { 0 } else { x + 1 },
+            )
         } else {
             (x.clamp(0, w - 1), (x + 1).clamp(0, w - 1))
         };
@@ -147,6 +199,7 @@ impl LightMap {
         light
     }
 
+    #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
         16 * self.cells.len()
     }
@@ -185,10 +238,8 @@ pub(crate) struct Shade<'a> {
 
 impl<'a> Shade<'a> {
     pub(crate) fn new(bodies: &'a [Body], lighting: &'a Lighting) -> Self {
-        let is_room = |body: &Body| {
-            matches!(&body.shape, Shape::Cuboid(cuboid) if cuboid.is_room())
-                || body.paints.iter().any(|paint| paint.glow > 0.0)
-        };
+        let transparent =
+            |body: &Body| body.is_room() || body.paints.iter().any(|paint| paint.glow > 0.0);
         Self {
             lighting,
             places: window_places(lighting),
@@ -196,7 +247,7 @@ impl<'a> Shade<'a> {
             casters: bodies
                 .iter()
                 .enumerate()
-                .filter(|(_, body)| !is_room(body))
+                .filter(|(_, body)| !transparent(body))
                 .map(|(index, body)| {
                     let (center, radius) = body.bounding_sphere();
                     (index, body, center, radius)
@@ -216,7 +267,7 @@ impl<'a> Shade<'a> {
         let origin = p + n * LIFT_M;
         let to_center = self.lighting.center - origin;
         let distance_sq = to_center.norm_squared();
-        let spread = self.lighting.half_u.norm() + self.lighting.half_v.norm();
+        let spread = (self.lighting.half_u + self.lighting.half_v).norm();
         let mut near: Vec<&Body> = Vec::new();
         for (index, caster, center, radius) in &self.casters {
             if *index == own && !body.hollow {

@@ -11,11 +11,11 @@ use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma, RgbImage};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use std::ops::Range;
 
 /// Side of the squares of pixels that share a list of candidates.
-const TILE: u32 = 16;
+const TILE: u32 = 8;
 const NEAR: f64 = 1e-9;
 
 /// Offsets of the extra rays at an edge: no two share a row or a column.
@@ -67,6 +67,10 @@ struct Seen<'a> {
     /// Pixels that may show it: columns and rows, both ends included.
     columns: (i64, i64),
     rows: (i64, i64),
+    /// No point of it is nearer than this depth; infinite for the room, which is behind all.
+    nearest: f64,
+    /// Its number in the scene.
+    number: usize,
 }
 
 /// What one ray found.
@@ -74,6 +78,7 @@ struct Seen<'a> {
 struct Sample {
     /// Body and chart.
     key: u32,
+    depth_m: f32,
     inverse_depth: f32,
     color: [f32; 3],
 }
@@ -83,7 +88,8 @@ struct View<'a> {
     seen: Vec<Seen<'a>>,
     center: Vector3<f64>,
     world_from_cam: Matrix3<f64>,
-    camera: &'a Camera,
+    principal: Point2<f64>,
+    inverse_focal: Vector2<f64>,
     pixel_rad: f64,
     width: u32,
     height: u32,
@@ -207,36 +213,38 @@ fn render_bands(view: &View, band: Band) {
 }
 
 impl<'a> View<'a> {
-    fn new(
-        scene: &'a Scene,
-        camera: &'a Camera,
-        width: u32,
-        height: u32,
-        sampling: Sampling,
-    ) -> Self {
+    fn new(scene: &'a Scene, camera: &Camera, width: u32, height: u32, sampling: Sampling) -> Self {
         let center = camera.center_in_world().coords;
+        let k = &camera.intrinsics;
+        let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
         let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
         let world_from_cam = cam_from_world.matrix().transpose();
-        let seen = scene
+        let mut seen: Vec<Seen> = scene
             .placed()
-            .map(|(body, shift)| {
-                let (columns, rows) = outline(camera, body, &shift);
+            .enumerate()
+            .map(|(number, (body, shift))| {
+                let (columns, rows, nearest) = outline(camera, body, &shift);
                 Seen {
                     body,
                     origin: body.local_from_world * (center - body.center - shift),
                     local_from_cam: body.local_from_world * world_from_cam,
                     columns,
                     rows,
+                    nearest,
+                    number,
                 }
             })
             .collect();
+        // From front to back; the order of bodies decides between equals.
+        seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
         Self {
             scene,
             seen,
             center,
             world_from_cam,
-            camera,
-            pixel_rad: 1.0 / (camera.intrinsics.fu_px() * camera.intrinsics.fv_px()).sqrt(),
+            principal: k.principal_point(),
+            inverse_focal,
+            pixel_rad: (inverse_focal.x * inverse_focal.y).sqrt(),
             width,
             height,
             sampling,
@@ -244,9 +252,9 @@ impl<'a> View<'a> {
     }
 
     /// For each tile of a row of tiles, the bodies that it may show.
-    fn candidates(&self, tile_row: u32) -> Vec<Vec<u16>> {
-        let num_tiles = self.width.div_ceil(TILE);
-        let mut lists = vec![Vec::new(); num_tiles as usize];
+    fn candidates(&self, tile_row: u32, lists: &mut Vec<Vec<u16>>) {
+        lists.resize(self.width.div_ceil(TILE) as usize, Vec::new());
+        lists.iter_mut().for_each(Vec::clear);
         let tile = i64::from(TILE);
         let (top, bottom) = (
             i64::from(tile_row) * tile,
@@ -269,15 +277,13 @@ impl<'a> View<'a> {
                 list.push(index as u16);
             }
         }
-        lists
     }
 
     /// What the ray through an image point finds among the candidates.
     #[inline]
     fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
-        let k = &self.camera.intrinsics;
-        let principal = k.principal_point();
-        let (x, y) = ((u - principal.x) / k.fu_px(), (v - principal.y) / k.fv_px());
+        let x = (u - self.principal.x) * self.inverse_focal.x;
+        let y = (v - self.principal.y) * self.inverse_focal.y;
         let turn = |m: &Matrix3<f64>| {
             Vector3::new(
                 m.m11 * x + m.m12 * y + m.m13,
@@ -292,6 +298,9 @@ impl<'a> View<'a> {
         let mut found = usize::MAX;
         for &index in candidates {
             let seen = &self.seen[usize::from(index)];
+            if seen.nearest > nearest.along {
+                break;
+            }
             let ray = Ray {
                 origin: seen.origin,
                 direction: turn(&seen.local_from_cam),
@@ -304,6 +313,7 @@ impl<'a> View<'a> {
         let Some(seen) = self.seen.get(found) else {
             return Sample {
                 key: u32::MAX,
+                depth_m: f32::MAX,
                 inverse_depth: 0.0,
                 color: [0.0; 3],
             };
@@ -313,22 +323,23 @@ impl<'a> View<'a> {
         let direction_in_world = turn(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
         let decal = match &self.scene.movable {
-            Some((movable, shift)) if movable.ground == found => movable
+            Some((movable, shift)) if movable.ground == seen.number => movable
                 .decal
                 .sample(x_in_world.x - shift.x, x_in_world.z - shift.z),
             _ => None,
         };
         let look = Look {
-            x_in_world,
-            direction_in_world,
-            pixel_m: nearest.along * self.pixel_rad,
+            x_in_world: shading::single(&x_in_world),
+            direction_in_world: shading::single(&direction_in_world),
+            pixel_m: (nearest.along * self.pixel_rad) as f32,
             decal,
             smooth: self.sampling == Sampling::Full,
         };
         let color = shading::color(seen.body, &place, &self.scene.fixed.lighting, &look);
         Sample {
-            key: (found as u32) << 8 | place.chart as u32,
-            inverse_depth: (1.0 / nearest.along) as f32,
+            key: (seen.number as u32) << 8 | place.chart as u32,
+            depth_m: nearest.along as f32,
+            inverse_depth: 1.0 / nearest.along as f32,
             color,
         }
     }
@@ -346,7 +357,7 @@ impl<'a> View<'a> {
         for row in first..end {
             if row / TILE != listed {
                 listed = row / TILE;
-                lists = self.candidates(listed);
+                self.candidates(listed, &mut lists);
             }
             for column in 0..self.width {
                 samples.push(self.trace(
@@ -366,17 +377,17 @@ impl<'a> View<'a> {
         for row in band.first..band.first + num_rows {
             if row / TILE != listed {
                 listed = row / TILE;
-                lists = self.candidates(listed);
+                self.candidates(listed, &mut lists);
             }
             let offset = (row - first) as usize * width;
             let target = (row - band.first) as usize * width;
             for column in 0..width {
                 let sample = samples[offset + column];
-                band.depth_m[target + column] = 1.0 / sample.inverse_depth;
+                band.depth_m[target + column] = sample.depth_m;
                 let mut color = sample.color;
                 if self.sampling == Sampling::Full && is_edge(&samples, width, offset, column) {
                     // A bright reflection must not outweigh its pixel, so each ray is bounded.
-                    let mut sum = color.map(|channel| channel.min(1.5));
+                    let mut sum = [color[0].min(1.5), color[1].min(1.5), color[2].min(1.5)];
                     let list = &lists[column / TILE as usize];
                     for (du, dv) in EDGE_OFFSETS {
                         let extra = self.trace(column as f64 + du, f64::from(row) + dv, list);
@@ -384,11 +395,15 @@ impl<'a> View<'a> {
                             sum[i] += extra.color[i].min(1.5);
                         }
                     }
-                    color = sum.map(|channel| channel / 9.0);
+                    color = [sum[0] / 9.0, sum[1] / 9.0, sum[2] / 9.0];
                 }
                 let (x, y) = (column as f32 - middle.0, row as f32 - middle.1);
                 let vignette = 1.0 - 0.2 * (x * x + y * y) / corner_sq;
-                let color = color.map(|channel| channel * vignette);
+                let color = [
+                    color[0] * vignette,
+                    color[1] * vignette,
+                    color[2] * vignette,
+                ];
                 let pixel = film.develop(color, column as u32, row);
                 band.rgb[3 * (target + column)..3 * (target + column) + 3].copy_from_slice(&pixel);
             }
@@ -424,38 +439,42 @@ fn is_edge(samples: &[Sample], width: usize, offset: usize, column: usize) -> bo
         || (at >= width && at + width < samples.len() && bend(above, below) > limit)
 }
 
-/// Columns and rows between which a body appears: around the corners of its box.
-fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (i64, i64)) {
+/// Columns and rows between which a body appears, around the corners of its box, and a depth
+/// that is not beyond its nearest point.
+fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (i64, i64), f64) {
     let everywhere = (i64::MIN, i64::MAX);
+    if body.is_room() {
+        return (everywhere, everywhere, f64::INFINITY);
+    }
     let (half, center) = body.shape.bounds();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut nearest = f64::INFINITY;
     let mut num_behind = 0;
     for corner in 0..8 {
         let sign = |bit: i32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
         let x_in_world = body.local_from_world.tr_mul(&local) + body.center + shift;
         let x_in_cam = camera.cam_from_world * nalgebra::Point3::from(x_in_world);
-        if x_in_cam.z < 1e-3 {
-            num_behind += 1;
-            continue;
-        }
-        if let Ok(pixel) = camera.intrinsics.project(&x_in_cam) {
-            for i in 0..2 {
-                low[i] = low[i].min(pixel[i]);
-                high[i] = high[i].max(pixel[i]);
+        nearest = nearest.min(x_in_cam.z - 1e-9);
+        match camera.intrinsics.project(&x_in_cam) {
+            Ok(pixel) if x_in_cam.z > 1e-6 => {
+                for i in 0..2 {
+                    low[i] = low[i].min(pixel[i]);
+                    high[i] = high[i].max(pixel[i]);
+                }
             }
+            _ => num_behind += 1,
         }
     }
     match num_behind {
         // One pixel more for the rays between pixel centers.
         0 => {
             let range = |i: usize| (low[i].floor() as i64 - 1, high[i].ceil() as i64 + 1);
-            (range(0), range(1))
+            (range(0), range(1), nearest)
         }
-        // Nothing of it lies in front. (Rays start in the plane z = 0, so a millimetre is no loss
-        // unless the camera touches it.)
-        8 => ((1, 0), (1, 0)),
-        _ => (everywhere, everywhere),
+        // Nothing of it lies in front of the camera.
+        8 => ((1, 0), (1, 0), nearest),
+        _ => (everywhere, everywhere, nearest),
     }
 }
 
@@ -464,7 +483,6 @@ mod tests {
     use super::*;
     use crate::camera::Intrinsics;
     use crate::synthetic::still_life_camera;
-    use nalgebra::Point2;
 
     fn fingerprint(bytes: &[u8]) -> u64 {
         bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {

@@ -225,3 +225,118 @@ impl Scene {
         bytes
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{cross_matrix, relative_motion};
+    use crate::synthetic::still_life_camera;
+    use nalgebra::{Isometry3, Translation3};
+
+    fn pair() -> (Camera, Camera) {
+        let camera1 = still_life_camera(640, 480);
+        let camera2 = Camera {
+            cam_from_world: Isometry3::rotation(Vector3::new(0.02, -0.2, 0.05))
+                * Translation3::new(-0.4, 0.05, -0.1)
+                * camera1.cam_from_world,
+            ..camera1
+        };
+        (camera1, camera2)
+    }
+
+    /// Points found by rays obey x2ᵀ F x1 = 0 with F from the cameras, and go back to where they
+    /// came from.
+    #[test]
+    fn transfers_obey_the_epipolar_constraint() {
+        let scene = Scene::still_life();
+        let (camera1, camera2) = pair();
+        let motion = relative_motion(&camera1.cam_from_world, &camera2.cam_from_world);
+        let essential = cross_matrix(&motion.translation.vector)
+            * motion.rotation.to_rotation_matrix().into_inner();
+        let f = camera2.intrinsics.inverse_matrix().transpose()
+            * essential
+            * camera1.intrinsics.inverse_matrix();
+        let (mut num_visible, mut num_occluded) = (0, 0);
+        for v in (3..480).step_by(17) {
+            for u in (2..640).step_by(13) {
+                let pixel1 = Point2::new(f64::from(u), f64::from(v));
+                let (pixel2, x_in_world) = match scene.transfer(&camera1, &camera2, &pixel1) {
+                    Transfer::Visible { pixel2, x_in_world } => {
+                        num_visible += 1;
+                        let Transfer::Visible { pixel2: back, .. } =
+                            scene.transfer(&camera2, &camera1, &pixel2)
+                        else {
+                            panic!("what both see goes back: {pixel1}");
+                        };
+                        assert!((back - pixel1).norm() < 1e-4, "{pixel1} {back}");
+                        (pixel2, x_in_world)
+                    }
+                    Transfer::Occluded {
+                        pixel2, x_in_world, ..
+                    } => {
+                        num_occluded += 1;
+                        (pixel2, x_in_world)
+                    }
+                    other => panic!("{other:?}"),
+                };
+                assert!((camera1.project(&x_in_world).unwrap() - pixel1).norm() < 1e-8);
+                let line = f * pixel1.to_homogeneous();
+                let distance_px = line.dot(&pixel2.to_homogeneous()).abs()
+                    / (line.x * line.x + line.y * line.y).sqrt();
+                assert!(distance_px < 1e-7, "{pixel1}: {distance_px}");
+            }
+        }
+        assert!(
+            num_visible > 1000 && num_occluded > 50,
+            "{num_visible} {num_occluded}"
+        );
+    }
+
+    /// The wall behind the jug, seen from the left of it, is hidden from the right.
+    #[test]
+    fn the_jug_hides_the_wall() {
+        let scene = Scene::still_life();
+        let camera1 = still_life_camera(640, 480);
+        let behind_jug = Point3::new(0.08, -0.20, 1.05);
+        let beside = Camera {
+            cam_from_world: Translation3::new(0.8, 0.0, 0.0) * camera1.cam_from_world,
+            ..camera1
+        };
+        let pixel1 = beside.project(&behind_jug).unwrap();
+        match scene.transfer(&beside, &camera1, &pixel1) {
+            Transfer::Occluded { by, x_in_world, .. } => {
+                assert_eq!(by, "the jug");
+                assert!((x_in_world - behind_jug).norm() < 1e-9);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn behind_the_camera_and_nothing() {
+        let scene = Scene::still_life();
+        let camera1 = still_life_camera(640, 480);
+        let backward = Camera {
+            cam_from_world: Isometry3::rotation(Vector3::new(0.0, std::f64::consts::PI, 0.0))
+                * camera1.cam_from_world,
+            ..camera1
+        };
+        let middle = Point2::new(320.0, 240.0);
+        assert!(matches!(
+            scene.transfer(&camera1, &backward, &middle),
+            Transfer::BehindCamera { .. }
+        ));
+        let nan = Point2::new(f64::NAN, 1.0);
+        assert_eq!(scene.transfer(&camera1, &camera1, &nan), Transfer::Nothing);
+        let outside = Point3::new(0.0, -90.0, 0.0);
+        assert_eq!(scene.cast(&outside, &-Vector3::y()), None);
+        assert_eq!(scene.cast(&outside, &Vector3::zeros()), None);
+    }
+
+    /// Both scenes stay small enough for a phone.
+    #[test]
+    fn textures_and_light_fit_in_memory() {
+        let bytes = Scene::still_life().bytes();
+        assert!(bytes < 12 << 20, "{bytes}");
+    }
+}

@@ -12,29 +12,41 @@ fn log2(x: f32) -> f32 {
 
 /// What the ray that found a place tells about it.
 pub(crate) struct Look {
-    pub(crate) x_in_world: Vector3<f64>,
-    pub(crate) direction_in_world: Vector3<f64>,
+    pub(crate) x_in_world: [f32; 3],
+    pub(crate) direction_in_world: [f32; 3],
     /// Width of a pixel at this depth, metres.
-    pub(crate) pixel_m: f64,
+    pub(crate) pixel_m: f32,
     /// Light on the table where a movable thing stands: window and soft.
     pub(crate) decal: Option<[f32; 2]>,
     /// Mix neighboring sizes of a texture.
     pub(crate) smooth: bool,
 }
 
+#[inline]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline]
+pub(crate) fn single(v: &Vector3<f64>) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
 /// Linear red, green and blue.
 #[inline]
 pub(crate) fn color(body: &Body, place: &Place, lighting: &Lighting, look: &Look) -> [f32; 3] {
     let paint = &body.paints[place.chart];
-    let normal = body.normal_in_world(&place.normal);
-    let length = look.direction_in_world.norm();
-    let facing = (-(normal.dot(&look.direction_in_world)) / length) as f32;
+    let normal = single(&body.normal_in_world(&place.normal));
+    let direction = look.direction_in_world;
+    let inverse_length = 1.0 / dot(direction, direction).sqrt();
+    let facing = -dot(normal, direction) * inverse_length;
     let [width, height] = paint.texture.size();
-    let texels_per_m = (paint.scale[0].abs() * width / place.extent_m[0] as f32)
-        .max(paint.scale[1].abs() * height / place.extent_m[1] as f32);
-    // A slanted pixel covers more of the surface in one direction: between its two widths.
-    let footprint = texels_per_m * look.pixel_m as f32 / facing.clamp(0.12, 1.0).sqrt();
-    let lod = log2(footprint) - 0.35;
+    let texels_per_m = (paint.scale[0].abs() * width * place.per_m[0] as f32)
+        .max(paint.scale[1].abs() * height * place.per_m[1] as f32);
+    // A slanted pixel covers more of the surface in one direction: between its two widths. The
+    // logarithm of the square saves the roots.
+    let footprint = texels_per_m * look.pixel_m;
+    let lod = 0.5 * log2(footprint * footprint / facing.clamp(0.12, 1.0)) - 0.35;
     let (s, t) = (place.s as f32, place.t as f32);
     let texel = paint.texture.sample(
         s * paint.scale[0] + paint.offset[0],
@@ -42,29 +54,39 @@ pub(crate) fn color(body: &Body, place: &Place, lighting: &Lighting, look: &Look
         lod,
         look.smooth,
     );
-    let albedo = [0, 1, 2].map(|i| texel[i] * paint.tint[i]);
+    let mut color = paint.tint;
+    for i in 0..3 {
+        color[i] *= texel[i];
+    }
     if paint.glow > 0.0 {
-        return albedo.map(|channel| channel * paint.glow);
+        for channel in &mut color {
+            *channel *= paint.glow;
+        }
+        return color;
     }
     let mut light = body.lights[place.chart].sample(s, t);
     if let Some([window, soft]) = look.decal {
-        let n = [normal.x as f32, normal.y as f32, normal.z as f32];
-        let ambient = lighting.ambient(n);
+        let ambient = lighting.ambient(normal);
         for i in 0..3 {
             let own = ambient[i].min(light[i]);
             light[i] = own * soft + (light[i] - own) * window;
         }
         light[3] *= window;
     }
-    let mut color = [0, 1, 2].map(|i| albedo[i] * light[i]);
-    if paint.gloss > 0.0 {
-        let view = look.direction_in_world / length;
-        let mirrored = view - normal * (2.0 * normal.dot(&view));
-        let shine = reflection(lighting, &look.x_in_world, &mirrored, light[3]);
+    for i in 0..3 {
+        color[i] *= light[i];
+    }
+    let gloss = paint.gloss * texel[3];
+    if gloss > 0.0 {
+        let mut mirrored = [0.0; 3];
+        for i in 0..3 {
+            mirrored[i] = direction[i] * inverse_length + normal[i] * (2.0 * facing);
+        }
+        let shine = reflection(lighting, look.x_in_world, mirrored, light[3]);
         // Schlick 1994: more of the light is reflected at grazing angles.
         let grazing = 1.0 - facing.clamp(0.0, 1.0);
         let grazing_sq = grazing * grazing;
-        let strength = paint.gloss * texel[3] * (0.045 + 0.6 * grazing_sq * grazing_sq * grazing);
+        let strength = gloss * (0.045 + 0.6 * grazing_sq * grazing_sq * grazing);
         for i in 0..3 {
             color[i] += strength * shine[i];
         }
@@ -73,21 +95,27 @@ pub(crate) fn color(body: &Body, place: &Place, lighting: &Lighting, look: &Look
 }
 
 /// What a mirror would show in this direction: a blurred window with its bars, and the room.
+#[inline]
 fn reflection(
     lighting: &Lighting,
-    x_in_world: &Vector3<f64>,
-    direction: &Vector3<f64>,
+    x_in_world: [f32; 3],
+    direction: [f32; 3],
     visible: f32,
 ) -> [f32; 3] {
-    let d = [direction.x as f32, direction.y as f32, direction.z as f32];
-    let mut color = lighting.ambient(d).map(|channel| 0.8 * channel);
-    let normal = lighting.half_u.cross(&lighting.half_v);
-    let approach = normal.dot(direction);
-    if approach < 0.0 {
-        let along = normal.dot(&(lighting.center - x_in_world)) / approach;
-        let at = x_in_world + direction * along - lighting.center;
-        let u = (at.dot(&lighting.half_u) / lighting.half_u.norm_squared()) as f32;
-        let v = (at.dot(&lighting.half_v) / lighting.half_v.norm_squared()) as f32;
+    let mut color = lighting.ambient(direction);
+    for channel in &mut color {
+        *channel *= 0.8;
+    }
+    let mirror = &lighting.mirror;
+    let approach = dot(mirror.normal, direction);
+    if approach < 0.0 && visible > 0.0 {
+        let along = (mirror.offset - dot(mirror.normal, x_in_world)) / approach;
+        let mut at = [0.0; 3];
+        for i in 0..3 {
+            at[i] = x_in_world[i] + direction[i] * along;
+        }
+        let u = dot(at, mirror.u) - mirror.u_offset;
+        let v = dot(at, mirror.v) - mirror.v_offset;
         let edge = |x: f32| (4.0 * (1.12 - x.abs())).clamp(0.0, 1.0);
         let bar = |x: f32| (7.0 * x.abs()).clamp(0.25, 1.0);
         let bright = 9.0 * visible * edge(u) * edge(v) * bar(u) * bar(v);
@@ -136,11 +164,13 @@ impl Film {
     pub(crate) fn develop(&self, color: [f32; 3], x: u32, y: u32) -> [u8; 3] {
         const PATTERN: [u16; 16] = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
         let threshold = PATTERN[(4 * (y & 3) + (x & 3)) as usize] * 16 + 8;
-        color.map(|channel| {
-            let index = (channel * (Self::SIZE as f32 / Self::MOST)) as usize;
+        let mut bytes = [0; 3];
+        for i in 0..3 {
+            let index = (color[i] * (Self::SIZE as f32 / Self::MOST)) as usize;
             let value = self.curve[index.min(Self::SIZE - 1)];
-            ((value + threshold) >> 8) as u8
-        })
+            bytes[i] = ((value + threshold) >> 8) as u8;
+        }
+        bytes
     }
 }
 

@@ -5,9 +5,9 @@ use super::light::{self, Lighting, Proxy};
 use super::paint;
 use super::scene::{Fixed, Scene};
 use super::shading::Film;
-use super::shape::{Cuboid, Shape};
+use super::shape::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, Shape, TOP};
 use super::wares::{
-    FRONT, GEOMETRIC_M, LANDSCAPE_M, PLASTER_M, RIGHT, STAR_CHART_M, TOP, Wares, placed,
+    GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
 };
 use crate::camera::{Camera, Intrinsics, look_at};
 use nalgebra::{Point3, Vector3};
@@ -60,8 +60,8 @@ pub fn still_life_camera(width: u32, height: u32) -> Camera {
         intrinsics: Intrinsics::centered(focal_px, width, height)
             .expect("a focal length made of positive numbers is positive"),
         cam_from_world: look_at(
-            &Point3::new(0.02, -0.44, -1.43),
-            &Point3::new(0.02, -0.135, 0.05),
+            &Point3::new(0.035, -0.43, -1.30),
+            &Point3::new(0.035, -0.165, 0.05),
             &Vector3::new(0.0, -1.0, 0.0),
         )
         .expect("the table is below the camera, not above it"),
@@ -69,21 +69,23 @@ pub fn still_life_camera(width: u32, height: u32) -> Camera {
 }
 
 fn lighting() -> Lighting {
-    Lighting {
-        center: Vector3::new(LEFT_WALL_X + 0.02, -1.02, -0.55),
-        half_u: Vector3::new(0.0, 0.0, -0.42),
-        half_v: Vector3::new(0.0, 0.50, 0.0),
-        color: [2.55, 2.35, 2.02],
-        reference_m: Some(2.0),
-        sides: [
-            [0.40, 0.43, 0.47],
-            [0.25, 0.23, 0.21],
-            [0.42, 0.44, 0.46],
-            [0.20, 0.14, 0.095],
-            [0.31, 0.31, 0.31],
-            [0.24, 0.23, 0.22],
+    Lighting::new(
+        [
+            Vector3::new(LEFT_WALL_X + 0.02, -1.02, -0.62),
+            Vector3::new(0.0, 0.0, -0.42),
+            Vector3::new(0.0, 0.50, 0.0),
         ],
-    }
+        [2.75, 2.50, 2.10],
+        Some(2.0),
+        [
+            [0.26, 0.29, 0.33],
+            [0.17, 0.155, 0.14],
+            [0.27, 0.285, 0.31],
+            [0.16, 0.105, 0.065],
+            [0.20, 0.20, 0.205],
+            [0.17, 0.165, 0.16],
+        ],
+    )
 }
 
 fn build() -> Scene {
@@ -108,11 +110,11 @@ fn room() -> Vec<Body> {
     let wall = |width_m: f64, shift: f32| {
         Paint::new(&wares.plaster)
             .repeated(
-                (width_m / f64::from(PLASTER_M[0])) as f32,
-                (ROOM_SIZE[1] / f64::from(PLASTER_M[1])) as f32,
+                (width_m / PLASTER_M) as f32,
+                (ROOM_SIZE[1] / PLASTER_M) as f32,
             )
             .shifted(shift, 0.0)
-            .lit(40, 40)
+            .lit(24, 24)
     };
     let size = Vector3::from(ROOM_SIZE);
     let mut walls = Body::new(
@@ -121,17 +123,19 @@ fn room() -> Vec<Body> {
         ROOM_CENTER,
         &wall(size.z, 0.37),
     )
-    .painted(5, &wall(size.x, 0.0).lit(144, 96))
-    .painted(1, &wall(size.z, 0.61))
-    .painted(2, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
-    .painted(3, &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(48, 48));
+    .painted(BACK, &wall(size.x, 0.0).lit(108, 72))
+    .painted(RIGHT, &wall(size.z, 0.61))
+    .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
+    .painted(
+        BOTTOM,
+        &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(24, 24),
+    );
     walls.proxies = vec![Proxy::Room {
         center: walls.center,
         half: size / 2.0,
     }];
     let quarter = std::f64::consts::FRAC_PI_2;
-    let on_back = BACK_WALL_Z - 0.014;
-    let frame = Paint::new(&wares.floor).tinted([1.6, 1.6, 1.6]);
+    let on_back = BACK_WALL_Z - PICTURE_DEPTH_M / 2.0;
     vec![
         walls,
         wares.picture(&wares.landscape, LANDSCAPE_M, [-0.36, -0.47, on_back], 0.0),
@@ -146,16 +150,10 @@ fn room() -> Vec<Body> {
         wares.picture(
             &wares.landscape,
             LANDSCAPE_M,
-            [RIGHT_WALL_X - 0.014, -0.55, 0.1],
+            [RIGHT_WALL_X - PICTURE_DEPTH_M / 2.0, -0.55, 0.1],
             -quarter,
         ),
-        Body::new(
-            "the window",
-            Shape::Cuboid(Cuboid::solid(0.03, 1.1, 0.95)),
-            [LEFT_WALL_X + 0.015, -1.02, -0.55],
-            &frame,
-        )
-        .painted(RIGHT, &Paint::new(&wares.window).glowing(1.25)),
+        wares.window([LEFT_WALL_X, -1.02, -0.62], [0.95, 1.1]),
     ]
 }
 
@@ -187,7 +185,7 @@ fn table() -> Vec<Body> {
             [0.0, thick / 2.0, z],
             &plank(1.0, 0.03),
         )
-        .painted(TOP, &Paint::new(&top).glossy(0.55).lit(224, 136)),
+        .painted(TOP, &Paint::new(&top).glossy(0.55).lit(184, 112)),
         cuboid(
             [width - 0.16, 0.09, depth - 0.16],
             [0.0, thick + 0.045, z],
@@ -226,7 +224,7 @@ fn things() -> Vec<Body> {
             &print.clone().repeated(1.0, 0.01),
         )
         .turned(0.16)
-        .painted(TOP, &print.lit(112, 80))
+        .painted(TOP, &print.lit(80, 56))
         .painted(FRONT, &Paint::new(&cloth).repeated(1.0, 0.01)),
     ];
     let on_cloth = -cloth_m;
@@ -250,7 +248,7 @@ fn things() -> Vec<Body> {
     let stack_m: f64 = heights.iter().sum();
     bodies.extend(wares.apple([-0.345, -stack_m, 0.055], 0.041, 0.6));
 
-    bodies.extend(wares.mug([0.205, on_cloth, -0.17], -0.45, 1.0));
+    bodies.extend(wares.mug([0.19, on_cloth, -0.16], -0.45, 1.12));
     bodies.push(wares.jug([0.045, 0.0, 0.215], 0.3, 1.0));
     bodies.extend(wares.tin([0.40, 0.0, 0.16], [0.105, 0.150, 0.085], -0.42));
     bodies.push(wares.orange([-0.01, on_cloth, -0.085], 0.042, [0.9, 0.5]));

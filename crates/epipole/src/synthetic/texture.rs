@@ -63,6 +63,7 @@ impl Texture {
     }
 
     /// Bytes of all levels.
+    #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
         self.levels.iter().map(|level| 4 * level.texels.len()).sum()
     }
@@ -70,22 +71,31 @@ impl Texture {
     /// The color around (s, t), averaged over about `2^lod` texels of the full size.
     ///
     /// With `smooth` two levels are mixed, otherwise the nearer one is taken.
+    #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32, lod: f32, smooth: bool) -> [f32; 4] {
         let last = self.levels.len() - 1;
         let lod = lod.clamp(0.0, last as f32);
-        let color = if smooth {
+        let mut color = if smooth {
             let below = lod as usize;
             let above = (below + 1).min(last);
             let part = lod - below as f32;
             let a = self.bilinear(&self.levels[below], s, t);
             let b = self.bilinear(&self.levels[above], s, t);
-            [0, 1, 2, 3].map(|i| a[i] + (b[i] - a[i]) * part)
+            let mut color = a;
+            for i in 0..4 {
+                color[i] += (b[i] - a[i]) * part;
+            }
+            color
         } else {
             self.bilinear(&self.levels[(lod + 0.5) as usize], s, t)
         };
-        [0, 1, 2, 3].map(|i| color[i] * color[i] * (1.0 / (255.0 * 255.0)))
+        for channel in &mut color {
+            *channel = *channel * *channel * (1.0 / (65_280.0 * 65_280.0));
+        }
+        color
     }
 
+    #[inline]
     fn bilinear(&self, level: &Level, s: f32, t: f32) -> [f32; 4] {
         let (x, fx) = split(s * level.width as f32 - 0.5);
         let (y, fy) = split(t * level.height as f32 - 0.5);
@@ -107,17 +117,26 @@ impl Texture {
                 (y + 1).clamp(0, level.height - 1),
             )
         };
-        let texel = |x: i32, y: i32| {
-            level.texels[(y * level.width + x) as usize].map(|byte| f32::from(byte))
-        };
-        let (a, b, c, d) = (texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1));
-        let mut color = [0.0; 4];
-        for i in 0..4 {
-            let upper = a[i] + (b[i] - a[i]) * fx;
-            let lower = c[i] + (d[i] - c[i]) * fx;
-            color[i] = upper + (lower - upper) * fy;
+        // Two channels at a time in one integer: weights of 8 bits leave 8 more per channel.
+        let (wx, wy) = ((fx * 256.0) as u32, (fy * 256.0) as u32);
+        let both = (wx * wy) >> 8;
+        let weights = [256 + both - wx - wy, wx - both, wy - both, both];
+        let (mut even, mut odd) = (0, 0);
+        for (i, weight) in weights.into_iter().enumerate() {
+            let (x, y) = (
+                if i & 1 == 0 { x0 } else { x1 },
+                if i < 2 { y0 } else { y1 },
+            );
+            let texel = u32::from_le_bytes(level.texels[(y * level.width + x) as usize]);
+            even += (texel & 0x00ff_00ff) * weight;
+            odd += ((texel >> 8) & 0x00ff_00ff) * weight;
         }
-        color
+        [
+            (even & 0xffff) as f32,
+            (odd & 0xffff) as f32,
+            (even >> 16) as f32,
+            (odd >> 16) as f32,
+        ]
     }
 }
 

@@ -4,15 +4,10 @@ use super::body::{Body, Paint};
 use super::light::Proxy;
 use super::noise::Noise;
 use super::paint;
-use super::shape::{Cuboid, Lathe, Profile, Ring, Shape};
+use super::shape::{Cuboid, FRONT, Lathe, Profile, RIGHT, Ring, Shape, TOP};
 use super::texture::Texture;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
-
-/// Faces of a cuboid, by chart number.
-pub(super) const RIGHT: usize = 1;
-pub(super) const TOP: usize = 2;
-pub(super) const FRONT: usize = 4;
 
 const MUG_RADIUS_M: f64 = 0.048;
 const MUG_HEIGHT_M: f64 = 0.118;
@@ -31,7 +26,7 @@ pub(super) struct Wares {
     pub(super) noise: Noise,
     pub(super) plaster: Arc<Texture>,
     pub(super) floor: Arc<Texture>,
-    pub(super) window: Arc<Texture>,
+    window: Arc<Texture>,
     pub(super) landscape: Arc<Texture>,
     pub(super) geometric: Arc<Texture>,
     pub(super) star_chart: Arc<Texture>,
@@ -48,11 +43,13 @@ pub(super) struct Wares {
 }
 
 /// Sizes of the pictures on the walls, metres.
-pub(super) const LANDSCAPE_M: [f32; 2] = [0.62, 0.46];
-pub(super) const GEOMETRIC_M: [f32; 2] = [0.38, 0.46];
-pub(super) const STAR_CHART_M: [f32; 2] = [0.40, 0.52];
-/// Size of the wall that the plaster was painted for, metres.
-pub(super) const PLASTER_M: [f32; 2] = [3.6, 2.7];
+pub(super) const LANDSCAPE_M: [f64; 2] = [0.62, 0.46];
+pub(super) const GEOMETRIC_M: [f64; 2] = [0.38, 0.46];
+pub(super) const STAR_CHART_M: [f64; 2] = [0.40, 0.52];
+/// How far a picture stands out from its wall, metres.
+pub(super) const PICTURE_DEPTH_M: f64 = 0.028;
+/// Side of the square of wall that the plaster covers before it repeats, metres.
+pub(super) const PLASTER_M: f64 = 1.7;
 
 impl Wares {
     pub(super) fn shared() -> &'static Self {
@@ -89,12 +86,21 @@ impl Wares {
         let mug_profile = Lathe::new(mug_profile());
         let jug_profile = Lathe::new(jug_profile());
         Self {
-            plaster: Arc::new(paint::plaster(&noise, [1024, 1024], PLASTER_M)),
+            plaster: Arc::new(paint::plaster(&noise)),
             floor: Arc::new(paint::floor(&noise)),
             window: Arc::new(paint::window(&noise)),
-            landscape: Arc::new(paint::landscape(&noise, LANDSCAPE_M)),
-            geometric: Arc::new(paint::geometric(&noise, GEOMETRIC_M)),
-            star_chart: Arc::new(paint::star_chart(&noise, STAR_CHART_M)),
+            landscape: Arc::new(paint::landscape(
+                &noise,
+                LANDSCAPE_M.map(|side| side as f32),
+            )),
+            geometric: Arc::new(paint::geometric(
+                &noise,
+                GEOMETRIC_M.map(|side| side as f32),
+            )),
+            star_chart: Arc::new(paint::star_chart(
+                &noise,
+                STAR_CHART_M.map(|side| side as f32),
+            )),
             editions,
             linen: Arc::new(paint::linen(&noise)),
             pages: Arc::new(paint::pages(&noise)),
@@ -155,8 +161,8 @@ impl Wares {
             .turned(yaw_rad)
         };
         let top_paint = match &edition.cover {
-            Some(cover) => Paint::new(cover).glossy(0.6).lit(32, 24),
-            None => cloth.clone().repeated(2.0, 1.5).lit(32, 24),
+            Some(cover) => Paint::new(cover).glossy(0.6).lit(24, 18),
+            None => cloth.clone().repeated(2.0, 1.5).lit(24, 18),
         };
         let mut parts = vec![
             cuboid([length, board, deep], at(0.0, -board / 2.0, 0.0), &edge),
@@ -188,7 +194,7 @@ impl Wares {
     pub(super) fn mug(&self, foot: [f64; 3], yaw_rad: f64, scale: f64) -> Vec<Body> {
         let name = "the mug";
         let (radius, height) = (MUG_RADIUS_M * scale, MUG_HEIGHT_M * scale);
-        let glaze = Paint::new(&self.mug).glossy(1.0).lit(64, 40);
+        let glaze = Paint::new(&self.mug).glossy(1.0).lit(44, 30);
         let cup = Body::new(
             name,
             Shape::Lathe(Lathe::new(mug_profile().scaled(scale))),
@@ -206,7 +212,7 @@ impl Wares {
         let handle = Paint::new(&self.plain)
             .tinted([0.030, 0.075, 0.27])
             .glossy(1.0)
-            .lit(48, 16);
+            .lit(32, 10);
         let ring = Ring::new(
             0.0285 * scale,
             0.0062 * scale,
@@ -236,7 +242,7 @@ impl Wares {
             "the jug",
             Shape::Lathe(Lathe::new(jug_profile().scaled(scale))),
             foot,
-            &Paint::new(&self.jug).glossy(1.0).lit(48, 64),
+            &Paint::new(&self.jug).glossy(1.0).lit(32, 44),
         )
         .turned(yaw_rad)
         .standing_for(&[
@@ -287,7 +293,7 @@ impl Wares {
             name,
             Shape::Lathe(Lathe::new(profile)),
             [foot[0], foot[1] - rest_m, foot[2]],
-            &Paint::new(texture).glossy(0.55).lit(32, 24),
+            &Paint::new(texture).glossy(0.55).lit(24, 18),
         )
         .rotated(turn[0], turn[1])
         .standing_for(&[Proxy::Ball {
@@ -332,7 +338,7 @@ impl Wares {
             name,
             Shape::Lathe(Lathe::new(profile)),
             foot,
-            &Paint::new(&self.apple).glossy(0.9).lit(40, 32),
+            &Paint::new(&self.apple).glossy(0.9).lit(28, 20),
         )
         .turned(yaw_rad)
         .standing_for(&[Proxy::Ball {
@@ -386,22 +392,30 @@ impl Wares {
         ]
     }
 
+    /// A window in a wall whose inside faces +x, `middle` on that wall.
+    pub(super) fn window(&self, middle: [f64; 3], size_m: [f64; 2]) -> Body {
+        let deep = 0.03;
+        Body::new(
+            "the window",
+            Shape::Cuboid(Cuboid::solid(deep, size_m[1], size_m[0])),
+            [middle[0] + deep / 2.0, middle[1], middle[2]],
+            &Paint::new(&self.floor).tinted([1.6; 3]),
+        )
+        .painted(RIGHT, &Paint::new(&self.window).glowing(1.25))
+    }
+
     /// A framed picture that hangs on a wall, its painted face toward local −z.
     pub(super) fn picture(
         &self,
         texture: &Arc<Texture>,
-        size_m: [f32; 2],
+        size_m: [f64; 2],
         middle: [f64; 3],
         yaw_rad: f64,
     ) -> Body {
         let side = Paint::new(&self.linen).tinted([0.12, 0.07, 0.04]);
         Body::new(
             "a picture",
-            Shape::Cuboid(Cuboid::solid(
-                f64::from(size_m[0]),
-                f64::from(size_m[1]),
-                0.028,
-            )),
+            Shape::Cuboid(Cuboid::solid(size_m[0], size_m[1], PICTURE_DEPTH_M)),
             middle,
             &side,
         )

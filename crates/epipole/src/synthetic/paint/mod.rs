@@ -8,7 +8,7 @@ mod rooms;
 mod wares;
 
 pub(super) use prints::{block_print, geometric, landscape, star_chart};
-pub(super) use rooms::{boards, floor, plaster, window};
+pub(super) use rooms::{boards, floor, measured_boards, number, plaster, window};
 pub(super) use wares::{apple, book_cover, book_spine, citrus, jug, linen, mug, pages, tin};
 
 /// A color with full or partial gloss.

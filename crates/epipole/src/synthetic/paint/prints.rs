@@ -119,7 +119,19 @@ fn frame(
 
 /// A framed landscape: hills behind hills, a lake and a low sun.
 pub(crate) fn landscape(noise: &Noise, size: [f32; 2]) -> Texture {
-    Texture::paint(256, 256, false, |s, t| {
+    const SIDE: u32 = 256;
+    // The skyline of each ridge, one number a column.
+    let skylines: [Vec<f32>; 5] = std::array::from_fn(|ridge| {
+        let depth = ridge as f32 / 4.0;
+        let skyline = (0..SIDE).map(|x| {
+            let s = (x as f32 + 0.5) / SIDE as f32;
+            let place = s * (2.4 + 1.6 * depth) + 13.0 * depth;
+            let rise = noise.octaves(place, 3.3 * depth + 1.0, 5);
+            0.44 + 0.30 * depth - 0.17 * rise * (1.3 - 0.6 * depth)
+        });
+        skyline.collect()
+    });
+    Texture::paint(SIDE, SIDE, false, |s, t| {
         let (x, y) = (s * size[0], t * size[1]);
         if let Some(color) = frame(noise, x, y, size, [0.028, 0.05], [0.20, 0.105, 0.045]) {
             return with_gloss(color, 0.5);
@@ -130,14 +142,14 @@ pub(crate) fn landscape(noise: &Noise, size: [f32; 2]) -> Texture {
         let (dx, dy) = ((s - 0.66) * size[0], (t - 0.47) * size[1]);
         let sun = (dx * dx + dy * dy).sqrt();
         color = blend(color, [1.0, 0.93, 0.66], step(0.026, 0.020, sun));
-        for ridge in 0..5 {
+        for (ridge, skyline) in skylines.iter().enumerate().rev() {
             let depth = ridge as f32 / 4.0;
-            let rise = noise.octaves(s * (2.4 + 1.6 * depth) + 13.0 * depth, 3.3 * depth + 1.0, 5);
-            let height = 0.44 + 0.30 * depth - 0.17 * rise * (1.3 - 0.6 * depth);
+            let height = skyline[(s * SIDE as f32) as usize];
             if t > height {
                 let far = blend([0.36, 0.40, 0.52], [0.045, 0.105, 0.055], depth);
                 let trees = noise.octaves(s * 34.0, (t - height) * 46.0 + 9.0 * depth, 3);
                 color = dim(far, 1.0 + (0.25 + 0.6 * depth) * trees);
+                break;
             }
         }
         // The lake mirrors the sky in broken strokes.

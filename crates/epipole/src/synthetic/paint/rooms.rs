@@ -14,11 +14,11 @@ fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3
     let (_, phase) = split(ring);
     let band = step(0.0, 0.75, phase) * step(1.0, 0.86, phase);
     let fiber = noise.value(x * 26.0 + shift, y * 420.0);
-    let fleck = noise.value(x * 60.0, y * 260.0 + shift);
-    let pore = step(0.5, 0.85, fleck);
-    let tone = 0.42 * band + 0.16 * fiber + 0.22 * noise.value(shift, x * 2.2) + 0.25;
+    let fleck = noise.value(x * 38.0, y * 400.0 + shift);
+    let pore = step(0.45, 0.85, fleck);
+    let tone = 0.40 * band + 0.18 * fiber + 0.20 * bend + 0.28;
     let color = blend(light, dark, tone.clamp(0.0, 1.0));
-    let color = dim(color, 1.0 - 0.42 * pore);
+    let color = dim(color, 1.0 - 0.40 * pore);
     // No two boards are of one tree.
     dim(color, 1.0 + 0.16 * noise.at(board as i32 * 5, 3))
 }
@@ -39,31 +39,46 @@ pub(crate) fn boards(
         let joint_m = within.min(1.0 - within) * width_m;
         color = dim(color, mix(0.30, 1.0, step(0.0, 0.0032, joint_m)));
         // Wear: pale scratches and a few darker stains.
-        let stain = noise.octaves(x * 3.0 + 40.0, y * 3.0, 3);
+        let stain = noise.octaves(x * 3.0 + 40.0, y * 3.0, 2);
         color = dim(color, 1.0 - 0.22 * step(0.12, 0.45, stain));
-        let scratch = noise.value(x * 9.0 + y * 4.0, (y - 0.35 * x) * 310.0);
-        let rare = noise.value(x * 2.3 + 9.0, y * 2.9);
-        color = blend(
-            color,
-            [0.52, 0.36, 0.22],
-            0.45 * step(0.72, 0.95, scratch) * step(0.1, 0.5, rare),
-        );
+        if stain < -0.1 {
+            let scratch = noise.value(x * 9.0 + y * 4.0, (y - 0.35 * x) * 310.0);
+            let ink = 0.45 * step(0.72, 0.95, scratch) * step(-0.1, -0.3, stain);
+            color = blend(color, [0.52, 0.36, 0.22], ink);
+        }
         with_gloss(color, 0.55 - 0.3 * step(0.0, 0.4, stain))
     })
 }
 
+/// The color of oak in a tile, the grain along t.
+fn oak_tile(
+    noise: &Noise,
+    [s, t]: [f32; 2],
+    board: i32,
+    light: [f32; 3],
+    dark: [f32; 3],
+) -> [f32; 3] {
+    // Another place of the noise for each board; t stays whole, so the tile closes.
+    let (s, t) = (s + 0.37 * board as f32, t + 0.21 * board as f32);
+    let bend = noise.octaves_tile(s, t, [16, 2], 2);
+    let (_, phase) = split(s * 37.0 + bend * 4.0);
+    let band = step(0.0, 0.75, phase) * step(1.0, 0.86, phase);
+    let fiber = noise.tile(s * 2.0, t, [256, 16]);
+    let pore = step(0.45, 0.85, noise.tile(s * 1.7, t, [256, 32]));
+    let tone = 0.40 * band + 0.20 * fiber + 0.25 * bend + 0.28;
+    let color = blend(light, dark, tone.clamp(0.0, 1.0));
+    dim(
+        color,
+        (1.0 - 0.38 * pore) * (1.0 + 0.16 * noise.at(board * 5, 3)),
+    )
+}
+
 /// Floor boards along t, seven to a tile.
 pub(crate) fn floor(noise: &Noise) -> Texture {
+    let (light, dark) = ([0.25, 0.15, 0.085], [0.115, 0.062, 0.032]);
     Texture::paint(256, 256, true, |s, t| {
         let (board, within) = split(s * 7.0);
-        let color = oak(
-            noise,
-            t * 1.2,
-            s * 1.0,
-            board as f32 + 20.0,
-            [0.25, 0.15, 0.085],
-            [0.115, 0.062, 0.032],
-        );
+        let color = oak_tile(noise, [s, t], board + 20, light, dark);
         let joint = within.min(1.0 - within);
         with_gloss(dim(color, mix(0.25, 1.0, step(0.0, 0.05, joint))), 0.3)
     })
@@ -71,31 +86,26 @@ pub(crate) fn floor(noise: &Noise) -> Texture {
 
 /// The top of the long table: one metre along t with marks every decimetre, to be repeated.
 pub(crate) fn measured_boards(noise: &Noise, width_m: f32) -> Texture {
-    let (light, dark) = ([0.46, 0.275, 0.14], [0.23, 0.118, 0.054]);
+    let (light, dark) = ([0.44, 0.262, 0.132], [0.22, 0.112, 0.05]);
+    let (pale, ebony) = ([0.60, 0.48, 0.32], [0.045, 0.033, 0.027]);
     Texture::paint(1024, 512, true, |s, t| {
-        let (x, along) = (s * width_m, t);
         let (board, within) = split(s * 9.0);
-        // The noise repeats every 256 units, so whole multiples close the tile along t.
-        let around = along * 256.0 / 24.0;
-        let mut color = oak(noise, around, x, board as f32 + 3.0, light, dark);
-        let joint = within.min(1.0 - within) * width_m / 9.0;
-        color = dim(color, mix(0.35, 1.0, step(0.0, 0.004, joint)));
-        // Inlaid light squares down the middle, as on a measuring board.
-        let middle = (x - width_m / 2.0).abs();
-        let (decimetre, part) = split(along * 10.0);
-        let pale = [0.62, 0.50, 0.34];
-        let ebony = [0.055, 0.040, 0.032];
-        if (0.80..0.86).contains(&(middle / (width_m / 2.0))) {
+        let joint_m = within.min(1.0 - within) * width_m / 9.0;
+        let mut color = oak_tile(noise, [s, t], board, light, dark);
+        color = dim(color, mix(0.35, 1.0, step(0.0, 0.004, joint_m)));
+        // Inlaid squares in two rows, dark and light by turns, as on a measuring rod; a line
+        // across at every metre.
+        let (decimetre, part) = split(t * 10.0);
+        let side = (2.0 * s - 1.0).abs();
+        if (0.44..0.49).contains(&side) {
             let inlay = if decimetre % 2 == 0 { pale } else { ebony };
-            let grain = 0.9 + 0.12 * noise.value(x * 40.0, along * 256.0);
-            color = dim(inlay, grain);
-        } else if middle / (width_m / 2.0) < 0.80 {
-            // A fine line at each decimetre, a wide one at each metre.
-            let distance_m = part.min(1.0 - part) * 0.1;
-            let metre = decimetre == 0 && part < 0.5 || decimetre == 9 && part > 0.5;
-            let half_m = if metre { 0.006 } else { 0.0022 };
-            let ink = 1.0 - step(half_m, half_m + 0.0015, distance_m);
-            color = blend(color, ebony, 0.8 * ink);
+            color = dim(inlay, 1.0 + 0.12 * noise.tile(s, t, [256, 64]));
+            let seam_m =
+                (part.min(1.0 - part) * 0.1).min((side - 0.44).min(0.49 - side) * width_m / 2.0);
+            color = dim(color, mix(0.4, 1.0, step(0.0, 0.003, seam_m)));
+        } else if side < 0.44 {
+            let distance_m = t.min(1.0 - t);
+            color = blend(color, ebony, 0.75 * step(0.0065, 0.005, distance_m));
         }
         with_gloss(color, 0.5)
     })
@@ -115,28 +125,34 @@ pub(crate) fn number(noise: &Noise, metres: u32) -> Texture {
     })
 }
 
-/// Lime-washed plaster: clouds, trowel strokes lit from the left, flecks and hair cracks.
-pub(crate) fn plaster(noise: &Noise, size: [u32; 2], extent_m: [f32; 2]) -> Texture {
+/// Lime-washed plaster, to be repeated: clouds, trowel strokes in raking light, flecks of an
+/// older coat and spatter.
+pub(crate) fn plaster(noise: &Noise) -> Texture {
     let (pale, deep, under) = (
-        [0.43, 0.455, 0.395],
-        [0.285, 0.335, 0.315],
-        [0.50, 0.40, 0.29],
+        [0.40, 0.44, 0.39],
+        [0.245, 0.305, 0.295],
+        [0.50, 0.41, 0.30],
     );
-    Texture::paint(size[0], size[1], true, |s, t| {
-        let (x, y) = (s * extent_m[0], t * extent_m[1]);
-        let cloud = noise.octaves(x * 2.1, y * 2.1, 3);
+    Texture::paint(512, 512, true, |s, t| {
+        let cloud = noise.octaves_tile(s, t, [4, 4], 4);
         let mut color = blend(pale, deep, step(-0.5, 0.5, cloud));
         // Relief: the difference of a height between two near places, as raking light shows it.
-        let (u, v) = (x * 21.0 + cloud * 2.0, y * 27.0);
-        let relief = noise.value(u, v) - noise.value(u + 0.30, v + 0.22);
-        let fine = noise.value(x * 95.0, y * 95.0);
-        color = dim(color, 1.0 + 0.30 * relief + 0.085 * fine);
-        // Chips where the older coat shows.
-        let chip = noise.octaves(x * 8.0 + 31.0, y * 8.0 + 7.0, 3);
-        color = blend(color, under, 0.7 * step(0.40, 0.47, chip));
-        let crack =
-            (noise.value(x * 3.1 + 90.0, y * 3.1) + 0.35 * noise.value(x * 17.0, y * 17.0)).abs();
-        color = dim(color, 1.0 - 0.35 * step(0.016, 0.0, crack));
+        let (u, v) = (s + 0.02 * cloud, t + 0.3 * s);
+        let height =
+            |u: f32, v: f32| noise.tile(u, v, [32, 64]) + 0.5 * noise.tile(u + 0.4, v, [64, 128]);
+        let relief = height(u, v) - height(u + 0.008, v + 0.004);
+        let grain = noise.tile(s, t, [256, 256]);
+        color = dim(color, 1.0 + 0.16 * relief + 0.10 * grain);
+        // Flecks where the older coat shows, and dark and light spatter.
+        let fleck = noise.octaves_tile(s, t, [32, 32], 3);
+        color = blend(color, under, 0.55 * step(0.43, 0.52, fleck));
+        let spatter = noise.tile(s + 0.2, t + 0.7, [128, 128]);
+        let rare = noise.tile(s, t, [16, 16]);
+        color = dim(
+            color,
+            1.0 - 0.32 * step(0.5, 0.9, spatter) * step(-0.2, 0.4, rare),
+        );
+        color = dim(color, 1.0 + 0.26 * step(-0.6, -0.85, spatter));
         with_gloss(color, 0.0)
     })
 }

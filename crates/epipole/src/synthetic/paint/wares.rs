@@ -6,9 +6,9 @@ use crate::synthetic::noise::{Noise, blend, dim, mix, split, step};
 use crate::synthetic::texture::Texture;
 use nalgebra::Vector2;
 
-/// Fine noise around an axis: closes at s = 1 because the lattice has period 256.
-fn around(noise: &Noise, s: f32, t: f32, cells: f32) -> f32 {
-    noise.value(s * cells, t * cells)
+/// Noise around an axis, closed at s = 1.
+fn around(noise: &Noise, s: f32, t: f32, cells: u16) -> f32 {
+    noise.tile(s, t, [cells, cells])
 }
 
 /// A cream mug with a printed cobalt band; its profile gives radius and height at t.
@@ -29,16 +29,16 @@ pub(crate) fn mug(
     Texture::paint(512, 256, true, |s, t| {
         let at = profile(f64::from(t));
         let h = (at.y / height_m) as f32;
-        let glaze = around(noise, s, t, 32.0) * 0.035 + around(noise, s, t, 128.0) * 0.025;
+        let glaze = around(noise, s, t, 32) * 0.035 + around(noise, s, t, 128) * 0.025;
         let mut color = dim(cream, 1.0 + glaze);
-        let speck = noise.value(s * 256.0, t * 150.0);
+        let speck = noise.tile(s, t, [256, 128]);
         color = dim(color, 1.0 - 0.55 * step(0.80, 0.93, speck));
         if t < tallest {
             // Bare clay at the foot.
             color = blend(
                 [0.40, 0.25, 0.15],
                 color,
-                step(0.045, 0.06, h + 0.01 * around(noise, s, 0.3, 16.0)),
+                step(0.045, 0.06, h + 0.01 * around(noise, s, 0.3, 16)),
             );
             let mut ink = 0.0f32;
             for line in [0.22, 0.30, 0.74, 0.82] {
@@ -62,12 +62,12 @@ pub(crate) fn mug(
                 let wave = (part - 0.5).abs() * 2.0 * 0.05 + 0.855;
                 ink = ink.max(step(0.014, 0.007, (h - wave).abs()));
             }
-            let brushed = 0.86 + 0.14 * around(noise, s, t, 64.0);
+            let brushed = 0.86 + 0.14 * around(noise, s, t, 64);
             color = blend(color, cobalt, ink * brushed);
             color = blend(color, cobalt, step(0.965, 0.98, h));
         } else if at.y < floor_m + 0.002 {
             // Coffee, with a paler rim of foam.
-            let foam = noise.octaves(at.x as f32 * 160.0 + s * 16.0, s * 32.0, 2);
+            let foam = noise.octaves_tile(s, at.x as f32 * 20.0, [16, 8], 2);
             color = blend(
                 [0.030, 0.014, 0.007],
                 [0.24, 0.13, 0.06],
@@ -82,13 +82,13 @@ pub(crate) fn mug(
 /// A tall jug in celadon with a dark combed band and a cream neck.
 pub(crate) fn jug(noise: &Noise, profile: impl Fn(f64) -> Vector2<f64>, height_m: f64) -> Texture {
     let (celadon, deep, cream) = ([0.16, 0.36, 0.34], [0.035, 0.10, 0.12], [0.62, 0.58, 0.45]);
-    Texture::paint(512, 512, true, |s, t| {
+    Texture::paint(512, 256, true, |s, t| {
         let at = profile(f64::from(t));
         let h = (at.y / height_m) as f32;
-        let run = noise.octaves(s * 16.0, t * 8.0, 3);
+        let run = noise.octaves_tile(s, t, [16, 8], 3);
         // Glaze pools thick and dark below, thin above.
         let mut color = blend(deep, celadon, step(0.0, 0.5, h + 0.30 * run));
-        let crackle = (around(noise, s, t, 32.0) + 0.4 * around(noise, s, t, 64.0)).abs();
+        let crackle = (around(noise, s, t, 32) + 0.4 * around(noise, s, t, 64)).abs();
         color = dim(color, 1.0 - 0.30 * step(0.035, 0.0, crackle));
         let (index, part) = split(s * 16.0);
         let mut ink = 0.0f32;
@@ -114,10 +114,10 @@ pub(crate) fn jug(noise: &Noise, profile: impl Fn(f64) -> Vector2<f64>, height_m
         color = blend(
             color,
             cream,
-            0.92 * ink * (0.85 + 0.15 * around(noise, s, t, 128.0)),
+            0.92 * ink * (0.85 + 0.15 * around(noise, s, t, 128)),
         );
         color = blend(color, cream, step(0.93, 0.95, h + 0.02 * run));
-        let fine = around(noise, s, t, 128.0);
+        let fine = around(noise, s, t, 128);
         with_gloss(dim(color, 1.0 + 0.05 * fine), 1.0)
     })
 }
@@ -125,8 +125,8 @@ pub(crate) fn jug(noise: &Noise, profile: impl Fn(f64) -> Vector2<f64>, height_m
 /// Bookcloth, gray, to be tinted.
 pub(crate) fn linen(noise: &Noise) -> Texture {
     Texture::paint(128, 128, true, |s, t| {
-        let weave = noise.value(s * 128.0, t * 32.0) + noise.value(s * 32.0 + 50.0, t * 128.0);
-        let worn = noise.octaves(s * 8.0, t * 8.0, 3);
+        let weave = noise.tile(s, t, [128, 32]) + noise.tile(s + 0.5, t, [32, 128]);
+        let worn = noise.octaves_tile(s, t, [8, 8], 3);
         let value = 0.62 * (1.0 + 0.20 * weave + 0.30 * worn);
         with_gloss([value; 3], 0.2)
     })
@@ -135,8 +135,8 @@ pub(crate) fn linen(noise: &Noise) -> Texture {
 /// The edges of a book's leaves, lines along s.
 pub(crate) fn pages(noise: &Noise) -> Texture {
     Texture::paint(64, 128, true, |s, t| {
-        let leaf = noise.value(s * 4.0, t * 128.0) + 0.5 * noise.value(s * 16.0, t * 256.0);
-        let stain = noise.octaves(s * 4.0, t * 8.0, 3);
+        let leaf = noise.tile(s, t, [4, 128]) + 0.5 * noise.tile(s, t, [16, 64]);
+        let stain = noise.octaves_tile(s, t, [4, 8], 3);
         let color = dim([0.66, 0.58, 0.43], 1.0 + 0.28 * leaf + 0.25 * stain);
         with_gloss(color, 0.0)
     })
@@ -176,7 +176,9 @@ pub(crate) fn book_spine(
             let star = step(0.012, 0.004, (a * b).abs() * 3.0) * step(0.24, 0.20, r);
             color = blend(color, dim(gold, round), ring.max(0.8 * star));
         }
-        let half = (line.width() * 0.52 + 0.5) / 2.0;
+        // The title is set as large as the label allows.
+        let size = 0.36f32.min(0.52 * aspect / line.width());
+        let half = (line.width() * size + 0.5) / 2.0;
         let middle = (s - 0.5) * aspect;
         if middle.abs() < half && (0.14..0.86).contains(&y) {
             color = dim(label, round * (1.0 + 0.12 * weave));
@@ -186,7 +188,7 @@ pub(crate) fn book_spine(
                 dim(gold, round),
                 step(0.075, 0.05, rim) * step(0.02, 0.035, rim),
             );
-            let ink = line.at(middle / 0.52 + line.width() / 2.0, (y - 0.24) / 0.52);
+            let ink = line.at(middle / size + line.width() / 2.0, (y - 0.5) / size + 0.5);
             let rubbed = step(-0.75, -0.3, noise.octaves(x * 9.0, y * 9.0 + seed, 3));
             color = blend(color, dim(gold, round), ink * mix(0.5, 1.0, rubbed));
             gloss = mix(gloss, 1.0, ink);
@@ -240,12 +242,12 @@ pub(crate) fn book_cover(noise: &Noise, cloth: [f32; 3], title: &str) -> Texture
 /// Peel with pores, a navel at one end and a stalk's scar at the other; gray parts are tinted.
 pub(crate) fn citrus(noise: &Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
     Texture::paint(256, 128, true, |s, t| {
-        let cloud = noise.octaves(s * 8.0, t * 5.0, 3);
-        let pore = noise.value(s * 128.0, t * 74.0);
-        let relief = pore - noise.value(s * 128.0 + 0.4, t * 74.0 + 0.3);
+        let cloud = noise.octaves_tile(s, t, [8, 4], 3);
+        let pore = noise.tile(s, t, [128, 64]);
+        let relief = pore - noise.tile(s + 0.003, t + 0.004, [128, 64]);
         let mut color = blend(ripe, pale, step(-0.3, 0.55, cloud));
         color = dim(color, 1.0 + 0.26 * relief - 0.22 * step(0.45, 0.9, pore));
-        let spot = noise.octaves(s * 16.0 + 7.0, t * 11.0, 3);
+        let spot = noise.octaves_tile(s, t, [16, 8], 3);
         color = blend(color, [0.20, 0.10, 0.03], 0.6 * step(0.42, 0.52, spot));
         let end = t.min(1.0 - t);
         color = blend([0.12, 0.13, 0.04], color, step(0.012, 0.05, end));
@@ -256,11 +258,11 @@ pub(crate) fn citrus(noise: &Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
 /// An apple's skin: red stripes over yellow, pale dots, green near the stalk.
 pub(crate) fn apple(noise: &Noise) -> Texture {
     Texture::paint(256, 128, true, |s, t| {
-        let blush = noise.octaves(s * 4.0, t * 2.0, 3) + 0.22;
-        let stripe = noise.value(s * 64.0, t * 5.0) + 0.6 * noise.value(s * 128.0, t * 9.0);
+        let blush = noise.octaves_tile(s, t, [4, 2], 3) + 0.22;
+        let stripe = noise.tile(s, t, [64, 4]) + 0.6 * noise.tile(s, t, [128, 8]);
         let red = step(-0.45, 0.35, blush + 0.35 * stripe);
         let mut color = blend([0.62, 0.50, 0.10], [0.48, 0.035, 0.03], red);
-        let dot = noise.value(s * 64.0 + 3.0, t * 40.0);
+        let dot = noise.tile(s, t, [64, 32]);
         color = blend(color, [0.75, 0.62, 0.36], 0.7 * step(0.70, 0.9, dot));
         // t runs from the flower's end below to the stalk's above.
         let green = step(0.82, 0.97, t + 0.03 * stripe);

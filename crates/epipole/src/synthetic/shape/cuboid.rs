@@ -20,6 +20,8 @@ pub(crate) const BACK: usize = 5;
 #[derive(Debug)]
 pub(crate) struct Cuboid {
     half: Vector3<f64>,
+    /// One over the whole sides.
+    inverse: Vector3<f64>,
     room: bool,
 }
 
@@ -28,6 +30,7 @@ impl Cuboid {
     pub(crate) fn solid(width_m: f64, height_m: f64, depth_m: f64) -> Self {
         Self {
             half: Vector3::new(width_m, height_m, depth_m) / 2.0,
+            inverse: Vector3::new(1.0 / width_m, 1.0 / height_m, 1.0 / depth_m),
             room: false,
         }
     }
@@ -97,13 +100,13 @@ impl Cuboid {
     pub(super) fn place(&self, point: &Vector3<f64>, part: u32) -> Place {
         let face = part as usize;
         let (axis_s, sign_s, axis_t, sign_t) = self.axes(face);
-        let (half_s, half_t) = (self.half[axis_s], self.half[axis_t]);
+        let (inverse_s, inverse_t) = (self.inverse[axis_s], self.inverse[axis_t]);
         Place {
             chart: face,
-            s: 0.5 + 0.5 * sign_s * point[axis_s] / half_s,
-            t: 0.5 + 0.5 * sign_t * point[axis_t] / half_t,
+            s: 0.5 + sign_s * point[axis_s] * inverse_s,
+            t: 0.5 + sign_t * point[axis_t] * inverse_t,
             normal: self.normal(face),
-            extent_m: [2.0 * half_s, 2.0 * half_t],
+            per_m: [inverse_s, inverse_t],
         }
     }
 

@@ -253,9 +253,10 @@ impl Lathe {
             s: turns(point.x, point.z),
             t: segment.before + segment.share * share,
             normal: Vector3::new(flat.x * cos, -flat.y, flat.x * sin),
-            extent_m: [
-                std::f64::consts::TAU * radius.max(0.25 * self.radius),
-                self.length,
+            // Near the axis s turns ever faster; blurring for it would blur t as well.
+            per_m: [
+                1.0 / (std::f64::consts::TAU * radius.max(0.25 * self.radius)),
+                1.0 / self.length,
             ],
         }
     }

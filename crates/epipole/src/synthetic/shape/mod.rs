@@ -7,7 +7,7 @@ mod cuboid;
 mod lathe;
 mod ring;
 
-pub(crate) use cuboid::Cuboid;
+pub(crate) use cuboid::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, TOP};
 pub(crate) use lathe::{Lathe, Profile};
 pub(crate) use ring::Ring;
 
@@ -43,8 +43,8 @@ pub(crate) struct Place {
     pub(crate) t: f64,
     /// Unit, outward.
     pub(crate) normal: Vector3<f64>,
-    /// Metres that s = 0…1 and t = 0…1 span here.
-    pub(crate) extent_m: [f64; 2],
+    /// How much s and t grow per metre here.
+    pub(crate) per_m: [f64; 2],
 }
 
 #[derive(Debug)]

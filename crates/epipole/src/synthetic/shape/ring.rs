@@ -106,9 +106,9 @@ impl Ring {
             s: turns(p.x, p.y),
             t: turns(ring - self.major, p.z),
             normal: gradient.component_div(&self.stretch).normalize(),
-            extent_m: [
-                std::f64::consts::TAU * self.major,
-                std::f64::consts::TAU * self.minor,
+            per_m: [
+                1.0 / (std::f64::consts::TAU * self.major),
+                1.0 / (std::f64::consts::TAU * self.minor),
             ],
         }
     }

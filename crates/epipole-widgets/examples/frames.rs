@@ -1,0 +1,102 @@
+//! How long a frame takes while a reader drags, at two device pixels each CSS pixel.
+//!
+//! ```text
+//! cargo run --release -p epipole-widgets --example frames [-- NAME]
+//! ```
+//!
+//! Of one figure or of all, every slider and the first handle are dragged through their ranges, and a frame is
+//! drawn after every event, as on a page. Then the picture settles, slice by slice.
+
+use epipole_widgets::contract::{ControlKind, Event, Problem, Value};
+use epipole_widgets::gallery::FIGURES;
+use epipole_widgets::theme::Theme;
+use epipole_widgets::{Figure, POSTER_WIDTH};
+use std::time::Instant;
+
+const NUM_FRAMES: usize = 60;
+const SCALE: f64 = 2.0;
+
+fn main() -> Result<(), Problem> {
+    println!("milliseconds                                  least  median     p95");
+    let wanted = std::env::args().nth(1);
+    let is_wanted = |name: &str| wanted.as_ref().is_none_or(|wanted| wanted == name);
+    for entry in FIGURES.iter().filter(|entry| is_wanted(entry.name)) {
+        let mut figure = Figure::new(entry.name)?;
+        figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+        let slices = settle(&mut figure);
+        report(entry.name, "a slice of refining", slices);
+        report(entry.name, "drawing when settled", {
+            let mut times = Vec::new();
+            for _ in 0..NUM_FRAMES {
+                times.push(frame(&mut figure, &[])?);
+            }
+            times
+        });
+        for control in Figure::new(entry.name)?.controls() {
+            let ControlKind::Slider { min, max, .. } = control.kind else {
+                continue;
+            };
+            let mut times = Vec::new();
+            for index in 0..NUM_FRAMES {
+                let share = index as f64 / (NUM_FRAMES - 1) as f64;
+                let event = Event::Set {
+                    id: control.id.to_owned(),
+                    value: Value::Number(min + share * (max - min)),
+                };
+                times.push(frame(&mut figure, &[event])?);
+            }
+            report(entry.name, control.id, times);
+            figure.update(&Event::Reset)?;
+            figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+        }
+        if let Some(handle) = figure.handles().first() {
+            let mut times = Vec::new();
+            for index in 0..NUM_FRAMES {
+                let share = index as f64 / (NUM_FRAMES - 1) as f64;
+                let at = |[low, high]: [f64; 2]| low + share * (high - low);
+                let event = Event::HandleMoved {
+                    id: handle.id.clone(),
+                    x: at(handle.x_range),
+                    y: at(handle.y_range),
+                };
+                times.push(frame(&mut figure, &[event])?);
+            }
+            report(entry.name, &handle.id, times);
+        }
+    }
+    Ok(())
+}
+
+fn frame(figure: &mut Figure, events: &[Event]) -> Result<f64, Problem> {
+    let begin = Instant::now();
+    for event in events {
+        figure.update(event)?;
+    }
+    figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+    figure.readouts();
+    figure.describe();
+    Ok(begin.elapsed().as_secs_f64() * 1e3)
+}
+
+fn settle(figure: &mut Figure) -> Vec<f64> {
+    let mut times = Vec::new();
+    loop {
+        let begin = Instant::now();
+        let more = figure.refine();
+        times.push(begin.elapsed().as_secs_f64() * 1e3);
+        if !more {
+            return times;
+        }
+    }
+}
+
+fn report(figure: &str, what: &str, mut times: Vec<f64>) {
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+    println!(
+        "{figure:16} {what:24} {:9.1} {:7.1} {:7.1}",
+        at(0.0),
+        at(0.5),
+        at(0.95)
+    );
+}

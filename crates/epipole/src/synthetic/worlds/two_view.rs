@@ -1,0 +1,283 @@
+//! Two cameras and the points that both see.
+
+use super::{Structure, WIDTH, check, choose_inliers, disturbed, intrinsics, observe, wrong};
+use crate::camera::{Camera, look_at};
+use crate::math::random::Random;
+use crate::{Error, Result};
+use nalgebra::{Point2, Point3, Vector3};
+
+/// What a [`TwoViewProblem`] shall be like.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TwoViewOptions {
+    /// Number of matches, inliers and outliers together.
+    pub num_points: usize,
+    /// Where the points lie, around the world's origin.
+    pub structure: Structure,
+    /// Distance between the camera centers, metres; 0 for a camera that only turns.
+    pub baseline_m: f64,
+    /// Distance of the first camera from the world's origin, metres.
+    pub distance_m: f64,
+    /// Standard deviation of the Gaussian error of each coordinate of each pixel, pixels.
+    pub noise_px: f64,
+    /// Part of the matches whose second pixel is wrong, 0 to 1.
+    pub outlier_fraction: f64,
+    /// Everything random depends on it alone.
+    pub seed: u64,
+}
+
+impl Default for TwoViewOptions {
+    /// A hundred exact matches of a cube of 2 m, seen from 5 m with a baseline of 1 m.
+    fn default() -> Self {
+        Self {
+            num_points: 100,
+            structure: Structure::Cube { half_side_m: 1.0 },
+            baseline_m: 1.0,
+            distance_m: 5.0,
+            noise_px: 0.0,
+            outlier_fraction: 0.0,
+            seed: 0,
+        }
+    }
+}
+
+/// Matches between two pictures of 640 × 480 pixels, with the truth about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TwoViewProblem {
+    /// The first camera, at (0, 0, −distance), which looks along +z.
+    pub camera1: Camera,
+    /// The second camera, to the right of it, which looks at the world's origin.
+    pub camera2: Camera,
+    /// Measured pixels in the first picture.
+    pub pixels1: Vec<Point2<f64>>,
+    /// Their matches in the second picture.
+    pub pixels2: Vec<Point2<f64>>,
+    /// Whether a match is right up to noise. A wrong one is at least 20 px from the right pixel,
+    /// but may lie on the epipolar line by chance.
+    pub is_inlier: Vec<bool>,
+    /// The points, in the world; of an outlier the point of its first pixel.
+    pub points: Vec<Point3<f64>>,
+}
+
+impl TwoViewProblem {
+    /// Draws a problem.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] or [`Error::OutOfRange`] for options that make no sense;
+    /// [`Error::Degenerate`] if the cameras have too little in common to see `num_points` points.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::synthetic::{TwoViewOptions, TwoViewProblem};
+    /// let options = TwoViewOptions { outlier_fraction: 0.3, ..TwoViewOptions::default() };
+    /// let problem = TwoViewProblem::new(&options)?;
+    /// assert_eq!(problem.is_inlier.iter().filter(|inlier| **inlier).count(), 70);
+    /// // Without noise an inlier's pixels are the projections of its point.
+    /// let i = problem.is_inlier.iter().position(|inlier| *inlier).unwrap_or(0);
+    /// assert_eq!(problem.camera2.project(&problem.points[i])?, problem.pixels2[i]);
+    /// # Ok(()) }
+    /// ```
+    pub fn new(options: &TwoViewOptions) -> Result<Self> {
+        let half = options.structure.half_side_m();
+        check(
+            "the half side of the structure",
+            "between 0.001 and 1000 metres",
+            half,
+            1e-3,
+            1e3,
+        )?;
+        check(
+            "the baseline",
+            "between 0 and 1000 metres",
+            options.baseline_m,
+            0.0,
+            1e3,
+        )?;
+        check(
+            "the distance",
+            "between 0.001 and 10 000 metres",
+            options.distance_m,
+            1e-3,
+            1e4,
+        )?;
+        check(
+            "the noise",
+            "between 0 and 100 pixels",
+            options.noise_px,
+            0.0,
+            100.0,
+        )?;
+        check(
+            "the fraction of outliers",
+            "between 0 and 1",
+            options.outlier_fraction,
+            0.0,
+            1.0,
+        )?;
+        let up = Vector3::new(0.0, -1.0, 0.0);
+        let camera_at = |center: Point3<f64>, target: Point3<f64>| -> Result<Camera> {
+            Ok(Camera {
+                intrinsics: intrinsics(),
+                cam_from_world: look_at(&center, &target, &up)?,
+            })
+        };
+        // On a circle around the origin, so that both are equally far.
+        let sin = (options.baseline_m / (2.0 * options.distance_m)).min(1.0);
+        let (chord_sin, chord_cos) = libm::sincos(2.0 * libm::asin(sin));
+        let center1 = Point3::new(0.0, 0.0, -options.distance_m);
+        let center2 = Point3::new(chord_sin, 0.0, -chord_cos) * options.distance_m;
+        let camera1 = camera_at(center1, Point3::origin())?;
+        let camera2 = if options.baseline_m == 0.0 {
+            // A tenth of the field of view to the right.
+            let target = f64::from(WIDTH) / 6000.0 * options.distance_m;
+            camera_at(center1, Point3::new(target, 0.0, 0.0))?
+        } else {
+            camera_at(center2, Point3::origin())?
+        };
+        let mut random = Random::new(options.seed);
+        let is_inlier = choose_inliers(&mut random, options.num_points, options.outlier_fraction);
+        let mut problem = Self {
+            camera1,
+            camera2,
+            pixels1: Vec::new(),
+            pixels2: Vec::new(),
+            is_inlier,
+            points: Vec::new(),
+        };
+        let mut num_tries = 0;
+        while problem.points.len() < options.num_points {
+            num_tries += 1;
+            if num_tries > 1000 * (options.num_points + 1) {
+                return Err(Error::Degenerate {
+                    what: "a problem of two views",
+                    why: "the two cameras see too little in common",
+                });
+            }
+            let point = options.structure.draw(&mut random);
+            let (Some(pixel1), Some(pixel2)) =
+                (observe(&camera1, &point), observe(&camera2, &point))
+            else {
+                continue;
+            };
+            let second = if problem.is_inlier[problem.points.len()] {
+                disturbed(&mut random, &pixel2, options.noise_px)
+            } else {
+                wrong(&mut random, &pixel2)
+            };
+            problem
+                .pixels1
+                .push(disturbed(&mut random, &pixel1, options.noise_px));
+            problem.pixels2.push(second);
+            problem.points.push(point);
+        }
+        Ok(problem)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{cross_matrix, relative_motion};
+
+    #[test]
+    fn inliers_fulfill_the_epipolar_constraint_and_outliers_do_not() {
+        let options = TwoViewOptions {
+            num_points: 400,
+            outlier_fraction: 0.25,
+            seed: 3,
+            ..TwoViewOptions::default()
+        };
+        let problem = TwoViewProblem::new(&options).unwrap();
+        let (camera1, camera2) = (&problem.camera1, &problem.camera2);
+        let baseline = camera2.center_in_world() - camera1.center_in_world();
+        assert!((baseline.norm() - 1.0).abs() < 1e-12);
+        let motion = relative_motion(&camera1.cam_from_world, &camera2.cam_from_world);
+        let essential = cross_matrix(&motion.translation.vector)
+            * motion.rotation.to_rotation_matrix().into_inner();
+        let k_inverse = camera1.intrinsics.inverse_matrix();
+        let f = k_inverse.transpose() * essential * k_inverse;
+        let mut num_off = 0;
+        for i in 0..400 {
+            let line = f * problem.pixels1[i].to_homogeneous();
+            let distance_px = line.dot(&problem.pixels2[i].to_homogeneous()).abs()
+                / (line.x * line.x + line.y * line.y).sqrt();
+            if problem.is_inlier[i] {
+                assert!(distance_px < 1e-9, "{i}: {distance_px}");
+            } else {
+                num_off += usize::from(distance_px > 2.0);
+            }
+        }
+        // By chance about 4/480 of the outliers lie within 2 px of their line.
+        assert!(num_off >= 95, "{num_off} of 100");
+    }
+
+    #[test]
+    fn the_noise_has_its_size_and_the_seed_decides() {
+        let options = TwoViewOptions {
+            num_points: 2000,
+            noise_px: 0.5,
+            seed: 8,
+            ..TwoViewOptions::default()
+        };
+        let problem = TwoViewProblem::new(&options).unwrap();
+        let sum_sq: f64 = (0..2000)
+            .map(|i| {
+                let exact = problem.camera1.project(&problem.points[i]).unwrap();
+                (problem.pixels1[i] - exact).norm_squared()
+            })
+            .sum();
+        assert!(((sum_sq / 4000.0).sqrt() - 0.5).abs() < 0.02);
+        assert_eq!(problem, TwoViewProblem::new(&options).unwrap());
+        let other = TwoViewOptions { seed: 9, ..options };
+        assert_ne!(problem, TwoViewProblem::new(&other).unwrap());
+    }
+
+    #[test]
+    fn a_turning_camera_stays_in_its_place() {
+        let options = TwoViewOptions {
+            baseline_m: 0.0,
+            ..TwoViewOptions::default()
+        };
+        let problem = TwoViewProblem::new(&options).unwrap();
+        let moved = problem.camera2.center_in_world() - problem.camera1.center_in_world();
+        assert!(moved.norm() < 1e-12);
+        assert_ne!(problem.camera1, problem.camera2);
+    }
+
+    #[test]
+    fn senseless_options_are_refused() {
+        let good = TwoViewOptions::default();
+        for bad in [
+            TwoViewOptions {
+                noise_px: f64::NAN,
+                ..good
+            },
+            TwoViewOptions {
+                outlier_fraction: 1.5,
+                ..good
+            },
+            TwoViewOptions {
+                baseline_m: -1.0,
+                ..good
+            },
+            TwoViewOptions {
+                distance_m: 0.0,
+                ..good
+            },
+        ] {
+            assert!(TwoViewProblem::new(&bad).is_err(), "{bad:?}");
+        }
+        // A tiny thing seen from the far end of the world is still one pixel, not an error.
+        assert!(
+            TwoViewProblem::new(&TwoViewOptions {
+                distance_m: 1e4,
+                ..good
+            })
+            .is_ok()
+        );
+        let empty = TwoViewOptions {
+            num_points: 0,
+            ..good
+        };
+        assert!(TwoViewProblem::new(&empty).unwrap().points.is_empty());
+    }
+}
