@@ -17,7 +17,11 @@
 //! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | depth from disparity |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+
+//! | [`homography`] | homographies: four points, least squares, decomposition |
+//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -39,6 +43,7 @@ pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
+pub mod sfm;
 pub mod stereo;
 pub mod triangulation;
 pub mod two_view;
