@@ -7,7 +7,11 @@
 mod commands;
 mod context;
 mod failure;
+mod features;
 mod files;
+mod photo;
+mod picture;
+mod progress;
 mod report;
 
 use clap::Parser;

@@ -1,0 +1,37 @@
+//! Progress bars on standard error.
+
+use crate::context::Context;
+use indicatif::{ProgressBar, ProgressStyle};
+
+const STEPS: u64 = 1000;
+
+/// A bar that shows what is being done and how much of it is done; hidden under `--quiet` and
+/// where standard error is no terminal.
+pub(crate) struct Progress(ProgressBar);
+
+impl Progress {
+    pub(crate) fn new(context: &Context, label: &str) -> Self {
+        if context.quiet {
+            return Self(ProgressBar::hidden());
+        }
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent} %");
+        let bar = ProgressBar::new(STEPS).with_message(label.to_owned());
+        // The template is a constant; a bar without it is still a bar.
+        if let Ok(style) = style {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+
+    /// Shows the share that is done, 0 to 1.
+    pub(crate) fn set(&self, share: f64) {
+        self.0
+            .set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,246 @@
+//! The contract of the command line: one JSON object on standard output, sentences on standard
+//! error, exit statuses, nothing half-written.
+
+use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder for one test's files, removed with it.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("epipole-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// A rendered photograph as a PNG file.
+    fn photo(&self, name: &str, shift_m: f64) -> PathBuf {
+        let (width, height) = (320, 240);
+        let mut camera = still_life_camera(width, height);
+        camera.cam_from_world.translation.x -= shift_m;
+        let photo = Scene::still_life()
+            .render(&camera, width, height, Sampling::Full)
+            .unwrap();
+        let path = self.file(name);
+        photo.image.save(&path).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn epipole(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_epipole"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = epipole(&[arguments, &["--json"]].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+fn path(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn a_figure_is_drawn_and_described() {
+    let folder = Folder::new("figure");
+    let png = folder.file("race.png");
+    let arguments = [
+        "figure",
+        "ransac-race",
+        "--set",
+        "outliers=0.6",
+        "--size",
+        "400",
+        "-o",
+        path(&png),
+    ];
+    let result = json(&arguments);
+    assert_eq!(result["permalink"], "ransac-race?outliers=0.60");
+    assert!(
+        result["description"]
+            .as_str()
+            .unwrap()
+            .contains("least squares")
+    );
+    assert!(
+        result["readouts"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|r| r["label"].is_string())
+    );
+    assert!(result["time_ms"].as_f64().unwrap() > 0.0);
+    let picture = image::open(&png).unwrap();
+    assert_eq!(
+        picture.width(),
+        800,
+        "400 CSS pixels at two device pixels each"
+    );
+    assert_eq!(
+        std::fs::read_dir(&folder.0).unwrap().count(),
+        1,
+        "no part is left behind"
+    );
+}
+
+#[test]
+fn a_page_of_a_given_size_is_filled() {
+    let folder = Folder::new("page");
+    let png = folder.file("race.png");
+    let size = ["--size", "800x300", "--scale", "1"];
+    epipole(&[&["figure", "ransac-race", "-o", path(&png)], &size[..]].concat());
+    let picture = image::open(&png).unwrap();
+    assert_eq!((picture.width(), picture.height()), (800, 300));
+}
+
+#[test]
+fn features_are_found_and_matched() {
+    let folder = Folder::new("match");
+    let (left, right) = (
+        folder.photo("left.png", 0.0),
+        folder.photo("right.png", 0.05),
+    );
+    let found = json(&["detect", path(&left), "--max-features", "100"]);
+    assert_eq!(found["image"]["width"], 320);
+    let keypoints = found["keypoints"].as_array().unwrap();
+    assert!((50..=100).contains(&keypoints.len()), "{}", keypoints.len());
+    assert!(
+        keypoints
+            .iter()
+            .all(|keypoint| keypoint.as_array().unwrap().len() == 5)
+    );
+
+    let marked = folder.file("matches.png");
+    let result = json(&[
+        "match",
+        path(&left),
+        path(&right),
+        "--mutual",
+        "--png",
+        path(&marked),
+    ]);
+    let matches = result["matches"].as_array().unwrap();
+    assert!(matches.len() > 50, "{}", matches.len());
+    let row = |list: &str, index: &Value| {
+        let keypoint = &result[list][usize::try_from(index.as_u64().unwrap()).unwrap()];
+        keypoint[1].as_f64().unwrap()
+    };
+    // The camera moved to the right, so matches stay in their rows.
+    let in_row = matches
+        .iter()
+        .filter(|m| (row("keypoints1", &m[0]) - row("keypoints2", &m[1])).abs() < 1.0);
+    assert!(in_row.count() * 10 > matches.len() * 9);
+    assert_eq!(image::open(&marked).unwrap().width(), 640);
+}
+
+#[test]
+fn the_same_seed_and_any_number_of_threads_give_the_same_result() {
+    let folder = Folder::new("threads");
+    let left = folder.photo("left.png", 0.0);
+    let mut one = json(&["detect", path(&left), "--threads", "1"]);
+    let mut two = json(&["detect", path(&left), "--threads", "2"]);
+    for result in [&mut one, &mut two] {
+        result.as_object_mut().unwrap().remove("time_ms");
+    }
+    assert_eq!(one, two);
+}
+
+#[test]
+fn what_cannot_be_done_is_a_sentence_with_status_1() {
+    let folder = Folder::new("bad");
+    let broken = folder.file("broken.png");
+    std::fs::write(&broken, b"\x89PNG\r\n\x1a\nnot really").unwrap();
+    let missing = folder.file("missing.jpg");
+    for (arguments, expected) in [
+        (vec!["detect", path(&missing)], "there is no such file"),
+        (vec!["detect", path(&broken)], "the image cannot be read"),
+        (
+            vec!["figure", "no-such-figure", "--describe"],
+            "there is no figure",
+        ),
+        (
+            vec!["figure", "ransac-race", "--set", "outliers=many"],
+            "\"many\" is not a value",
+        ),
+        (
+            vec!["figure", "ransac-race", "--set", "colour=red"],
+            "no parameter \"colour\"",
+        ),
+        (
+            vec!["figure", "ransac-race", "-o", path(&missing)],
+            "must be a .png file",
+        ),
+    ] {
+        let plain = epipole(&arguments);
+        let sentence = String::from_utf8(plain.stderr).unwrap();
+        assert_eq!(plain.status.code(), Some(1), "{arguments:?}");
+        assert!(
+            sentence.starts_with("error: ") && sentence.contains(expected),
+            "{sentence}"
+        );
+        assert!(plain.stdout.is_empty(), "{arguments:?} prints no result");
+
+        let result = json(&arguments);
+        assert!(
+            result["error"]["message"]
+                .as_str()
+                .unwrap()
+                .contains(expected),
+            "{result}"
+        );
+        assert!(result["error"]["kind"].is_string());
+    }
+}
+
+#[test]
+fn wrong_usage_has_status_2() {
+    for arguments in [
+        &["figure"][..],
+        &["detect", "a.png", "--max-features", "-3"],
+        &["match", "a.png", "b.png", "--ratio", "1.5"],
+        &["figure", "ransac-race", "--size", "0x3"],
+        &["no-such-command"],
+    ] {
+        let output = epipole(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+        assert_eq!(json(arguments)["error"]["kind"], "usage", "{arguments:?}");
+    }
+}
+
+#[test]
+fn every_command_has_an_example_in_its_help() {
+    let help = String::from_utf8(epipole(&["--help"]).stdout).unwrap();
+    let commands = help.split("Commands:").nth(1).unwrap();
+    let names = commands
+        .lines()
+        .skip(1)
+        .take_while(|line| line.starts_with("  "));
+    let names: Vec<&str> = names
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(names.len() >= 4, "{names:?}");
+    for name in names.into_iter().filter(|name| *name != "help") {
+        let output = epipole(&[name, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains(&format!("Example: epipole {name}")), "{name}");
+    }
+}
