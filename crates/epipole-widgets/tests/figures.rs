@@ -139,6 +139,7 @@ fn every_control_and_handle_changes_something_that_can_be_seen_and_read() {
             assert_ne!(picture.hash(), hash, "{name}: {}", handle.id);
         }
         figure.update(&Event::Reset).unwrap();
+        figure.finish_job();
         assert_eq!(
             (figure.describe(), figure.query()),
             (describe, String::new())
