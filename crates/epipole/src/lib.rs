@@ -11,8 +11,17 @@
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
+//! | [`homography`] | homographies: four points, least squares, decomposition |
+//! | [`absolute_pose`] | the pose of a camera from known points |
+//! | [`triangulation`] | points from their images in two or more views |
+//! | [`two_view`] | two views, whatever they show: E, F or H |
+//! | [`stereo`] | depth from disparity |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+
+//! | [`homography`] | homographies: four points, least squares, decomposition |
+//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -25,17 +34,26 @@
 
 mod error;
 
+pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
+pub mod homography;
 pub mod feature;
 pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
+pub mod sfm;
 pub mod stereo;
+pub mod triangulation;
+pub mod two_view;
 pub mod synthetic;
 
+pub use absolute_pose::find_absolute_pose;
+pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
 pub use error::Error;
+pub use homography::find_homography;
+pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;

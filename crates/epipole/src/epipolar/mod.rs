@@ -4,14 +4,40 @@
 //! `line2 = F x1` is a line of image 2. F and E have unit Frobenius norm.
 
 mod distance;
+mod eight_point;
 mod epipoles;
+mod essential;
+mod find_essential;
+mod find_fundamental;
+mod five_point;
 mod from_cameras;
 mod lines;
+mod normalize;
+mod plane_recovery;
+mod refine;
+pub(crate) mod sampson;
+mod seven_point;
 
 pub use distance::{sampson_px, sampson_sq, symmetric_epipolar_px, symmetric_epipolar_sq};
+pub use eight_point::{
+    EightPoint, enforce_rank2, fundamental_8point, fundamental_8point_explained,
+    fundamental_8point_unnormalized,
+};
 pub use epipoles::{Epipole, epipoles};
+pub(crate) use essential::signed_depths;
+pub use essential::{
+    RelativePose, SelectedPose, decompose_essential, essential_8point, project_to_essential,
+    select_pose,
+};
+pub use find_essential::{EssentialEstimator, estimate_relative_pose, find_essential};
+pub use find_fundamental::{FundamentalEstimator, find_fundamental};
+pub use five_point::essential_5point;
 pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
     fundamental_from_essential,
 };
 pub use lines::{epipolar_line1, epipolar_line2};
+pub use normalize::Normalization;
+pub(crate) use refine::scaled as scaled_loss;
+pub use refine::{refine_fundamental, refine_relative_pose};
+pub use seven_point::{epipolar_row, fundamental_7point};

@@ -1,8 +1,10 @@
 //! Small mathematics that every room needs.
 
 mod line;
+pub(crate) mod null_space;
+pub(crate) mod polynomial;
 pub mod random;
-mod svd3;
+pub(crate) mod svd3;
 
 pub use line::Line2;
 pub use svd3::{Svd3, svd3};

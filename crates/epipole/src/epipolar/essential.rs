@@ -1,0 +1,395 @@
+//! Essential matrices: constraints, decomposition, linear estimation.
+
+use super::from_cameras::unit_norm;
+use super::fundamental_from_essential;
+use crate::camera::{Intrinsics, RigidTransform, cross_matrix};
+use crate::math::null_space::right_singular_vectors;
+use crate::math::svd3;
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+/// The motion between two calibrated cameras, up to the length of the translation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelativePose {
+    /// R of `cam2_from_cam1`.
+    pub rotation: Matrix3<f64>,
+    /// t of `cam2_from_cam1`, of length 1.
+    pub direction: Vector3<f64>,
+    /// The fundamental matrix of the pixels, unit Frobenius norm.
+    pub fundamental: Matrix3<f64>,
+}
+
+impl RelativePose {
+    /// A pose with its fundamental matrix, for cameras with intrinsics `k1` and `k2`.
+    pub(crate) fn new(
+        rotation: Matrix3<f64>,
+        direction: Vector3<f64>,
+        k1: &Intrinsics,
+        k2: &Intrinsics,
+    ) -> Self {
+        let essential = cross_matrix(&direction) * rotation;
+        let fundamental =
+            fundamental_from_essential(&essential, k1, k2).unwrap_or_else(|_| Matrix3::zeros());
+        Self {
+            rotation,
+            direction,
+            fundamental,
+        }
+    }
+
+    /// `[t]ₓ R` with unit Frobenius norm.
+    pub fn essential(&self) -> Matrix3<f64> {
+        cross_matrix(&self.direction) * self.rotation * core::f64::consts::FRAC_1_SQRT_2
+    }
+
+    /// R and t as a transform; t has length 1.
+    pub fn cam2_from_cam1(&self) -> RigidTransform {
+        let rotation = Rotation3::from_matrix_unchecked(self.rotation);
+        RigidTransform::from_parts(
+            Translation3::from(self.direction),
+            UnitQuaternion::from_rotation_matrix(&rotation),
+        )
+    }
+}
+
+/// The essential matrix nearest to a matrix, in Frobenius norm up to scale: singular values
+/// become (1, 1, 0)/√2.
+///
+/// # Errors
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a matrix of rank 1 or 0.
+///
+/// Source: Hartley & Zisserman 2004, §11.7.3.
+pub fn project_to_essential(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
+    let unit = unit_norm(matrix)?;
+    let svd = svd3(&unit);
+    if svd.singular_values[1] <= 1e-12 {
+        return Err(Error::Degenerate {
+            what: "an essential matrix",
+            why: "the matrix has rank 1",
+        });
+    }
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    Ok(svd.u * Matrix3::from_diagonal(&Vector3::new(half, half, 0.0)) * svd.v.transpose())
+}
+
+/// The essential matrix that minimizes `Σ (x2ᵀ E x1)²` over eight or more pairs of rays, projected
+/// to singular values (1, 1, 0)/√2.
+///
+/// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
+///
+/// # Errors
+/// [`Error::TooFew`] for fewer than 8 pairs, [`Error::SizeMismatch`], [`Error::NotFinite`] for NaN, infinities
+/// and zero rays, [`Error::Degenerate`] if the rays leave E open.
+///
+/// Source: Hartley & Zisserman 2004, §11.7.3.
+pub fn essential_8point(rays1: &[Vector3<f64>], rays2: &[Vector3<f64>]) -> Result<Matrix3<f64>> {
+    if rays1.len() != rays2.len() {
+        return Err(Error::SizeMismatch {
+            what: "the two lists of matching rays",
+            first: rays1.len(),
+            second: rays2.len(),
+        });
+    }
+    if rays1.len() < 8 {
+        return Err(Error::TooFew {
+            what: "the eight-point algorithm",
+            needed: 8,
+            got: rays1.len(),
+        });
+    }
+    let usable = |ray: &Vector3<f64>| {
+        let length = ray.norm();
+        length.is_finite() && length > f64::MIN_POSITIVE
+    };
+    if !rays1.iter().chain(rays2).all(usable) {
+        return Err(Error::NotFinite {
+            what: "a ray's direction",
+        });
+    }
+    let (values, vectors) = right_singular_vectors(rays1.len(), |i| {
+        bearing_row(&rays1[i].normalize(), &rays2[i].normalize())
+    });
+    if values[7] <= 1e-12 * values[0] {
+        return Err(Error::Degenerate {
+            what: "the essential matrix",
+            why: "the rays fit many: they lie in a plane or a line, or the camera only turned",
+        });
+    }
+    project_to_essential(&Matrix3::from_row_slice(&vectors[8]))
+}
+
+/// The row of the linear system for E that one pair of rays gives.
+#[inline]
+pub(crate) fn bearing_row(x1: &Vector3<f64>, x2: &Vector3<f64>) -> [f64; 9] {
+    [
+        x2.x * x1.x,
+        x2.x * x1.y,
+        x2.x * x1.z,
+        x2.y * x1.x,
+        x2.y * x1.y,
+        x2.y * x1.z,
+        x2.z * x1.x,
+        x2.z * x1.y,
+        x2.z * x1.z,
+    ]
+}
+
+/// The four motions that an essential matrix allows: (R₁, t), (R₁, −t), (R₂, t), (R₂, −t), with
+/// |t| = 1. Only one puts points in front of both cameras; see [`select_pose`].
+///
+/// `R₁ = U W Vᵀ`, `R₂ = U Wᵀ Vᵀ` and t is the last column of U.
+///
+/// # Errors
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a matrix of rank 1 or 0.
+///
+/// Source: Hartley & Zisserman 2004, §9.6.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{decompose_essential, essential_from_motion};
+/// let e = essential_from_motion(&RigidTransform::translation(0.0, 0.0, 2.0))?;
+/// let motions = decompose_essential(&e)?;
+/// assert!(motions.iter().any(|m| (m.translation.z - 1.0).abs() < 1e-12 && m.rotation.angle() < 1e-7));
+/// # Ok(()) }
+/// ```
+pub fn decompose_essential(essential: &Matrix3<f64>) -> Result<[RigidTransform; 4]> {
+    let projected = project_to_essential(essential)?;
+    let svd = svd3(&projected);
+    let proper = |m: &Matrix3<f64>| if m.determinant() < 0.0 { -m } else { *m };
+    let (u, v) = (proper(&svd.u), proper(&svd.v));
+    #[rustfmt::skip]
+    let w = Matrix3::new(
+        0.0, -1.0, 0.0,
+        1.0,  0.0, 0.0,
+        0.0,  0.0, 1.0,
+    );
+    let direction = u.column(2).into_owned();
+    let motion = |rotation: Matrix3<f64>, t: Vector3<f64>| {
+        RigidTransform::from_parts(
+            t.into(),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
+        )
+    };
+    let (r1, r2) = (u * w * v.transpose(), u * w.transpose() * v.transpose());
+    Ok([
+        motion(r1, direction),
+        motion(r1, -direction),
+        motion(r2, direction),
+        motion(r2, -direction),
+    ])
+}
+
+/// The two rotations of an exact essential matrix scaled to Frobenius norm √2, and t.
+///
+/// Source: Horn 1990, "Recovering baseline and orientation from essential matrix".
+#[inline]
+pub(crate) fn rotations_and_direction(
+    essential: &Matrix3<f64>,
+) -> Option<([Matrix3<f64>; 2], Vector3<f64>)> {
+    let e = essential * (core::f64::consts::SQRT_2 / essential.norm());
+    let columns = [0, 1, 2].map(|i| e.column(i).into_owned());
+    // t is perpendicular to all columns; the longest cross product is the most accurate.
+    let crosses = [
+        columns[1].cross(&columns[2]),
+        columns[2].cross(&columns[0]),
+        columns[0].cross(&columns[1]),
+    ];
+    let lengths = [0, 1, 2].map(|i: usize| crosses[i].norm_squared());
+    let longest = if lengths[0] >= lengths[1] && lengths[0] >= lengths[2] {
+        0
+    } else if lengths[1] >= lengths[2] {
+        1
+    } else {
+        2
+    };
+    if !(lengths[longest] > 0.0 && lengths[longest].is_finite()) {
+        return None;
+    }
+    let direction = crosses[longest] / lengths[longest].sqrt();
+    let cofactors = Matrix3::from_columns(&crosses);
+    let turned = cross_matrix(&direction) * e;
+    Some(([cofactors - turned, cofactors + turned], direction))
+}
+
+/// Which motions of [`decompose_essential`] put how many points in front of both cameras, and the
+/// best of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SelectedPose {
+    /// The motion with the most points in front; |t| = 1.
+    pub cam2_from_cam1: RigidTransform,
+    /// How many points it puts in front of both cameras.
+    pub num_in_front: usize,
+    /// How many the second best does.
+    pub second_num_in_front: usize,
+}
+
+/// The motion, among candidates, that puts the most of the matched points in front of both
+/// cameras (cheirality).
+///
+/// * `motions`: for instance the four of [`decompose_essential`]
+/// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
+///
+/// # Errors
+/// [`Error::TooFew`] without motions or matches, [`Error::SizeMismatch`] for lists of different
+/// length.
+///
+/// Source: Hartley & Zisserman 2004, §9.6.3.
+pub fn select_pose(
+    motions: &[RigidTransform],
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> Result<SelectedPose> {
+    if pixels1.len() != pixels2.len() {
+        return Err(Error::SizeMismatch {
+            what: "the two lists of matching pixels",
+            first: pixels1.len(),
+            second: pixels2.len(),
+        });
+    }
+    if motions.is_empty() || pixels1.is_empty() {
+        return Err(Error::TooFew {
+            what: "a choice of pose from motions and matches",
+            needed: 1,
+            got: motions.len().min(pixels1.len()),
+        });
+    }
+    let (mut best, mut best_count, mut second) = (0, 0, 0);
+    for (place, motion) in motions.iter().enumerate() {
+        let rotation = motion.rotation.to_rotation_matrix().into_inner();
+        let count = pixels1
+            .iter()
+            .zip(pixels2)
+            .filter(|(p1, p2)| {
+                let (d1, d2) = signed_depths(
+                    &rotation,
+                    &motion.translation.vector,
+                    &k1.ray(p1),
+                    &k2.ray(p2),
+                );
+                d1 > 0.0 && d2 > 0.0
+            })
+            .count();
+        if place == 0 || count > best_count {
+            if place > 0 {
+                second = best_count;
+            }
+            (best, best_count) = (place, count);
+        } else {
+            second = second.max(count);
+        }
+    }
+    Ok(SelectedPose {
+        cam2_from_cam1: motions[best],
+        num_in_front: best_count,
+        second_num_in_front: second,
+    })
+}
+
+/// Numbers with the signs of the depths, along both rays, of the point where the rays pass each
+/// other nearest: `d1 x1` in camera 1, `d2 x2` in camera 2.
+#[inline(always)]
+pub(crate) fn signed_depths(
+    rotation: &Matrix3<f64>,
+    t: &Vector3<f64>,
+    x1: &Vector3<f64>,
+    x2: &Vector3<f64>,
+) -> (f64, f64) {
+    // Least squares of d1 R x1 − d2 x2 = −t by Cramer's rule; the determinant is never negative.
+    let turned = rotation * x1;
+    let (aa, bb, ab) = (turned.norm_squared(), x2.norm_squared(), turned.dot(x2));
+    let (at, bt) = (turned.dot(t), x2.dot(t));
+    (ab * bt - bb * at, aa * bt - ab * at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::essential_from_motion;
+    use super::super::from_cameras::tests::{random_cameras, random_point};
+    use super::*;
+    use crate::camera::relative_motion;
+    use crate::math::random::Random;
+
+    #[test]
+    fn decomposition_holds_the_motion_and_cheirality_finds_it() {
+        let mut random = Random::new(1);
+        for _ in 0..100 {
+            let (cam1, cam2) = random_cameras(&mut random);
+            let mut motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
+            motion.translation.vector.normalize_mut();
+            let e = essential_from_motion(&motion).unwrap();
+            let motions = decompose_essential(&e).unwrap();
+            let off = |m: &RigidTransform| {
+                (m.rotation.to_rotation_matrix().into_inner()
+                    - motion.rotation.to_rotation_matrix().into_inner())
+                .norm()
+                    + (m.translation.vector - motion.translation.vector).norm()
+            };
+            let best = motions.iter().map(off).fold(f64::INFINITY, f64::min);
+            assert!(best < 1e-10, "{best}");
+            let (p1, p2): (Vec<_>, Vec<_>) = (0..10)
+                .map(|_| random_point(&mut random))
+                .map(|x| (cam1.project(&x).unwrap(), cam2.project(&x).unwrap()))
+                .unzip();
+            let chosen =
+                select_pose(&motions, &p1, &p2, &cam1.intrinsics, &cam2.intrinsics).unwrap();
+            assert!(off(&chosen.cam2_from_cam1) < 1e-10);
+            assert_eq!(chosen.num_in_front, 10);
+            assert_eq!(chosen.second_num_in_front, 0);
+
+            let (rotations, direction) = rotations_and_direction(&e).unwrap();
+            let found = rotations
+                .iter()
+                .any(|r| (r - motion.rotation.to_rotation_matrix().into_inner()).norm() < 1e-10);
+            assert!(found && direction.cross(&motion.translation.vector).norm() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn eight_rays_give_the_essential_matrix() {
+        let mut random = Random::new(2);
+        for trial in 0..100 {
+            let (cam1, cam2) = random_cameras(&mut random);
+            let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
+            let truth = essential_from_motion(&motion).unwrap();
+            let (r1, r2): (Vec<_>, Vec<_>) = (0..8 + trial)
+                .map(|_| random_point(&mut random))
+                .map(|x| {
+                    (
+                        (cam1.cam_from_world * x).coords,
+                        (cam2.cam_from_world * x).coords,
+                    )
+                })
+                .unzip();
+            let e = essential_8point(&r1, &r2).unwrap();
+            let off = (e - truth).norm().min((e + truth).norm());
+            assert!(off < 1e-8, "{off}");
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        assert!(decompose_essential(&Matrix3::zeros()).is_err());
+        assert!(decompose_essential(&Matrix3::from_element(1.0)).is_err());
+        assert!(decompose_essential(&Matrix3::from_element(f64::NAN)).is_err());
+        let same = vec![Vector3::z(); 9];
+        assert!(essential_8point(&same, &same).is_err());
+        assert!(essential_8point(&same[..7], &same[..7]).is_err());
+        assert!(essential_8point(&vec![Vector3::zeros(); 9], &same).is_err());
+        let k = Intrinsics::centered(500.0, 640, 480).unwrap();
+        assert!(select_pose(&[], &[], &[], &k, &k).is_err());
+        // A pure rotation leaves the direction open.
+        let mut random = Random::new(3);
+        let rays: Vec<_> = (0..20)
+            .map(|_| Vector3::new(random.normal(), random.normal(), 3.0))
+            .collect();
+        let turn = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, -0.1));
+        let turned: Vec<_> = rays.iter().map(|r| turn * r).collect();
+        assert!(matches!(
+            essential_8point(&rays, &turned),
+            Err(Error::Degenerate { .. })
+        ));
+    }
+}

@@ -1,0 +1,217 @@
+//! E and the relative pose from matches of which many are wrong.
+
+use super::find_fundamental::refuse_collinear;
+use super::five_point::{pose_in_front, solve};
+use super::refine::{RaysInFrame, refine_pose_in_frame};
+use super::sampson::{self, CommonFrame, Coordinates};
+use super::{RelativePose, decompose_essential, select_pose};
+use crate::camera::Intrinsics;
+use crate::optim::{LmOptions, RobustLoss};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Vector3};
+
+/// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is five matches, and of its solutions only those that put the five points in front of
+/// both cameras are looked at. The error is the Sampson error in pixels; refinement
+/// minimizes it, truncated, over rotation and direction. Equal matches count once.
+///
+/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem".
+#[derive(Debug, Clone)]
+pub struct EssentialEstimator {
+    matches: MatchSet,
+    pixels: Coordinates,
+    in_frame: Coordinates,
+    frame: CommonFrame,
+    rays_in_frame: RaysInFrame,
+    rays: Vec<[Vector3<f64>; 2]>,
+    k1: Intrinsics,
+    k2: Intrinsics,
+}
+
+impl EssentialEstimator {
+    /// Prepares the estimation; `k1` and `k2` are the intrinsics of images 1 and 2.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than 5 different matches, [`Error::Degenerate`] if all pixels
+    /// of an image lie on one line, or are equal.
+    pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
+        if matches.len() < 5 {
+            return Err(Error::TooFew {
+                what: "an essential matrix from matches",
+                needed: 5,
+                got: matches.len(),
+            });
+        }
+        refuse_collinear(&matches, "an essential matrix from matches")?;
+        let pixels = Coordinates::pixels(&matches);
+        let frame = CommonFrame::new(&matches);
+        let rays = (0..matches.len())
+            .map(|i| {
+                let (p1, p2) = matches.pair(i);
+                [k1.ray(&p1).normalize(), k2.ray(&p2).normalize()]
+            })
+            .collect();
+        Ok(Self {
+            in_frame: pixels.mapped(&frame),
+            rays_in_frame: RaysInFrame::new(&frame, &k1, &k2),
+            matches,
+            pixels,
+            frame,
+            rays,
+            k1,
+            k2,
+        })
+    }
+
+    fn refined(
+        &self,
+        pose: &RelativePose,
+        max_error_px: f64,
+        max_iterations: usize,
+    ) -> Option<RelativePose> {
+        let options = LmOptions {
+            max_iterations,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        let (rotation, direction) =
+            refine_pose_in_frame(&self.in_frame, &self.rays_in_frame, pose, loss, &options)?;
+        Some(RelativePose::new(rotation, direction, &self.k1, &self.k2))
+    }
+}
+
+impl Estimator for EssentialEstimator {
+    type Model = RelativePose;
+
+    fn name(&self) -> &'static str {
+        "an essential matrix from matches"
+    }
+
+    fn sample_size(&self) -> usize {
+        5
+    }
+
+    fn num_data(&self) -> usize {
+        self.matches.len()
+    }
+
+    fn max_models(&self) -> usize {
+        10
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {
+        let rays1 = core::array::from_fn(|i| self.rays[sample[i]][0]);
+        let rays2 = core::array::from_fn(|i| self.rays[sample[i]][1]);
+        let mut solutions = [Matrix3::zeros(); 10];
+        let count = solve(&rays1, &rays2, &mut solutions);
+        for essential in &solutions[..count] {
+            if let Some((rotation, direction)) = pose_in_front(essential, &rays1, &rays2) {
+                models.push(RelativePose::new(rotation, direction, &self.k1, &self.k2));
+            }
+        }
+    }
+
+    fn error_sq(&self, pose: &RelativePose, index: usize) -> f64 {
+        let (x1, x2) = self.matches.pair(index);
+        super::sampson_sq(&pose.fundamental, &x1, &x2)
+    }
+
+    fn refine(
+        &mut self,
+        pose: &RelativePose,
+        _: &[usize],
+        max_error_px: f64,
+    ) -> Option<RelativePose> {
+        self.refined(pose, max_error_px, 4)
+    }
+
+    fn polish(
+        &mut self,
+        pose: &RelativePose,
+        _: &[usize],
+        max_error_px: f64,
+    ) -> Option<RelativePose> {
+        self.refined(pose, max_error_px, 20)
+    }
+
+    fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {
+        sampson::support(&self.pixels, &pose.fundamental, max_error_px, cost_limit)
+    }
+
+    fn inliers(&self, pose: &RelativePose, max_error_px: f64, inliers: &mut Vec<usize>) {
+        sampson::inliers(&self.pixels, &pose.fundamental, max_error_px, inliers);
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(self.matches.unique())
+    }
+}
+
+/// The relative pose of two calibrated cameras that most matches agree on.
+///
+/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `k1`, `k2`: intrinsics of the two cameras
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels
+///
+/// Of the four motions that the essential matrix allows, the one that puts the most inliers in front
+/// of both cameras is returned. If the camera hardly moved, the direction means nothing; see
+/// [`estimate_two_view`](crate::two_view::estimate_two_view).
+///
+/// # Errors
+/// As [`MatchSet::new`], [`EssentialEstimator::new`] and [`ransac`].
+///
+/// Source: as [`EssentialEstimator`].
+pub fn estimate_relative_pose(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    options: &RansacOptions,
+) -> Result<RansacReport<RelativePose>> {
+    let matches = MatchSet::new(pixels1, pixels2)?;
+    let mut report = ransac(EssentialEstimator::new(matches, *k1, *k2)?, options)?;
+    let inliers_of = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+        pixels
+            .iter()
+            .zip(&report.inliers)
+            .filter(|(_, inlier)| **inlier)
+            .map(|(p, _)| *p)
+            .collect()
+    };
+    let (inliers1, inliers2) = (inliers_of(pixels1), inliers_of(pixels2));
+    let motions = decompose_essential(&report.model.essential())?;
+    let chosen = select_pose(&motions, &inliers1, &inliers2, k1, k2)?;
+    report.model = RelativePose::new(
+        chosen
+            .cam2_from_cam1
+            .rotation
+            .to_rotation_matrix()
+            .into_inner(),
+        chosen.cam2_from_cam1.translation.vector,
+        k1,
+        k2,
+    );
+    Ok(report)
+}
+
+/// The essential matrix that most matches agree on, unit Frobenius norm; as
+/// [`estimate_relative_pose`].
+///
+/// # Errors
+/// As [`estimate_relative_pose`].
+pub fn find_essential(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    options: &RansacOptions,
+) -> Result<RansacReport<Matrix3<f64>>> {
+    estimate_relative_pose(pixels1, pixels2, k1, k2, options)
+        .map(|report| report.map(|pose| pose.essential()))
+}

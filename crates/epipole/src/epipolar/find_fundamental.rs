@@ -1,0 +1,253 @@
+//! F from matches of which many are wrong.
+
+use super::epipolar_row;
+use super::from_cameras::unit_norm;
+use super::plane_recovery::PlaneRecovery;
+use super::refine::refine_in_frame;
+use super::sampson::{self, CommonFrame, Coordinates};
+use super::seven_point::seven_point_rows;
+use crate::math::random::Random;
+use crate::optim::{LmOptions, RobustLoss};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Vector3};
+
+/// Fundamental matrices from matches, for [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is seven matches; the error is [`sampson_px`](super::sampson_px); refinement minimizes
+/// the truncated Sampson error. A sample of which five or more matches lie on one plane does not
+/// determine F: then the plane's homography and two matches off the plane give another one. Equal
+/// matches count once.
+///
+/// Source: Hartley & Zisserman 2004, §11.6; Chum, Werner & Matas 2004, "Epipolar geometry
+/// estimation via RANSAC benefits from the oriented epipolar constraint"; Chum, Werner & Matas
+/// 2005, "Two-view geometry estimation unaffected by a dominant plane".
+#[derive(Debug, Clone)]
+pub struct FundamentalEstimator {
+    matches: MatchSet,
+    pixels: Coordinates,
+    in_frame: Coordinates,
+    frame: CommonFrame,
+    recovery: PlaneRecovery,
+}
+
+impl FundamentalEstimator {
+    /// Prepares the estimation.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] if all pixels
+    /// of an image lie on one line, or are equal.
+    pub fn new(matches: MatchSet) -> Result<Self> {
+        if matches.len() < 7 {
+            return Err(Error::TooFew {
+                what: "a fundamental matrix from matches",
+                needed: 7,
+                got: matches.len(),
+            });
+        }
+        refuse_collinear(&matches, "a fundamental matrix from matches")?;
+        let pixels = Coordinates::pixels(&matches);
+        let frame = CommonFrame::new(&matches);
+        let in_frame = pixels.mapped(&frame);
+        Ok(Self {
+            recovery: PlaneRecovery::new(matches.len()),
+            matches,
+            pixels,
+            in_frame,
+            frame,
+        })
+    }
+
+    fn refined(
+        &self,
+        fundamental: &Matrix3<f64>,
+        max_error_px: f64,
+        max_iterations: usize,
+    ) -> Option<Matrix3<f64>> {
+        let options = LmOptions {
+            max_iterations,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        let start = self.frame.fundamental_to_frame(fundamental);
+        let refined = refine_in_frame(&self.in_frame, &start, loss, &options)?;
+        unit_norm(&self.frame.fundamental_to_pixels(&refined)).ok()
+    }
+}
+
+/// Refuses matches whose pixels lie on one line in either image.
+pub(crate) fn refuse_collinear(matches: &MatchSet, what: &'static str) -> Result<()> {
+    let [u1, v1, u2, v2] = matches.coordinates();
+    for (u, v) in [(u1, v1), (u2, v2)] {
+        let share = 1.0 / u.len().max(1) as f64;
+        let (mean_u, mean_v) = (
+            u.iter().map(|x| x * share).sum::<f64>(),
+            v.iter().map(|x| x * share).sum::<f64>(),
+        );
+        let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
+        for (x, y) in u.iter().zip(v) {
+            let (du, dv) = (x - mean_u, y - mean_v);
+            uu += du * du;
+            uv += du * dv;
+            vv += dv * dv;
+        }
+        let total = uu + vv;
+        // The product of the eigenvalues of the scatter matrix against their squared sum: an
+        // image a million times as long as wide.
+        if uu * vv - uv * uv <= 1e-12 * total * total {
+            return Err(Error::Degenerate {
+                what,
+                why: "the pixels of an image lie on one line",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether all rays of the sample can point forward: `(e2 × x2)·(F x1)` has the same sign for all.
+fn is_oriented(f: &Matrix3<f64>, sample: &[[f64; 4]; 7]) -> bool {
+    let columns = [0, 1, 2].map(|i| f.column(i).into_owned());
+    let mut epipole2 = columns[0].cross(&columns[1]);
+    for other in [columns[1].cross(&columns[2]), columns[2].cross(&columns[0])] {
+        if other.norm_squared() > epipole2.norm_squared() {
+            epipole2 = other;
+        }
+    }
+    let mut first = 0.0;
+    for [u1, v1, u2, v2] in sample {
+        let line2 = f * Vector3::new(*u1, *v1, 1.0);
+        let sign = epipole2.cross(&Vector3::new(*u2, *v2, 1.0)).dot(&line2);
+        if first == 0.0 {
+            first = sign;
+        } else if first * sign < 0.0 {
+            return false;
+        }
+    }
+    true
+}
+
+impl Estimator for FundamentalEstimator {
+    type Model = Matrix3<f64>;
+
+    fn name(&self) -> &'static str {
+        "a fundamental matrix from matches"
+    }
+
+    fn sample_size(&self) -> usize {
+        7
+    }
+
+    fn num_data(&self) -> usize {
+        self.matches.len()
+    }
+
+    fn max_models(&self) -> usize {
+        3
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
+        let points: [[f64; 4]; 7] = core::array::from_fn(|i| self.in_frame.at(sample[i]));
+        let rows =
+            points.map(|[u1, v1, u2, v2]| epipolar_row(&Point2::new(u1, v1), &Point2::new(u2, v2)));
+        let (solutions, count) = seven_point_rows(&rows);
+        for f in &solutions[..count] {
+            if is_oriented(f, &points) {
+                models.extend(unit_norm(&self.frame.fundamental_to_pixels(f)));
+            }
+        }
+    }
+
+    fn error_sq(&self, fundamental: &Matrix3<f64>, index: usize) -> f64 {
+        let (x1, x2) = self.matches.pair(index);
+        super::sampson_sq(fundamental, &x1, &x2)
+    }
+
+    fn refine(
+        &mut self,
+        model: &Matrix3<f64>,
+        _: &[usize],
+        max_error_px: f64,
+    ) -> Option<Matrix3<f64>> {
+        self.refined(model, max_error_px, 4)
+    }
+
+    fn polish(
+        &mut self,
+        model: &Matrix3<f64>,
+        _: &[usize],
+        max_error_px: f64,
+    ) -> Option<Matrix3<f64>> {
+        self.refined(model, max_error_px, 20)
+    }
+
+    fn recover(
+        &mut self,
+        model: &Matrix3<f64>,
+        sample: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<Matrix3<f64>> {
+        let f = self.frame.fundamental_to_frame(model);
+        let max_error = max_error_px * self.frame.scale;
+        let recovered = self
+            .recovery
+            .recover(&self.in_frame, &f, sample, max_error, random)?;
+        unit_norm(&self.frame.fundamental_to_pixels(&recovered)).ok()
+    }
+
+    fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {
+        sampson::support(&self.pixels, model, max_error_px, cost_limit)
+    }
+
+    fn inliers(&self, model: &Matrix3<f64>, max_error_px: f64, inliers: &mut Vec<usize>) {
+        sampson::inliers(&self.pixels, model, max_error_px, inliers);
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(self.matches.unique())
+    }
+}
+
+/// The fundamental matrix that most matches agree on, unit Frobenius norm, rank 2.
+///
+/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier
+///
+/// F stays right when nearly all matches lie on one plane, as long as a few lie off it. If
+/// all do, or the camera only turned, many matrices fit equally well and this is one of
+/// them; [`estimate_two_view`](crate::two_view::estimate_two_view) tells the cases apart.
+///
+/// # Errors
+/// As [`MatchSet::new`], [`FundamentalEstimator::new`] and [`ransac`].
+///
+/// Source: as [`FundamentalEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::find_fundamental;
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::Point2;
+/// // A step to the right: each point keeps its row and moves by its own disparity. Every fourth
+/// // match is wrong.
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = p1.iter().enumerate().map(|(i, p)| {
+///     let wrong = if i % 4 == 0 { 40.0 + i as f64 } else { 0.0 };
+///     Point2::new(p.x - (5 + i * 13 % 31) as f64, p.y + wrong)
+/// }).collect();
+/// let report = find_fundamental(&p1, &p2, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 45);
+/// assert!(report.model[(2, 2)].abs() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn find_fundamental(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    options: &RansacOptions,
+) -> Result<RansacReport<Matrix3<f64>>> {
+    let matches = MatchSet::new(pixels1, pixels2)?;
+    ransac(FundamentalEstimator::new(matches)?, options)
+}

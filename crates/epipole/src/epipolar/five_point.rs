@@ -1,0 +1,378 @@
+//! E from five pairs of rays.
+
+use super::essential::{bearing_row, rotations_and_direction, signed_depths};
+use crate::math::null_space::null_space;
+use crate::math::polynomial::real_roots;
+use nalgebra::{Matrix3, Vector3};
+
+/// The essential matrices, at most ten, that five pairs of rays satisfy exactly; unit Frobenius norm.
+///
+/// The rays leave `E = x E1 + y E2 + z E3 + E4`; the ten cubic equations `det E = 0` and
+/// `2 E Eᵀ E − tr(E Eᵀ) E = 0` are reduced to one polynomial of degree 10 in z.
+///
+/// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
+///
+/// Returns an empty list if there is no real solution or the rays are degenerate.
+///
+/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem".
+pub fn essential_5point(rays1: &[Vector3<f64>; 5], rays2: &[Vector3<f64>; 5]) -> Vec<Matrix3<f64>> {
+    let unit = |rays: &[Vector3<f64>; 5]| rays.map(|ray| ray.normalize());
+    let mut solutions = [Matrix3::zeros(); 10];
+    let count = solve(&unit(rays1), &unit(rays2), &mut solutions);
+    solutions[..count].to_vec()
+}
+
+/// A linear form in (x, y, z, 1), a quadratic and a cubic in the same.
+type Linear = [f64; 4];
+type Quadratic = [f64; 10];
+type Cubic = [f64; 20];
+
+// Order of the quadratic's terms: x² xy xz x y² yz y z² z 1.
+#[inline(always)]
+fn add_product(a: &Linear, b: &Linear, q: &mut Quadratic) {
+    q[0] += a[0] * b[0];
+    q[1] += a[0] * b[1] + a[1] * b[0];
+    q[2] += a[0] * b[2] + a[2] * b[0];
+    q[3] += a[0] * b[3] + a[3] * b[0];
+    q[4] += a[1] * b[1];
+    q[5] += a[1] * b[2] + a[2] * b[1];
+    q[6] += a[1] * b[3] + a[3] * b[1];
+    q[7] += a[2] * b[2];
+    q[8] += a[2] * b[3] + a[3] * b[2];
+    q[9] += a[3] * b[3];
+}
+
+// Order of the cubic's terms: x³ y³ x²y xy² x²z x² y²z y² xyz xy | xz² xz x yz² yz y z³ z² z 1.
+#[inline(always)]
+fn add_cubic(q: &Quadratic, a: &Linear, c: &mut Cubic) {
+    c[0] += q[0] * a[0];
+    c[1] += q[4] * a[1];
+    c[2] += q[0] * a[1] + q[1] * a[0];
+    c[3] += q[1] * a[1] + q[4] * a[0];
+    c[4] += q[0] * a[2] + q[2] * a[0];
+    c[5] += q[0] * a[3] + q[3] * a[0];
+    c[6] += q[4] * a[2] + q[5] * a[1];
+    c[7] += q[4] * a[3] + q[6] * a[1];
+    c[8] += q[1] * a[2] + q[2] * a[1] + q[5] * a[0];
+    c[9] += q[1] * a[3] + q[3] * a[1] + q[6] * a[0];
+    c[10] += q[2] * a[2] + q[7] * a[0];
+    c[11] += q[2] * a[3] + q[3] * a[2] + q[8] * a[0];
+    c[12] += q[3] * a[3] + q[9] * a[0];
+    c[13] += q[5] * a[2] + q[7] * a[1];
+    c[14] += q[5] * a[3] + q[6] * a[2] + q[8] * a[1];
+    c[15] += q[6] * a[3] + q[9] * a[1];
+    c[16] += q[7] * a[2];
+    c[17] += q[7] * a[3] + q[8] * a[2];
+    c[18] += q[8] * a[3] + q[9] * a[2];
+    c[19] += q[9] * a[3];
+}
+
+/// The ten cubics, one a row.
+fn constraints(basis: &[[f64; 9]; 4]) -> [Cubic; 10] {
+    // Entry (i, j) of E as a linear form.
+    let mut e = [[[0.0; 4]; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            e[i][j] = [0, 1, 2, 3].map(|k| basis[k][3 * i + j]);
+        }
+    }
+    let mut equations = [[0.0; 20]; 10];
+    // det E by its first row.
+    for j in 0..3 {
+        let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+        let mut minor = [0.0; 10];
+        add_product(&e[1][k], &e[2][l], &mut minor);
+        let negative = e[1][l].map(|x| -x);
+        add_product(&negative, &e[2][k], &mut minor);
+        add_cubic(&minor, &e[0][j], &mut equations[0]);
+    }
+    // E Eᵀ is symmetric; 2 E Eᵀ E − tr(E Eᵀ) E = 2 (E Eᵀ − ½ tr) E.
+    let mut eet = [[[0.0; 10]; 3]; 3];
+    for i in 0..3 {
+        for j in i..3 {
+            let mut q = [0.0; 10];
+            for k in 0..3 {
+                add_product(&e[i][k], &e[j][k], &mut q);
+            }
+            eet[i][j] = q;
+            eet[j][i] = q;
+        }
+    }
+    let mut half_trace = [0.0; 10];
+    for (i, h) in half_trace.iter_mut().enumerate() {
+        *h = 0.5 * (eet[0][0][i] + eet[1][1][i] + eet[2][2][i]);
+    }
+    for i in 0..3 {
+        for (q, h) in eet[i][i].iter_mut().zip(&half_trace) {
+            *q -= h;
+        }
+    }
+    for i in 0..3 {
+        for j in 0..3 {
+            let equation = &mut equations[1 + 3 * i + j];
+            for k in 0..3 {
+                add_cubic(&eet[i][k], &e[k][j], equation);
+            }
+        }
+    }
+    equations
+}
+
+/// Gauss–Jordan elimination of the first ten columns; only the last six rows are needed. `None` if
+/// the columns are dependent.
+fn eliminate(rows: &mut [Cubic; 10]) -> Option<[[f64; 10]; 6]> {
+    for column in 0..10 {
+        let mut pivot = column;
+        for r in column + 1..10 {
+            if rows[r][column].abs() > rows[pivot][column].abs() {
+                pivot = r;
+            }
+        }
+        rows.swap(column, pivot);
+        let value = rows[column][column];
+        if value.abs() < 1e-14 || !value.is_finite() {
+            return None;
+        }
+        let inverse = 1.0 / value;
+        for x in &mut rows[column] {
+            *x *= inverse;
+        }
+        let top = rows[column];
+        for row in &mut rows[column + 1..] {
+            let factor = row[column];
+            for k in 0..20 {
+                row[k] -= factor * top[k];
+            }
+        }
+    }
+    for column in (5..10).rev() {
+        let below = rows[column];
+        for row in &mut rows[4..column] {
+            let factor = row[column];
+            for k in 10..20 {
+                row[k] -= factor * below[k];
+            }
+        }
+    }
+    let mut reduced = [[0.0; 10]; 6];
+    for (target, row) in reduced.iter_mut().zip(&rows[4..]) {
+        target.copy_from_slice(&row[10..]);
+    }
+    Some(reduced)
+}
+
+/// A row of B(z): polynomials in z that multiply x, y and 1; ascending powers.
+struct Reduced {
+    x: [f64; 4],
+    y: [f64; 4],
+    one: [f64; 5],
+}
+
+/// `a − z b`, for rows `a = x²z + …` and `b = x² + …`: the leading terms cancel.
+fn combine(a: &[f64; 10], b: &[f64; 10]) -> Reduced {
+    Reduced {
+        x: [a[2], a[1] - b[2], a[0] - b[1], -b[0]],
+        y: [a[5], a[4] - b[5], a[3] - b[4], -b[3]],
+        one: [a[9], a[8] - b[9], a[7] - b[8], a[6] - b[7], -b[6]],
+    }
+}
+
+fn multiply_add<const A: usize, const B: usize, const C: usize>(
+    a: &[f64; A],
+    b: &[f64; B],
+    sign: f64,
+    product: &mut [f64; C],
+) {
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            product[i + j] += sign * x * y;
+        }
+    }
+}
+
+fn evaluate<const N: usize>(c: &[f64; N], z: f64) -> f64 {
+    c.iter().rev().fold(0.0, |value, x| value * z + x)
+}
+
+/// Writes the solutions, unit Frobenius norm, and returns how many.
+pub(crate) fn solve(
+    rays1: &[Vector3<f64>; 5],
+    rays2: &[Vector3<f64>; 5],
+    solutions: &mut [Matrix3<f64>; 10],
+) -> usize {
+    let rows: [[f64; 9]; 5] = core::array::from_fn(|i| bearing_row(&rays1[i], &rays2[i]));
+    if !rows.iter().flatten().all(|x: &f64| x.is_finite()) {
+        return 0;
+    }
+    let basis: [[f64; 9]; 4] = null_space(rows);
+    let mut equations = constraints(&basis);
+    let Some(r) = eliminate(&mut equations) else {
+        return 0;
+    };
+    let b = [
+        combine(&r[0], &r[1]),
+        combine(&r[2], &r[3]),
+        combine(&r[4], &r[5]),
+    ];
+    // det B(z), expanded along the constant column.
+    let mut polynomial = [0.0; 11];
+    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+        let mut minor = [0.0; 7];
+        multiply_add(&b[j].x, &b[k].y, 1.0, &mut minor);
+        multiply_add(&b[k].x, &b[j].y, -1.0, &mut minor);
+        multiply_add(&b[i].one, &minor, 1.0, &mut polynomial);
+    }
+    let mut roots = [0.0; 10];
+    let num_roots = real_roots(&polynomial, &mut roots);
+    let mut count = 0;
+    for &z in &roots[..num_roots] {
+        let rows = [0, 1, 2].map(|i: usize| {
+            Vector3::new(
+                evaluate(&b[i].x, z),
+                evaluate(&b[i].y, z),
+                evaluate(&b[i].one, z),
+            )
+        });
+        // (x, y, 1) is perpendicular to all rows of B(z).
+        let crosses = [
+            rows[0].cross(&rows[1]),
+            rows[1].cross(&rows[2]),
+            rows[2].cross(&rows[0]),
+        ];
+        let mut null = crosses[0];
+        for cross in &crosses[1..] {
+            if cross.norm_squared() > null.norm_squared() {
+                null = *cross;
+            }
+        }
+        let (x, y) = (null.x / null.z, null.y / null.z);
+        let essential = Matrix3::from_fn(|i, j| {
+            let k = 3 * i + j;
+            x * basis[0][k] + y * basis[1][k] + z * basis[2][k] + basis[3][k]
+        });
+        let norm = essential.norm();
+        if norm.is_finite() && norm > 0.0 {
+            solutions[count] = essential / norm;
+            count += 1;
+        }
+    }
+    count
+}
+
+/// The motions (R, t) of an essential matrix that put all five points in front of both cameras.
+pub(crate) fn pose_in_front(
+    essential: &Matrix3<f64>,
+    rays1: &[Vector3<f64>; 5],
+    rays2: &[Vector3<f64>; 5],
+) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+    let (rotations, direction) = rotations_and_direction(essential)?;
+    for rotation in &rotations {
+        // Turning t round flips the signs of both depths.
+        let (first, _) = signed_depths(rotation, &direction, &rays1[0], &rays2[0]);
+        let t = if first > 0.0 { direction } else { -direction };
+        let all = rays1.iter().zip(rays2).all(|(x1, x2)| {
+            let (d1, d2) = signed_depths(rotation, &t, x1, x2);
+            d1 > 0.0 && d2 > 0.0
+        });
+        if all {
+            return Some((*rotation, t));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::essential_from_motion;
+    use super::*;
+    use crate::camera::RigidTransform;
+    use crate::math::random::Random;
+    use nalgebra::{Point3, UnitQuaternion};
+
+    /// PoseLib's generator of problems: a field of view of 75°, depths from 0.1 to 10.
+    pub(crate) fn problem(
+        random: &mut Random,
+    ) -> (RigidTransform, [Vector3<f64>; 5], [Vector3<f64>; 5]) {
+        let reach = libm::tan(37.5_f64.to_radians());
+        loop {
+            let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(
+                random.normal(),
+                random.normal(),
+                random.normal(),
+                random.normal(),
+            ));
+            let t = Vector3::from_fn(|_, _| random.normal()).normalize();
+            let motion = RigidTransform::from_parts(t.into(), rotation);
+            let (mut r1, mut r2) = ([Vector3::z(); 5], [Vector3::z(); 5]);
+            let mut count = 0;
+            // Random views need not overlap.
+            for _ in 0..100 {
+                let (x, y) = (random.uniform(-reach, reach), random.uniform(-reach, reach));
+                let ray = Vector3::new(x, y, 1.0).normalize();
+                let seen = motion * Point3::from(ray * random.uniform(0.1, 10.0));
+                if seen.z > 0.0 && seen.x.abs() < reach * seen.z && seen.y.abs() < reach * seen.z {
+                    (r1[count], r2[count]) = (ray, seen.coords.normalize());
+                    count += 1;
+                    if count == 5 {
+                        return (motion, r1, r2);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ten_thousand_problems() {
+        let mut random = Random::new(1);
+        let (mut found, mut found_pose, mut solutions_total) = (0, 0, 0);
+        for _ in 0..10_000 {
+            let (motion, r1, r2) = problem(&mut random);
+            let truth = essential_from_motion(&motion).unwrap();
+            let solutions = essential_5point(&r1, &r2);
+            solutions_total += solutions.len();
+            let near = |e: &Matrix3<f64>| (e - truth).norm().min((e + truth).norm()) < 1e-6;
+            found += usize::from(solutions.iter().any(near));
+            let rotation = motion.rotation.to_rotation_matrix().into_inner();
+            let t = motion.translation.vector;
+            found_pose += usize::from(solutions.iter().any(|e| {
+                pose_in_front(e, &r1, &r2)
+                    .is_some_and(|(r, d)| (r - rotation).norm() + (d - t).norm() < 1e-6)
+            }));
+        }
+        println!("five points: {found} of 10000, poses {found_pose}, {solutions_total} solutions");
+        assert!(found >= 9990, "{found}");
+        assert!(found_pose >= 9990, "{found_pose}");
+    }
+
+    #[test]
+    fn solutions_are_essential_and_fit() {
+        let mut random = Random::new(2);
+        for _ in 0..200 {
+            let (_, r1, r2) = problem(&mut random);
+            for e in essential_5point(&r1, &r2) {
+                assert!(e.determinant().abs() < 1e-6);
+                for (x1, x2) in r1.iter().zip(&r2) {
+                    assert!(x2.dot(&(e * x1)).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn degenerate_rays_give_finite_matrices() {
+        let same = [Vector3::z(); 5];
+        let line: [Vector3<f64>; 5] = core::array::from_fn(|i| Vector3::new(i as f64, 0.0, 5.0));
+        let bad = [Vector3::from_element(f64::NAN); 5];
+        for (a, b) in [
+            (same, same),
+            (line, line),
+            (same, line),
+            (bad, line),
+            (line, bad),
+        ] {
+            for e in essential_5point(&a, &b) {
+                assert!(e.iter().all(|x| x.is_finite()));
+            }
+        }
+    }
+}

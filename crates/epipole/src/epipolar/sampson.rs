@@ -1,0 +1,336 @@
+//! The Sampson error over many matches at once: for scoring and for least squares.
+//!
+//! The loops below run over lanes of eight matches, which compilers turn into vector
+//! instructions; sums are kept per lane, so the order of additions is fixed.
+
+use crate::math::svd3::perpendicular;
+use crate::optim::RobustLoss;
+use crate::robust::{MatchSet, Support};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+
+pub(crate) const LANES: usize = 8;
+pub(crate) type Lanes = [f64; LANES];
+
+/// Four coordinates of many matches, one list each.
+#[derive(Debug, Clone)]
+pub(crate) struct Coordinates {
+    lists: [Vec<f64>; 4],
+}
+
+impl Coordinates {
+    pub(crate) fn pixels(matches: &MatchSet) -> Self {
+        Self {
+            lists: matches.coordinates().map(<[f64]>::to_vec),
+        }
+    }
+
+    /// The same after moving each image's origin and scaling both alike.
+    pub(crate) fn mapped(&self, frame: &CommonFrame) -> Self {
+        let [c1, c2] = frame.centers;
+        let offsets = [c1[0], c1[1], c2[0], c2[1]];
+        let mut lists = self.lists.clone();
+        for (list, offset) in lists.iter_mut().zip(offsets) {
+            for x in list.iter_mut() {
+                *x = (*x - offset) * frame.scale;
+            }
+        }
+        Self { lists }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.lists[0].len()
+    }
+
+    #[inline(always)]
+    pub(crate) fn at(&self, index: usize) -> [f64; 4] {
+        [0, 1, 2, 3].map(|k| self.lists[k][index])
+    }
+
+    /// Matches `start..start + 8`; beyond the end zeros, and the number of real ones.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, start: usize) -> ([Lanes; 4], usize) {
+        let count = (self.len() - start).min(LANES);
+        let mut lanes = [[0.0; LANES]; 4];
+        if count == LANES {
+            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
+                lane.copy_from_slice(&list[start..start + LANES]);
+            }
+        } else {
+            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
+                lane[..count].copy_from_slice(&list[start..]);
+            }
+        }
+        (lanes, count)
+    }
+}
+
+/// A frame for both images: origins at the centroids, one scale for both, so that a distance d
+/// becomes `scale · d` in either.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CommonFrame {
+    pub(crate) centers: [[f64; 2]; 2],
+    pub(crate) scale: f64,
+}
+
+impl CommonFrame {
+    pub(crate) fn new(matches: &MatchSet) -> Self {
+        let share = 1.0 / matches.len().max(1) as f64;
+        let means = matches
+            .coordinates()
+            .map(|list| list.iter().map(|x| x * share).sum::<f64>());
+        let mut spread = 0.0;
+        for (list, mean) in matches.coordinates().iter().zip(means) {
+            for x in *list {
+                spread += (x - mean) * (x - mean) * share;
+            }
+        }
+        // Four coordinates with mean square 1 each.
+        let scale = (4.0 / spread).sqrt();
+        Self {
+            centers: [[means[0], means[1]], [means[2], means[3]]],
+            scale: if scale.is_finite() { scale } else { 1.0 },
+        }
+    }
+
+    /// T⁻¹ of an image: from the frame back to pixels.
+    pub(crate) fn frame_to_pixels(self, image: usize) -> Matrix3<f64> {
+        let [cu, cv] = self.centers[image];
+        let size = 1.0 / self.scale;
+        Matrix3::new(size, 0.0, cu, 0.0, size, cv, 0.0, 0.0, 1.0)
+    }
+
+    /// T of an image.
+    pub(crate) fn pixels_to_frame(self, image: usize) -> Matrix3<f64> {
+        let [cu, cv] = self.centers[image];
+        let s = self.scale;
+        Matrix3::new(s, 0.0, -s * cu, 0.0, s, -s * cv, 0.0, 0.0, 1.0)
+    }
+
+    pub(crate) fn fundamental_to_frame(self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        self.frame_to_pixels(1).transpose() * f * self.frame_to_pixels(0)
+    }
+
+    pub(crate) fn fundamental_to_pixels(self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)
+    }
+}
+
+/// Entries of F, row by row.
+#[inline(always)]
+pub(crate) fn entries(f: &Matrix3<f64>) -> [f64; 9] {
+    [
+        f[(0, 0)],
+        f[(0, 1)],
+        f[(0, 2)],
+        f[(1, 0)],
+        f[(1, 1)],
+        f[(1, 2)],
+        f[(2, 0)],
+        f[(2, 1)],
+        f[(2, 2)],
+    ]
+}
+
+/// `e²/T²` of eight matches; a match without any epipolar line (0/0) gives NaN.
+#[inline(always)]
+fn relative_errors(f: &[f64; 9], lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
+    let [u1, v1, u2, v2] = lanes;
+    let mut errors = [0.0; LANES];
+    for l in 0..LANES {
+        let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
+        let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
+        let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
+        let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
+        let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
+        let algebraic = u2[l] * a + v2[l] * b + c;
+        let slope_sq = (a * a + b * b) + (p * p + q * q);
+        errors[l] = algebraic * algebraic * per_threshold_sq / slope_sq;
+    }
+    errors
+}
+
+/// The support of F among the matches; stops once the cost exceeds the limit.
+pub(crate) fn support(
+    coordinates: &Coordinates,
+    fundamental: &Matrix3<f64>,
+    max_error: f64,
+    cost_limit: f64,
+) -> Support {
+    let f = entries(fundamental);
+    let per_threshold_sq = 1.0 / (max_error * max_error);
+    let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
+    let mut start = 0;
+    while start < coordinates.len() {
+        // The limit is looked at every 32 matches.
+        for _ in 0..4 {
+            if start >= coordinates.len() {
+                break;
+            }
+            let (lanes, count) = coordinates.lanes(start);
+            let errors = relative_errors(&f, &lanes, per_threshold_sq);
+            if count == LANES {
+                for l in 0..LANES {
+                    // Not a number counts as an outlier.
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
+            } else {
+                for l in 0..count {
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
+            }
+            start += LANES;
+        }
+        if sum(&cost) > cost_limit {
+            break;
+        }
+    }
+    Support {
+        cost: sum(&cost),
+        num_inliers: sum(&inliers) as usize,
+    }
+}
+
+/// Fills `inliers` with the matches within the threshold.
+pub(crate) fn inliers(
+    coordinates: &Coordinates,
+    fundamental: &Matrix3<f64>,
+    max_error: f64,
+    inliers: &mut Vec<usize>,
+) {
+    let f = entries(fundamental);
+    let per_threshold_sq = 1.0 / (max_error * max_error);
+    inliers.clear();
+    for start in (0..coordinates.len()).step_by(LANES) {
+        let (lanes, count) = coordinates.lanes(start);
+        let errors = relative_errors(&f, &lanes, per_threshold_sq);
+        for (l, error) in errors[..count].iter().enumerate() {
+            if *error < 1.0 {
+                inliers.push(start + l);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+pub(crate) fn sum(lanes: &Lanes) -> f64 {
+    ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
+        + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]))
+}
+
+/// `½ Σ ρ(e²)` of the Sampson errors.
+pub(crate) fn cost(
+    coordinates: &Coordinates,
+    fundamental: &Matrix3<f64>,
+    loss: &RobustLoss,
+) -> f64 {
+    let f = entries(fundamental);
+    let mut total = [0.0; LANES];
+    for start in (0..coordinates.len()).step_by(LANES) {
+        let (lanes, count) = coordinates.lanes(start);
+        let errors = relative_errors(&f, &lanes, 1.0);
+        for l in 0..count {
+            total[l] += loss.rho(errors[l]);
+        }
+    }
+    0.5 * sum(&total)
+}
+
+/// The sums of least squares with respect to the nine entries of F, row by row.
+#[derive(Debug, Clone)]
+pub(crate) struct EntrySums {
+    pub(crate) hessian: SMatrix<f64, 9, 9>,
+    pub(crate) gradient: SVector<f64, 9>,
+    pub(crate) cost: f64,
+}
+
+/// Linearizes the Sampson errors of all matches: `r = C/√D` with `C = x2ᵀ F x1`, and
+/// `∂r/∂F = (x2 x1ᵀ − (C/D) ½ ∂D/∂F)/√D`.
+pub(crate) fn linearize(
+    coordinates: &Coordinates,
+    fundamental: &Matrix3<f64>,
+    loss: &RobustLoss,
+) -> EntrySums {
+    let f = entries(fundamental);
+    let mut products = [[0.0; LANES]; 45];
+    let mut gradient = [[0.0; LANES]; 9];
+    let mut total = [0.0; LANES];
+    for start in (0..coordinates.len()).step_by(LANES) {
+        let ([u1, v1, u2, v2], count) = coordinates.lanes(start);
+        let mut jacobian = [[0.0; LANES]; 9];
+        let mut residual = [0.0; LANES];
+        let mut weight = [0.0; LANES];
+        for l in 0..LANES {
+            let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
+            let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
+            let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
+            let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
+            let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
+            let algebraic = u2[l] * a + v2[l] * b + c;
+            let slope_sq = (a * a + b * b) + (p * p + q * q);
+            let per_slope = 1.0 / slope_sq.sqrt();
+            let s = algebraic * per_slope * per_slope;
+            residual[l] = algebraic * per_slope;
+            jacobian[0][l] = (u2[l] * u1[l] - s * (a * u1[l] + p * u2[l])) * per_slope;
+            jacobian[1][l] = (u2[l] * v1[l] - s * (a * v1[l] + q * u2[l])) * per_slope;
+            jacobian[2][l] = (u2[l] - s * a) * per_slope;
+            jacobian[3][l] = (v2[l] * u1[l] - s * (b * u1[l] + p * v2[l])) * per_slope;
+            jacobian[4][l] = (v2[l] * v1[l] - s * (b * v1[l] + q * v2[l])) * per_slope;
+            jacobian[5][l] = (v2[l] - s * b) * per_slope;
+            jacobian[6][l] = (u1[l] - s * p) * per_slope;
+            jacobian[7][l] = (v1[l] - s * q) * per_slope;
+            jacobian[8][l] = per_slope;
+        }
+        for l in 0..count {
+            let error_sq = residual[l] * residual[l];
+            total[l] += loss.rho(error_sq);
+            weight[l] = loss.weight(error_sq);
+        }
+        if count < LANES {
+            // Lanes beyond the end may hold anything, even NaN.
+            for l in count..LANES {
+                residual[l] = 0.0;
+                for entry in &mut jacobian {
+                    entry[l] = 0.0;
+                }
+            }
+        }
+        let mut k = 0;
+        for i in 0..9 {
+            let mut weighted = [0.0; LANES];
+            for l in 0..LANES {
+                weighted[l] = weight[l] * jacobian[i][l];
+                gradient[i][l] += weighted[l] * residual[l];
+            }
+            for other in &jacobian[i..] {
+                for l in 0..LANES {
+                    products[k][l] += weighted[l] * other[l];
+                }
+                k += 1;
+            }
+        }
+    }
+    let mut hessian = SMatrix::zeros();
+    let mut k = 0;
+    for i in 0..9 {
+        for j in i..9 {
+            hessian[(i, j)] = sum(&products[k]);
+            hessian[(j, i)] = hessian[(i, j)];
+            k += 1;
+        }
+    }
+    EntrySums {
+        hessian,
+        gradient: SVector::from_fn(|i, _| sum(&gradient[i])),
+        cost: 0.5 * sum(&total),
+    }
+}
+
+/// Two unit vectors that span the plane perpendicular to a unit vector.
+pub(crate) fn tangent_plane(direction: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = perpendicular(direction);
+    [first, direction.cross(&first)]
+}

@@ -1,0 +1,17 @@
+//! Homographies: what maps a plane from one image to the other, and every pixel if the camera
+//! only turned.
+//!
+//! `x2 ∝ H x1` for matching pixels. H has unit Frobenius norm.
+
+mod decompose;
+mod find;
+mod four_point;
+mod linear;
+mod refine;
+mod sums;
+
+pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
+pub use find::{HomographyEstimator, find_homography};
+pub use four_point::homography_4point;
+pub use linear::{fit_homography, transfer, transfer_error_px, transfer_error_sq};
+pub use refine::refine_homography;
