@@ -31,6 +31,8 @@ pub struct Options {
     /// Whether to make what the browser downloads beside the pages: styles, fonts, scripts,
     /// WebAssembly. A check of the content needs none of it.
     pub assets: bool,
+    /// Look for problems only: write nothing.
+    pub check: bool,
     /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
     pub live: bool,
 }
@@ -85,6 +87,10 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     }
     if !problems.sorted().is_empty() {
         return Ok(Outcome::Problems(problems.sorted()));
+    }
+
+    if options.check {
+        return Ok(Outcome::Built { pages: pages.len(), files: 0 });
     }
 
     let mut files = shared.take_files();
