@@ -8,18 +8,21 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// How the style sheet names fonts, before they have their hashed names.
+const FONT: &str = "stix-two:";
+
 /// The style sheet and the scripts that every page uses.
 pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
-    // The style sheet names fonts as `url("font:math")`; esbuild must leave them alone.
-    let mut css = bundle(tools, "web/theme/book.css", &["--external:font:*"], fast, assets)?;
+    // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
+    let mut css = bundle(tools, "web/theme/book.css", &["--external:stix-two:*"], fast, assets)?;
     let path = css.remove("book").context("esbuild made no style sheet")?;
     let bytes = assets.files.remove(&path).unwrap_or_default();
     let mut text = String::from_utf8(bytes)?;
-    while let Some(start) = text.find("font:") {
+    while let Some(start) = text.find(FONT) {
         let name: String =
-            text[start + 5..].chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+            text[start + FONT.len()..].chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
         let url = fonts::font_url(assets, &name)?;
-        text.replace_range(start..start + 5 + name.len(), &url);
+        text.replace_range(start..start + FONT.len() + name.len(), &url);
     }
     assets.css = add_hashed(&mut assets.files, "book", "css", text.into_bytes());
 
