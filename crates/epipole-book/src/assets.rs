@@ -59,10 +59,35 @@ pub fn used_letters(pages: &[Page]) -> Letters {
         }
         letters.text.extend(rest.chars());
     }
+    let italics: Vec<char> = letters.math.iter().copied().filter_map(math_italic).collect();
+    letters.math.extend(italics);
     for set in [&mut letters.text, &mut letters.math] {
         set.retain(|letter| !letter.is_control());
     }
     letters
+}
+
+/// The letter that a browser draws for a variable: a lone letter in `<mi>` is set in italics, and
+/// the italics of mathematics are letters of their own.
+fn math_italic(letter: char) -> Option<char> {
+    let shifted = |first: char, to: u32| char::from_u32(to + letter as u32 - first as u32);
+    match letter {
+        // U+1D455 was never assigned: its letter is Planck's constant.
+        'h' => Some('\u{210E}'),
+        'A'..='Z' => shifted('A', 0x1D434),
+        'a'..='z' => shifted('a', 0x1D44E),
+        'Α'..='Ω' => shifted('Α', 0x1D6E2),
+        'α'..='ω' => shifted('α', 0x1D6FC),
+        '∂' => Some('\u{1D715}'),
+        'ϵ' => Some('\u{1D716}'),
+        'ϑ' => Some('\u{1D717}'),
+        'ϕ' => Some('\u{1D719}'),
+        'ϱ' => Some('\u{1D71A}'),
+        'ϖ' => Some('\u{1D71B}'),
+        'ı' => Some('\u{1D6A4}'),
+        'ȷ' => Some('\u{1D6A5}'),
+        _ => None,
+    }
 }
 
 /// Makes everything.
@@ -161,6 +186,10 @@ mod tests {
         assert!(letters.math.contains(&'𝐱') && !letters.text.contains(&'𝐱'));
         assert!(letters.text.contains(&'α') && letters.text.contains(&'γ'));
         assert!(!letters.math.contains(&'α'));
+        assert!(letters.math.contains(&'𝐹') && letters.math.contains(&'ℎ'));
+        assert_eq!(math_italic('z'), Some('𝑧'));
+        assert_eq!(math_italic('ω'), Some('𝜔'));
+        assert_eq!(math_italic('1'), None);
     }
 
     #[test]
