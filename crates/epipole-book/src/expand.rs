@@ -129,7 +129,7 @@ fn figure(
         directive.settings.iter().filter(|(key, _)| !of_builder(key)).cloned().collect();
     let id = match directive.settings.iter().find(|(key, _)| key == "id") {
         Some((_, id)) => id.clone(),
-        None => format!("fig-{name}"),
+        None => renderer.page.figure_id(&name),
     };
     let figure = shared.gallery.open(&name, &settings).map_err(|error| format!("figure {name}: {error}"))?;
     let number = renderer.page.next_figure_number();

@@ -1,5 +1,6 @@
 //! LaTeX to MathML, at build time: no script on the page, selectable, readable by screen readers.
 
+use crate::html::escape;
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
 
@@ -25,17 +26,19 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let events: Vec<_> = Parser::new(latex, &storage)
         .collect::<Result<_, _>>()
         .map_err(|error| one_line(&error.to_string()))?;
+    let annotation = escape(latex);
     let config = RenderConfig {
         display_mode: match layout {
             Layout::Inline => DisplayMode::Inline,
             Layout::Display => DisplayMode::Block,
         },
-        annotation: Some(latex),
+        annotation: Some(&annotation),
         ..RenderConfig::default()
     };
     let mut html = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
+    let html = escape_leaves(&html);
     if html.contains("<merror") || html.contains(" style=") {
         return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());
     }
@@ -43,6 +46,41 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
         Layout::Inline => html,
         Layout::Display => format!("<span class=\"formula\">{html}</span>"),
     })
+}
+
+/// The renderer writes operators and words as they are: `<mo><</mo>`. This escapes what stands
+/// inside the elements that hold text.
+fn escape_leaves(html: &str) -> String {
+    let mut escaped = String::with_capacity(html.len());
+    let mut rest = html;
+    while let Some(open) = rest.find("<m") {
+        let name: String =
+            rest[open + 1..].chars().take_while(char::is_ascii_alphabetic).collect();
+        let Some(end) = rest[open..].find('>') else { break };
+        let inside = open + end + 1;
+        let close = format!("</{name}>");
+        let is_leaf = matches!(name.as_str(), "mi" | "mn" | "mo" | "mtext" | "ms");
+        match rest[inside..].find(&close).filter(|_| is_leaf) {
+            Some(length) => {
+                escaped.push_str(&rest[..inside]);
+                escaped.push_str(&escape_once(&rest[inside..inside + length]));
+                escaped.push_str(&close);
+                rest = &rest[inside + length + close.len()..];
+            }
+            None => {
+                escaped.push_str(&rest[..inside]);
+                rest = &rest[inside..];
+            }
+        }
+    }
+    escaped.push_str(rest);
+    escaped
+}
+
+/// Escapes what is not yet escaped.
+fn escape_once(text: &str) -> String {
+    let plain = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    escape(&plain)
 }
 
 fn one_line(text: &str) -> String {
@@ -81,6 +119,8 @@ mod tests {
     #[test]
     fn the_annotation_is_escaped() {
         let html = mathml("a < b", Layout::Inline).unwrap();
-        assert!(html.contains("a &lt; b"), "{html}");
+        assert!(html.contains("a &lt; b") && html.contains("<mo>&lt;</mo>"), "{html}");
+        let html = mathml(r"\text{if } a \& b <c", Layout::Inline).unwrap();
+        assert!(html.contains("&amp;</m") && !html.contains("<c"), "{html}");
     }
 }

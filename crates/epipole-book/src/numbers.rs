@@ -1,12 +1,13 @@
 //! Every number that a chapter prints and the core can compute.
 //!
-//! A chapter writes `{{#value camera.project-u f=500 cu=320 x=0.1 z=2}}`; the name stands here,
-//! with what it needs and the core's function. `digits=` sets the decimals. An unknown name or
+//! A chapter writes `{{#value ransac.trials s=2 w=0.5 p=0.99}}`; the name stands in
+//! [`registry`], with what it needs and the core's function. `digits=` sets the decimals. An unknown name or
 //! parameter fails the build, so prose cannot drift away from the code.
 
+mod registry;
+
 use crate::problems::name_list;
-use epipole::camera::Intrinsics;
-use nalgebra::Point3;
+pub use registry::REGISTRY;
 
 /// A number as the core gives it, and how many decimals to print.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,22 +40,16 @@ impl Arguments<'_> {
         let index = self.names.iter().position(|known| *known == name);
         index.and_then(|index| self.values.get(index).copied()).unwrap_or(f64::NAN)
     }
-}
 
-/// All numbers that chapters may print.
-pub const REGISTRY: &[Entry] = &[Entry {
-    name: "camera.project-u",
-    parameters: &["f", "cu", "x", "z"],
-    summary: "column of a point at (x, 0, z), focal length f and principal point cu in pixels",
-    compute: |a| {
-        let camera = Intrinsics::new(a.get("f"), a.get("f"), a.get("cu"), 0.0).map_err(sentence)?;
-        let point = Point3::new(a.get("x"), 0.0, a.get("z"));
-        Ok(Number::Real(camera.project(&point).map_err(sentence)?.x, 1))
-    },
-}];
-
-fn sentence(error: epipole::Error) -> String {
-    error.to_string()
+    /// A parameter that counts something.
+    fn count(&self, name: &str) -> Result<usize, String> {
+        let value = self.get(name);
+        if value >= 0.0 && value < 1e9 && value == value.trunc() {
+            Ok(value as usize)
+        } else {
+            Err(format!("{name}={value} is not a count"))
+        }
+    }
 }
 
 /// The text of a number: `name` and `settings` as an author writes them.
@@ -140,12 +135,50 @@ mod tests {
     /// The worked examples of the book. Each can be checked by hand.
     #[test]
     fn worked_numbers() {
+        let pair = "f=500 cu=320 cv=240 tx=-0.2 ty=0 tz=-0.5";
+        let matched = format!("{pair} u=400 v=300 u2=362 v2=324 digits=2");
+        let mut used = Vec::new();
         for (call, expected) in [
             // 320 + 500 · 0.1 / 2
             ("camera.project-u f=500 cu=320 x=0.1 z=2", "345.0"),
-            ("camera.project-u f=500 cu=320 x=0.1 z=2 digits=0", "345"),
+            // 320 + 500 · (−0.2) / (−0.5), and 240.
+            (&format!("epipolar.epipole2-u {pair}"), "520"),
+            (&format!("epipolar.epipole2-v {pair}"), "240"),
+            // From (400, 300) to (520, 240); from (420, 340) to (520, 240).
+            (&format!("epipolar.slope {pair} u=400 v=300 digits=1"), "-0.5"),
+            (&format!("epipolar.slope {pair} u=420 v=340 digits=2"), "-1.00"),
+            // (362 + 2 · 324 − 1000) / √5
+            (&format!("epipolar.distance2-px {matched}"), "4.47"),
+            // NumPy: |x2ᵀ F x1| / √((Fx1)₁² + (Fx1)₂² + (Fᵀx2)₁² + (Fᵀx2)₂²), F = K⁻ᵀ [t]ₓ K⁻¹
+            (&format!("epipolar.sampson-px {matched}"), "2.68"),
+            // The table of scikit-image's `dynamic_max_trials`.
+            ("ransac.trials s=2 w=0.95 p=0.99", "2"),
+            ("ransac.trials s=2 w=0.9 p=0.99", "3"),
+            ("ransac.trials s=2 w=0.7 p=0.99", "7"),
+            ("ransac.trials s=2 w=0.5 p=0.99", "17"),
+            ("ransac.trials s=8 w=0.9 p=0.99", "9"),
+            ("ransac.trials s=8 w=0.7 p=0.99", "78"),
+            ("ransac.trials s=8 w=0.5 p=0.99", "1177"),
+            ("ransac.trials-exact s=2 w=0.5 p=0.99 digits=3", "16.008"),
+            // 1 − 0.75¹⁶
+            ("ransac.confidence-percent s=2 w=0.5 n=16 digits=3", "98.998"),
+            // COLMAP's test of RANSAC.
+            ("ransac.trials-without-replacement inliers=10 data=100 s=3 p=0.99", "6204"),
+            ("ransac.trials-without-replacement inliers=50 data=100 s=3 p=0.99", "36"),
+            ("stereo.disparity left=410 right=380", "30"),
+            // 700 · 0.12 = 84
+            ("stereo.depth f=700 b=0.12 d=30 digits=2", "2.80"),
+            ("stereo.depth f=700 b=0.12 d=60 digits=2", "1.40"),
+            ("stereo.depth f=700 b=0.12 d=3 digits=1", "28.0"),
+            ("stereo.depth f=700 b=0.12 d=4 digits=1", "21.0"),
+            // 100 / 42
+            ("stereo.depth-error f=700 b=0.06 z=10 digits=1", "2.4"),
         ] {
             assert_eq!(printed(call).as_deref(), Ok(expected), "{call}");
+            used.push(call.split(' ').next().unwrap().to_owned());
+        }
+        for entry in REGISTRY {
+            assert!(used.iter().any(|name| name == entry.name), "{} is not pinned", entry.name);
         }
     }
 
@@ -161,13 +194,17 @@ mod tests {
     #[test]
     fn mistakes_are_sentences() {
         for (call, part) in [
-            ("nosuch", "unknown number \"nosuch\"; known numbers: camera.project-u"),
+            ("nosuch", "unknown number \"nosuch\"; known numbers: camera.project-u, epipolar.epipole2-u"),
             ("camera.project-u f=1 cu=1 x=1 w=1", "has no parameter \"w\"; its parameters: f, cu"),
             ("camera.project-u f=1 cu=1 x=1", "needs z=…"),
             ("camera.project-u f=1 cu=1 x=1 z=two", "z=two is not a number"),
             ("camera.project-u f=1 cu=1 x=1 z=NaN", "z=NaN is not a finite number"),
             ("camera.project-u f=1 cu=1 x=1 z=-1", "not in front of the camera"),
             ("camera.project-u f=1 cu=1 x=1 z=1 digits=-1", "not a small whole number"),
+            ("ransac.trials s=2.5 w=0.5 p=0.99", "s=2.5 is not a count"),
+            ("ransac.trials s=2 w=1.5 p=0.99", "the share of inliers"),
+            ("stereo.depth f=700 b=0.12 d=0", "infinitely far away"),
+            ("epipolar.epipole2-u f=500 cu=320 cv=240 tx=1 ty=0 tz=0", "infinitely far away"),
         ] {
             let message = printed(call).unwrap_err();
             assert!(message.contains(part), "{call}: {message}");
