@@ -3,7 +3,8 @@
 
 const KEY = "epipole-theme";
 const root = document.documentElement;
-const system = matchMedia("(prefers-color-scheme: dark)");
+const DARK = "(prefers-color-scheme: dark)";
+const system = matchMedia(DARK);
 
 function isDark(): boolean {
   return root.dataset.theme ? root.dataset.theme === "dark" : system.matches;
@@ -14,7 +15,11 @@ function apply(button: HTMLButtonElement | null): void {
   const dark = isDark();
   button?.setAttribute("aria-pressed", String(dark));
   for (const source of document.querySelectorAll<HTMLSourceElement>("picture > source[media]")) {
-    source.media = root.dataset.theme ? (dark ? "all" : "not all") : "(prefers-color-scheme: dark)";
+    source.dataset.media ??= source.media;
+    const media = source.dataset.media;
+    if (!media.includes(DARK)) continue;
+    const chosen = dark ? media.replace(` and ${DARK}`, "").replace(DARK, "all") : "not all";
+    source.media = root.dataset.theme ? chosen : media;
   }
   for (const meta of document.querySelectorAll<HTMLMetaElement>('meta[name="theme-color"]')) {
     meta.dataset.system ??= meta.content;

@@ -47,19 +47,28 @@ pub fn used_letters(pages: &[Page]) -> Letters {
     let mut letters = Letters::default();
     // What the theme, the scripts and the readers' own numbers need.
     letters.text.extend(' '..='~');
-    letters.text.extend("–—‘’“”…·×−±°√≤≥≈→←↑↓✓✗“”«»§ \u{a0}\u{202f}".chars());
+    letters
+        .text
+        .extend("–—‘’“”…·×−±°√≤≥≈→←↑↓✓✗“”«»§ \u{a0}\u{202f}".chars());
     letters.math.extend(' '..='~');
     for page in pages {
         let mut rest = page.html.as_str();
         while let Some(start) = rest.find("<math") {
-            let end = rest[start..].find("</math>").map_or(rest.len(), |end| start + end);
+            let end = rest[start..]
+                .find("</math>")
+                .map_or(rest.len(), |end| start + end);
             letters.text.extend(rest[..start].chars());
             letters.math.extend(rest[start..end].chars());
             rest = &rest[end..];
         }
         letters.text.extend(rest.chars());
     }
-    let italics: Vec<char> = letters.math.iter().copied().filter_map(math_italic).collect();
+    let italics: Vec<char> = letters
+        .math
+        .iter()
+        .copied()
+        .filter_map(math_italic)
+        .collect();
     letters.math.extend(italics);
     for set in [&mut letters.text, &mut letters.math] {
         set.retain(|letter| !letter.is_control());
@@ -99,16 +108,23 @@ pub fn make(options: &Options, letters: &Letters) -> Result<Assets> {
     let mut assets = Assets::default();
     fonts::add(&tools, letters, &mut assets)?;
     scripts::add_pages(&tools, options.live, &mut assets)?;
-    if options.project.join("crates/epipole-web/Cargo.toml").is_file() {
+    if options
+        .project
+        .join("crates/epipole-web/Cargo.toml")
+        .is_file()
+    {
         let module = wasm::make(&tools, options.live)?;
         scripts::add_elements(&tools, &module, options.live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
-    for (name, file) in [
-        ("OFL-STIX-Two.txt", "web/node_modules/@fontsource/stix-two-math/LICENSE"),
-    ] {
-        assets.files.insert(format!("licenses/{name}"), read(&tools.project.join(file))?);
+    for (name, file) in [(
+        "OFL-STIX-Two.txt",
+        "web/node_modules/@fontsource/stix-two-math/LICENSE",
+    )] {
+        assets
+            .files
+            .insert(format!("licenses/{name}"), read(&tools.project.join(file))?);
     }
     Ok(assets)
 }
@@ -130,7 +146,11 @@ impl Tools {
         }
         let work = target_folder(&project).join("book-work");
         std::fs::create_dir_all(&work)?;
-        Ok(Tools { project, modules, work })
+        Ok(Tools {
+            project,
+            modules,
+            work,
+        })
     }
 
     /// Runs a command and returns its standard output; what it says on failure is the error.
@@ -141,7 +161,10 @@ impl Tools {
             .output()
             .with_context(|| format!("{name} cannot be started: is it installed?"))?;
         if !output.status.success() {
-            bail!("{name} failed:\n{}", String::from_utf8_lossy(&output.stderr).trim());
+            bail!(
+                "{name} failed:\n{}",
+                String::from_utf8_lossy(&output.stderr).trim()
+            );
         }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
@@ -182,7 +205,10 @@ mod tests {
     #[test]
     fn letters_of_formulas_and_text_are_told_apart() {
         let html = "<p>αβ <math><mi>𝐱</mi></math>γ</p>".to_owned();
-        let letters = used_letters(&[Page { html, ..Page::default() }]);
+        let letters = used_letters(&[Page {
+            html,
+            ..Page::default()
+        }]);
         assert!(letters.math.contains(&'𝐱') && !letters.text.contains(&'𝐱'));
         assert!(letters.text.contains(&'α') && letters.text.contains(&'γ'));
         assert!(!letters.math.contains(&'α'));

@@ -6,7 +6,17 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-const TEXTUAL: &[&str] = &["css", "html", "js", "json", "svg", "txt", "wasm", "webmanifest", "xml"];
+const TEXTUAL: &[&str] = &[
+    "css",
+    "html",
+    "js",
+    "json",
+    "svg",
+    "txt",
+    "wasm",
+    "webmanifest",
+    "xml",
+];
 
 /// Adds the compressed copies. `fast` trades size for time.
 ///
@@ -45,7 +55,11 @@ pub fn brotli(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
 }
 
 fn gzip(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
-    let level = if fast { flate2::Compression::fast() } else { flate2::Compression::best() };
+    let level = if fast {
+        flate2::Compression::fast()
+    } else {
+        flate2::Compression::best()
+    };
     let mut writer = flate2::write::GzEncoder::new(Vec::new(), level);
     writer.write_all(bytes)?;
     Ok(writer.finish()?)
@@ -64,12 +78,19 @@ mod tests {
             ("a.webp".to_owned(), text.clone()),
         ]);
         add(&mut files, false).unwrap();
-        assert_eq!(files.keys().collect::<Vec<_>>(), ["a.html", "a.html.br", "a.html.gz", "a.webp"]);
+        assert_eq!(
+            files.keys().collect::<Vec<_>>(),
+            ["a.html", "a.html.br", "a.html.gz", "a.webp"]
+        );
         let mut unpacked = Vec::new();
-        brotli::Decompressor::new(&files["a.html.br"][..], 4096).read_to_end(&mut unpacked).unwrap();
+        brotli::Decompressor::new(&files["a.html.br"][..], 4096)
+            .read_to_end(&mut unpacked)
+            .unwrap();
         assert_eq!(unpacked, text);
         unpacked.clear();
-        flate2::read::GzDecoder::new(&files["a.html.gz"][..]).read_to_end(&mut unpacked).unwrap();
+        flate2::read::GzDecoder::new(&files["a.html.gz"][..])
+            .read_to_end(&mut unpacked)
+            .unwrap();
         assert_eq!(unpacked, text);
     }
 }

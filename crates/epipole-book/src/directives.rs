@@ -146,7 +146,13 @@ fn parse(text: &str, span: Range<usize>) -> Result<Directive, String> {
             None => return Err(format!("`{token}`: a setting is written `key=value`")),
         }
     }
-    Ok(Directive { name, words, settings, body, span })
+    Ok(Directive {
+        name,
+        words,
+        settings,
+        body,
+        span,
+    })
 }
 
 fn bar_outside_quotes(text: &str) -> Option<usize> {
@@ -204,19 +210,26 @@ mod tests {
 
     #[test]
     fn words_settings_and_body() {
-        let text = "{{#figure epipolar-click baseline=0.3 label=\"two words\" | A $x_{1_{2}}$ *b*.}}";
+        let text =
+            "{{#figure epipolar-click baseline=0.3 label=\"two words\" | A $x_{1_{2}}$ *b*.}}";
         let directive = only_directive(text);
         assert_eq!(directive.name, "figure");
         assert_eq!(directive.words, ["epipolar-click"]);
         let settings = [("baseline", "0.3"), ("label", "two words")];
-        assert_eq!(directive.settings, settings.map(|(k, v)| (k.to_owned(), v.to_owned())));
+        assert_eq!(
+            directive.settings,
+            settings.map(|(k, v)| (k.to_owned(), v.to_owned()))
+        );
         assert_eq!(&text[directive.body.unwrap()], "A $x_{1_{2}}$ *b*.");
     }
 
     #[test]
     fn a_body_may_hold_directives() {
         let text = "{{#note | {{#value a b=1}} and {{#cite c}}}}";
-        assert_eq!(&text[only_directive(text).body.unwrap()], "{{#value a b=1}} and {{#cite c}}");
+        assert_eq!(
+            &text[only_directive(text).body.unwrap()],
+            "{{#value a b=1}} and {{#cite c}}"
+        );
     }
 
     #[test]
@@ -225,13 +238,24 @@ mod tests {
             assert_eq!(split_text(text), [Piece::Text(0..text.len())]);
         }
         let text = r"a \{{#value b}}";
-        assert_eq!(split_text(text), [Piece::Text(0..2), Piece::Text(3..text.len())]);
+        assert_eq!(
+            split_text(text),
+            [Piece::Text(0..2), Piece::Text(3..text.len())]
+        );
     }
 
     #[test]
     fn what_is_broken_says_so() {
-        for text in ["{{#value a", "{{#}}", "{{#value a=1 b}}", "{{#value \"a}}", "{{#value =1}}"] {
-            let broken = split_text(text).iter().any(|piece| matches!(piece, Piece::Broken(..)));
+        for text in [
+            "{{#value a",
+            "{{#}}",
+            "{{#value a=1 b}}",
+            "{{#value \"a}}",
+            "{{#value =1}}",
+        ] {
+            let broken = split_text(text)
+                .iter()
+                .any(|piece| matches!(piece, Piece::Broken(..)));
             assert!(broken, "{text}");
         }
     }

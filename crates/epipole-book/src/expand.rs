@@ -13,7 +13,7 @@
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
 use crate::directives::Directive;
-use crate::figures::{Poster, Shade};
+use crate::figures::{Figure, Poster, Room, Shade};
 use crate::html::{escape, path_to_root};
 use crate::markdown::Renderer;
 use crate::page::FigureEntry;
@@ -22,9 +22,19 @@ use crate::references::cite;
 use crate::shared::{PAGE_OF_REFERENCES, QuizEntry, token};
 use crate::source::Source;
 use crate::{numbers, quiz};
+use rayon::prelude::*;
 
-const KNOWN: [&str; 9] =
-    ["cite", "figure", "include", "note", "progress", "quiz", "ref", "references", "value"];
+const KNOWN: [&str; 9] = [
+    "cite",
+    "figure",
+    "include",
+    "note",
+    "progress",
+    "quiz",
+    "ref",
+    "references",
+    "value",
+];
 
 /// The HTML that takes a directive's place.
 pub(crate) enum Insert {
@@ -49,7 +59,9 @@ impl Insert {
     pub(crate) fn html(&self) -> String {
         match self {
             Insert::Value(text) => {
-                let shown = text.strip_prefix('-').map_or(text.clone(), |rest| format!("−{rest}"));
+                let shown = text
+                    .strip_prefix('-')
+                    .map_or(text.clone(), |rest| format!("−{rest}"));
                 format!("<span class=\"value\">{}</span>", escape(&shown))
             }
             Insert::Inline { html, .. } | Insert::Block { html } => html.clone(),
@@ -73,39 +85,81 @@ pub(crate) fn expand(
         "value" => {
             numbers::print(&one_word("name key=value …")?, &directive.settings).map(Insert::Value)
         }
-        "figure" => figure(renderer, directive, one_word("name key=value … | caption")?, body, place),
+        "figure" => figure(
+            renderer,
+            directive,
+            one_word("name key=value … | caption")?,
+            body,
+            place,
+        ),
         "ref" => {
             let id = one_word("figure-id")?;
             renderer.shared.wants_figure(&id, place);
-            let html = format!("<a class=\"ref\" href=\"{}\">{}</a>", token("figure-page", &id), token("figure-number", &id));
-            Ok(Insert::Inline { html, text: String::new() })
+            let html = format!(
+                "<a class=\"ref\" href=\"{}\">{}</a>",
+                token("figure-page", &id),
+                token("figure-number", &id)
+            );
+            Ok(Insert::Inline {
+                html,
+                text: String::new(),
+            })
         }
         "cite" => {
             if words.is_empty() {
                 return Err("write {{#cite key …}}".to_owned());
             }
-            renderer.shared.wants_references(place);
+            if words
+                .iter()
+                .any(|key| renderer.shared.references.label(key).is_some())
+            {
+                renderer.shared.wants_references(place);
+            }
             let locator = body.map(|body| body.text().to_owned());
             let shared = renderer.shared;
             let page = token(PAGE_OF_REFERENCES, "");
-            let html =
-                cite(words, locator.as_deref(), &shared.references, &page, place, shared.problems);
-            let labels: Vec<String> = words.iter().filter_map(|key| shared.references.label(key)).collect();
-            Ok(Insert::Inline { html, text: labels.join("; ") })
+            let html = cite(
+                words,
+                locator.as_deref(),
+                &shared.references,
+                &page,
+                place,
+                shared.problems,
+            );
+            let labels: Vec<String> = words
+                .iter()
+                .filter_map(|key| shared.references.label(key))
+                .collect();
+            Ok(Insert::Inline {
+                html,
+                text: labels.join("; "),
+            })
         }
         "note" => {
-            let Some(body) = body else { return Err("write {{#note | text}}".to_owned()) };
+            let Some(body) = body else {
+                return Err("write {{#note | text}}".to_owned());
+            };
             let html = renderer.inline(&body);
-            Ok(Insert::Inline { html: renderer.note(&html), text: String::new() })
+            Ok(Insert::Inline {
+                html: renderer.note(&html),
+                text: String::new(),
+            })
         }
         "quiz" => quiz_block(renderer, &one_word("name")?),
         "references" => {
             renderer.page.has_references = true;
-            Ok(Insert::Block { html: renderer.shared.references.list() })
+            Ok(Insert::Block {
+                html: renderer.shared.references.list(),
+            })
         }
-        "progress" => Ok(Insert::Block { html: token("progress", "") }),
+        "progress" => Ok(Insert::Block {
+            html: token("progress", ""),
+        }),
         "include" => Err("{{#include}} could not be read".to_owned()),
-        other => Err(format!("unknown directive \"{other}\"; known: {}", name_list(&KNOWN))),
+        other => Err(format!(
+            "unknown directive \"{other}\"; known: {}",
+            name_list(&KNOWN)
+        )),
     }
 }
 
@@ -119,31 +173,40 @@ fn figure(
     let shared = renderer.shared;
     let names = shared.gallery.names();
     if !names.contains(&name) {
-        return Err(format!("unknown figure \"{name}\"; known figures: {}", name_list(&names)));
+        return Err(format!(
+            "unknown figure \"{name}\"; known figures: {}",
+            name_list(&names)
+        ));
     }
     let Some(caption) = caption else {
-        return Err(format!("figure {name} needs a caption: {{{{#figure {name} … | caption}}}}"));
+        return Err(format!(
+            "figure {name} needs a caption: {{{{#figure {name} … | caption}}}}"
+        ));
     };
     let of_builder = |key: &str| key == "id";
-    let settings: Vec<(String, String)> =
-        directive.settings.iter().filter(|(key, _)| !of_builder(key)).cloned().collect();
+    let settings: Vec<(String, String)> = directive
+        .settings
+        .iter()
+        .filter(|(key, _)| !of_builder(key))
+        .cloned()
+        .collect();
     let id = match directive.settings.iter().find(|(key, _)| key == "id") {
         Some((_, id)) => id.clone(),
         None => renderer.page.figure_id(&name),
     };
-    let figure = shared.gallery.open(&name, &settings).map_err(|error| format!("figure {name}: {error}"))?;
+    let figure = shared
+        .gallery
+        .open(&name, &settings)
+        .map_err(|error| format!("figure {name}: {error}"))?;
     let number = renderer.page.next_figure_number();
-    let entry = FigureEntry { id: id.clone(), number: number.clone(), place: place.clone() };
+    let entry = FigureEntry {
+        id: id.clone(),
+        number: number.clone(),
+        place: place.clone(),
+    };
     renderer.page.figures.push(entry);
 
-    let (light, dark) = rayon::join(
-        || figure.poster(Shade::Light, POSTER_SCALE).and_then(|poster| webp(&poster)),
-        || figure.poster(Shade::Dark, POSTER_SCALE).and_then(|poster| webp(&poster)),
-    );
-    let root = path_to_root(&renderer.page.path);
-    let light = shared.add_asset(&format!("figures/{name}-light"), "webp", light?);
-    let dark = shared.add_asset(&format!("figures/{name}-dark"), "webp", dark?);
-    let (width, height) = figure.size();
+    let posters = posters(figure.as_ref(), &name, renderer)?;
     let description = figure.description();
     renderer.page.words.push_str(&description);
     renderer.page.words.push(' ');
@@ -153,17 +216,24 @@ fn figure(
         .map(|(key, value)| format!(" {}=\"{}\"", escape(key), escape(value)))
         .collect();
     // The first figure of a page may be in sight at once; the others can wait.
-    let loading = if renderer.page.figures.len() == 1 { "eager" } else { "lazy" };
+    let loading = if renderer.page.figures.len() == 1 {
+        "eager"
+    } else {
+        "lazy"
+    };
     let html = format!(
         "<figure class=\"epipole\" id=\"{id}\">\n\
          <epipole-figure name=\"{name}\"{attributes}>\
-         <picture><source srcset=\"{root}{dark}\" media=\"(prefers-color-scheme: dark)\">\
-         <img src=\"{root}{light}\" alt=\"{alt}\" width=\"{width}\" height=\"{height}\" \
+         <picture>{sources}<img src=\"{src}\" alt=\"{alt}\" width=\"{width}\" height=\"{height}\" \
          loading=\"{loading}\" decoding=\"async\"></picture></epipole-figure>\n\
          <figcaption><a class=\"figure-number\" href=\"#{id}\">Figure {number}</a> {caption}</figcaption>\n\
          </figure>\n",
         id = escape(&id),
         alt = escape(&description),
+        sources = posters.sources,
+        src = posters.src,
+        width = posters.size.0,
+        height = posters.size.1,
     );
     Ok(Insert::Block { html })
 }
@@ -171,25 +241,93 @@ fn figure(
 /// Device pixels of a poster to a CSS pixel.
 const POSTER_SCALE: u32 = 2;
 
-fn webp(poster: &Poster) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    // An opaque picture is smaller without its alpha channel.
-    let opaque = poster.rgba.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX);
-    let encoder = image::codecs::webp::WebPEncoder::new_lossless(&mut bytes);
-    let result = if opaque {
-        let rgb: Vec<u8> =
-            poster.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].iter().copied()).collect();
-        encoder.encode(&rgb, poster.width, poster.height, image::ExtendedColorType::Rgb8)
-    } else {
-        encoder.encode(&poster.rgba, poster.width, poster.height, image::ExtendedColorType::Rgba8)
-    };
-    result.map_err(|error| format!("the poster could not be encoded: {error}"))?;
-    Ok(bytes)
+/// The posters of a figure for wide and narrow pages, light and dark.
+struct Posters {
+    /// `<source>`s for all but wide and light.
+    sources: String,
+    /// Wide and light.
+    src: String,
+    /// Of `src`, CSS pixels.
+    size: (u32, u32),
 }
+
+/// Narrower pages get the poster for phones: the width below which the text has no margin.
+const NARROW: &str = "(max-width: 38rem)";
+const DARK: &str = "(prefers-color-scheme: dark)";
+
+fn posters(figure: &dyn Figure, name: &str, renderer: &Renderer) -> Result<Posters, String> {
+    let variants = [
+        (
+            Room::Narrow,
+            Shade::Dark,
+            "narrow-dark",
+            format!("{NARROW} and {DARK}"),
+        ),
+        (
+            Room::Narrow,
+            Shade::Light,
+            "narrow-light",
+            NARROW.to_owned(),
+        ),
+        (Room::Wide, Shade::Dark, "dark", DARK.to_owned()),
+        (Room::Wide, Shade::Light, "light", String::new()),
+    ];
+    let drawn: Vec<(Vec<u8>, (u32, u32))> = variants
+        .par_iter()
+        .map(|(room, shade, _, _)| {
+            let poster = figure.poster(*shade, *room, POSTER_SCALE)?;
+            let size = (poster.width / POSTER_SCALE, poster.height / POSTER_SCALE);
+            Ok((webp(&poster)?, size))
+        })
+        .collect::<Result<_, String>>()?;
+    let root = path_to_root(&renderer.page.path);
+    let mut posters = Posters {
+        sources: String::new(),
+        src: String::new(),
+        size: (0, 0),
+    };
+    for ((_, _, suffix, media), (bytes, size)) in variants.iter().zip(drawn) {
+        let path = renderer
+            .shared
+            .add_asset(&format!("figures/{name}-{suffix}"), "webp", bytes);
+        let (width, height) = size;
+        if media.is_empty() {
+            (posters.src, posters.size) = (format!("{root}{path}"), size);
+        } else {
+            posters.sources.push_str(&format!(
+                "<source srcset=\"{root}{path}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
+            ));
+        }
+    }
+    Ok(posters)
+}
+
+/// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs lossy.
+fn webp(poster: &Poster) -> Result<Vec<u8>, String> {
+    let encoder = webp::Encoder::from_rgba(&poster.rgba, poster.width, poster.height);
+    let encode = |lossless: bool| {
+        encoder
+            .encode_simple(lossless, POSTER_QUALITY)
+            .map_err(|error| format!("the poster could not be encoded: {error:?}"))
+    };
+    let (lossless, lossy) = (encode(true)?, encode(false)?);
+    let smaller = if lossless.len() <= lossy.len() {
+        lossless
+    } else {
+        lossy
+    };
+    Ok(smaller.to_vec())
+}
+
+/// Of 100; text on photographs stays crisp at two device pixels to a CSS pixel.
+const POSTER_QUALITY: f32 = 84.0;
 
 fn quiz_block(renderer: &mut Renderer, name: &str) -> Result<Insert, String> {
     let shared = renderer.shared;
-    if !name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-') {
+    if !name
+        .chars()
+        .all(|letter| letter.is_ascii_alphanumeric() || letter == '-')
+    {
         return Err(format!("\"{name}\" is not the name of a quiz"));
     }
     let Some(source) = shared.read(&format!("quizzes/{name}.toml")) else {
@@ -199,6 +337,11 @@ fn quiz_block(renderer: &mut Renderer, name: &str) -> Result<Insert, String> {
     let (html, questions) = quiz::render(name, &source, &mut inline, shared.problems);
     let page = renderer.page.path.clone();
     let title = renderer.page.title.clone();
-    shared.add_quiz(QuizEntry { name: name.to_owned(), page, title, questions });
+    shared.add_quiz(QuizEntry {
+        name: name.to_owned(),
+        page,
+        title,
+        questions,
+    });
     Ok(Insert::Block { html })
 }

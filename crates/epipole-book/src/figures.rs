@@ -3,9 +3,9 @@
 //! The rest of the builder knows only the two traits here, so its tests can bring their own
 //! figures.
 
+use epipole_widgets::POSTER_WIDTH;
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
-use epipole_widgets::POSTER_WIDTH;
 
 /// The look of a poster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +14,25 @@ pub enum Shade {
     Light,
     /// Light marks on a dark ground.
     Dark,
+}
+
+/// The page that a poster is for: figures lay themselves out for its width.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Room {
+    /// A page with room beside the text.
+    Wide,
+    /// A phone.
+    Narrow,
+}
+
+impl Room {
+    /// CSS pixels from the left to the right edge of a poster.
+    pub fn width(self) -> u32 {
+        match self {
+            Room::Wide => POSTER_WIDTH as u32,
+            Room::Narrow => 340,
+        }
+    }
 }
 
 /// A picture of a figure, drawn without a browser.
@@ -43,14 +62,11 @@ pub trait Figure: Send + Sync {
     /// What it shows now, in one or two sentences: the alternative text of the poster.
     fn description(&self) -> String;
 
-    /// Its size on the page, CSS pixels.
-    fn size(&self) -> (u32, u32);
-
-    /// The drawing, `scale` device pixels to a CSS pixel.
+    /// The drawing, [`Room::width`] CSS pixels wide with `scale` device pixels to each.
     ///
     /// # Errors
     /// A sentence.
-    fn poster(&self, shade: Shade, scale: u32) -> Result<Poster, String>;
+    fn poster(&self, shade: Shade, room: Room, scale: u32) -> Result<Poster, String>;
 }
 
 /// A gallery without figures.
@@ -76,12 +92,10 @@ impl Gallery for Widgets {
 
     fn open(&self, name: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
         let figure = open(name, settings)?;
-        let height = figure.layout(POSTER_WIDTH).height;
         Ok(Box::new(Widget {
             name: name.to_owned(),
             settings: settings.to_vec(),
             description: figure.describe(),
-            size: (POSTER_WIDTH as u32, height as u32),
         }))
     }
 }
@@ -92,7 +106,6 @@ struct Widget {
     name: String,
     settings: Vec<(String, String)>,
     description: String,
-    size: (u32, u32),
 }
 
 fn open(name: &str, settings: &[(String, String)]) -> Result<epipole_widgets::Figure, String> {
@@ -112,21 +125,21 @@ impl Figure for Widget {
         self.description.clone()
     }
 
-    fn size(&self) -> (u32, u32) {
-        self.size
-    }
-
-    fn poster(&self, shade: Shade, scale: u32) -> Result<Poster, String> {
+    fn poster(&self, shade: Shade, room: Room, scale: u32) -> Result<Poster, String> {
         let theme = match shade {
             Shade::Light => Theme::Light,
             Shade::Dark => Theme::Dark,
         };
         let mut figure = open(&self.name, &self.settings)?;
         let picture = figure
-            .draw_settled(POSTER_WIDTH, f64::from(scale), theme)
+            .draw_settled(f64::from(room.width()), f64::from(scale), theme)
             .map_err(|problem| problem.to_string())?;
         let (width, height) = (picture.width(), picture.height());
-        Ok(Poster { width, height, rgba: picture.rgba().to_vec() })
+        Ok(Poster {
+            width,
+            height,
+            rgba: picture.rgba().to_vec(),
+        })
     }
 }
 
@@ -139,11 +152,15 @@ mod tests {
         for name in Widgets.names() {
             let figure = Widgets.open(&name, &[]).unwrap();
             assert!(!figure.description().is_empty());
-            let (width, height) = figure.size();
-            for shade in [Shade::Light, Shade::Dark] {
-                let poster = figure.poster(shade, 1).unwrap();
-                assert_eq!((poster.width, poster.height), (width, height), "{name}");
-                assert_eq!(poster.rgba.len(), (width * height * 4) as usize, "{name}");
+            for room in [Room::Wide, Room::Narrow] {
+                let heights = [Shade::Light, Shade::Dark].map(|shade| {
+                    let poster = figure.poster(shade, room, 1).unwrap();
+                    assert_eq!(poster.width, room.width(), "{name}");
+                    let pixels = poster.width * poster.height;
+                    assert_eq!(poster.rgba.len(), pixels as usize * 4, "{name}");
+                    poster.height
+                });
+                assert!(heights[0] > 0 && heights[0] == heights[1], "{name}");
             }
         }
     }

@@ -26,10 +26,22 @@ struct Language {
 /// known stays plain.
 pub fn highlight(code: &str, language: &str) -> String {
     let language = match language {
-        "python" | "py" => Language { keywords: PYTHON, comment: "#", single_quotes: true },
-        "rust" | "rs" => Language { keywords: RUST, comment: "//", single_quotes: false },
+        "python" | "py" => Language {
+            keywords: PYTHON,
+            comment: "#",
+            single_quotes: true,
+        },
+        "rust" | "rs" => Language {
+            keywords: RUST,
+            comment: "//",
+            single_quotes: false,
+        },
         "html" | "text" | "" => return escape(code),
-        _ => Language { keywords: &[], comment: "#", single_quotes: true },
+        _ => Language {
+            keywords: &[],
+            comment: "#",
+            single_quotes: true,
+        },
     };
     let mut html = String::with_capacity(code.len() * 2);
     let mut rest = code;
@@ -38,7 +50,10 @@ pub fn highlight(code: &str, language: &str) -> String {
         let (token, after) = rest.split_at(length);
         match class {
             Some(class) => {
-                html.push_str(&format!("<span class=\"hl-{class}\">{}</span>", escape(token)));
+                html.push_str(&format!(
+                    "<span class=\"hl-{class}\">{}</span>",
+                    escape(token)
+                ));
             }
             None => html.push_str(&escape(token)),
         }
@@ -109,8 +124,14 @@ mod tests {
         );
         let rust = highlight("let x: &'a str = \"a\\\"b\"; 0..10", "rust");
         assert!(rust.contains("&amp;'a str"), "{rust}");
-        assert!(rust.contains("<span class=\"hl-string\">&quot;a\\&quot;b&quot;</span>"), "{rust}");
-        assert!(rust.contains("<span class=\"hl-number\">0</span>..<span"), "{rust}");
+        assert!(
+            rust.contains("<span class=\"hl-string\">&quot;a\\&quot;b&quot;</span>"),
+            "{rust}"
+        );
+        assert!(
+            rust.contains("<span class=\"hl-number\">0</span>..<span"),
+            "{rust}"
+        );
     }
 
     #[test]

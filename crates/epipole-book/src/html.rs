@@ -26,7 +26,11 @@ pub fn slug(text: &str) -> String {
         }
     }
     let trimmed = slug.trim_end_matches('-');
-    if trimmed.is_empty() { "section".to_owned() } else { trimmed.to_owned() }
+    if trimmed.is_empty() {
+        "section".to_owned()
+    } else {
+        trimmed.to_owned()
+    }
 }
 
 /// The way from the page at `page` (such as `part/page.html`) up to the folder of the book:
@@ -41,7 +45,9 @@ pub fn forbidden_inline(html: &str) -> Option<String> {
     let mut rest = html;
     while let Some(open) = rest.find('<') {
         rest = &rest[open + 1..];
-        let name_len = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
+        let name_len = rest
+            .find(|c: char| !c.is_ascii_alphanumeric())
+            .unwrap_or(rest.len());
         let name = rest[..name_len].to_ascii_lowercase();
         if name.is_empty() {
             continue;
@@ -58,7 +64,10 @@ pub fn forbidden_inline(html: &str) -> Option<String> {
                 return Some(format!("the attribute {key}=\"{value}\" of <{name}>"));
             }
             if matches!(key.as_str(), "href" | "src" | "action")
-                && value.trim_start().to_ascii_lowercase().starts_with("javascript:")
+                && value
+                    .trim_start()
+                    .to_ascii_lowercase()
+                    .starts_with("javascript:")
             {
                 return Some(format!("a script in {key} of <{name}>"));
             }
@@ -81,7 +90,9 @@ pub fn attributes(tag: &str) -> (Vec<(String, String)>, &str) {
             .find(|c: char| c.is_whitespace() || matches!(c, '=' | '>' | '/'))
             .unwrap_or(rest.len())
             .max(1);
-        let end = (end..=rest.len()).find(|&at| rest.is_char_boundary(at)).unwrap_or(rest.len());
+        let end = (end..=rest.len())
+            .find(|&at| rest.is_char_boundary(at))
+            .unwrap_or(rest.len());
         let key = rest[..end].to_ascii_lowercase();
         rest = rest[end..].trim_start();
         let mut value = "";
@@ -129,7 +140,11 @@ mod tests {
             let found = forbidden_inline(html).unwrap_or_else(|| panic!("{html}"));
             assert!(found.contains(part), "{html}: {found}");
         }
-        for html in ["<script src=\"a.js\" defer></script>", "<p title=\"style=\">a < b onx=</p>", "< <"] {
+        for html in [
+            "<script src=\"a.js\" defer></script>",
+            "<p title=\"style=\">a < b onx=</p>",
+            "< <",
+        ] {
             assert_eq!(forbidden_inline(html), None, "{html}");
         }
     }

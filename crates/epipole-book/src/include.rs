@@ -14,7 +14,9 @@ pub(crate) fn include(source: &Source, folder: &str, shared: &Shared) -> Source 
     while let Some(found) = text[from..].find(OPENING) {
         let start = from + found;
         let place = source.place(start);
-        let Some(length) = text[start..].find("}}") else { break };
+        let Some(length) = text[start..].find("}}") else {
+            break;
+        };
         let end = start + length + 2;
         whole.push_slice(source, from..start);
         from = end;
@@ -38,8 +40,14 @@ fn part(argument: &str, folder: &str, shared: &Shared) -> Result<Source, String>
         Some((file, anchor)) => (file, Some(anchor)),
         None => (argument, None),
     };
-    let path = if folder.is_empty() { file.to_owned() } else { format!("{folder}/{file}") };
-    let source = shared.read(&path).ok_or_else(|| format!("there is no file {path} to include"))?;
+    let path = if folder.is_empty() {
+        file.to_owned()
+    } else {
+        format!("{folder}/{file}")
+    };
+    let source = shared
+        .read(&path)
+        .ok_or_else(|| format!("there is no file {path} to include"))?;
     let mut chosen = Source::default();
     let mut inside = anchor.is_none();
     let mut seen = inside;
@@ -67,6 +75,6 @@ fn part(argument: &str, folder: &str, shared: &Shared) -> Result<Source, String>
 
 /// The word after a mark, if the line has the mark.
 fn marked<'a>(line: &'a str, mark: &str) -> Option<&'a str> {
-    line.split_once(mark).and_then(|(_, rest)| rest.split_whitespace().next())
+    line.split_once(mark)
+        .and_then(|(_, rest)| rest.split_whitespace().next())
 }
-

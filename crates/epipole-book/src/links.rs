@@ -13,7 +13,8 @@ pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> S
         return written.to_owned();
     }
     if written.starts_with('/') {
-        let message = format!("the link \"{written}\" starts with /: write it relative to this file");
+        let message =
+            format!("the link \"{written}\" starts with /: write it relative to this file");
         renderer.report(place, message);
         return written.to_owned();
     }
@@ -24,8 +25,18 @@ pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> S
     let own = renderer.page.path.clone();
     if path.is_empty() {
         let written = written.to_owned();
-        renderer.page.links.push(Link { page: own, fragment, written, place });
-        return renderer.page.links.last().map(|link| link.written.clone()).unwrap_or_default();
+        renderer.page.links.push(Link {
+            page: own,
+            fragment,
+            written,
+            place,
+        });
+        return renderer
+            .page
+            .links
+            .last()
+            .map(|link| link.written.clone())
+            .unwrap_or_default();
     }
     let target = resolve_path(&own, path);
     if let Some(stem) = target.strip_suffix(".md") {
@@ -36,11 +47,19 @@ pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> S
             None => format!("{shown}.html"),
         };
         let written = written.to_owned();
-        renderer.page.links.push(Link { page, fragment, written, place });
+        renderer.page.links.push(Link {
+            page,
+            fragment,
+            written,
+            place,
+        });
         return href;
     }
     if !renderer.shared.copy_file(&target) {
-        renderer.report(place, format!("the link \"{written}\" leads nowhere: there is no {target}"));
+        renderer.report(
+            place,
+            format!("the link \"{written}\" leads nowhere: there is no {target}"),
+        );
     }
     written.to_owned()
 }
@@ -66,8 +85,11 @@ pub(crate) fn image(
     if !renderer.shared.copy_file(&target) {
         renderer.report(place, format!("there is no picture {target}"));
     }
-    let title =
-        if title.is_empty() { String::new() } else { format!(" title=\"{}\"", escape(title)) };
+    let title = if title.is_empty() {
+        String::new()
+    } else {
+        format!(" title=\"{}\"", escape(title))
+    };
     format!(
         "<img src=\"{}\" alt=\"{}\"{title} loading=\"lazy\" decoding=\"async\">",
         escape(written),
@@ -115,8 +137,10 @@ pub(crate) fn check(pages: &[Page], drafts: &BTreeSet<String>, problems: &Proble
     for link in pages.iter().flat_map(|page| &page.links) {
         let written = &link.written;
         let Some(ids) = anchors.get(link.page.as_str()) else {
-            let chapters: Vec<String> =
-                pages.iter().map(|page| page.path.replace(".html", ".md")).collect();
+            let chapters: Vec<String> = pages
+                .iter()
+                .map(|page| page.path.replace(".html", ".md"))
+                .collect();
             let message = if drafts.contains(&link.page) {
                 format!("the link \"{written}\" leads to a draft")
             } else {
@@ -148,9 +172,16 @@ pub(crate) fn ids_of(html: &str) -> Vec<String> {
         if !rest.starts_with(|letter: char| letter.is_ascii_alphabetic()) {
             continue;
         }
-        let name = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-').unwrap_or(rest.len());
+        let name = rest
+            .find(|c: char| !c.is_ascii_alphanumeric() && c != '-')
+            .unwrap_or(rest.len());
         let (attributes, after) = crate::html::attributes(&rest[name..]);
-        ids.extend(attributes.into_iter().filter(|(key, _)| key == "id").map(|(_, id)| id));
+        ids.extend(
+            attributes
+                .into_iter()
+                .filter(|(key, _)| key == "id")
+                .map(|(_, id)| id),
+        );
         rest = after;
     }
     ids
@@ -182,6 +213,9 @@ mod tests {
 
     #[test]
     fn ids() {
-        assert_eq!(ids_of("<p id=a><epipole-figure id=\"b\" x='>'></p> <c id=d"), ["a", "b", "d"]);
+        assert_eq!(
+            ids_of("<p id=a><epipole-figure id=\"b\" x='>'></p> <c id=d"),
+            ["a", "b", "d"]
+        );
     }
 }

@@ -62,13 +62,29 @@ fn run(cli: &Cli) -> Result<bool> {
     match &cli.command {
         Command::Build { out: chosen, live } => {
             let out = chosen.clone().unwrap_or(out);
-            once(&Options { project, out, assets: true, live: *live, check: false })
+            once(&Options {
+                project,
+                out,
+                assets: true,
+                live: *live,
+                check: false,
+            })
         }
-        Command::Check => {
-            once(&Options { project, out, assets: false, live: true, check: true })
-        }
+        Command::Check => once(&Options {
+            project,
+            out,
+            assets: false,
+            live: true,
+            check: true,
+        }),
         Command::Serve { port, no_watch } => {
-            let options = Options { project, out, assets: true, live: true, check: false };
+            let options = Options {
+                project,
+                out,
+                assets: true,
+                live: true,
+                check: false,
+            };
             serve::serve(&options, *port, !no_watch)?;
             Ok(true)
         }
@@ -84,7 +100,10 @@ fn once(options: &Options) -> Result<bool> {
                 eprintln!("{problem}");
             }
             let count = problems.len();
-            eprintln!("{count} problem{} in the content", if count == 1 { "" } else { "s" });
+            eprintln!(
+                "{count} problem{} in the content",
+                if count == 1 { "" } else { "s" }
+            );
             Ok(false)
         }
         Outcome::Built { pages, files } => {

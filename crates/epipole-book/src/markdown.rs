@@ -37,7 +37,11 @@ struct Text<'a> {
 
 impl<'a> Renderer<'a> {
     pub(crate) fn new(shared: &'a Shared<'a>, page: Page) -> Self {
-        Renderer { shared, page, notes: 0 }
+        Renderer {
+            shared,
+            page,
+            notes: 0,
+        }
     }
 
     /// A whole text with paragraphs, headings and so on.
@@ -70,10 +74,15 @@ impl<'a> Renderer<'a> {
                 }
             }
         }
-        let mut events: Vec<Located> =
-            Parser::new_ext(expanded.text(), markdown_options()).into_offset_iter().collect();
+        let mut events: Vec<Located> = Parser::new_ext(expanded.text(), markdown_options())
+            .into_offset_iter()
+            .collect();
         let footnotes = take_footnotes(&mut events);
-        let text = Text { source: &expanded, inserts: &inserts, footnotes };
+        let text = Text {
+            source: &expanded,
+            inserts: &inserts,
+            footnotes,
+        };
         self.events(&events, &text, inline)
     }
 
@@ -84,7 +93,10 @@ impl<'a> Renderer<'a> {
             Ok(insert) => insert,
             Err(message) => {
                 self.report(place, message);
-                Insert::Inline { html: String::new(), text: String::new() }
+                Insert::Inline {
+                    html: String::new(),
+                    text: String::new(),
+                }
             }
         }
     }
@@ -145,7 +157,12 @@ impl<'a> Renderer<'a> {
                     out.push(event.clone());
                     out.push(Event::Html("</div>\n".into()));
                 }
-                Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
+                Event::Start(Tag::Link {
+                    link_type,
+                    dest_url,
+                    title,
+                    id,
+                }) => {
                     let dest_url = links::rewrite(self, dest_url, place()).into();
                     out.push(Event::Start(Tag::Link {
                         link_type: *link_type,
@@ -154,17 +171,23 @@ impl<'a> Renderer<'a> {
                         id: id.clone(),
                     }));
                 }
-                Event::Start(Tag::Image { dest_url, title, .. }) => {
+                Event::Start(Tag::Image {
+                    dest_url, title, ..
+                }) => {
                     next = end_of(events, at);
                     let alternative = plain(&events[at + 1..next - 1], text);
                     let html = links::image(self, dest_url, title, &alternative, place());
                     out.push(Event::InlineHtml(html.into()));
                 }
                 Event::InlineMath(latex) => {
-                    out.push(Event::InlineHtml(self.formula(latex, Layout::Inline, text, place()).into()));
+                    out.push(Event::InlineHtml(
+                        self.formula(latex, Layout::Inline, text, place()).into(),
+                    ));
                 }
                 Event::DisplayMath(latex) => {
-                    out.push(Event::InlineHtml(self.formula(latex, Layout::Display, text, place()).into()));
+                    out.push(Event::InlineHtml(
+                        self.formula(latex, Layout::Display, text, place()).into(),
+                    ));
                 }
                 Event::Text(words) => self.text(words, text, &mut out),
                 Event::Code(code) => {
@@ -238,7 +261,12 @@ impl<'a> Renderer<'a> {
         }
         self.page.start_section(&id, &title);
         let html = self.events(inner, text, true);
-        let heading = Heading { level, id: id.clone(), title: title.clone(), html: html.clone() };
+        let heading = Heading {
+            level,
+            id: id.clone(),
+            title: title.clone(),
+            html: html.clone(),
+        };
         self.page.headings.push(heading);
         let (id, title) = (escape(&id), escape(&title));
         if level == 1 {
@@ -277,7 +305,9 @@ impl<'a> Renderer<'a> {
                     out.push(Event::Text(words.to_owned().into()));
                 }
                 Part::Insert(index) => {
-                    let Some(insert) = text.inserts.get(index) else { continue };
+                    let Some(insert) = text.inserts.get(index) else {
+                        continue;
+                    };
                     if let Insert::Block { .. } = insert {
                         let at = text.source.text().find(&format!("{OPEN}{index}{CLOSE}"));
                         let place = text.source.place(at.unwrap_or(0));
@@ -305,7 +335,9 @@ fn parts(words: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     let mut rest = words;
     while let Some(open) = rest.find(OPEN) {
-        let Some(close) = rest[open..].find(CLOSE) else { break };
+        let Some(close) = rest[open..].find(CLOSE) else {
+            break;
+        };
         if open > 0 {
             parts.push(Part::Words(&rest[..open]));
         }
@@ -389,6 +421,11 @@ fn listing(code: &str, kind: &CodeBlockKind) -> String {
         CodeBlockKind::Fenced(info) => info.split([' ', ',']).next().unwrap_or("").to_owned(),
         CodeBlockKind::Indented => String::new(),
     };
+    let shown = if language == "rust" {
+        without_hidden_lines(code)
+    } else {
+        code.to_owned()
+    };
     let class = if language.is_empty() {
         String::new()
     } else {
@@ -403,8 +440,19 @@ fn listing(code: &str, kind: &CodeBlockKind) -> String {
     };
     format!(
         "<pre data-language=\"{label}\"><code{class}>{}</code></pre>\n",
-        highlight(code, &language)
+        highlight(&shown, &language)
     )
+}
+
+/// As in Rust's own documentation, a line that starts with `# ` is run but not shown.
+fn without_hidden_lines(code: &str) -> String {
+    let hidden = |line: &&str| {
+        let line = line.trim_start();
+        line.trim_end() == "#" || line.starts_with("# ")
+    };
+    code.split_inclusive('\n')
+        .filter(|line| !hidden(line))
+        .collect()
 }
 
 fn callout(kind: BlockQuoteKind, html: &str) -> String {

@@ -54,9 +54,13 @@ fn escape_leaves(html: &str) -> String {
     let mut escaped = String::with_capacity(html.len());
     let mut rest = html;
     while let Some(open) = rest.find("<m") {
-        let name: String =
-            rest[open + 1..].chars().take_while(char::is_ascii_alphabetic).collect();
-        let Some(end) = rest[open..].find('>') else { break };
+        let name: String = rest[open + 1..]
+            .chars()
+            .take_while(char::is_ascii_alphabetic)
+            .collect();
+        let Some(end) = rest[open..].find('>') else {
+            break;
+        };
         let inside = open + end + 1;
         let close = format!("</{name}>");
         let is_leaf = matches!(name.as_str(), "mi" | "mn" | "mo" | "mtext" | "ms");
@@ -79,7 +83,10 @@ fn escape_leaves(html: &str) -> String {
 
 /// Escapes what is not yet escaped.
 fn escape_once(text: &str) -> String {
-    let plain = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    let plain = text
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&");
     escape(&plain)
 }
 
@@ -103,15 +110,28 @@ mod tests {
             r"\begin{aligned} a &= b \\ &= c \end{aligned}",
             r"\begin{cases} 1 & x > 0 \\ 0 & \text{otherwise} \end{cases}",
         ] {
-            let html = mathml(latex, Layout::Display).unwrap_or_else(|error| panic!("{latex}: {error}"));
-            assert!(html.contains("<math") && html.ends_with("</math></span>"), "{html}");
+            let html =
+                mathml(latex, Layout::Display).unwrap_or_else(|error| panic!("{latex}: {error}"));
+            assert!(
+                html.contains("<math") && html.ends_with("</math></span>"),
+                "{html}"
+            );
         }
     }
 
     #[test]
     fn a_wrong_formula_is_refused() {
-        for latex in [r"\frac{1}", r"\nosuchcommand x", r"\left( x", "", "a_b_c", r"\color{red} x"] {
-            let message = mathml(latex, Layout::Inline).err().unwrap_or_else(|| panic!("{latex}"));
+        for latex in [
+            r"\frac{1}",
+            r"\nosuchcommand x",
+            r"\left( x",
+            "",
+            "a_b_c",
+            r"\color{red} x",
+        ] {
+            let message = mathml(latex, Layout::Inline)
+                .err()
+                .unwrap_or_else(|| panic!("{latex}"));
             assert!(!message.is_empty() && !message.contains('\n'));
         }
     }
@@ -119,7 +139,10 @@ mod tests {
     #[test]
     fn the_annotation_is_escaped() {
         let html = mathml("a < b", Layout::Inline).unwrap();
-        assert!(html.contains("a &lt; b") && html.contains("<mo>&lt;</mo>"), "{html}");
+        assert!(
+            html.contains("a &lt; b") && html.contains("<mo>&lt;</mo>"),
+            "{html}"
+        );
         let html = mathml(r"\text{if } a \& b <c", Layout::Inline).unwrap();
         assert!(html.contains("&amp;</m") && !html.contains("<c"), "{html}");
     }

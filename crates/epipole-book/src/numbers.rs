@@ -38,7 +38,9 @@ pub struct Arguments<'a> {
 impl Arguments<'_> {
     fn get(&self, name: &str) -> f64 {
         let index = self.names.iter().position(|known| *known == name);
-        index.and_then(|index| self.values.get(index).copied()).unwrap_or(f64::NAN)
+        index
+            .and_then(|index| self.values.get(index).copied())
+            .unwrap_or(f64::NAN)
     }
 
     /// A parameter that counts something.
@@ -61,8 +63,9 @@ pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String
     let mut rest = Vec::new();
     for (key, value) in settings {
         if key == "digits" {
-            let places: usize =
-                value.parse().map_err(|_| format!("digits={value} is not a small whole number"))?;
+            let places: usize = value
+                .parse()
+                .map_err(|_| format!("digits={value} is not a small whole number"))?;
             digits = Some(places.min(12));
         } else {
             rest.push((key.clone(), value.clone()));
@@ -81,12 +84,17 @@ pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String
 pub fn compute(name: &str, settings: &[(String, String)]) -> Result<Number, String> {
     let Some(entry) = REGISTRY.iter().find(|entry| entry.name == name) else {
         let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
-        return Err(format!("unknown number \"{name}\"; known numbers: {}", name_list(&known)));
+        return Err(format!(
+            "unknown number \"{name}\"; known numbers: {}",
+            name_list(&known)
+        ));
     };
     for (key, _) in settings {
         if !entry.parameters.contains(&key.as_str()) {
             let known = name_list(entry.parameters);
-            return Err(format!("{name} has no parameter \"{key}\"; its parameters: {known}"));
+            return Err(format!(
+                "{name} has no parameter \"{key}\"; its parameters: {known}"
+            ));
         }
     }
     let mut values = Vec::new();
@@ -94,15 +102,19 @@ pub fn compute(name: &str, settings: &[(String, String)]) -> Result<Number, Stri
         let Some((_, text)) = settings.iter().find(|(key, _)| key == parameter) else {
             return Err(format!("{name} needs {parameter}=…"));
         };
-        let value: f64 =
-            text.parse().map_err(|_| format!("{parameter}={text} is not a number"))?;
+        let value: f64 = text
+            .parse()
+            .map_err(|_| format!("{parameter}={text} is not a number"))?;
         if !value.is_finite() {
             return Err(format!("{parameter}={text} is not a finite number"));
         }
         values.push(value);
     }
-    let number = (entry.compute)(&Arguments { names: entry.parameters, values: &values })
-        .map_err(|error| format!("{name}: {error}"))?;
+    let number = (entry.compute)(&Arguments {
+        names: entry.parameters,
+        values: &values,
+    })
+    .map_err(|error| format!("{name}: {error}"))?;
     match number {
         Number::Real(value, _) if !value.is_finite() => Err(format!("{name} is not finite here")),
         number => Ok(number),
@@ -145,8 +157,14 @@ mod tests {
             (&format!("epipolar.epipole2-u {pair}"), "520"),
             (&format!("epipolar.epipole2-v {pair}"), "240"),
             // From (400, 300) to (520, 240); from (420, 340) to (520, 240).
-            (&format!("epipolar.slope {pair} u=400 v=300 digits=1"), "-0.5"),
-            (&format!("epipolar.slope {pair} u=420 v=340 digits=2"), "-1.00"),
+            (
+                &format!("epipolar.slope {pair} u=400 v=300 digits=1"),
+                "-0.5",
+            ),
+            (
+                &format!("epipolar.slope {pair} u=420 v=340 digits=2"),
+                "-1.00",
+            ),
             // (362 + 2 · 324 − 1000) / √5
             (&format!("epipolar.distance2-px {matched}"), "4.47"),
             // NumPy: |x2ᵀ F x1| / √((Fx1)₁² + (Fx1)₂² + (Fᵀx2)₁² + (Fᵀx2)₂²), F = K⁻ᵀ [t]ₓ K⁻¹
@@ -161,10 +179,19 @@ mod tests {
             ("ransac.trials s=8 w=0.5 p=0.99", "1177"),
             ("ransac.trials-exact s=2 w=0.5 p=0.99 digits=3", "16.008"),
             // 1 − 0.75¹⁶
-            ("ransac.confidence-percent s=2 w=0.5 n=16 digits=3", "98.998"),
+            (
+                "ransac.confidence-percent s=2 w=0.5 n=16 digits=3",
+                "98.998",
+            ),
             // COLMAP's test of RANSAC.
-            ("ransac.trials-without-replacement inliers=10 data=100 s=3 p=0.99", "6204"),
-            ("ransac.trials-without-replacement inliers=50 data=100 s=3 p=0.99", "36"),
+            (
+                "ransac.trials-without-replacement inliers=10 data=100 s=3 p=0.99",
+                "6204",
+            ),
+            (
+                "ransac.trials-without-replacement inliers=50 data=100 s=3 p=0.99",
+                "36",
+            ),
             ("stereo.disparity left=410 right=380", "30"),
             // 700 · 0.12 = 84
             ("stereo.depth f=700 b=0.12 d=30 digits=2", "2.80"),
@@ -178,7 +205,11 @@ mod tests {
             used.push(call.split(' ').next().unwrap().to_owned());
         }
         for entry in REGISTRY {
-            assert!(used.iter().any(|name| name == entry.name), "{} is not pinned", entry.name);
+            assert!(
+                used.iter().any(|name| name == entry.name),
+                "{} is not pinned",
+                entry.name
+            );
         }
     }
 
@@ -194,17 +225,38 @@ mod tests {
     #[test]
     fn mistakes_are_sentences() {
         for (call, part) in [
-            ("nosuch", "unknown number \"nosuch\"; known numbers: camera.project-u, epipolar.epipole2-u"),
-            ("camera.project-u f=1 cu=1 x=1 w=1", "has no parameter \"w\"; its parameters: f, cu"),
+            (
+                "nosuch",
+                "unknown number \"nosuch\"; known numbers: camera.project-u, epipolar.epipole2-u",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 w=1",
+                "has no parameter \"w\"; its parameters: f, cu",
+            ),
             ("camera.project-u f=1 cu=1 x=1", "needs z=…"),
-            ("camera.project-u f=1 cu=1 x=1 z=two", "z=two is not a number"),
-            ("camera.project-u f=1 cu=1 x=1 z=NaN", "z=NaN is not a finite number"),
-            ("camera.project-u f=1 cu=1 x=1 z=-1", "not in front of the camera"),
-            ("camera.project-u f=1 cu=1 x=1 z=1 digits=-1", "not a small whole number"),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=two",
+                "z=two is not a number",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=NaN",
+                "z=NaN is not a finite number",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=-1",
+                "not in front of the camera",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=1 digits=-1",
+                "not a small whole number",
+            ),
             ("ransac.trials s=2.5 w=0.5 p=0.99", "s=2.5 is not a count"),
             ("ransac.trials s=2 w=1.5 p=0.99", "the share of inliers"),
             ("stereo.depth f=700 b=0.12 d=0", "infinitely far away"),
-            ("epipolar.epipole2-u f=500 cu=320 cv=240 tx=1 ty=0 tz=0", "infinitely far away"),
+            (
+                "epipolar.epipole2-u f=500 cu=320 cv=240 tx=1 ty=0 tz=0",
+                "infinitely far away",
+            ),
         ] {
             let message = printed(call).unwrap_err();
             assert!(message.contains(part), "{call}: {message}");

@@ -102,7 +102,10 @@ impl Page {
         if !taken(&first) {
             return first;
         }
-        (2..).map(|count| format!("{first}-{count}")).find(|id| !taken(id)).unwrap_or(first)
+        (2..)
+            .map(|count| format!("{first}-{count}"))
+            .find(|id| !taken(id))
+            .unwrap_or(first)
     }
 
     /// Takes the first paragraph as the description.
@@ -117,7 +120,12 @@ impl Page {
         self.end_section();
         let url = format!("{}#{id}", self.path);
         let (chapter, title) = (self.title.clone(), title.to_owned());
-        self.sections.push(Section { url, chapter, title, words: String::new() });
+        self.sections.push(Section {
+            url,
+            chapter,
+            title,
+            words: String::new(),
+        });
     }
 
     /// Ends the last section.
@@ -155,7 +163,10 @@ mod tests {
 
     #[test]
     fn figures_are_numbered_in_their_chapter() {
-        let page = Page { number: Some("4".to_owned()), ..Page::default() };
+        let page = Page {
+            number: Some("4".to_owned()),
+            ..Page::default()
+        };
         assert_eq!(page.next_figure_number(), "4.1");
         assert_eq!(Page::default().next_figure_number(), "1");
     }

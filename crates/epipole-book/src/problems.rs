@@ -16,7 +16,10 @@ pub struct Place {
 impl Place {
     /// A line, counted from 1, of a file.
     pub fn new(file: impl AsRef<Path>, line: usize) -> Place {
-        Place { file: file.as_ref().to_path_buf(), line }
+        Place {
+            file: file.as_ref().to_path_buf(),
+            line,
+        }
     }
 }
 
@@ -49,12 +52,19 @@ impl Problems {
     /// Notes a problem and goes on.
     pub fn report(&self, place: Place, message: impl Into<String>) {
         let mut list = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        list.push(Problem { place, message: message.into() });
+        list.push(Problem {
+            place,
+            message: message.into(),
+        });
     }
 
     /// Every problem once, in the order of files and lines.
     pub fn sorted(&self) -> Vec<Problem> {
-        let mut list = self.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let mut list = self
+            .0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
         list.sort();
         list.dedup();
         list
@@ -66,7 +76,11 @@ pub fn name_list<S: AsRef<str>>(known: &[S]) -> String {
     if known.is_empty() {
         return "none".to_owned();
     }
-    known.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ")
+    known
+        .iter()
+        .map(AsRef::as_ref)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 #[cfg(test)]

@@ -48,7 +48,12 @@ struct Choice {
 pub type Inline<'a> = dyn FnMut(&str, Place) -> String + 'a;
 
 /// The HTML of a quiz, and how many questions it has. What is wrong goes to `problems`.
-pub fn render(name: &str, source: &Source, inline: &mut Inline, problems: &Problems) -> (String, usize) {
+pub fn render(
+    name: &str,
+    source: &Source,
+    inline: &mut Inline,
+    problems: &Problems,
+) -> (String, usize) {
     let file: File = match toml::from_str(source.text()) {
         Ok(file) => file,
         Err(error) => {
@@ -63,7 +68,10 @@ pub fn render(name: &str, source: &Source, inline: &mut Inline, problems: &Probl
         let question = spanned.as_ref();
         let place = source.place(spanned.span().start);
         if ids.contains(&question.id.as_str()) {
-            problems.report(place.clone(), format!("two questions are called \"{}\"", question.id));
+            problems.report(
+                place.clone(),
+                format!("two questions are called \"{}\"", question.id),
+            );
         }
         ids.push(&question.id);
         match body(name, question, &place, inline) {
@@ -84,7 +92,9 @@ pub fn render(name: &str, source: &Source, inline: &mut Inline, problems: &Probl
                     hash = crate::assets::fnv(format!("{prompt}{fields}").as_bytes()) as u32,
                 ));
             }
-            Err(message) => problems.report(place, format!("question \"{}\": {message}", question.id)),
+            Err(message) => {
+                problems.report(place, format!("question \"{}\": {message}", question.id))
+            }
         }
     }
     html.push_str("</div>\n");
@@ -98,14 +108,22 @@ fn body(
     place: &Place,
     inline: &mut Inline,
 ) -> Result<(String, String), String> {
-    let kinds = [!question.choices.is_empty(), question.value.is_some(), question.answer.is_some()];
+    let kinds = [
+        !question.choices.is_empty(),
+        question.value.is_some(),
+        question.answer.is_some(),
+    ];
     if kinds.iter().filter(|&&given| given).count() != 1 {
         return Err("give exactly one of choices, value and answer".to_owned());
     }
     if question.choices.is_empty() {
         return numeric(name, question);
     }
-    let right = question.choices.iter().filter(|choice| choice.right).count();
+    let right = question
+        .choices
+        .iter()
+        .filter(|choice| choice.right)
+        .count();
     if right == 0 {
         return Err("no choice is marked right = true".to_owned());
     }
@@ -146,14 +164,20 @@ fn numeric(name: &str, question: &Question) -> Result<(String, String), String> 
     if !answer.is_finite() || !question.tolerance.is_finite() || question.tolerance < 0.0 {
         return Err("answer and tolerance must be finite, and tolerance not negative".to_owned());
     }
-    let typed: f64 = printed.parse().map_err(|_| "the answer is not a number".to_owned())?;
+    let typed: f64 = printed
+        .parse()
+        .map_err(|_| "the answer is not a number".to_owned())?;
     if libm::fabs(typed - answer) > question.tolerance {
         return Err(format!(
             "the printed answer {printed} is not within the tolerance {} of {answer}",
             question.tolerance
         ));
     }
-    let unit = question.unit.as_deref().map(|unit| format!(" {}", escape(unit))).unwrap_or_default();
+    let unit = question
+        .unit
+        .as_deref()
+        .map(|unit| format!(" {}", escape(unit)))
+        .unwrap_or_default();
     let id = escape(&format!("{name}-{}-answer", question.id));
     let tolerance = question.tolerance;
     let fields = format!(
@@ -174,7 +198,11 @@ fn call_parts(call: &str) -> Result<(String, Vec<(String, String)>), String> {
 }
 
 fn without_digits(settings: &[(String, String)]) -> Vec<(String, String)> {
-    settings.iter().filter(|(key, _)| key != "digits").cloned().collect()
+    settings
+        .iter()
+        .filter(|(key, _)| key != "digits")
+        .cloned()
+        .collect()
 }
 
 #[cfg(test)]
@@ -185,7 +213,10 @@ mod tests {
         let problems = Problems::default();
         let source = Source::new(toml, Place::new("quiz.toml", 1));
         let (html, _) = render("q", &source, &mut |text, _| escape(text), &problems);
-        (html, problems.sorted().iter().map(ToString::to_string).collect())
+        (
+            html,
+            problems.sorted().iter().map(ToString::to_string).collect(),
+        )
     }
 
     #[test]
@@ -209,12 +240,24 @@ mod tests {
         let start = "[[question]]\nid = 'a'\nprompt = 'P?'\nexplanation = 'E.'\n";
         for (rest, expected) in [
             ("", "quiz.toml:1: question \"a\": give exactly one of"),
-            ("choices = [{ text = 'x' }]", "quiz.toml:1: question \"a\": no choice is marked"),
-            ("value = 'nosuch'", "quiz.toml:1: question \"a\": unknown number \"nosuch\""),
-            ("answer = nan", "quiz.toml:1: question \"a\": answer and tolerance"),
+            (
+                "choices = [{ text = 'x' }]",
+                "quiz.toml:1: question \"a\": no choice is marked",
+            ),
+            (
+                "value = 'nosuch'",
+                "quiz.toml:1: question \"a\": unknown number \"nosuch\"",
+            ),
+            (
+                "answer = nan",
+                "quiz.toml:1: question \"a\": answer and tolerance",
+            ),
             ("colour = 1", "quiz.toml:5: unknown field `colour`"),
             // 320 + 500 / 3 has no finite decimal form.
-            ("value = 'camera.project-u f=500 cu=320 x=1 z=3'", "not within the tolerance 0"),
+            (
+                "value = 'camera.project-u f=500 cu=320 x=1 z=3'",
+                "not within the tolerance 0",
+            ),
         ] {
             let (_, problems) = rendered(&format!("{start}{rest}"));
             assert_eq!(problems.len(), 1, "{rest}");

@@ -66,7 +66,11 @@ impl References {
         works.sort_by_key(|(key, work)| (work.authors.clone(), work.year, (*key).clone()));
         let mut html = String::from("<ul class=\"references\">\n");
         for (key, work) in works {
-            html.push_str(&format!("<li id=\"{}\">{}</li>\n", escape(key), work.html()));
+            html.push_str(&format!(
+                "<li id=\"{}\">{}</li>\n",
+                escape(key),
+                work.html()
+            ));
         }
         html.push_str("</ul>\n");
         html
@@ -98,8 +102,12 @@ impl Reference {
             [one] => one.clone(),
             [first @ .., last] => format!("{} and {last}", first.join(", ")),
         };
-        let mut html =
-            format!("{} ({}). <cite>{}</cite>.", escape(&authors), self.year, escape(&self.title));
+        let mut html = format!(
+            "{} ({}). <cite>{}</cite>.",
+            escape(&authors),
+            self.year,
+            escape(&self.title)
+        );
         if let Some(venue) = &self.venue {
             html.push_str(&format!(" {}.", escape(venue)));
         }
@@ -170,13 +178,31 @@ title = "Multiple View Geometry in Computer Vision"
         let references = References::parse(&Source::new(TOML, place.clone()), &problems);
         let keys = ["hartley1997".to_owned(), "hartley2004".to_owned()];
         assert_eq!(
-            cite(&keys, Some("§9.2"), &references, "references.html", &place, &problems),
+            cite(
+                &keys,
+                Some("§9.2"),
+                &references,
+                "references.html",
+                &place,
+                &problems
+            ),
             "<a class=\"cite\" href=\"references.html#hartley1997\">Hartley 1997</a>; \
              <a class=\"cite\" href=\"references.html#hartley2004\">Hartley &amp; Zisserman 2004</a>, §9.2"
         );
-        assert!(references.list().contains("<li id=\"hartley1997\">Richard I. Hartley (1997)."));
+        assert!(
+            references
+                .list()
+                .contains("<li id=\"hartley1997\">Richard I. Hartley (1997).")
+        );
         assert!(problems.sorted().is_empty());
-        cite(&["nobody".to_owned()], None, &references, "", &place, &problems);
+        cite(
+            &["nobody".to_owned()],
+            None,
+            &references,
+            "",
+            &place,
+            &problems,
+        );
         let message = problems.sorted()[0].to_string();
         let expected = "references.toml:1: unknown reference \"nobody\"; \
                         known references: hartley1997, hartley2004";
@@ -186,7 +212,10 @@ title = "Multiple View Geometry in Computer Vision"
     #[test]
     fn a_broken_file_names_its_line() {
         let problems = Problems::default();
-        let source = Source::new("[a]\nyear = 1\npages = 2\n", Place::new("references.toml", 1));
+        let source = Source::new(
+            "[a]\nyear = 1\npages = 2\n",
+            Place::new("references.toml", 1),
+        );
         References::parse(&source, &problems);
         assert_eq!(problems.sorted()[0].place.line, 3);
     }

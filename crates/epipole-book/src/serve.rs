@@ -60,7 +60,9 @@ pub fn serve(options: &Options, port: u16, watch: bool) -> Result<()> {
             }
         });
     }
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()?;
     runtime.block_on(async {
         let listener = tokio::net::TcpListener::from_std(listener)?;
         println!("the book is at http://localhost:{port}");
@@ -104,18 +106,31 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
 async fn headers(request: Request, next: Next) -> Response {
     let hashed = request.uri().path().contains("/assets/");
     let mut response = next.run(request).await.into_response();
-    let caching = if hashed { "public, max-age=31536000, immutable" } else { "no-cache" };
-    let caching = if response.status().is_success() { caching } else { "no-cache" };
+    let caching = if hashed {
+        "public, max-age=31536000, immutable"
+    } else {
+        "no-cache"
+    };
+    let caching = if response.status().is_success() {
+        caching
+    } else {
+        "no-cache"
+    };
     let fixed = [
         (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY),
         (header::ACCESS_CONTROL_ALLOW_ORIGIN, "*"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
-        (HeaderName::from_static("cross-origin-resource-policy"), "cross-origin"),
+        (
+            HeaderName::from_static("cross-origin-resource-policy"),
+            "cross-origin",
+        ),
         (header::CACHE_CONTROL, caching),
     ];
     for (name, value) in fixed {
-        response.headers_mut().insert(name, HeaderValue::from_static(value));
+        response
+            .headers_mut()
+            .insert(name, HeaderValue::from_static(value));
     }
     response
 }
@@ -149,9 +164,14 @@ fn watch_sources(options: &Options, reload: &broadcast::Sender<()>) -> Result<()
         };
         paths.retain(|path| !is_noise(path));
         let Some(path) = paths.first() else { continue };
-        let shown = path.strip_prefix(&options.project).unwrap_or(path).display();
+        let shown = path
+            .strip_prefix(&options.project)
+            .unwrap_or(path)
+            .display();
         println!("{shown} changed; building …");
-        own_code_changed |= paths.iter().any(|path| path.starts_with(options.project.join("crates")));
+        own_code_changed |= paths
+            .iter()
+            .any(|path| path.starts_with(options.project.join("crates")));
         match rebuild(options, own_code_changed) {
             Ok(true) => {
                 // Nobody may be listening.
@@ -170,7 +190,16 @@ fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
     let start = Instant::now();
     if by_cargo {
         let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-            .args(["run", "--quiet", "--package", "epipole-book", "--", "build", "--live", "--out"])
+            .args([
+                "run",
+                "--quiet",
+                "--package",
+                "epipole-book",
+                "--",
+                "build",
+                "--live",
+                "--out",
+            ])
             .arg(&options.out)
             .current_dir(&options.project)
             .status()
@@ -197,7 +226,10 @@ fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
 
 /// What the browser shows while there is no site to show.
 fn problem_page(problems: &[Problem]) -> String {
-    let lines: Vec<String> = problems.iter().map(|problem| escape(&problem.to_string())).collect();
+    let lines: Vec<String> = problems
+        .iter()
+        .map(|problem| escape(&problem.to_string()))
+        .collect();
     format!(
         "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Problems</title>\n\
          <script src=\"/-/reload.js\" data-events=\"/-/reload\"></script>\n\
@@ -217,10 +249,15 @@ mod tests {
         let address = listener.local_addr().unwrap();
         let folder = folder.to_path_buf();
         std::thread::spawn(move || {
-            let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+            let runtime = tokio::runtime::Builder::new_current_thread()
+                .enable_all()
+                .build()
+                .unwrap();
             runtime.block_on(async {
                 let listener = tokio::net::TcpListener::from_std(listener).unwrap();
-                axum::serve(listener, app(&folder, broadcast::channel(1).0)).await.unwrap();
+                axum::serve(listener, app(&folder, broadcast::channel(1).0))
+                    .await
+                    .unwrap();
             });
         });
         let mut stream = std::net::TcpStream::connect(address).unwrap();
@@ -240,7 +277,10 @@ mod tests {
         let request = |path: &str, more: &str| {
             format!("GET {path} HTTP/1.1\r\nhost: a\r\nconnection: close\r\n{more}\r\n")
         };
-        let got = response(folder.path(), &request("/assets/a-1.wasm", "accept-encoding: br\r\n"));
+        let got = response(
+            folder.path(),
+            &request("/assets/a-1.wasm", "accept-encoding: br\r\n"),
+        );
         for part in [
             "200 OK",
             "content-type: application/wasm",
@@ -255,7 +295,10 @@ mod tests {
         let got = response(folder.path(), &request("/assets/a-1.wasm", ""));
         assert!(got.ends_with("plain"), "{got}");
         let got = response(folder.path(), &request("/nothing", ""));
-        assert!(got.contains("404 Not Found") && got.contains("<p>none"), "{got}");
+        assert!(
+            got.contains("404 Not Found") && got.contains("<p>none"),
+            "{got}"
+        );
         assert!(got.contains("cache-control: no-cache"), "{got}");
     }
 
@@ -264,7 +307,10 @@ mod tests {
         let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
         let port = taken.local_addr().unwrap().port();
         let message = listen(port).unwrap_err().to_string();
-        assert!(message.contains(&format!("port {port} is in use")), "{message}");
+        assert!(
+            message.contains(&format!("port {port} is in use")),
+            "{message}"
+        );
         assert!(message.contains("PORT="), "{message}");
     }
 }

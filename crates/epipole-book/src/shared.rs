@@ -68,7 +68,9 @@ pub(crate) struct Shared<'a> {
 
 impl<'a> Shared<'a> {
     pub(crate) fn new(content: &'a Path, gallery: &'a dyn Gallery, problems: &'a Problems) -> Self {
-        let shown_as = content.file_name().map_or_else(|| content.to_path_buf(), PathBuf::from);
+        let shown_as = content
+            .file_name()
+            .map_or_else(|| content.to_path_buf(), PathBuf::from);
         let mut shared = Shared {
             problems,
             gallery,
@@ -153,7 +155,10 @@ impl<'a> Shared<'a> {
     }
 
     fn with<T>(&self, act: impl FnOnce(&mut Collected) -> T) -> T {
-        act(&mut self.collected.lock().unwrap_or_else(PoisonError::into_inner))
+        act(&mut self
+            .collected
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -164,7 +169,10 @@ mod tests {
     #[test]
     fn tokens_are_resolved() {
         let html = format!("a{}b{}", token("k", "n"), token("p", ""));
-        assert_eq!(resolve(&html, |kind, name| format!("[{kind}:{name}]")), "a[k:n]b[p:]");
+        assert_eq!(
+            resolve(&html, |kind, name| format!("[{kind}:{name}]")),
+            "a[k:n]b[p:]"
+        );
         assert_eq!(resolve("plain", |_, _| String::new()), "plain");
     }
 }

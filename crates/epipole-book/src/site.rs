@@ -72,9 +72,15 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     config.build.create_missing = false;
     config.build.use_default_preprocessors = false;
     let book = MDBook::load_with_config(&content, config)?;
-    let site = Site { shared: &shared, pages: Mutex::default() };
+    let site = Site {
+        shared: &shared,
+        pages: Mutex::default(),
+    };
     book.execute_build_process(&site)?;
-    let mut pages = site.pages.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut pages = site
+        .pages
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner);
 
     let summary = Summary::of(&book.book, first_chapter(&book.config));
     resolve_pages(&mut pages, &shared);
@@ -82,7 +88,10 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     for page in &pages {
         if let Some(offence) = forbidden_inline(&page.html) {
             let place = shared.place(&page.path.replace(".html", ".md"), 1);
-            problems.report(place, format!("{offence}: pages hold no inline scripts and styles"));
+            problems.report(
+                place,
+                format!("{offence}: pages hold no inline scripts and styles"),
+            );
         }
     }
     if !problems.sorted().is_empty() {
@@ -90,7 +99,10 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     }
 
     if options.check {
-        return Ok(Outcome::Built { pages: pages.len(), files: 0 });
+        return Ok(Outcome::Built {
+            pages: pages.len(),
+            files: 0,
+        });
     }
 
     let mut files = shared.take_files();
@@ -102,7 +114,10 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     };
     files.extend(assets.files.clone());
     let search = serde_json::to_vec(
-        &pages.iter().flat_map(|page| &page.sections).collect::<Vec<_>>(),
+        &pages
+            .iter()
+            .flat_map(|page| &page.sections)
+            .collect::<Vec<_>>(),
     )?;
     let search = assets::add_hashed(&mut files, "search", "json", search);
 
@@ -118,11 +133,20 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     {
         files.insert("index.html".to_owned(), html);
     }
-    files.insert("404.html".to_owned(), template.not_found(&summary.entries, &pages)?.into_bytes());
-    files.insert("robots.txt".to_owned(), b"User-agent: *\nAllow: /\n".to_vec());
+    files.insert(
+        "404.html".to_owned(),
+        template.not_found(&summary.entries, &pages)?.into_bytes(),
+    );
+    files.insert(
+        "robots.txt".to_owned(),
+        b"User-agent: *\nAllow: /\n".to_vec(),
+    );
     files.insert(".nojekyll".to_owned(), Vec::new());
     compress::add(&mut files, options.live)?;
-    let report = Outcome::Built { pages: pages.len(), files: files.len() };
+    let report = Outcome::Built {
+        pages: pages.len(),
+        files: files.len(),
+    };
     write(&files, &options.out)?;
     Ok(report)
 }
@@ -140,8 +164,11 @@ impl mdbook_renderer::Renderer for Site<'_> {
 
     fn render(&self, context: &RenderContext) -> Result<()> {
         let first = first_chapter(&context.config);
-        let pages: Vec<Page> =
-            context.book.chapters().map(|chapter| self.page(chapter, first)).collect();
+        let pages: Vec<Page> = context
+            .book
+            .chapters()
+            .map(|chapter| self.page(chapter, first))
+            .collect();
         *self.pages.lock().unwrap_or_else(PoisonError::into_inner) = pages;
         Ok(())
     }
@@ -149,7 +176,11 @@ impl mdbook_renderer::Renderer for Site<'_> {
 
 impl Site<'_> {
     fn page(&self, chapter: &Chapter, first: u32) -> Page {
-        let file = chapter.path.as_deref().unwrap_or(Path::new("")).to_string_lossy();
+        let file = chapter
+            .path
+            .as_deref()
+            .unwrap_or(Path::new(""))
+            .to_string_lossy();
         let file = file.replace('\\', "/");
         let source = Source::new(chapter.content.clone(), self.shared.place(&file, 1));
         let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
@@ -165,7 +196,13 @@ impl Site<'_> {
         let mut page = renderer.page;
         page.html = html;
         page.end_section();
-        if page.headings.iter().filter(|heading| heading.level == 1).count() != 1 {
+        if page
+            .headings
+            .iter()
+            .filter(|heading| heading.level == 1)
+            .count()
+            != 1
+        {
             let message = "a chapter starts with its title, `# …`, and has no other of that level";
             self.shared.problems.report(source.place(0), message);
         }
@@ -179,15 +216,22 @@ fn html_path(file: &str) -> String {
 
 /// `[output.epipole] first-chapter = 0` in `book.toml`: the number of the first numbered chapter.
 fn first_chapter(config: &Config) -> u32 {
-    config.get::<u32>("output.epipole.first-chapter").ok().flatten().unwrap_or(1)
+    config
+        .get::<u32>("output.epipole.first-chapter")
+        .ok()
+        .flatten()
+        .unwrap_or(1)
 }
 
 fn number(chapter: &Chapter, first: u32) -> Option<String> {
     let numbers = chapter.number.as_ref()?;
-    let shifted = numbers.iter().enumerate().map(|(level, &number)| match level {
-        0 => (number + first).saturating_sub(1).to_string(),
-        _ => number.to_string(),
-    });
+    let shifted = numbers
+        .iter()
+        .enumerate()
+        .map(|(level, &number)| match level {
+            0 => (number + first).saturating_sub(1).to_string(),
+            _ => number.to_string(),
+        });
     Some(shifted.collect::<Vec<_>>().join("."))
 }
 
@@ -196,7 +240,11 @@ fn number(chapter: &Chapter, first: u32) -> Option<String> {
 pub(crate) enum Entry {
     Part(String),
     Separator,
-    Chapter { number: Option<String>, title: String, path: Option<String> },
+    Chapter {
+        number: Option<String>,
+        title: String,
+        path: Option<String>,
+    },
 }
 
 struct Summary {
@@ -214,11 +262,17 @@ impl Summary {
                 BookItem::Chapter(chapter) => Entry::Chapter {
                     number: number(chapter, first),
                     title: chapter.name.clone(),
-                    path: chapter.path.as_ref().map(|path| html_path(&path.to_string_lossy())),
+                    path: chapter
+                        .path
+                        .as_ref()
+                        .map(|path| html_path(&path.to_string_lossy())),
                 },
             });
         }
-        Summary { entries, drafts: BTreeSet::new() }
+        Summary {
+            entries,
+            drafts: BTreeSet::new(),
+        }
     }
 }
 
@@ -226,7 +280,10 @@ impl Summary {
 fn check_summary(shared: &Shared) {
     use pulldown_cmark::{Event, Parser, Tag};
     let Some(source) = shared.read("SUMMARY.md") else {
-        shared.problems.report(shared.place("SUMMARY.md", 1), "there is no table of contents");
+        shared.problems.report(
+            shared.place("SUMMARY.md", 1),
+            "there is no table of contents",
+        );
         return;
     };
     for (event, range) in Parser::new(source.text()).into_offset_iter() {
@@ -234,8 +291,7 @@ fn check_summary(shared: &Shared) {
             && !dest_url.is_empty()
             && !shared.path(&dest_url).is_file()
         {
-            let message =
-                format!("there is no chapter {dest_url} (a draft has empty parentheses)");
+            let message = format!("there is no chapter {dest_url} (a draft has empty parentheses)");
             shared.problems.report(source.place(range.start), message);
         }
     }
@@ -246,17 +302,26 @@ fn resolve_pages(pages: &mut [Page], shared: &Shared) {
     let mut figures: BTreeMap<String, (String, String)> = BTreeMap::new();
     for page in pages.iter() {
         for figure in &page.figures {
-            figures.insert(figure.id.clone(), (page.path.clone(), figure.number.clone()));
+            figures.insert(
+                figure.id.clone(),
+                (page.path.clone(), figure.number.clone()),
+            );
         }
     }
     for (id, place) in shared.wanted_figures() {
         if !figures.contains_key(&id) {
             let known: Vec<&String> = figures.keys().collect();
-            let message = format!("no figure is called \"{id}\"; figures: {}", name_list(&known));
+            let message = format!(
+                "no figure is called \"{id}\"; figures: {}",
+                name_list(&known)
+            );
             shared.problems.report(place, message);
         }
     }
-    let list = pages.iter().find(|page| page.has_references).map(|page| page.path.clone());
+    let list = pages
+        .iter()
+        .find(|page| page.has_references)
+        .map(|page| page.path.clone());
     if let (None, Some(place)) = (&list, shared.wanted_references()) {
         let message = "something is cited, but no chapter holds {{#references}}";
         shared.problems.report(place, message);

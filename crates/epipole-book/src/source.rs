@@ -21,7 +21,14 @@ struct Piece {
 impl Source {
     /// Text as it stands in a file, beginning at `place`.
     pub fn new(text: impl Into<String>, place: Place) -> Source {
-        Source { text: text.into(), pieces: vec![Piece { start: 0, place, verbatim: true }] }
+        Source {
+            text: text.into(),
+            pieces: vec![Piece {
+                start: 0,
+                place,
+                verbatim: true,
+            }],
+        }
     }
 
     /// The text.
@@ -32,7 +39,10 @@ impl Source {
     /// The file and line of the byte at `offset`.
     pub fn place(&self, offset: usize) -> Place {
         let offset = offset.min(self.text.len());
-        let index = self.pieces.partition_point(|piece| piece.start <= offset).saturating_sub(1);
+        let index = self
+            .pieces
+            .partition_point(|piece| piece.start <= offset)
+            .saturating_sub(1);
         let Some(piece) = self.pieces.get(index) else {
             return Place::new("", 1);
         };
@@ -46,7 +56,11 @@ impl Source {
 
     /// Appends text that was made from what stands at `place`.
     pub fn push(&mut self, text: &str, place: Place) {
-        self.pieces.push(Piece { start: self.text.len(), place, verbatim: false });
+        self.pieces.push(Piece {
+            start: self.text.len(),
+            place,
+            verbatim: false,
+        });
         self.text.push_str(text);
     }
 
@@ -54,13 +68,22 @@ impl Source {
     pub fn push_slice(&mut self, other: &Source, range: Range<usize>) {
         let base = self.text.len();
         let first_place = other.place(range.start);
-        let first = other.pieces.partition_point(|piece| piece.start <= range.start);
+        let first = other
+            .pieces
+            .partition_point(|piece| piece.start <= range.start);
         let verbatim = first > 0 && other.pieces[first - 1].verbatim;
-        self.pieces.push(Piece { start: base, place: first_place, verbatim });
+        self.pieces.push(Piece {
+            start: base,
+            place: first_place,
+            verbatim,
+        });
         for piece in &other.pieces[first..] {
             if piece.start < range.end {
                 let start = base + piece.start - range.start;
-                self.pieces.push(Piece { start, ..piece.clone() });
+                self.pieces.push(Piece {
+                    start,
+                    ..piece.clone()
+                });
             }
         }
         self.text.push_str(&other.text[range]);
@@ -87,7 +110,15 @@ mod tests {
         spliced.push_slice(&file, 8..19);
         assert_eq!(spliced.text(), "one\ninserted\ntext\nthree\nfour\n");
         let line_of = |word: &str| spliced.place(spliced.text().find(word).unwrap()).line;
-        assert_eq!((line_of("one"), line_of("text"), line_of("three"), line_of("four")), (1, 2, 3, 4));
+        assert_eq!(
+            (
+                line_of("one"),
+                line_of("text"),
+                line_of("three"),
+                line_of("four")
+            ),
+            (1, 2, 3, 4)
+        );
     }
 
     #[test]

@@ -92,9 +92,19 @@ impl Nav {
         let entries = entries
             .iter()
             .map(|entry| match entry {
-                Entry::Part(title) => NavEntry { part: Some(title.clone()), ..NavEntry::default() },
-                Entry::Separator => NavEntry { separator: true, ..NavEntry::default() },
-                Entry::Chapter { number, title, path } => {
+                Entry::Part(title) => NavEntry {
+                    part: Some(title.clone()),
+                    ..NavEntry::default()
+                },
+                Entry::Separator => NavEntry {
+                    separator: true,
+                    ..NavEntry::default()
+                },
+                Entry::Chapter {
+                    number,
+                    title,
+                    path,
+                } => {
                     let page = current.filter(|page| path.as_ref() == Some(&page.path));
                     let sections = page.map(sections).unwrap_or_default();
                     NavEntry {
@@ -111,7 +121,10 @@ impl Nav {
             .collect();
         Nav {
             entries,
-            previous: index.checked_sub(1).and_then(|before| pages.get(before)).map(link),
+            previous: index
+                .checked_sub(1)
+                .and_then(|before| pages.get(before))
+                .map(link),
             next: pages.get(index + 1).map(link),
         }
     }
@@ -120,7 +133,10 @@ impl Nav {
 fn sections(page: &Page) -> Vec<NavSection> {
     let second = page.headings.iter().filter(|heading| heading.level == 2);
     second
-        .map(|heading| NavSection { id: heading.id.clone(), html: heading.html.clone() })
+        .map(|heading| NavSection {
+            id: heading.id.clone(),
+            html: heading.html.clone(),
+        })
         .collect()
 }
 
@@ -141,9 +157,17 @@ impl<'a> Template<'a> {
             .with_context(|| format!("{} is not a template", file.display()))?;
         Ok(Template {
             handlebars,
-            book_title: config.book.title.clone().unwrap_or_else(|| "Book".to_owned()),
+            book_title: config
+                .book
+                .title
+                .clone()
+                .unwrap_or_else(|| "Book".to_owned()),
             description: config.book.description.clone().unwrap_or_default(),
-            language: config.book.language.clone().unwrap_or_else(|| "en".to_owned()),
+            language: config
+                .book
+                .language
+                .clone()
+                .unwrap_or_else(|| "en".to_owned()),
             assets,
             search,
             live,
@@ -157,10 +181,17 @@ impl<'a> Template<'a> {
         } else {
             format!("{} · {}", page.title, self.book_title)
         };
-        let description =
-            if page.description.is_empty() { &self.description } else { &page.description };
+        let description = if page.description.is_empty() {
+            &self.description
+        } else {
+            &page.description
+        };
         let root = path_to_root(&page.path);
-        let class = if page.number.is_some() { "chapter" } else { "plain" };
+        let class = if page.number.is_some() {
+            "chapter"
+        } else {
+            "plain"
+        };
         let data = Data {
             language: &self.language,
             title,

@@ -8,19 +8,40 @@ use std::process::Command;
 
 /// Files of the family STIX Two (SIL Open Font License), and how the style sheet calls them.
 const FONTS: &[(&str, &str)] = &[
-    ("text-regular", "@fontsource/stix-two-text/files/stix-two-text-latin-400-normal.woff2"),
-    ("text-italic", "@fontsource/stix-two-text/files/stix-two-text-latin-400-italic.woff2"),
-    ("text-bold", "@fontsource/stix-two-text/files/stix-two-text-latin-600-normal.woff2"),
-    ("math", "@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2"),
+    (
+        "text-regular",
+        "@fontsource/stix-two-text/files/stix-two-text-latin-400-normal.woff2",
+    ),
+    (
+        "text-italic",
+        "@fontsource/stix-two-text/files/stix-two-text-latin-400-italic.woff2",
+    ),
+    (
+        "text-bold",
+        "@fontsource/stix-two-text/files/stix-two-text-latin-600-normal.woff2",
+    ),
+    (
+        "math",
+        "@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2",
+    ),
 ];
 
 /// Cuts the fonts and leaves them, with their hashed names, in `assets`.
 /// The style sheet, bundled later, finds them by [`font_url`].
 pub(super) fn add(tools: &Tools, letters: &Letters, assets: &mut Assets) -> Result<()> {
     for (name, source) in FONTS {
-        let wanted = if *name == "math" { &letters.math } else { &letters.text };
+        let wanted = if *name == "math" {
+            &letters.math
+        } else {
+            &letters.text
+        };
         let bytes = subset(tools, name, source, wanted)?;
-        let path = add_hashed(&mut assets.files, &format!("stix-two-{name}"), "woff2", bytes);
+        let path = add_hashed(
+            &mut assets.files,
+            &format!("stix-two-{name}"),
+            "woff2",
+            bytes,
+        );
         if *name == "text-regular" {
             assets.preload.push(path);
         }

@@ -31,7 +31,13 @@ pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
     let target = super::target_folder(&tools.project);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--package", "epipole-web", "--lib"])
-        .args(["--target", "wasm32-unknown-unknown", "--profile", "web", "--quiet"])
+        .args([
+            "--target",
+            "wasm32-unknown-unknown",
+            "--profile",
+            "web",
+            "--quiet",
+        ])
         .current_dir(&tools.project)
         .stdout(Stdio::null())
         .status()
@@ -56,7 +62,10 @@ pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
     let bound = folder.join("epipole_web_bg.wasm");
     let glue = folder.join("epipole_web.js");
     if fast {
-        return Ok(Module { wasm: read(&bound)?, glue });
+        return Ok(Module {
+            wasm: read(&bound)?,
+            glue,
+        });
     }
     let optimized = tools.work.join(format!("epipole-{key:016x}.wasm"));
     if !optimized.is_file() {
@@ -72,5 +81,8 @@ pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
         )?;
         std::fs::rename(&part, &optimized)?;
     }
-    Ok(Module { wasm: read(&optimized)?, glue })
+    Ok(Module {
+        wasm: read(&optimized)?,
+        glue,
+    })
 }

@@ -21,7 +21,13 @@ pub const REGISTRY: &[Entry] = &[
         compute: |a| {
             let camera = Intrinsics::new(a.get("f"), a.get("f"), a.get("cu"), 0.0);
             let point = Point3::new(a.get("x"), 0.0, a.get("z"));
-            Ok(Real(camera.and_then(|camera| camera.project(&point)).map_err(sentence)?.x, 1))
+            Ok(Real(
+                camera
+                    .and_then(|camera| camera.project(&point))
+                    .map_err(sentence)?
+                    .x,
+                1,
+            ))
         },
     },
     Entry {
@@ -61,7 +67,12 @@ pub const REGISTRY: &[Entry] = &[
         name: "epipolar.sampson-px",
         parameters: MATCH,
         summary: "Sampson distance of the match (u, v) – (u2, v2), pixels",
-        compute: |a| Ok(Real(sampson_px(&fundamental(a)?, &pixel1(a), &pixel2(a)), 2)),
+        compute: |a| {
+            Ok(Real(
+                sampson_px(&fundamental(a)?, &pixel1(a), &pixel2(a)),
+                2,
+            ))
+        },
     },
     Entry {
         name: "ransac.trials",
