@@ -118,14 +118,10 @@ pub fn make(options: &Options, letters: &Letters) -> Result<Assets> {
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
-    for (name, file) in [(
-        "OFL-STIX-Two.txt",
-        "web/node_modules/@fontsource/stix-two-math/LICENSE",
-    )] {
-        assets
-            .files
-            .insert(format!("licenses/{name}"), read(&tools.project.join(file))?);
-    }
+    let license = read(&tools.modules.join("@fontsource/stix-two-math/LICENSE"))?;
+    assets
+        .files
+        .insert("licenses/OFL-STIX-Two.txt".to_owned(), license);
     Ok(assets)
 }
 
