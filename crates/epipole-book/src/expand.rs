@@ -13,16 +13,15 @@
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
 use crate::directives::Directive;
-use crate::figures::{Figure, Poster, Room, Shade};
-use crate::html::{escape, path_to_root};
+use crate::html::escape;
 use crate::markdown::Renderer;
 use crate::page::FigureEntry;
+use crate::posters::{self, Posters};
 use crate::problems::{Place, name_list};
 use crate::references::cite;
 use crate::shared::{PAGE_OF_REFERENCES, QuizEntry, token};
 use crate::source::Source;
 use crate::{numbers, quiz};
-use rayon::prelude::*;
 
 const KNOWN: [&str; 9] = [
     "cite",
@@ -206,7 +205,10 @@ fn figure(
     };
     renderer.page.figures.push(entry);
 
-    let posters = posters(figure.as_ref(), &name, renderer)?;
+    let posters = match shared.posters_in() {
+        Some(folder) => posters::draw(figure.as_ref(), &name, &settings, renderer, folder)?,
+        None => Posters::default(),
+    };
     let description = figure.description();
     renderer.page.words.push_str(&description);
     renderer.page.words.push(' ');
@@ -237,90 +239,6 @@ fn figure(
     );
     Ok(Insert::Block { html })
 }
-
-/// Device pixels of a poster to a CSS pixel.
-const POSTER_SCALE: u32 = 2;
-
-/// The posters of a figure for wide and narrow pages, light and dark.
-struct Posters {
-    /// `<source>`s for all but wide and light.
-    sources: String,
-    /// Wide and light.
-    src: String,
-    /// Of `src`, CSS pixels.
-    size: (u32, u32),
-}
-
-/// Narrower pages get the poster for phones: the width below which the text has no margin.
-const NARROW: &str = "(max-width: 38rem)";
-const DARK: &str = "(prefers-color-scheme: dark)";
-
-fn posters(figure: &dyn Figure, name: &str, renderer: &Renderer) -> Result<Posters, String> {
-    let variants = [
-        (
-            Room::Narrow,
-            Shade::Dark,
-            "narrow-dark",
-            format!("{NARROW} and {DARK}"),
-        ),
-        (
-            Room::Narrow,
-            Shade::Light,
-            "narrow-light",
-            NARROW.to_owned(),
-        ),
-        (Room::Wide, Shade::Dark, "dark", DARK.to_owned()),
-        (Room::Wide, Shade::Light, "light", String::new()),
-    ];
-    let drawn: Vec<(Vec<u8>, (u32, u32))> = variants
-        .par_iter()
-        .map(|(room, shade, _, _)| {
-            let poster = figure.poster(*shade, *room, POSTER_SCALE)?;
-            let size = (poster.width / POSTER_SCALE, poster.height / POSTER_SCALE);
-            Ok((webp(&poster)?, size))
-        })
-        .collect::<Result<_, String>>()?;
-    let root = path_to_root(&renderer.page.path);
-    let mut posters = Posters {
-        sources: String::new(),
-        src: String::new(),
-        size: (0, 0),
-    };
-    for ((_, _, suffix, media), (bytes, size)) in variants.iter().zip(drawn) {
-        let path = renderer
-            .shared
-            .add_asset(&format!("figures/{name}-{suffix}"), "webp", bytes);
-        let (width, height) = size;
-        if media.is_empty() {
-            (posters.src, posters.size) = (format!("{root}{path}"), size);
-        } else {
-            posters.sources.push_str(&format!(
-                "<source srcset=\"{root}{path}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
-            ));
-        }
-    }
-    Ok(posters)
-}
-
-/// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs lossy.
-fn webp(poster: &Poster) -> Result<Vec<u8>, String> {
-    let encoder = webp::Encoder::from_rgba(&poster.rgba, poster.width, poster.height);
-    let encode = |lossless: bool| {
-        encoder
-            .encode_simple(lossless, POSTER_QUALITY)
-            .map_err(|error| format!("the poster could not be encoded: {error:?}"))
-    };
-    let (lossless, lossy) = (encode(true)?, encode(false)?);
-    let smaller = if lossless.len() <= lossy.len() {
-        lossless
-    } else {
-        lossy
-    };
-    Ok(smaller.to_vec())
-}
-
-/// Of 100; text on photographs stays crisp at two device pixels to a CSS pixel.
-const POSTER_QUALITY: f32 = 84.0;
 
 fn quiz_block(renderer: &mut Renderer, name: &str) -> Result<Insert, String> {
     let shared = renderer.shared;

@@ -7,15 +7,6 @@ use epipole_widgets::POSTER_WIDTH;
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
 
-/// The look of a poster.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shade {
-    /// Dark marks on paper.
-    Light,
-    /// Light marks on a dark ground.
-    Dark,
-}
-
 /// The page that a poster is for: figures lay themselves out for its width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Room {
@@ -62,11 +53,12 @@ pub trait Figure: Send + Sync {
     /// What it shows now, in one or two sentences: the alternative text of the poster.
     fn description(&self) -> String;
 
-    /// The drawing, [`Room::width`] CSS pixels wide with `scale` device pixels to each.
+    /// The drawing, [`Room::width`] CSS pixels wide with `scale` device pixels to each: light and
+    /// dark, since the photographs in it are the same.
     ///
     /// # Errors
     /// A sentence.
-    fn poster(&self, shade: Shade, room: Room, scale: u32) -> Result<Poster, String>;
+    fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String>;
 }
 
 /// A gallery without figures.
@@ -125,21 +117,20 @@ impl Figure for Widget {
         self.description.clone()
     }
 
-    fn poster(&self, shade: Shade, room: Room, scale: u32) -> Result<Poster, String> {
-        let theme = match shade {
-            Shade::Light => Theme::Light,
-            Shade::Dark => Theme::Dark,
-        };
+    fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
         let mut figure = open(&self.name, &self.settings)?;
-        let picture = figure
-            .draw_settled(f64::from(room.width()), f64::from(scale), theme)
-            .map_err(|problem| problem.to_string())?;
-        let (width, height) = (picture.width(), picture.height());
-        Ok(Poster {
-            width,
-            height,
-            rgba: picture.rgba().to_vec(),
-        })
+        let mut draw = |theme| {
+            let picture = figure
+                .draw_settled(f64::from(room.width()), f64::from(scale), theme)
+                .map_err(|problem| problem.to_string())?;
+            let (width, height) = (picture.width(), picture.height());
+            Ok::<_, String>(Poster {
+                width,
+                height,
+                rgba: picture.rgba().to_vec(),
+            })
+        };
+        Ok([draw(Theme::Light)?, draw(Theme::Dark)?])
     }
 }
 
@@ -153,8 +144,8 @@ mod tests {
             let figure = Widgets.open(&name, &[]).unwrap();
             assert!(!figure.description().is_empty());
             for room in [Room::Wide, Room::Narrow] {
-                let heights = [Shade::Light, Shade::Dark].map(|shade| {
-                    let poster = figure.poster(shade, room, 1).unwrap();
+                let posters = figure.posters(room, 1).unwrap();
+                let heights = posters.map(|poster| {
                     assert_eq!(poster.width, room.width(), "{name}");
                     let pixels = poster.width * poster.height;
                     assert_eq!(poster.rgba.len(), pixels as usize * 4, "{name}");

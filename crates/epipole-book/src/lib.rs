@@ -22,6 +22,7 @@ mod markdown;
 pub mod math;
 pub mod numbers;
 pub mod page;
+mod posters;
 pub mod problems;
 pub mod quiz;
 pub mod references;

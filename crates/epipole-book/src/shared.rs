@@ -63,11 +63,18 @@ pub(crate) struct Shared<'a> {
     content: &'a Path,
     /// How the content folder is called in messages.
     shown_as: PathBuf,
+    /// Where posters are kept between builds; none are drawn without.
+    posters: Option<PathBuf>,
     collected: Mutex<Collected>,
 }
 
 impl<'a> Shared<'a> {
-    pub(crate) fn new(content: &'a Path, gallery: &'a dyn Gallery, problems: &'a Problems) -> Self {
+    pub(crate) fn new(
+        content: &'a Path,
+        gallery: &'a dyn Gallery,
+        posters: Option<PathBuf>,
+        problems: &'a Problems,
+    ) -> Self {
         let shown_as = content
             .file_name()
             .map_or_else(|| content.to_path_buf(), PathBuf::from);
@@ -77,12 +84,18 @@ impl<'a> Shared<'a> {
             references: References::default(),
             content,
             shown_as,
+            posters,
             collected: Mutex::default(),
         };
         if let Some(source) = shared.read("references.toml") {
             shared.references = References::parse(&source, problems);
         }
         shared
+    }
+
+    /// Where posters are kept; none in a build that only looks for problems.
+    pub(crate) fn posters_in(&self) -> Option<&Path> {
+        self.posters.as_deref()
     }
 
     /// A place in a file of the content folder.

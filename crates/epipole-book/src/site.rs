@@ -59,7 +59,13 @@ pub enum Outcome {
 pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     let content = options.project.join("content");
     let problems = Problems::default();
-    let shared = Shared::new(&content, gallery, &problems);
+    let posters = assets::target_folder(&options.project).join("book-work/posters");
+    if !options.check {
+        std::fs::create_dir_all(&posters)
+            .with_context(|| format!("cannot make the folder {}", posters.display()))?;
+    }
+    let posters = (!options.check).then_some(posters);
+    let shared = Shared::new(&content, gallery, posters, &problems);
     check_summary(&shared);
     if !problems.sorted().is_empty() {
         return Ok(Outcome::Problems(problems.sorted()));

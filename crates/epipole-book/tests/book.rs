@@ -1,6 +1,6 @@
 //! Small books in temporary folders: what comes out, and what each mistake says.
 
-use epipole_book::figures::{Figure, Gallery, Poster, Room, Shade};
+use epipole_book::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::html::forbidden_inline;
 use epipole_book::site::{Options, Outcome, build};
 use std::fs;
@@ -38,15 +38,16 @@ impl Figure for Dot {
         format!("A \"dot\" of size {}.", self.0)
     }
 
-    fn poster(&self, shade: Shade, room: Room, scale: u32) -> Result<Poster, String> {
+    fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
         let (width, height) = (room.width() * scale, 10 * scale);
-        let level = if shade == Shade::Light { 255 } else { 0 };
-        let rgba = [level, level, level, 255].repeat((width * height) as usize);
-        Ok(Poster {
-            width,
-            height,
-            rgba,
-        })
+        Ok([255, 0].map(|level| {
+            let rgba = [level, level, level, 255].repeat((width * height) as usize);
+            Poster {
+                width,
+                height,
+                rgba,
+            }
+        }))
     }
 }
 
