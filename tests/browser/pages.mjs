@@ -1,5 +1,7 @@
 // Pages that the tests make up: figures as the book writes them, with poster and caption.
 
+import { script } from "./places.mjs";
+
 /** `?figure=ransac-race outliers=0.4&figure=…&theme=dark&bare=1`: a page with these figures. */
 export function figurePage(url) {
   const figures = url.searchParams.getAll("figure").map((words, index) => {
@@ -24,7 +26,7 @@ export function figurePage(url) {
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Figures</title>
 <link rel="stylesheet" href="/pages/page.css">
-<script type="module" src="/elements/epipole.js"></script>
+<script type="module" src="/elements/${script}"></script>
 </head>
 <body>
 <main>

@@ -1,12 +1,17 @@
-/** The bindings that the book builder generates; `build.mjs` says where they are. */
-declare module "#bindings" {
+/** The bindings that wasm-bindgen generates from `crates/epipole-web`. */
+declare module "epipole-web" {
   export class Figure {
     constructor(name: string);
     title(): string;
     help(): string;
-    apply(parameters: string): string;
+    apply(parameters: string[]): string;
     state(): string;
-    update(event: string): string | undefined;
+    set_number(id: string, value: number): string | undefined;
+    set_flag(id: string, value: boolean): string | undefined;
+    set_text(id: string, value: string): string | undefined;
+    press(id: string): string | undefined;
+    remove(id: string): string | undefined;
+    reset(): string | undefined;
     tick(dtSeconds: number): string | undefined;
     is_running(): boolean;
     snapshot(width: number): string;
@@ -30,11 +35,8 @@ declare module "#bindings" {
   }): Promise<{ memory: WebAssembly.Memory }>;
 }
 
-/** Where the WebAssembly module is, relative to the script. */
-declare module "#wasm" {
-  const path: string;
-  export default path;
-}
+/** Where the WebAssembly module is, relative to the script; the bundler puts it in. */
+declare const EPIPOLE_WASM: string;
 
 declare module "*.css" {
   const text: string;

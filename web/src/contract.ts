@@ -105,7 +105,6 @@ export interface Snapshot {
 export type FigureEvent =
   | { type: "set"; id: string; value: string | number | boolean }
   | { type: "press"; id: string }
-  | { type: "handle-moved"; id: string; x: number; y: number }
   | { type: "handle-removed"; id: string }
   | { type: "reset" };
 

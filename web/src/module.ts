@@ -1,7 +1,6 @@
 /** The one WebAssembly module of a page: loaded when the first figure wants it. */
 
-import load, { Figure, figures, take_panic } from "#bindings";
-import path from "#wasm";
+import load, { Figure, figures, take_panic } from "epipole-web";
 import type {
   Direction,
   FigureEvent,
@@ -14,7 +13,7 @@ let loading: Promise<{ memory: WebAssembly.Memory }> | undefined;
 
 /** Loads the module, or waits for it. A failed load may be tried again. */
 export function loadModule(): Promise<{ memory: WebAssembly.Memory }> {
-  loading ??= load({ module_or_path: new URL(path, import.meta.url) }).catch((error: unknown) => {
+  loading ??= load({ module_or_path: new URL(EPIPOLE_WASM, import.meta.url) }).catch((error: unknown) => {
     loading = undefined;
     throw error;
   });
@@ -56,7 +55,7 @@ export class Engine {
   }
 
   apply(parameters: Parameters): Refused[] {
-    return JSON.parse(this.#figure.apply(JSON.stringify(parameters)));
+    return JSON.parse(this.#figure.apply(parameters.flat()));
   }
 
   state(): Parameters {
@@ -68,7 +67,19 @@ export class Engine {
   }
 
   update(event: FigureEvent): string | undefined {
-    return this.#figure.update(JSON.stringify(event));
+    const figure = this.#figure;
+    switch (event.type) {
+      case "set":
+        if (typeof event.value === "number") return figure.set_number(event.id, event.value);
+        if (typeof event.value === "boolean") return figure.set_flag(event.id, event.value);
+        return figure.set_text(event.id, event.value);
+      case "press":
+        return figure.press(event.id);
+      case "handle-removed":
+        return figure.remove(event.id);
+      case "reset":
+        return figure.reset();
+    }
   }
 
   tick(seconds: number): string | undefined {

@@ -1,6 +1,6 @@
 /** The one style sheet that all figures of a page share. */
 
-import text from "./figure.css";
+import text from "./figure.css" with { type: "text" };
 
 let shared: CSSStyleSheet | undefined;
 

@@ -2,7 +2,7 @@
 
 use crate::snapshot::{Listed, Refused, Snapshot, json};
 use epipole_widgets::canvas::Picture;
-use epipole_widgets::contract::{Event, Handle};
+use epipole_widgets::contract::{Event, Handle, Value};
 use epipole_widgets::pointing::{self, Direction};
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure as Model, gallery};
@@ -20,6 +20,9 @@ pub fn figures() -> String {
 }
 
 /// A figure in some state, with its last drawn frame.
+///
+/// What goes in is plain arguments, so that the module carries no JSON parser; what comes out is
+/// JSON, which browsers parse faster than they cross the border for each value.
 ///
 /// Widths are CSS pixels; places are CSS pixels from the picture's top left corner, of the picture
 /// laid out for the width given. Methods that change the state return a sentence for the reader
@@ -81,10 +84,13 @@ impl Figure {
         self.figure.help().to_owned()
     }
 
-    /// Puts parameters, JSON `[[key, value]]`, on top of the state. Returns those that could not be
-    /// used, JSON `[{"unknown", "message"}]`.
-    pub fn apply(&mut self, parameters: &str) -> String {
-        let pairs: Vec<(String, String)> = serde_json::from_str(parameters).unwrap_or_default();
+    /// Puts parameters, keys and values in turn, on top of the state. Returns those that could not
+    /// be used, JSON `[{"unknown", "message"}]`.
+    pub fn apply(&mut self, parameters: Vec<String>) -> String {
+        let pairs: Vec<(String, String)> = parameters
+            .chunks_exact(2)
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect();
         let problems = self.figure.apply(&pairs);
         json(&problems.iter().map(Refused::from).collect::<Vec<_>>())
     }
@@ -94,12 +100,37 @@ impl Figure {
         json(&self.figure.state())
     }
 
-    /// Changes the state by an event, JSON.
-    pub fn update(&mut self, event: &str) -> Option<String> {
-        match serde_json::from_str::<Event>(event) {
-            Ok(event) => self.send(&event),
-            Err(error) => Some(format!("this is not an event: {error}")),
-        }
+    /// Sets a slider.
+    pub fn set_number(&mut self, id: String, value: f64) -> Option<String> {
+        let value = Value::Number(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Sets a toggle.
+    pub fn set_flag(&mut self, id: String, value: bool) -> Option<String> {
+        let value = Value::Flag(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Sets a choice, or any control from its text.
+    pub fn set_text(&mut self, id: String, value: String) -> Option<String> {
+        let value = Value::Text(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Presses a button.
+    pub fn press(&mut self, id: String) -> Option<String> {
+        self.send(&Event::Press { id })
+    }
+
+    /// Removes a handle, if the reader may.
+    pub fn remove(&mut self, id: String) -> Option<String> {
+        self.send(&Event::HandleRemoved { id })
+    }
+
+    /// Returns to the default state.
+    pub fn reset(&mut self) -> Option<String> {
+        self.send(&Event::Reset)
     }
 
     /// Time passes, seconds.
@@ -207,14 +238,18 @@ impl Figure {
         }
     }
 
-    fn send(&mut self, event: &Event) -> Option<String> {
-        let refused = self.figure.update(event).err();
-        refused.map(|problem| problem.to_string())
-    }
-
     fn handle(&self, id: &str) -> Option<Handle> {
         let mut handles = self.figure.handles().into_iter();
         handles.find(|handle| handle.id == id)
+    }
+}
+
+impl Figure {
+    /// Changes the state by any event: the natural call natively, kept out of the module because
+    /// each event has a method of its own there.
+    pub fn send(&mut self, event: &Event) -> Option<String> {
+        let refused = self.figure.update(event).err();
+        refused.map(|problem| problem.to_string())
     }
 }
 

@@ -1,8 +1,8 @@
 //! The bridge between the figures and a page.
 //!
-//! A page holds one [`Figure`] for each figure that it shows and drives it with strings: events go
-//! in as JSON, controls, handles, readouts and challenges come out as JSON, and a drawn frame is
-//! read where it lies in WebAssembly's memory. Everything here also runs natively, so that a script
+//! A page holds one [`Figure`] for each figure that it shows. Events go in as calls with plain
+//! arguments; controls, handles, readouts and challenges come out as JSON; a drawn frame is read
+//! where it lies in WebAssembly's memory. Everything here also runs natively, so that a script
 //! of events can be played on both sides and the answers compared letter by letter.
 
 mod figure;
