@@ -1,7 +1,7 @@
 // Makes the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
 //
 // DIR of --bindings holds epipole_web.js and epipole_web_bg.wasm, as wasm-bindgen makes them for the
-// web. Out come index.js, the module beside it, and the types. (The book bundles the same sources
+// web. Out come index.js, worker.js, the module beside them, and the types. (The book bundles the same sources
 // itself, with names made of their content.)
 
 import { build } from "esbuild";
@@ -31,14 +31,14 @@ for (const path of [glue, wasm]) {
 mkdirSync(out, { recursive: true });
 copyFileSync(wasm, join(out, "epipole.wasm"));
 await build({
-  entryPoints: [join(here, "src/index.ts")],
+  entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
   outdir: out,
   bundle: true,
   format: "esm",
   target: "es2022",
   minify: true,
   alias: { "epipole-web": glue },
-  define: { EPIPOLE_WASM: '"epipole.wasm"' },
+  define: { EPIPOLE_WASM: '"epipole.wasm"', EPIPOLE_WORKER: '"worker.js"' },
   logLevel: "warning",
 });
 execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "types")], {

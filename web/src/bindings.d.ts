@@ -20,6 +20,11 @@ declare module "epipole-web" {
     nudge(id: string, width: number, towards: string, steps: number): string | undefined;
     move_to_end(id: string, width: number, towards: string): string | undefined;
     click(width: number, x: number, y: number): string | undefined;
+    take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
+    job_key(): string | undefined;
+    job_request(): Uint8Array;
+    job_done(key: string, result: Uint8Array): boolean;
+    job_failed(key: string, sentence: string): boolean;
     refine(): boolean;
     draw(width: number, scale: number, theme: string): string | undefined;
     draw_settled(width: number, scale: number, theme: string): string | undefined;
@@ -28,6 +33,11 @@ declare module "epipole-web" {
     pixel_height(): number;
     frame_hash(): string | undefined;
   }
+  export function compute(
+    name: string,
+    request: Uint8Array,
+    listener: { progress: (share: number) => void },
+  ): Uint8Array;
   export function figures(): string;
   export function take_panic(): string | undefined;
   export default function load(options: {
@@ -37,6 +47,9 @@ declare module "epipole-web" {
 
 /** Where the WebAssembly module is, relative to the script; the bundler puts it in. */
 declare const EPIPOLE_WASM: string;
+
+/** Where the worker's script is, likewise. */
+declare const EPIPOLE_WORKER: string;
 
 declare module "*.css" {
   const text: string;

@@ -83,6 +83,14 @@ export interface Challenge {
   solved: boolean;
 }
 
+/** A place for a photograph of the reader's own. */
+export interface PhotoSlot {
+  id: string;
+  label: string;
+  /** Larger photographs are made smaller. */
+  max_side_px: number;
+}
+
 /** A part of the picture. */
 export interface Panel {
   id: string;
@@ -99,6 +107,9 @@ export interface Snapshot {
   challenges: Challenge[];
   description: string;
   running: boolean;
+  photos: PhotoSlot[];
+  /** What to say while the figure waits for a long computation. */
+  waiting: string | null;
 }
 
 /** What the reader does. */

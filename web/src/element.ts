@@ -4,8 +4,10 @@ import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
 import { Challenges } from "./challenges.js";
 import { Controls } from "./controls.js";
 import { make, setAttribute } from "./dom.js";
+import { Jobs } from "./jobs.js";
 import { Engine, loadModule } from "./module.js";
 import { linkTo, parametersIn } from "./permalink.js";
+import { Photos } from "./photos.js";
 import { Picture } from "./picture.js";
 import { defineProperties } from "./properties.js";
 import { Readouts } from "./readouts.js";
@@ -45,10 +47,23 @@ export class EpipoleFigure extends HTMLElement {
     {
       reset: () => this.reset(),
       link: () => this.permalink,
-      save: () => this.#save(),
+      save: () => void this.#save(),
       fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
     },
     (sentence) => this.#speaker.say(sentence),
+  );
+  readonly #jobs = new Jobs({
+    next: () => {
+      const name = this.getAttribute("name") ?? "";
+      const job = this.#session?.ask((engine) => engine.job());
+      return job && { name, ...job };
+    },
+    done: (key, result) => this.#endJob((engine) => engine.jobDone(key, result)),
+    failed: (key, sentence) => this.#endJob((engine) => engine.jobFailed(key, sentence)),
+  });
+  readonly #photos = new Photos(
+    (slot, photo) => this.#session?.act((engine) => engine.takePhoto(slot, photo)),
+    (sentence) => this.#speaker.warn([sentence], true),
   );
   readonly #help = make("p", { id: "help", class: "help" });
   readonly #title = make("p", { id: "title", class: "title" });
@@ -67,12 +82,18 @@ export class EpipoleFigure extends HTMLElement {
   constructor() {
     super();
     const head = make("div", { class: "head" }, this.#title, this.#toolbar.element);
-    this.#panel.append(this.#readouts.element, this.#controls.element, this.#challenges.element);
+    this.#panel.append(
+      this.#readouts.element,
+      this.#controls.element,
+      this.#photos.element,
+      this.#challenges.element,
+    );
     this.#root = make(
       "div",
       { class: "root", "aria-labelledby": "title", "aria-describedby": "help" },
       head,
       this.#picture.element,
+      this.#jobs.element,
       this.#speaker.notice,
       this.#toolbar.link,
       this.#panel,
@@ -122,6 +143,7 @@ export class EpipoleFigure extends HTMLElement {
     ];
     this.#recolor();
     this.#session?.resize(this.#picture.element.clientWidth);
+    if (this.#snapshot) this.#jobs.follow(this.#snapshot.waiting);
     if (this.#isLinked()) void this.#open(true);
   }
 
@@ -130,6 +152,7 @@ export class EpipoleFigure extends HTMLElement {
     this.#stop = [];
     this.#speaker.silence();
     this.#session?.setInSight(false);
+    this.#jobs.end();
   }
 
   attributeChangedCallback(name: string, before: string | null): void {
@@ -237,6 +260,7 @@ export class EpipoleFigure extends HTMLElement {
     if (attempt !== this.#opening) return;
     this.#session?.end();
     this.#session = undefined;
+    this.#jobs.end();
     let engine: Engine;
     try {
       engine = new Engine(name, memory);
@@ -263,6 +287,7 @@ export class EpipoleFigure extends HTMLElement {
       refused: (sentence) => this.#speaker.warn([`${capitalize(sentence)}.`], true),
       broke: (message) => {
         this.#session = undefined;
+        this.#jobs.end();
         this.#fail("This figure has stopped: a mistake of ours. Reset starts it again.", !this.#ready);
         this.#emit("epipole-error", { message });
       },
@@ -282,11 +307,20 @@ export class EpipoleFigure extends HTMLElement {
       this.#controls.update(snapshot.controls);
       this.#readouts.update(snapshot.readouts);
       this.#picture.update(snapshot);
+      this.#photos.update(snapshot.photos);
+      this.#jobs.follow(snapshot.waiting);
       this.#description.textContent = snapshot.description;
       const solved = this.#challenges.update(snapshot.challenges);
       if (this.#ready) this.#tell(before, snapshot, solved);
     }
     if (!this.#ready) this.#becomeReady(linked);
+  }
+
+  #endJob(work: (engine: Engine) => boolean): void {
+    this.#session?.act((engine) => {
+      work(engine);
+      return undefined;
+    });
   }
 
   /** The first frame is there: the poster goes, everything else comes. */
@@ -383,7 +417,11 @@ export class EpipoleFigure extends HTMLElement {
     return [...more, ...state];
   }
 
-  #save(): void {
+  async #save(): Promise<void> {
+    // A picture that waits for a computation is not the one that the reader wants to keep.
+    while (this.#snapshot?.waiting && this.#session && this.#jobs.busy) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
     this.#session?.portrait(2)?.toBlob((blob) => {
       if (!blob) return;
       const link = make("a", {

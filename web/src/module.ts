@@ -8,6 +8,7 @@ import type {
   Refused,
   Snapshot,
 } from "./contract.js";
+import type { Photo } from "./photos.js";
 
 let loading: Promise<{ memory: WebAssembly.Memory }> | undefined;
 
@@ -104,6 +105,24 @@ export class Engine {
 
   click(width: number, x: number, y: number): string | undefined {
     return this.#figure.click(width, x, y);
+  }
+
+  takePhoto(slot: string, { width, height, rgba }: Photo): string | undefined {
+    return this.#figure.take_photo(slot, width, height, rgba);
+  }
+
+  /** The long computation that the figure waits for. */
+  job(): { key: string; request: Uint8Array } | undefined {
+    const key = this.#figure.job_key();
+    return key === undefined ? undefined : { key, request: this.#figure.job_request() };
+  }
+
+  jobDone(key: string, result: Uint8Array): boolean {
+    return this.#figure.job_done(key, result);
+  }
+
+  jobFailed(key: string, sentence: string): boolean {
+    return this.#figure.job_failed(key, sentence);
   }
 
   refine(): boolean {

@@ -121,7 +121,9 @@ export class Session {
   /** Shows the figure as it is to be printed: sharp, dark on light. */
   prepareForPrint(): void {
     if (this.#width === 0) return;
-    this.#guard(() => this.engine.draw(this.#canvas, this.#width, 2, "light", true));
+    // Nobody waits for a long computation now.
+    const settled = this.ask((engine) => engine.job()) === undefined;
+    this.#guard(() => this.engine.draw(this.#canvas, this.#width, 2, "light", settled));
     this.#stale = true;
   }
 

@@ -2,10 +2,11 @@
 
 use crate::snapshot::{Listed, Refused, Snapshot, json};
 use epipole_widgets::canvas::Picture;
-use epipole_widgets::contract::{Event, Handle, Value};
+use epipole_widgets::contract::{Event, Handle, JobResult, Problem, Value};
 use epipole_widgets::pointing::{self, Direction};
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure as Model, gallery};
+use image::RgbImage;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// All figures, JSON: `[{"name", "title", "help"}]`.
@@ -181,6 +182,45 @@ impl Figure {
         self.send(&event)
     }
 
+    /// Puts a photograph of the reader's own, rows of red, green, blue, alpha, into a slot.
+    pub fn take_photo(
+        &mut self,
+        slot: &str,
+        width: u32,
+        height: u32,
+        rgba: &[u8],
+    ) -> Option<String> {
+        let rgb = rgba
+            .chunks_exact(4)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect();
+        let Some(photo) = RgbImage::from_raw(width, height, rgb) else {
+            return Some("the photograph is not complete".to_owned());
+        };
+        let refused = self.figure.take_photo(slot, photo).err();
+        refused.map(|problem| problem.to_string())
+    }
+
+    /// The long computation that the figure waits for: a name that tells it from others.
+    pub fn job_key(&self) -> Option<String> {
+        self.figure.job().map(|job| format!("{:016x}", job.key()))
+    }
+
+    /// What that computation needs: the second argument of [`compute`].
+    pub fn job_request(&self) -> Vec<u8> {
+        self.figure.job().map_or_else(Vec::new, |job| job.request)
+    }
+
+    /// Hands over the result of a computation; one that the figure no longer waits for is dropped.
+    pub fn job_done(&mut self, key: &str, result: Vec<u8>) -> bool {
+        self.end_job(key, Ok(result))
+    }
+
+    /// Tells that a computation has failed, with the sentence that it ended with.
+    pub fn job_failed(&mut self, key: &str, sentence: String) -> bool {
+        self.end_job(key, Err(Problem::Elsewhere { sentence }))
+    }
+
     /// Does a few milliseconds of work that makes the next frame better; false when done.
     pub fn refine(&mut self) -> bool {
         self.figure.refine()
@@ -245,6 +285,10 @@ impl Figure {
 }
 
 impl Figure {
+    fn end_job(&mut self, key: &str, result: JobResult) -> bool {
+        u64::from_str_radix(key, 16).is_ok_and(|key| self.figure.job_done(key, result))
+    }
+
     /// Changes the state by any event: the natural call natively, kept out of the module because
     /// each event has a method of its own there.
     pub fn send(&mut self, event: &Event) -> Option<String> {

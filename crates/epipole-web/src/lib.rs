@@ -6,8 +6,10 @@
 //! of events can be played on both sides and the answers compared letter by letter.
 
 mod figure;
+mod job;
 mod panic;
 mod snapshot;
 
 pub use figure::{Figure, figures};
+pub use job::{Listener, compute};
 pub use panic::{start, take_panic};

@@ -1,6 +1,6 @@
 //! Everything that a page shows beside the picture, as one piece of JSON.
 
-use epipole_widgets::contract::{Control, Handle, Layout, Problem, Readout};
+use epipole_widgets::contract::{Control, Handle, Layout, PhotoSlot, Problem, Readout};
 use epipole_widgets::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
 
@@ -14,6 +14,9 @@ pub(crate) struct Snapshot {
     challenges: Vec<ChallengeStatus>,
     description: String,
     running: bool,
+    photos: &'static [PhotoSlot],
+    /// What to say while the figure waits for a long computation.
+    waiting: Option<&'static str>,
 }
 
 /// A handle and where it is on the page, CSS pixels.
@@ -38,6 +41,8 @@ impl Snapshot {
             challenges: figure.challenges(),
             description: figure.describe(),
             running: figure.is_running(),
+            photos: figure.photo_slots(),
+            waiting: figure.job().map(|job| job.label),
             layout,
         }
     }
