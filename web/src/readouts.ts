@@ -3,6 +3,9 @@
 import type { Readout } from "./contract.js";
 import { make, setText } from "./dom.js";
 
+/** Longer texts take the room of two. */
+const LONG = 22;
+
 export class Readouts {
   readonly element = make("dl", { class: "readouts" });
   #values = new Map<string, HTMLElement>();
@@ -13,7 +16,10 @@ export class Readouts {
     if (ids !== this.#ids) this.#rebuild(readouts, ids);
     for (const readout of readouts) {
       const value = this.#values.get(readout.id);
-      if (value) setText(value, readout.text);
+      if (!value) continue;
+      setText(value, readout.text);
+      // Once wide, always wide: nothing jumps while numbers change.
+      if (readout.text.length > LONG) value.parentElement?.classList.add("long");
     }
     this.element.hidden = readouts.length === 0;
   }
