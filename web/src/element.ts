@@ -102,7 +102,8 @@ export class EpipoleFigure extends HTMLElement {
       this.#speaker.region,
       make("slot", { name: "caption" }),
     );
-    head.hidden = true;
+    // Its room is kept from the start, so that nothing moves when the figure is there.
+    this.#toolbar.element.classList.add("later");
     const shadow = this.attachShadow({ mode: "open" });
     shadow.adoptedStyleSheets = [sheet()];
     shadow.append(this.#root);
@@ -328,7 +329,7 @@ export class EpipoleFigure extends HTMLElement {
     this.#ready = true;
     this.#picture.reveal();
     this.#panel.hidden = false;
-    this.#root.querySelector<HTMLElement>(".head")?.removeAttribute("hidden");
+    this.#toolbar.element.classList.remove("later");
     this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
     setAttribute(this, "data-ready", true);
     if (linked && !location.hash) this.scrollIntoView({ block: "start" });
