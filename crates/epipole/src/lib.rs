@@ -15,13 +15,9 @@
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
-//! | [`stereo`] | depth from disparity |
-//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`stereo`] | rectification, dense disparity, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
-
-//! | [`homography`] | homographies: four points, least squares, decomposition |
-//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -37,17 +33,17 @@ mod error;
 pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
-pub mod homography;
 pub mod feature;
+pub mod homography;
 pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
+pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
-pub mod synthetic;
 
 pub use absolute_pose::find_absolute_pose;
 pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
