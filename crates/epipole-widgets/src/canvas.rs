@@ -281,8 +281,9 @@ impl Canvas {
     pub fn fill_rect(&mut self, rect: Rect, role: Role, opacity: f64) {
         // Whole pixels need no coverage, so a large rectangle costs little.
         let device = |low: f64, high: f64, clip: (f64, f64), most: u32| {
+            let is_number = !low.is_nan() && !high.is_nan();
             let (low, high) = (low.max(clip.0), high.min(clip.1));
-            if !(low < high) {
+            if !is_number || low >= high {
                 return 0..0;
             }
             let start = (low * self.scale).round();

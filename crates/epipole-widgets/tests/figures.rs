@@ -18,9 +18,9 @@ fn figures() -> impl Iterator<Item = Figure> {
 
 /// A figure after some events, with all that it computes.
 fn finished(name: &str, events: &[Event]) -> Figure {
-    let mut figure = Figure::new(name).unwrap();
+    let mut figure = Figure::new(name).expect("it exists");
     for event in events {
-        figure.update(event).unwrap();
+        figure.update(event).expect("the event is good");
     }
     figure.finish_job();
     figure

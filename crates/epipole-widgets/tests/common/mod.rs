@@ -1,5 +1,7 @@
 //! What the tests of figures share: random events, and what must hold in every state.
 
+#![allow(dead_code, reason = "each test uses a part")]
+
 use epipole::math::random::Random;
 use epipole_widgets::Figure;
 use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value};
@@ -8,7 +10,7 @@ use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value
 const LONGEST_DESCRIPTION: usize = 400;
 
 /// One event, usually sensible, sometimes not.
-pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
+pub(crate) fn random_event(figure: &Figure, random: &mut Random) -> Event {
     match random.below(100) {
         0..35 => {
             let controls = figure.controls();
@@ -147,7 +149,7 @@ fn odd_value(random: &mut Random) -> Value {
 }
 
 /// What must hold in every state of every figure.
-pub fn assert_sound(figure: &Figure, width: f64) {
+pub(crate) fn assert_sound(figure: &Figure, width: f64) {
     let name = figure.name();
     let context = || format!("{name} at {}", figure.query());
     let description = figure.describe();
@@ -212,8 +214,8 @@ fn assert_readable(text: &str, context: &str) {
 }
 
 /// A new figure with the state of another.
-pub fn copy_of(figure: &Figure) -> Figure {
-    let mut copy = Figure::new(figure.name()).unwrap();
+pub(crate) fn copy_of(figure: &Figure) -> Figure {
+    let mut copy = Figure::new(figure.name()).expect("it exists");
     let problems = copy.apply(&figure.state());
     assert!(problems.is_empty(), "{}: {problems:?}", figure.query());
     copy
