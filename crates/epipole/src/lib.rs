@@ -11,12 +11,10 @@
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
+//! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
-
-//! | [`homography`] | homographies: four points, least squares, decomposition |
-//! | [`stereo`] | depth from disparity |
 //!
 //! # Conventions
 //!
@@ -32,8 +30,8 @@ mod error;
 pub mod camera;
 pub mod epipolar;
 pub mod feature;
-pub mod imaging;
 pub mod homography;
+pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;

@@ -8,10 +8,12 @@
 
 mod alignment;
 mod bal;
+mod builder;
 mod bundle;
 mod export;
 mod g2o;
 mod incremental;
+mod odometry;
 mod photos;
 mod pose_graph;
 mod reconstruction;
@@ -27,9 +29,14 @@ pub use alignment::{
     relative_pose_error,
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal};
-pub use bundle::{Bundle, BundleOptions, Gauge, Observation, RadialDistortion, adjust_bundle};
+pub use bundle::{
+    Bundle, BundleOptions, Gauge, Observation, RadialDistortion, Sensor, adjust_bundle,
+};
 pub use export::ColmapModel;
 pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+pub use odometry::{
+    OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
+};
 pub use photos::{Photo, PhotoOptions, match_photos, reconstruct_photos};
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};

@@ -27,6 +27,8 @@ pub struct PhotoOptions {
     pub sift: SiftOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
+    /// Match each photograph with so many after it; 0 for all. For frames in order of time.
+    pub neighbors: usize,
 }
 
 impl Default for PhotoOptions {
@@ -39,6 +41,7 @@ impl Default for PhotoOptions {
                 ..SiftOptions::default()
             },
             matching: MatchOptions::default(),
+            neighbors: 0,
         }
     }
 }
@@ -84,10 +87,16 @@ pub fn match_photos(
             return Ok((images, None));
         }
     }
-    let total = photos.len() * photos.len().saturating_sub(1) / 2;
+    let reach = if options.neighbors == 0 {
+        photos.len()
+    } else {
+        options.neighbors
+    };
+    let after = |image: usize| image + 1..photos.len().min(image.saturating_add(reach + 1));
+    let total = (0..photos.len()).map(|image| after(image).len()).sum();
     let mut pairs = Vec::new();
     for image1 in 0..photos.len() {
-        for image2 in image1 + 1..photos.len() {
+        for image2 in after(image1) {
             let matches = match_descriptors(
                 &descriptors[image1],
                 &descriptors[image2],
