@@ -14,6 +14,11 @@
 //! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`absolute_pose`] | the pose of a camera from known points |
+//! | [`triangulation`] | points from their images in two or more views |
+//! | [`two_view`] | two views, whatever they show: E, F or H |
+//! | [`stereo`] | depth from disparity |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
@@ -27,8 +32,10 @@
 
 mod error;
 
+pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
+pub mod homography;
 pub mod feature;
 pub mod homography;
 pub mod imaging;
@@ -37,9 +44,15 @@ pub mod optim;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
+pub mod triangulation;
+pub mod two_view;
 pub mod synthetic;
 
+pub use absolute_pose::find_absolute_pose;
+pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
 pub use error::Error;
+pub use homography::find_homography;
+pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;

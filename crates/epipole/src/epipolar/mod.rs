@@ -24,6 +24,7 @@ pub use eight_point::{
     fundamental_8point_unnormalized,
 };
 pub use epipoles::{Epipole, epipoles};
+pub(crate) use essential::signed_depths;
 pub use essential::{
     RelativePose, SelectedPose, decompose_essential, essential_8point, project_to_essential,
     select_pose,

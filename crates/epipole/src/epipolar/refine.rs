@@ -226,8 +226,8 @@ pub(crate) struct RaysInFrame {
 impl RaysInFrame {
     pub(crate) fn new(frame: &CommonFrame, k1: &Intrinsics, k2: &Intrinsics) -> Self {
         Self {
-            a1: k1.inverse_matrix() * frame.to_pixels(0),
-            a2t: (k2.inverse_matrix() * frame.to_pixels(1)).transpose(),
+            a1: k1.inverse_matrix() * frame.frame_to_pixels(0),
+            a2t: (k2.inverse_matrix() * frame.frame_to_pixels(1)).transpose(),
         }
     }
 

@@ -93,25 +93,25 @@ impl CommonFrame {
     }
 
     /// T⁻¹ of an image: from the frame back to pixels.
-    pub(crate) fn to_pixels(self, image: usize) -> Matrix3<f64> {
+    pub(crate) fn frame_to_pixels(self, image: usize) -> Matrix3<f64> {
         let [cu, cv] = self.centers[image];
         let size = 1.0 / self.scale;
         Matrix3::new(size, 0.0, cu, 0.0, size, cv, 0.0, 0.0, 1.0)
     }
 
     /// T of an image.
-    pub(crate) fn from_pixels(self, image: usize) -> Matrix3<f64> {
+    pub(crate) fn pixels_to_frame(self, image: usize) -> Matrix3<f64> {
         let [cu, cv] = self.centers[image];
         let s = self.scale;
         Matrix3::new(s, 0.0, -s * cu, 0.0, s, -s * cv, 0.0, 0.0, 1.0)
     }
 
     pub(crate) fn fundamental_to_frame(self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        self.to_pixels(1).transpose() * f * self.to_pixels(0)
+        self.frame_to_pixels(1).transpose() * f * self.frame_to_pixels(0)
     }
 
     pub(crate) fn fundamental_to_pixels(self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        self.from_pixels(1).transpose() * f * self.from_pixels(0)
+        self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)
     }
 }
 

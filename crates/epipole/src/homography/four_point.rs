@@ -121,7 +121,7 @@ mod tests {
                 );
                 let depth = distance / normal.dot(&x1);
                 let x2 = truth * x1;
-                if depth < 0.1 || depth > 10.0 || x2.z <= 0.0 {
+                if !(0.1..=10.0).contains(&depth) || x2.z <= 0.0 {
                     continue;
                 }
                 let seen = Point2::new(x2.x / x2.z, x2.y / x2.z);

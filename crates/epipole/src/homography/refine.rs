@@ -50,12 +50,12 @@ pub fn refine_homography(
 }
 
 pub(super) fn to_frame(frame: &CommonFrame, h: &Matrix3<f64>) -> Matrix3<f64> {
-    frame.from_pixels(1) * h * frame.to_pixels(0)
+    frame.pixels_to_frame(1) * h * frame.frame_to_pixels(0)
 }
 
 /// Unit Frobenius norm; `None` if an entry is not finite.
 pub(super) fn to_pixels(frame: &CommonFrame, h: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let pixels = frame.to_pixels(1) * h * frame.from_pixels(0);
+    let pixels = frame.frame_to_pixels(1) * h * frame.pixels_to_frame(0);
     let norm = pixels.norm();
     (norm.is_finite() && norm > 0.0).then(|| pixels / norm)
 }

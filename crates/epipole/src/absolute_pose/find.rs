@@ -1,0 +1,180 @@
+//! The pose of a camera from points of which many are wrongly matched.
+
+use super::p3p::solve;
+use super::refine::{Pose, PoseProblem, refine};
+use crate::camera::{Intrinsics, RigidTransform};
+use crate::optim::{LmOptions, RobustLoss};
+use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
+
+/// Camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is three points; the error is the reprojection error in pixels, infinite behind the camera;
+/// refinement minimizes its truncated square. Equal data count once.
+#[derive(Debug, Clone)]
+pub struct AbsolutePoseEstimator {
+    points: Vec<Point3<f64>>,
+    pixels: Vec<Point2<f64>>,
+    rays: Vec<Vector3<f64>>,
+    intrinsics: Intrinsics,
+    unique: Unique,
+}
+
+impl AbsolutePoseEstimator {
+    /// Prepares the estimation.
+    ///
+    /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and
+    /// infinities, [`Error::TooFew`] for fewer than 4 different data: three have up to four poses.
+    pub fn new(
+        points_in_world: &[Point3<f64>],
+        pixels: &[Point2<f64>],
+        intrinsics: Intrinsics,
+    ) -> Result<Self> {
+        if points_in_world.len() != pixels.len() {
+            return Err(Error::SizeMismatch {
+                what: "the list of points and that of their pixels",
+                first: points_in_world.len(),
+                second: pixels.len(),
+            });
+        }
+        let finite = |x: &f64| x.is_finite();
+        if !points_in_world.iter().all(|p| p.iter().all(finite))
+            || !pixels.iter().all(|p| p.iter().all(finite))
+        {
+            return Err(Error::NotFinite {
+                what: "a point or its pixel",
+            });
+        }
+        let unique = Unique::new(pixels.len(), |i| {
+            let (x, p) = (&points_in_world[i], &pixels[i]);
+            [x.x, x.y, x.z, p.x, p.y]
+        });
+        if unique.len() < 4 {
+            return Err(Error::TooFew {
+                what: "a camera pose from points",
+                needed: 4,
+                got: unique.len(),
+            });
+        }
+        let kept = unique.first_occurrences();
+        Ok(Self {
+            points: kept.iter().map(|&i| points_in_world[i]).collect(),
+            pixels: kept.iter().map(|&i| pixels[i]).collect(),
+            rays: kept
+                .iter()
+                .map(|&i| intrinsics.ray(&pixels[i]).normalize())
+                .collect(),
+            intrinsics,
+            unique,
+        })
+    }
+
+    fn refined(
+        &self,
+        pose: &Pose,
+        inliers: &[usize],
+        max_error_px: f64,
+        max_iterations: usize,
+    ) -> Option<Pose> {
+        let options = LmOptions {
+            max_iterations,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        let problem = PoseProblem {
+            points: &self.points,
+            pixels: &self.pixels,
+            used: inliers,
+            intrinsics: &self.intrinsics,
+            loss: RobustLoss::Truncated {
+                width: max_error_px,
+            },
+        };
+        refine(&problem, *pose, &options)
+    }
+}
+
+impl Estimator for AbsolutePoseEstimator {
+    /// R and t of `cam_from_world`.
+    type Model = (Matrix3<f64>, Vector3<f64>);
+
+    fn name(&self) -> &'static str {
+        "a camera pose from points"
+    }
+
+    fn sample_size(&self) -> usize {
+        3
+    }
+
+    fn num_data(&self) -> usize {
+        self.points.len()
+    }
+
+    fn max_models(&self) -> usize {
+        4
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
+        let rays = core::array::from_fn(|i| self.rays[sample[i]]);
+        let points = core::array::from_fn(|i| self.points[sample[i]].coords);
+        let mut solutions = [(Matrix3::zeros(), Vector3::zeros()); 4];
+        let count = solve(&rays, &points, &mut solutions);
+        models.extend_from_slice(&solutions[..count]);
+    }
+
+    fn error_sq(&self, (rotation, t): &Self::Model, index: usize) -> f64 {
+        let x = rotation * self.points[index].coords + t;
+        let k = &self.intrinsics;
+        let center = k.principal_point();
+        let du = k.fu_px() * x.x / x.z + center.x - self.pixels[index].x;
+        let dv = k.fv_px() * x.y / x.z + center.y - self.pixels[index].y;
+        if x.z > 0.0 {
+            du * du + dv * dv
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn refine(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
+        self.refined(pose, inliers, max_error_px, 4)
+    }
+
+    fn polish(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
+        self.refined(pose, inliers, max_error_px, 20)
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(&self.unique)
+    }
+}
+
+/// The pose `cam_from_world` that most points agree on.
+///
+/// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
+/// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
+///
+/// # Errors
+/// As [`AbsolutePoseEstimator::new`] and [`ransac`]; points on one line give
+/// [`Error::NoConsensus`].
+///
+/// Source: Fischler & Bolles 1981, with P3P as the minimal solver.
+pub fn find_absolute_pose(
+    points_in_world: &[Point3<f64>],
+    pixels: &[Point2<f64>],
+    intrinsics: &Intrinsics,
+    options: &RansacOptions,
+) -> Result<RansacReport<RigidTransform>> {
+    let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, *intrinsics)?;
+    let report = ransac(estimator, options)?;
+    Ok(report.map(|(rotation, t)| {
+        RigidTransform::from_parts(
+            t.into(),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
+        )
+    }))
+}

@@ -1,0 +1,11 @@
+//! Where a camera stands, from points whose places are known.
+
+mod dlt;
+mod find;
+mod p3p;
+mod refine;
+
+pub use dlt::pose_dlt;
+pub use find::{AbsolutePoseEstimator, find_absolute_pose};
+pub use p3p::pose_p3p;
+pub use refine::{refine_absolute_pose, reprojection_error_px};

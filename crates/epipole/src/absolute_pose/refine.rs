@@ -1,0 +1,247 @@
+//! Nonlinear refinement of a camera pose: the reprojection error by Levenberg–Marquardt.
+
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::math::svd3;
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::{Error, Result};
+use nalgebra::{
+    Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector2, Vector3,
+};
+
+/// How far a point's image is from the pixel where it was seen; infinite behind the camera.
+///
+/// Source: Hartley & Zisserman 2004, §7.2.
+pub fn reprojection_error_px(
+    camera: &Camera,
+    point_in_world: &Point3<f64>,
+    pixel: &Point2<f64>,
+) -> f64 {
+    match camera.project(point_in_world) {
+        Ok(seen) => (seen - pixel).norm(),
+        Err(_) => f64::INFINITY,
+    }
+}
+
+/// The pose near `cam_from_world` that minimizes `½ Σ ρ(‖pixel − projection‖²)`.
+///
+/// * `points_in_world`, `pixels`: points and where they are seen, at least 3
+/// * `loss`: its width is in pixels
+///
+/// Points that are behind the camera at the start are left out.
+///
+/// # Errors
+/// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists
+/// of different length, [`Error::NotFinite`] for NaN and infinities.
+///
+/// Source: Hartley & Zisserman 2004, §7.2.
+pub fn refine_absolute_pose(
+    cam_from_world: &RigidTransform,
+    points_in_world: &[Point3<f64>],
+    pixels: &[Point2<f64>],
+    intrinsics: &Intrinsics,
+    loss: RobustLoss,
+) -> Result<RigidTransform> {
+    if points_in_world.len() != pixels.len() {
+        return Err(Error::SizeMismatch {
+            what: "the list of points and that of their pixels",
+            first: points_in_world.len(),
+            second: pixels.len(),
+        });
+    }
+    let finite = |x: &f64| x.is_finite();
+    if !points_in_world.iter().all(|p| p.iter().all(finite))
+        || !pixels.iter().all(|p| p.iter().all(finite))
+    {
+        return Err(Error::NotFinite {
+            what: "a point or its pixel",
+        });
+    }
+    let used: Vec<usize> = (0..pixels.len())
+        .filter(|&i| (cam_from_world * points_in_world[i]).z > 0.0)
+        .collect();
+    if used.len() < 3 {
+        return Err(Error::TooFew {
+            what: "the refinement of a pose from points in front of the camera",
+            needed: 3,
+            got: used.len(),
+        });
+    }
+    let problem = PoseProblem {
+        points: points_in_world,
+        pixels,
+        used: &used,
+        intrinsics,
+        loss,
+    };
+    let start = (
+        cam_from_world.rotation.to_rotation_matrix().into_inner(),
+        cam_from_world.translation.vector,
+    );
+    let (rotation, t) = refine(&problem, start, &LmOptions::default()).ok_or(Error::NotFinite {
+        what: "the reprojection error of the start",
+    })?;
+    Ok(RigidTransform::from_parts(
+        t.into(),
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
+    ))
+}
+
+pub(super) type Pose = (Matrix3<f64>, Vector3<f64>);
+
+pub(super) struct PoseProblem<'a> {
+    pub(super) points: &'a [Point3<f64>],
+    pub(super) pixels: &'a [Point2<f64>],
+    pub(super) used: &'a [usize],
+    pub(super) intrinsics: &'a Intrinsics,
+    pub(super) loss: RobustLoss,
+}
+
+impl PoseProblem<'_> {
+    /// The residual, and the point in the camera frame; `None` in or behind the center plane.
+    fn residual(&self, (rotation, t): &Pose, index: usize) -> Option<(Vector2<f64>, Vector3<f64>)> {
+        let x = rotation * self.points[index].coords + t;
+        let seen = self.intrinsics.project(&Point3::from(x)).ok()?;
+        Some((seen - self.pixels[index], x))
+    }
+
+    /// The Jacobian of a residual with respect to a rotation from the left and to t.
+    fn jacobian(&self, (rotation, _): &Pose, index: usize, x: &Vector3<f64>) -> SMatrix<f64, 2, 6> {
+        let (fu, fv) = (self.intrinsics.fu_px(), self.intrinsics.fv_px());
+        let per_z = 1.0 / x.z;
+        let by_point = SMatrix::<f64, 2, 3>::new(
+            fu * per_z,
+            0.0,
+            -fu * x.x * per_z * per_z,
+            0.0,
+            fv * per_z,
+            -fv * x.y * per_z * per_z,
+        );
+        // R ← exp([δ]ₓ) R turns the rotated point alone, not t.
+        let turned = rotation * self.points[index].coords;
+        let by_turn = by_point * -turned.cross_matrix();
+        let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
+        jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
+        jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_point);
+        jacobian
+    }
+}
+
+impl FixedProblem<6> for PoseProblem<'_> {
+    type Parameters = Pose;
+
+    fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<6>) {
+        for &index in self.used {
+            match self.residual(pose, index) {
+                Some((residual, x)) => {
+                    normal.add(&residual, &self.jacobian(pose, index, &x), &self.loss);
+                }
+                None => normal.cost = f64::INFINITY,
+            }
+        }
+    }
+
+    fn cost(&self, pose: &Pose) -> f64 {
+        let mut total = 0.0;
+        for &index in self.used {
+            match self.residual(pose, index) {
+                Some((residual, _)) => total += 0.5 * self.loss.rho(residual.norm_squared()),
+                None => return f64::INFINITY,
+            }
+        }
+        total
+    }
+
+    fn plus(&self, (rotation, t): &Pose, delta: &SVector<f64, 6>) -> Pose {
+        let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
+        (
+            turn.into_inner() * rotation,
+            t + Vector3::new(delta[3], delta[4], delta[5]),
+        )
+    }
+}
+
+pub(super) fn refine(problem: &PoseProblem<'_>, start: Pose, options: &LmOptions) -> Option<Pose> {
+    let mut pose = start;
+    minimize_fixed(problem, &mut pose, options).ok()?;
+    // Products of many rotations drift from orthogonality.
+    let svd = svd3(&pose.0);
+    let rotation = svd.u * svd.v.transpose();
+    let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
+    finite.then_some((rotation, pose.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::p3p::tests::problem;
+    use super::*;
+    use crate::math::random::Random;
+    use crate::optim::check_jacobian;
+    use nalgebra::{DMatrix, DVector};
+
+    #[test]
+    fn jacobian_agrees_with_differences() {
+        let mut random = Random::new(1);
+        let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+        for _ in 0..20 {
+            let (truth, rays, points) = problem::<8>(&mut random);
+            let pixels = rays.map(|r| k.project(&r.into()).unwrap());
+            let used: Vec<usize> = (0..8).collect();
+            let pose_problem = PoseProblem {
+                points: &points,
+                pixels: &pixels,
+                used: &used,
+                intrinsics: &k,
+                loss: RobustLoss::Trivial,
+            };
+            let pose = (
+                truth.rotation.to_rotation_matrix().into_inner(),
+                truth.translation.vector,
+            );
+            let residuals = |delta: &DVector<f64>| {
+                let delta = SVector::<f64, 6>::from_column_slice(delta.as_slice());
+                let moved = pose_problem.plus(&pose, &delta);
+                DVector::from_fn(16, |row, _| {
+                    pose_problem.residual(&moved, row / 2).unwrap().0[row % 2]
+                })
+            };
+            let analytic = DMatrix::from_fn(16, 6, |row, column| {
+                let (_, x) = pose_problem.residual(&pose, row / 2).unwrap();
+                pose_problem.jacobian(&pose, row / 2, &x)[(row % 2, column)]
+            });
+            assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn refinement_returns_from_a_disturbed_pose() {
+        let mut random = Random::new(2);
+        let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+        for _ in 0..50 {
+            let (truth, rays, points) = problem::<30>(&mut random);
+            let mut pixels = rays.map(|r| k.project(&r.into()).unwrap());
+            pixels[7].x += 200.0;
+            let disturbed = RigidTransform::new(
+                Vector3::new(0.01, -0.01, 0.005),
+                Vector3::new(0.01, 0.0, -0.01),
+            ) * truth;
+            let loss = RobustLoss::Cauchy { width: 1.0 };
+            let found = refine_absolute_pose(&disturbed, &points, &pixels, &k, loss).unwrap();
+            assert!(found.rotation.angle_to(&truth.rotation) < 1e-3);
+            assert!((found.translation.vector - truth.translation.vector).norm() < 5e-3);
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+        let identity = RigidTransform::identity();
+        let behind = vec![Point3::new(0.0, 0.0, -1.0); 5];
+        let pixels = vec![Point2::new(0.0, 0.0); 5];
+        let refine = |points: &[Point3<f64>], pixels: &[Point2<f64>]| {
+            refine_absolute_pose(&identity, points, pixels, &k, RobustLoss::Trivial)
+        };
+        assert!(refine(&behind, &pixels).is_err());
+        assert!(refine(&behind, &pixels[..2]).is_err());
+        assert!(refine(&[Point3::new(f64::NAN, 0.0, 1.0); 5], &pixels).is_err());
+    }
+}

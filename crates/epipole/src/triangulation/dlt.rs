@@ -1,0 +1,291 @@
+//! Two-view triangulation by the direct linear transform.
+
+use crate::{Error, Result};
+use nalgebra::{Matrix3x4, Point2, Point3};
+
+/// The point that two cameras see at two pixels, minimizing the algebraic error
+/// `Σ ‖x × P X‖²` over homogeneous X of length 1.
+///
+/// * `p1`, `p2`: 3×4 projection matrices, such as [`Camera::projection_matrix`](crate::camera::Camera::projection_matrix)
+/// * `pixel1`, `pixel2`: where the point is seen
+///
+/// # Errors
+/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the point is not
+/// in front of both cameras, [`Error::NotFinite`] for NaN and infinities,
+/// [`Error::Degenerate`] if the cameras are at the same place.
+///
+/// Source: Hartley & Zisserman 2004, §12.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::triangulation::triangulate_dlt;
+/// use nalgebra::{Matrix3x4, Point2, Point3};
+/// let p1 = Matrix3x4::identity();
+/// let mut p2 = p1;
+/// p2[(0, 3)] = -1.0; // one unit to the right
+/// let point = triangulate_dlt(&p1, &p2, &Point2::new(0.25, 0.5), &Point2::new(0.0, 0.5))?;
+/// assert!((point - Point3::new(1.0, 2.0, 4.0)).norm() < 1e-12);
+/// # Ok(()) }
+/// ```
+pub fn triangulate_dlt(
+    p1: &Matrix3x4<f64>,
+    p2: &Matrix3x4<f64>,
+    pixel1: &Point2<f64>,
+    pixel2: &Point2<f64>,
+) -> Result<Point3<f64>> {
+    let (r1, r2) = (rows_of(p1), rows_of(p2));
+    accept(&r1, &r2, &solve(&r1, &r2, pixel1, pixel2))
+}
+
+/// [`triangulate_dlt`] of many matches of one pair of cameras.
+///
+/// # Errors
+/// Each element has its own; [`Error::SizeMismatch`] if the lists differ in length.
+pub fn triangulate_dlt_all(
+    p1: &Matrix3x4<f64>,
+    p2: &Matrix3x4<f64>,
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+) -> Result<Vec<Result<Point3<f64>>>> {
+    if pixels1.len() != pixels2.len() {
+        return Err(Error::SizeMismatch {
+            what: "the two lists of matching pixels",
+            first: pixels1.len(),
+            second: pixels2.len(),
+        });
+    }
+    let (r1, r2) = (rows_of(p1), rows_of(p2));
+    Ok(pixels1
+        .iter()
+        .zip(pixels2)
+        .map(|(a, b)| accept(&r1, &r2, &solve(&r1, &r2, a, b)))
+        .collect())
+}
+
+type Row = [f64; 4];
+
+fn rows_of(p: &Matrix3x4<f64>) -> [Row; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|j| p[(i, j)]))
+}
+
+#[inline(always)]
+fn dot(a: &Row, b: &Row) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
+/// The homogeneous point, with a length near 1 but not exactly; anything for bad input.
+#[inline(always)]
+fn solve(p1: &[Row; 3], p2: &[Row; 3], pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> Row {
+    let equation = |p: &[Row; 3], value: f64, axis: usize| -> Row {
+        core::array::from_fn(|j| value * p[2][j] - p[axis][j])
+    };
+    let mut a = [
+        equation(p1, pixel1.x, 0),
+        equation(p1, pixel1.y, 1),
+        equation(p2, pixel2.x, 0),
+        equation(p2, pixel2.y, 1),
+    ];
+    // The singular vector of the smallest singular value of a 4×4 matrix: triangularize by
+    // Householder reflections, then inverse iteration with RᵀR, which the wide gap between the
+    // singular values makes converge in a few steps.
+    for j in 0..4 {
+        let mut norm_sq = 0.0;
+        for row in &a[j..] {
+            norm_sq += row[j] * row[j];
+        }
+        let top = a[j][j];
+        let norm = norm_sq.sqrt().copysign(top);
+        let scale = 1.0 / (norm_sq + norm * top);
+        let mut v = [0.0; 4];
+        v[j] = top + norm;
+        for i in j + 1..4 {
+            v[i] = a[i][j];
+        }
+        for k in j..4 {
+            let mut s = 0.0;
+            for i in j..4 {
+                s += v[i] * a[i][k];
+            }
+            let s = if norm_sq > 0.0 { s * scale } else { 0.0 };
+            for i in j..4 {
+                a[i][k] -= s * v[i];
+            }
+        }
+    }
+    let r = a;
+    // A zero on the diagonal is an exact null vector; a tiny number in its place leads there.
+    let tiny = 1e-30
+        * (r[0][0].abs() + r[1][1].abs() + r[2][2].abs() + r[3][3].abs()).max(f64::MIN_POSITIVE);
+    let inverse: Row =
+        core::array::from_fn(|i| 1.0 / if r[i][i].abs() > tiny { r[i][i] } else { tiny });
+    let backward = |b: Row| -> Row {
+        let x3 = b[3] * inverse[3];
+        let x2 = (b[2] - r[2][3] * x3) * inverse[2];
+        let x1 = (b[1] - r[1][2] * x2 - r[1][3] * x3) * inverse[1];
+        let x0 = (b[0] - r[0][1] * x1 - r[0][2] * x2 - r[0][3] * x3) * inverse[0];
+        [x0, x1, x2, x3]
+    };
+    // The start R x = e4 is already the null vector of an exactly singular system.
+    let mut x = normalized(backward([0.0, 0.0, 0.0, 1.0]));
+    for _ in 0..12 {
+        let y0 = x[0] * inverse[0];
+        let y1 = (x[1] - r[0][1] * y0) * inverse[1];
+        let y2 = (x[2] - r[0][2] * y0 - r[1][2] * y1) * inverse[2];
+        let y3 = (x[3] - r[0][3] * y0 - r[1][3] * y1 - r[2][3] * y2) * inverse[3];
+        let next = normalized(backward(normalized([y0, y1, y2, y3])));
+        let turn = 1.0 - dot(&next, &x).abs();
+        x = next;
+        if turn < 1e-15 {
+            break;
+        }
+    }
+    x
+}
+
+#[inline(always)]
+fn normalized(x: Row) -> Row {
+    // Divided first by the largest entry, so that squares neither overflow nor vanish.
+    let largest = x[0].abs().max(x[1].abs()).max(x[2].abs().max(x[3].abs()));
+    let y = x.map(|value| value / largest);
+    let per_norm = 1.0 / dot(&y, &y).sqrt();
+    y.map(|value| value * per_norm)
+}
+
+#[inline(always)]
+fn accept(p1: &[Row; 3], p2: &[Row; 3], x: &Row) -> Result<Point3<f64>> {
+    let (z1, z2) = (dot(&p1[2], x), dot(&p2[2], x));
+    let in_space = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+    if !(z1.is_finite() && z2.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "a pixel or a projection matrix",
+        });
+    }
+    if x[3].abs() <= 1e-12 * in_space {
+        return Err(Error::PointAtInfinity);
+    }
+    // Depths have the sign of z w, for projection matrices K [R t].
+    if !(z1 * x[3] > 0.0 && z2 * x[3] > 0.0) {
+        return Err(Error::PointBehindCamera);
+    }
+    let per_w = 1.0 / x[3];
+    Ok(Point3::new(x[0] * per_w, x[1] * per_w, x[2] * per_w))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{RigidTransform, look_at};
+    use crate::math::null_space::right_singular_vectors;
+    use crate::math::random::Random;
+    use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+    fn projection(m: &RigidTransform) -> Matrix3x4<f64> {
+        m.to_matrix().fixed_view::<3, 4>(0, 0).into_owned()
+    }
+
+    /// COLMAP's triangulation_test: listed points, within 1e-10.
+    #[test]
+    fn published_points() {
+        let points = [
+            (0.0, 0.1, 0.1),
+            (0.0, 1.0, 3.0),
+            (0.0, 1.0, 2.0),
+            (0.01, 0.2, 3.0),
+            (-1.0, 0.1, 1.0),
+            (0.1, 0.1, 0.2),
+        ];
+        let p1 = projection(&RigidTransform::identity());
+        let (mut in_front, mut behind) = (0, 0);
+        for z in 0..5 {
+            for tx in (0..10).step_by(2) {
+                // The test's quaternion is not of unit length; only its direction matters here.
+                let rotation = UnitQuaternion::from_quaternion(Quaternion::new(
+                    0.2,
+                    0.3,
+                    0.4,
+                    f64::from(z) / 5.0,
+                ));
+                let t = Vector3::new(f64::from(tx), 2.0, 3.0);
+                let cam2 = RigidTransform::from_parts(t.into(), rotation);
+                let p2 = projection(&cam2);
+                for (x, y, z) in points {
+                    let point = Point3::new(x, y, z);
+                    let seen = cam2 * point;
+                    let pixel1 = Point2::new(x / z, y / z);
+                    let pixel2 = Point2::new(seen.x / seen.z, seen.y / seen.z);
+                    let found = triangulate_dlt(&p1, &p2, &pixel1, &pixel2);
+                    if seen.z > 0.0 {
+                        assert!((found.unwrap() - point).norm() < 1e-10);
+                        in_front += 1;
+                    } else {
+                        assert_eq!(found, Err(Error::PointBehindCamera));
+                        behind += 1;
+                    }
+                }
+            }
+        }
+        assert!(in_front > 100 && in_front + behind == 150);
+    }
+
+    #[test]
+    fn published_parallel_rays() {
+        let p1 = projection(&RigidTransform::identity());
+        let p2 = projection(&RigidTransform::translation(1.0, 0.0, 0.0));
+        let o = Point2::origin();
+        assert_eq!(
+            triangulate_dlt(&p1, &p2, &o, &o),
+            Err(Error::PointAtInfinity)
+        );
+    }
+
+    /// The same vector as a singular value decomposition finds, with noise.
+    #[test]
+    fn agrees_with_the_singular_vector() {
+        let mut random = Random::new(1);
+        for _ in 0..500 {
+            let up = Vector3::new(0.0, -1.0, 0.1);
+            let mut near = || random.uniform(-1.0, 1.0);
+            let camera = |center: Point3<f64>| {
+                projection(&look_at(&center, &Point3::new(0.0, 0.0, 5.0), &up).unwrap())
+            };
+            let (p1, p2) = (
+                camera(Point3::new(near(), near(), near())),
+                camera(Point3::new(near(), near(), near())),
+            );
+            let x = nalgebra::Vector4::new(near(), near(), near() + 5.0, 1.0);
+            let (a, b) = (p1 * x, p2 * x);
+            let noisy = |v: Vector3<f64>, n: f64, m: f64| {
+                Point2::new(v.x / v.z + 1e-3 * n, v.y / v.z + 1e-3 * m)
+            };
+            let (q1, q2) = (noisy(a, near(), near()), noisy(b, near(), near()));
+            let (r1, r2) = (rows_of(&p1), rows_of(&p2));
+            let found = solve(&r1, &r2, &q1, &q2);
+            let rows = [
+                (&r1, q1.x, 0),
+                (&r1, q1.y, 1),
+                (&r2, q2.x, 0),
+                (&r2, q2.y, 1),
+            ];
+            let (_, vectors) = right_singular_vectors(4, |i| {
+                let (p, value, axis) = rows[i];
+                core::array::from_fn(|j| value * p[2][j] - p[axis][j])
+            });
+            assert!(dot(&found, &vectors[3]).abs() > 1.0 - 1e-12);
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let p1 = projection(&RigidTransform::identity());
+        let p2 = projection(&RigidTransform::translation(-1.0, 0.0, 0.0));
+        let (o, nan) = (Point2::origin(), Point2::new(f64::NAN, 0.0));
+        assert!(triangulate_dlt(&p1, &p2, &o, &nan).is_err());
+        assert!(triangulate_dlt(&p1, &(p2 * f64::INFINITY), &o, &o).is_err());
+        assert!(triangulate_dlt(&Matrix3x4::zeros(), &Matrix3x4::zeros(), &o, &o).is_err());
+        // Same place: the whole ray fits.
+        if let Ok(point) = triangulate_dlt(&p1, &p1, &o, &o) {
+            assert!(point.iter().all(|x| x.is_finite()));
+        }
+        assert!(triangulate_dlt_all(&p1, &p2, &[o], &[]).is_err());
+    }
+}

@@ -1,0 +1,249 @@
+//! Triangulation from many views.
+
+use super::quality::projection_jacobian;
+use crate::camera::Camera;
+use crate::math::null_space::right_singular_vectors;
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::{Error, Result};
+use nalgebra::{Point2, Point3, SVector, Vector3};
+
+/// The point that minimizes the algebraic error `Σ ‖x × P X‖²` over all views.
+///
+/// * `cameras`, `pixels`: each camera and where it sees the point, two at least
+///
+/// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with few.
+///
+/// # Errors
+/// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::NotFinite`] for
+/// NaN and infinities, [`Error::PointAtInfinity`] for parallel rays or a single center,
+/// [`Error::PointBehindCamera`] if a camera would have the point behind it.
+///
+/// Source: Hartley & Zisserman 2004, §12.2.
+pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Result<Point3<f64>> {
+    if cameras.len() != pixels.len() {
+        return Err(Error::SizeMismatch {
+            what: "the list of cameras and that of pixels",
+            first: cameras.len(),
+            second: pixels.len(),
+        });
+    }
+    if cameras.len() < 2 {
+        return Err(Error::TooFew {
+            what: "a triangulated point from views",
+            needed: 2,
+            got: cameras.len(),
+        });
+    }
+    // Measured from the first camera, so that a far-away world origin costs no digits.
+    let origin = cameras[0].center_in_world().coords;
+    let (values, vectors) = right_singular_vectors(2 * cameras.len(), |row| {
+        let camera = &cameras[row / 2];
+        let ray = camera.intrinsics.ray(&pixels[row / 2]);
+        let r = camera.cam_from_world.rotation.to_rotation_matrix();
+        let t = (camera.cam_from_world * Point3::from(origin)).coords;
+        let (axis, value) = if row % 2 == 0 { (0, ray.x) } else { (1, ray.y) };
+        let m = r.matrix();
+        [
+            value * m[(2, 0)] - m[(axis, 0)],
+            value * m[(2, 1)] - m[(axis, 1)],
+            value * m[(2, 2)] - m[(axis, 2)],
+            value * t.z - t[axis],
+        ]
+    });
+    if !values.iter().chain(&vectors[3]).all(|x| x.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "a pixel or a camera",
+        });
+    }
+    let x = vectors[3];
+    let in_space = Vector3::new(x[0], x[1], x[2]);
+    if x[3].abs() <= 1e-12 * in_space.norm() || values[2] <= 1e-12 * values[0] {
+        return Err(Error::PointAtInfinity);
+    }
+    let point = Point3::from(in_space / x[3] + origin);
+    for camera in cameras {
+        if (camera.cam_from_world * point).z <= 0.0 {
+            return Err(Error::PointBehindCamera);
+        }
+    }
+    Ok(point)
+}
+
+/// A point and how well it fits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NviewPoint {
+    /// The point.
+    pub point_in_world: Point3<f64>,
+    /// Root mean square of the distances between projections and pixels.
+    pub rms_error_px: f64,
+}
+
+struct Problem<'a> {
+    cameras: &'a [Camera],
+    pixels: &'a [Point2<f64>],
+    loss: RobustLoss,
+}
+
+impl FixedProblem<3> for Problem<'_> {
+    type Parameters = Point3<f64>;
+
+    fn accumulate(&self, point: &Point3<f64>, normal: &mut NormalEquations<3>) {
+        for (camera, pixel) in self.cameras.iter().zip(self.pixels) {
+            match camera.project(point) {
+                Ok(seen) => normal.add(
+                    &(seen - pixel),
+                    &projection_jacobian(camera, point),
+                    &self.loss,
+                ),
+                Err(_) => normal.cost = f64::INFINITY,
+            }
+        }
+    }
+
+    fn cost(&self, point: &Point3<f64>) -> f64 {
+        let mut total = 0.0;
+        for (camera, pixel) in self.cameras.iter().zip(self.pixels) {
+            match camera.project(point) {
+                Ok(seen) => total += 0.5 * self.loss.rho((seen - pixel).norm_squared()),
+                Err(_) => return f64::INFINITY,
+            }
+        }
+        total
+    }
+
+    fn plus(&self, point: &Point3<f64>, delta: &SVector<f64, 3>) -> Point3<f64> {
+        point + delta
+    }
+
+    fn parameter_norm(&self, point: &Point3<f64>) -> f64 {
+        (point - self.cameras[0].center_in_world()).norm()
+    }
+}
+
+/// The point that minimizes the reprojection error `½ Σ ρ(‖pixel − projection‖²)` over all views:
+/// [`triangulate_nview_dlt`], then Levenberg–Marquardt.
+///
+/// * `cameras`, `pixels`: each camera and where it sees the point, two at least
+/// * `loss`: its width is in pixels
+///
+/// # Errors
+/// As [`triangulate_nview_dlt`].
+///
+/// Source: Hartley & Zisserman 2004, §12.3.
+pub fn triangulate_nview(
+    cameras: &[Camera],
+    pixels: &[Point2<f64>],
+    loss: RobustLoss,
+) -> Result<NviewPoint> {
+    let mut point = triangulate_nview_dlt(cameras, pixels)?;
+    let problem = Problem {
+        cameras,
+        pixels,
+        loss,
+    };
+    minimize_fixed(&problem, &mut point, &LmOptions::default())?;
+    let mut total_sq = 0.0;
+    for (camera, pixel) in cameras.iter().zip(pixels) {
+        total_sq += (camera.project(&point)? - pixel).norm_squared();
+    }
+    Ok(NviewPoint {
+        point_in_world: point,
+        rms_error_px: (total_sq / cameras.len() as f64).sqrt(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::math::random::Random;
+    use crate::optim::check_jacobian;
+    use crate::triangulation::triangulate_optimal;
+    use nalgebra::{DMatrix, DVector};
+
+    fn ring(random: &mut Random, count: usize) -> Vec<Camera> {
+        (0..count)
+            .map(|_| Camera {
+                intrinsics: Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
+                cam_from_world: look_at(
+                    &Point3::from(Vector3::from_fn(|_, _| random.uniform(-2.0, 2.0))),
+                    &Point3::new(0.0, 0.0, 8.0),
+                    &Vector3::new(0.0, -1.0, 0.0),
+                )
+                .unwrap(),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn exact_pixels_give_the_point() {
+        let mut random = Random::new(1);
+        for count in 2..8 {
+            let cameras = ring(&mut random, count);
+            let truth = Point3::new(0.3, -0.4, 7.5);
+            let pixels: Vec<_> = cameras.iter().map(|c| c.project(&truth).unwrap()).collect();
+            let point = triangulate_nview_dlt(&cameras, &pixels).unwrap();
+            assert!((point - truth).norm() < 1e-10);
+            let fine = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial).unwrap();
+            assert!((fine.point_in_world - truth).norm() < 1e-10 && fine.rms_error_px < 1e-8);
+        }
+    }
+
+    #[test]
+    fn two_views_agree_with_the_optimal_method() {
+        let mut random = Random::new(2);
+        for _ in 0..50 {
+            let cameras = ring(&mut random, 2);
+            let truth = Point3::new(0.3, -0.4, 7.5);
+            let pixels: Vec<_> = cameras
+                .iter()
+                .map(|c| {
+                    let p = c.project(&truth).unwrap();
+                    Point2::new(p.x + random.normal(), p.y + random.normal())
+                })
+                .collect();
+            let by_lm = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial).unwrap();
+            let closed =
+                triangulate_optimal(&cameras[0], &cameras[1], &pixels[0], &pixels[1]).unwrap();
+            assert!((by_lm.point_in_world - closed).norm() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn jacobian_agrees_with_differences() {
+        let cameras = ring(&mut Random::new(3), 1);
+        let point = Point3::new(0.3, -0.4, 7.5);
+        let at = |delta: &DVector<f64>| {
+            let p = cameras[0]
+                .project(&(point + Vector3::new(delta[0], delta[1], delta[2])))
+                .unwrap();
+            DVector::from_vec(vec![p.x, p.y])
+        };
+        let analytic = projection_jacobian(&cameras[0], &point);
+        let analytic = DMatrix::from_fn(2, 3, |i, j| analytic[(i, j)]);
+        assert!(check_jacobian(&analytic, &at, 1e-6) < 1e-6);
+    }
+
+    #[test]
+    fn bad_views_are_refused() {
+        let intrinsics = Intrinsics::new(600.0, 600.0, 0.0, 0.0).unwrap();
+        let camera = |x: f64| Camera {
+            intrinsics,
+            cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
+        };
+        let o = Point2::origin();
+        let pair = [camera(0.0), camera(1.0)];
+        let nview = |cameras: &[Camera], pixels: &[Point2<f64>]| {
+            triangulate_nview(cameras, pixels, RobustLoss::Trivial).map(|p| p.point_in_world)
+        };
+        assert_eq!(nview(&pair, &[o, o]), Err(Error::PointAtInfinity));
+        assert_eq!(
+            nview(&pair, &[o, Point2::new(60.0, 0.0)]),
+            Err(Error::PointBehindCamera)
+        );
+        assert!(nview(&pair[..1], &[o]).is_err());
+        assert!(nview(&pair, &[o]).is_err());
+        assert!(nview(&pair, &[o, Point2::new(f64::NAN, 0.0)]).is_err());
+        assert!(nview(&[pair[0], pair[0]], &[o, o]).is_err());
+    }
+}

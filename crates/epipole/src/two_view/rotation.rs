@@ -1,0 +1,151 @@
+//! Pure rotations: what two views share when the camera only turned.
+
+use crate::camera::Intrinsics;
+use crate::homography::transfer_error_sq;
+use crate::math::svd3;
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Unique, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Vector3};
+
+/// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is two matches; the error is the distance in image 2 from `K2 R K1⁻¹ x1`, pixels;
+/// refinement aligns the rays of the inliers. Equal matches count once.
+///
+/// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
+#[derive(Debug, Clone)]
+pub struct RotationEstimator {
+    matches: MatchSet,
+    rays: Vec<[Vector3<f64>; 2]>,
+    k1: Intrinsics,
+    k2: Intrinsics,
+}
+
+impl RotationEstimator {
+    /// Prepares the estimation; `k1` and `k2` are the intrinsics of images 1 and 2.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than 2 different matches.
+    pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
+        if matches.len() < 2 {
+            return Err(Error::TooFew {
+                what: "a rotation from matches",
+                needed: 2,
+                got: matches.len(),
+            });
+        }
+        let rays = (0..matches.len())
+            .map(|i| {
+                let (p1, p2) = matches.pair(i);
+                [k1.ray(&p1).normalize(), k2.ray(&p2).normalize()]
+            })
+            .collect();
+        Ok(Self {
+            matches,
+            rays,
+            k1,
+            k2,
+        })
+    }
+
+    /// The rotation that aligns the rays of image 1 with those of image 2 best.
+    fn align(&self, indices: &[usize]) -> Option<Matrix3<f64>> {
+        let mut sum = Matrix3::zeros();
+        for &i in indices {
+            let [r1, r2] = &self.rays[i];
+            sum += r2 * r1.transpose();
+        }
+        let svd = svd3(&sum);
+        // One direction alone leaves the turn about it open.
+        if svd.singular_values[1] <= 1e-12 * svd.singular_values[0] {
+            return None;
+        }
+        let sign = (svd.u * svd.v.transpose()).determinant();
+        let flip = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign));
+        Some(svd.u * flip * svd.v.transpose())
+    }
+}
+
+impl Estimator for RotationEstimator {
+    /// R of `cam2_from_cam1`.
+    type Model = Matrix3<f64>;
+
+    fn name(&self) -> &'static str {
+        "a rotation from matches"
+    }
+
+    fn sample_size(&self) -> usize {
+        2
+    }
+
+    fn num_data(&self) -> usize {
+        self.matches.len()
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
+        models.extend(self.align(sample));
+    }
+
+    fn error_sq(&self, rotation: &Matrix3<f64>, index: usize) -> f64 {
+        let (x1, x2) = self.matches.pair(index);
+        let homography = self.k2.matrix() * rotation * self.k1.inverse_matrix();
+        // A ray turned behind the camera would land on a pixel, too.
+        if (rotation * self.rays[index][0]).z > 0.0 {
+            transfer_error_sq(&homography, &x1, &x2)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn refine(&mut self, _: &Matrix3<f64>, inliers: &[usize], _: f64) -> Option<Matrix3<f64>> {
+        self.align(inliers)
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(self.matches.unique())
+    }
+}
+
+/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera that did not move.
+///
+/// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
+///
+/// # Errors
+/// As [`MatchSet::new`], [`RotationEstimator::new`] and [`ransac`].
+pub fn find_rotation(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    options: &RansacOptions,
+) -> Result<RansacReport<Matrix3<f64>>> {
+    let matches = MatchSet::new(pixels1, pixels2)?;
+    ransac(RotationEstimator::new(matches, *k1, *k2)?, options)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn a_turn_is_found_among_outliers() {
+        let mut random = Random::new(1);
+        let k = Intrinsics::centered(600.0, 640, 480).unwrap();
+        let truth = Rotation3::from_scaled_axis(Vector3::new(0.05, 0.2, -0.1)).into_inner();
+        let h = k.matrix() * truth * k.inverse_matrix();
+        let (p1, p2): (Vec<_>, Vec<_>) = (0..100)
+            .map(|i| {
+                let p = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+                let q = crate::homography::transfer(&h, &p).unwrap();
+                let off = if i % 3 == 0 { 50.0 } else { 0.0 };
+                (p, Point2::new(q.x + off, q.y - 0.5 * off))
+            })
+            .unzip();
+        let report = find_rotation(&p1, &p2, &k, &k, &RansacOptions::default()).unwrap();
+        assert!((report.model - truth).norm() < 1e-9);
+        assert_eq!(report.num_inliers, 66);
+        assert!(find_rotation(&p1[..1], &p2[..1], &k, &k, &RansacOptions::default()).is_err());
+    }
+}
