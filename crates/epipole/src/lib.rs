@@ -12,13 +12,11 @@
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |
 //! | [`epipolar`] | fundamental and essential matrices, epipolar lines and distances |
 //! | [`homography`] | homographies: four points, least squares, decomposition |
-//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
-//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
-//! | [`stereo`] | depth from disparity |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
@@ -35,7 +33,6 @@ mod error;
 pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
-pub mod homography;
 pub mod feature;
 pub mod homography;
 pub mod imaging;
@@ -44,9 +41,9 @@ pub mod optim;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
+pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
-pub mod synthetic;
 
 pub use absolute_pose::find_absolute_pose;
 pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};

@@ -5,10 +5,10 @@
 use super::bundle::{Bundle, BundleOptions, Observation, RadialDistortion, Sensor, adjust_bundle};
 use super::incremental::{Reporter, SfmOptions, SfmProgress};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
-use super::resection::find_camera;
 use super::tracks::TrackElement;
 use super::triangulate_track::{Sight, triangulate_track, widest_angle_rad};
 use super::two_view_start::VerifiedPair;
+use crate::absolute_pose::find_absolute_pose;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::optim::{Iteration, LmOptions, RobustLoss};
 use crate::robust::RansacOptions;
@@ -126,7 +126,10 @@ impl Builder<'_> {
                         && !self.taken[v.pair.image2]
                 })
                 .collect();
-            order.sort_by_key(|&n| (std::cmp::Reverse(verified[n].pair.matches.len()), n));
+            order.sort_by_key(|&n| {
+                let v = &verified[n];
+                (v.is_flat, std::cmp::Reverse(v.pair.matches.len()), n)
+            });
             for n in order {
                 tried[n] = true;
                 if self.start_from(&verified[n]) {
@@ -292,11 +295,17 @@ impl Builder<'_> {
             seed: self.options.seed,
             ..RansacOptions::default()
         };
-        let found = find_camera(&pixels, &positions, &self.intrinsics[image], &ransac)?;
-        if found.num_inliers < self.options.min_num_inliers {
+        let intrinsics = self.intrinsics[image];
+        // Without consensus the image is not registered, and may be later.
+        let found = find_absolute_pose(&positions, &pixels, &intrinsics, &ransac).ok()?;
+        if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
-        self.place(image, Some(found.camera));
+        let camera = Camera {
+            intrinsics,
+            cam_from_world: found.model,
+        };
+        self.place(image, Some(camera));
         for ((element, track), inlier) in visible.iter().zip(&found.inliers) {
             if *inlier && let Some(point) = &mut self.points[*track] {
                 insert(&mut point.seen, *element);

@@ -17,7 +17,6 @@ mod odometry;
 mod photos;
 mod pose_graph;
 mod reconstruction;
-mod resection;
 mod tokens;
 mod tracks;
 mod triangulate_track;
