@@ -4,7 +4,11 @@
 //!   format for such problems, and [`adjust_bal`] solves it.
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
-//! * [`PoseGraph`] spreads the error of closed loops over a trajectory.
+//! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
+//!   the path of a camera whose scale drifts.
+//! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
+//!   photographs, to cameras and points; [`Reconstruction`] writes them to files.
+//! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
 
 mod alignment;
 mod bal;
@@ -13,6 +17,7 @@ mod bundle;
 mod export;
 mod g2o;
 mod incremental;
+mod loop_closure;
 mod odometry;
 mod photos;
 mod pose_graph;
@@ -33,6 +38,7 @@ pub use bundle::{
 };
 pub use export::ColmapModel;
 pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+pub use loop_closure::{ClosedPath, LoopClosure, close_loops, find_similarity_of_points};
 pub use odometry::{
     OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
 };
