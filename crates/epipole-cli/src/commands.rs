@@ -1,8 +1,13 @@
 //! The commands, one a file. A new command is a file here and a line in [`Command`].
 
+mod ba;
 mod detect;
 mod figure;
+mod fit;
 mod matching;
+mod posegraph;
+mod sfm;
+mod two_view;
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -14,6 +19,11 @@ use clap::Subcommand;
 pub(crate) enum Command {
     Detect(detect::Arguments),
     Match(matching::Arguments),
+    Fit(fit::Arguments),
+    TwoView(two_view::Arguments),
+    Sfm(sfm::Arguments),
+    Ba(ba::Arguments),
+    Posegraph(posegraph::Arguments),
     Figure(figure::Arguments),
 }
 
@@ -22,6 +32,11 @@ impl Command {
         match self {
             Self::Detect(arguments) => detect::run(&arguments, context),
             Self::Match(arguments) => matching::run(&arguments, context),
+            Self::Fit(arguments) => fit::run(&arguments, context),
+            Self::TwoView(arguments) => two_view::run(&arguments, context),
+            Self::Sfm(arguments) => sfm::run(&arguments, context),
+            Self::Ba(arguments) => ba::run(&arguments, context),
+            Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Figure(arguments) => figure::run(&arguments, context),
         }
     }

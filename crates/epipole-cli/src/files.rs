@@ -33,3 +33,28 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             failure(error)
         })
 }
+
+/// Reads a file of text.
+///
+/// # Errors
+/// A sentence naming the file.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    fs::read_to_string(path).map_err(|error| {
+        let why = match error.kind() {
+            io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            io::ErrorKind::InvalidData => "this is not a text file".to_owned(),
+            _ => format!("cannot be read: {error}"),
+        };
+        Failure::new("read", why).about(path)
+    })
+}
+
+/// Makes a folder, with those above it.
+///
+/// # Errors
+/// A sentence naming the folder.
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| {
+        Failure::new("write", format!("the folder cannot be made: {error}")).about(path)
+    })
+}

@@ -9,10 +9,13 @@ mod context;
 mod failure;
 mod features;
 mod files;
+mod interrupt;
+mod matrices;
 mod photo;
 mod picture;
 mod progress;
 mod report;
+mod robust;
 
 use clap::Parser;
 use commands::Command;
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         quiet: cli.quiet,
         seed: cli.seed,
     };
+    interrupt::listen();
     let start = Instant::now();
     let outcome = set_threads(cli.threads).and_then(|()| cli.command.run(&context));
     let time_ms = start.elapsed().as_secs_f64() * 1e3;

@@ -74,7 +74,8 @@ fn pictures_look_as_before() {
 
 /// The settled picture, averaged over blocks.
 fn reduced(figure: &mut Figure, theme: Theme) -> RgbImage {
-    let picture = figure.draw_settled(600.0, 1.0, theme).unwrap();
+    let drawn = figure.draw_settled(600.0, 1.0, theme);
+    let picture = drawn.expect("the size is good");
     let (width, bytes) = (picture.width() as usize, picture.rgba());
     RgbImage::from_fn(picture.width() / BLOCK, picture.height() / BLOCK, |x, y| {
         let mut sums = [0u32; 3];

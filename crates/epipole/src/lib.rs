@@ -16,6 +16,7 @@
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`stereo`] | rectification, dense disparity, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!

@@ -1,5 +1,7 @@
 //! What the tests of figures share: random events, and what must hold in every state.
 
+#![allow(dead_code, reason = "each test uses a part")]
+
 use epipole::math::random::Random;
 use epipole_widgets::Figure;
 use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value};
@@ -8,11 +10,13 @@ use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value
 const LONGEST_DESCRIPTION: usize = 400;
 
 /// One event, usually sensible, sometimes not.
-pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
-    let controls = figure.controls();
-    let handles = figure.handles();
+pub(crate) fn random_event(figure: &Figure, random: &mut Random) -> Event {
     match random.below(100) {
-        0..35 if !controls.is_empty() => {
+        0..35 => {
+            let controls = figure.controls();
+            if controls.is_empty() {
+                return Event::Reset;
+            }
             let control = &controls[random.below(controls.len())];
             let value = match random.below(8) {
                 0 => odd_value(random),
@@ -28,7 +32,11 @@ pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
                 },
             }
         }
-        35..60 if !handles.is_empty() => {
+        35..60 => {
+            let handles = figure.handles();
+            if handles.is_empty() {
+                return Event::Tick { dt_s: 0.02 };
+            }
             let handle = &handles[random.below(handles.len())];
             let mut along = |[low, high]: [f64; 2]| {
                 let margin = 0.2 * (high - low);
@@ -43,9 +51,12 @@ pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
                 y: along(handle.y_range),
             }
         }
-        60..66 if !handles.is_empty() => Event::HandleRemoved {
-            id: handles[random.below(handles.len())].id.clone(),
-        },
+        60..66 => {
+            let handles = figure.handles();
+            let index = random.below(handles.len().max(1));
+            let id = handles.get(index).map_or("none", |handle| &handle.id);
+            Event::HandleRemoved { id: id.to_owned() }
+        }
         66..80 => {
             let layout = figure.layout(random.uniform(280.0, 1200.0));
             let panel = &layout.panels[random.below(layout.panels.len())];
@@ -138,7 +149,7 @@ fn odd_value(random: &mut Random) -> Value {
 }
 
 /// What must hold in every state of every figure.
-pub fn assert_sound(figure: &Figure, width: f64) {
+pub(crate) fn assert_sound(figure: &Figure, width: f64) {
     let name = figure.name();
     let context = || format!("{name} at {}", figure.query());
     let description = figure.describe();
@@ -203,8 +214,8 @@ fn assert_readable(text: &str, context: &str) {
 }
 
 /// A new figure with the state of another.
-pub fn copy_of(figure: &Figure) -> Figure {
-    let mut copy = Figure::new(figure.name()).unwrap();
+pub(crate) fn copy_of(figure: &Figure) -> Figure {
+    let mut copy = Figure::new(figure.name()).expect("it exists");
     let problems = copy.apply(&figure.state());
     assert!(problems.is_empty(), "{}: {problems:?}", figure.query());
     copy

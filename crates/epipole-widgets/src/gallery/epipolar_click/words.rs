@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn small_entries_keep_three_digits() {
         assert_eq!(entry(-3.214e-6), "−3.21·10⁻⁶");
-        assert_eq!(entry(0.70711), "0.7071");
+        assert_eq!(entry(0.60711), "0.6071");
         assert_eq!(entry(1e-17), "0");
         assert_eq!(entry(1.5e-12), "1.50·10⁻¹²");
     }

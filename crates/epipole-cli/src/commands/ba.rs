@@ -1,0 +1,85 @@
+//! `epipole ba`: bundle adjustment of a problem file.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::report::Report;
+use clap::{Args, ValueEnum};
+use epipole::optim::{LmOptions, RobustLoss, Termination};
+use epipole::sfm::{BalProblem, adjust_bal};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Loss {
+    /// Squares.
+    None,
+    /// Squares near zero, then straight.
+    Huber,
+    /// Grows with the logarithm.
+    Cauchy,
+}
+
+/// Refine the cameras and points of a bundle adjustment problem.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: epipole ba problem-49-7776-pre.txt -o refined.txt")]
+pub(crate) struct Arguments {
+    /// A problem in the BAL text format.
+    problem: PathBuf,
+    /// How large errors count.
+    #[arg(long, value_enum, default_value = "none")]
+    loss: Loss,
+    /// Steps tried at most.
+    #[arg(long, default_value_t = 200, value_name = "N")]
+    max_iterations: usize,
+    /// Write the refined problem here.
+    #[arg(short, long, value_name = "OUT.txt")]
+    output: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let text = files::read_text(&arguments.problem)?;
+    let parsed = BalProblem::parse(&text);
+    let mut problem = parsed.map_err(|error| Failure::from(error).about(&arguments.problem))?;
+    let options = LmOptions { max_iterations: arguments.max_iterations, ..LmOptions::default() };
+    let loss = match arguments.loss {
+        Loss::None => RobustLoss::Trivial,
+        Loss::Huber => RobustLoss::Huber { width: 1.0 },
+        Loss::Cauchy => RobustLoss::Cauchy { width: 1.0 },
+    };
+    let progress = Progress::new(context, "bundle adjustment");
+    let mut history = Vec::new();
+    let report = adjust_bal(&mut problem, &options, loss, &mut |iteration| {
+        history.push((iteration.index, iteration.cost));
+        progress.set(iteration.index as f64 / arguments.max_iterations.max(1) as f64);
+        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    drop(progress);
+    if let Some(path) = &arguments.output {
+        files::write(path, problem.to_text().as_bytes())?;
+    }
+    Ok(Report::default()
+        .field("initial_cost", report.initial_cost)
+        .field("final_cost", report.final_cost)
+        .field("iterations", report.iterations)
+        .field("termination", termination(report.termination))
+        .field("history", history)
+        .row("initial cost", format!("{:.4}", report.initial_cost))
+        .row("final cost", format!("{:.6}", report.final_cost))
+        .row("iterations", report.iterations)
+        .row("ended by", termination(report.termination)))
+}
+
+/// Why a loop ended, as a word for scripts.
+pub(super) fn termination(termination: Termination) -> &'static str {
+    match termination {
+        Termination::SmallGradient => "small-gradient",
+        Termination::SmallStep => "small-step",
+        Termination::SmallCostChange => "small-cost-change",
+        Termination::MaxIterations => "max-iterations",
+        Termination::Cancelled => "canceled",
+        Termination::Stuck => "stuck",
+    }
+}

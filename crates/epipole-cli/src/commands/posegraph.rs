@@ -1,0 +1,53 @@
+//! `epipole posegraph`: poses that agree with measurements between them.
+
+use super::ba::termination;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::interrupt;
+use crate::report::Report;
+use clap::Args;
+use epipole::optim::{LmOptions, RobustLoss};
+use epipole::sfm::PoseGraph;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// Optimize a pose graph.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o")]
+pub(crate) struct Arguments {
+    /// A g2o file with poses in the plane, in space, or in space with scale.
+    graph: PathBuf,
+    /// Steps tried at most.
+    #[arg(long, default_value_t = 100, value_name = "N")]
+    max_iterations: usize,
+    /// Write the optimized graph here.
+    #[arg(short, long, value_name = "OUT.g2o")]
+    output: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments, _context: &Context) -> Result<Report, Failure> {
+    let text = files::read_text(&arguments.graph)?;
+    let parsed = PoseGraph::parse_g2o(&text);
+    let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
+    let options = LmOptions { max_iterations: arguments.max_iterations, ..LmOptions::default() };
+    let report = graph.optimize(&options, RobustLoss::Trivial, &mut |_| {
+        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    if let Some(path) = &arguments.output {
+        files::write(path, graph.to_g2o().as_bytes())?;
+    }
+    let (vertices, edges) = graph.size();
+    Ok(Report::default()
+        .field("initial_chi2", report.initial_chi2)
+        .field("final_chi2", report.final_chi2)
+        .field("iterations", report.iterations)
+        .field("termination", termination(report.termination))
+        .field("num_vertices", vertices)
+        .field("num_edges", edges)
+        .row("vertices and edges", format!("{vertices} and {edges}"))
+        .row("initial χ²", format!("{:.3}", report.initial_chi2))
+        .row("final χ²", format!("{:.3}", report.final_chi2))
+        .row("iterations", report.iterations)
+        .row("ended by", termination(report.termination)))
+}

@@ -1,0 +1,183 @@
+//! `epipole sfm`: cameras and points from photographs.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::interrupt;
+use crate::matrices::{CameraArguments, Motion};
+use crate::photo::Photo;
+use crate::progress::Progress;
+use crate::report::Report;
+use clap::Args;
+use epipole::sfm::{
+    Photo as SfmPhoto, PhotoOptions, Reconstruction, SfmOptions, SfmProgress, reconstruct_photos,
+};
+use serde_json::json;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Reconstruct cameras and points from photographs of one thing.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
+    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.")]
+pub(crate) struct Arguments {
+    /// Photographs, or a folder of them.
+    #[arg(required = true, value_name = "FILES|FOLDER")]
+    photos: Vec<PathBuf>,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Refine the focal length that all photographs share.
+    #[arg(long)]
+    refine_focal: bool,
+    /// Refine two terms of radial distortion that all photographs share.
+    #[arg(long)]
+    refine_distortion: bool,
+    /// At most so many features a photograph.
+    #[arg(long, default_value_t = 8192, value_name = "N")]
+    max_features: usize,
+    /// The folder for the result.
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let paths = photos(&arguments.photos)?;
+    let mut photos = Vec::new();
+    let mut intrinsics = Vec::new();
+    for path in &paths {
+        let photo = Photo::read(path)?;
+        let (k, guess) = arguments.camera.or_guess(&photo)?;
+        if let (Some(sentence), true) = (guess, photos.is_empty()) {
+            context.warn(&sentence);
+        }
+        intrinsics.push(k);
+        photos.push(SfmPhoto { name: name(path), image: photo.color });
+    }
+    let mut photo_options = PhotoOptions::default();
+    photo_options.sift.max_features = arguments.max_features;
+    let options = SfmOptions {
+        refine_focal: arguments.refine_focal,
+        refine_distortion: arguments.refine_distortion,
+        seed: context.seed,
+        ..SfmOptions::default()
+    };
+    let progress = Progress::new(context, "structure from motion");
+    let observer = &mut |step: &SfmProgress| {
+        progress.set(share(step, paths.len()));
+        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let (input, result) =
+        reconstruct_photos(&photos, &intrinsics, &photo_options, &options, observer)?;
+    drop(progress);
+    if result.cancelled {
+        context.warn("ended early; the result is what there was");
+    }
+    let Some(largest) = result.components.first() else {
+        return Err(Failure::new("no-consensus", "no two photographs show enough of the same thing"));
+    };
+    files::make_folder(&arguments.output)?;
+    let mut written = write(&arguments.output, largest, &input.images)?;
+    for (index, component) in result.components.iter().enumerate().skip(1) {
+        let folder = arguments.output.join(format!("component{}", index + 1));
+        files::make_folder(&folder)?;
+        written.extend(write(&folder, component, &input.images)?);
+    }
+    let errors: f64 = largest.points.iter().map(|p| p.error_px * p.track.len() as f64).sum();
+    let mean_px = errors / largest.num_observations().max(1) as f64;
+    let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
+        let images = input.images.iter().zip(&component.cameras);
+        images
+            .filter_map(|(image, camera)| {
+                let cam_from_world = Motion::from(&camera.as_ref()?.cam_from_world);
+                Some(json!({ "name": image.name, "cam_from_world": cam_from_world }))
+            })
+            .collect()
+    };
+    let components: Vec<serde_json::Value> = result
+        .components
+        .iter()
+        .map(|c| json!({ "num_registered": c.num_registered(), "num_points": c.points.len() }))
+        .collect();
+    let registered_count = largest.num_registered();
+    Ok(Report::default()
+        .field("num_registered", registered_count)
+        .field("num_images", paths.len())
+        .field("num_points", largest.points.len())
+        .field("mean_reprojection_px", mean_px)
+        .field("images", registered(largest))
+        .field("components", components)
+        .field("complete", !result.cancelled)
+        .row("registered", format!("{registered_count} of {}", paths.len()))
+        .row("points", largest.points.len())
+        .row("mean reprojection error", format!("{mean_px:.3} px"))
+        .row("components", result.components.len())
+        .row("written", written.join(", ")))
+}
+
+/// How far the whole is, judged by its longest parts.
+fn share(step: &SfmProgress, num_photos: usize) -> f64 {
+    let part = |from: f64, to: f64, done: usize, total: usize| {
+        from + (to - from) * done as f64 / total.max(1) as f64
+    };
+    match *step {
+        SfmProgress::Detected { done, total } => part(0.0, 0.3, done, total),
+        SfmProgress::Matched { done, total } => part(0.3, 0.6, done, total),
+        SfmProgress::Verified { done, total } => part(0.6, 0.7, done, total),
+        SfmProgress::Registered { num_registered, .. } => part(0.7, 1.0, num_registered, num_photos),
+        _ => 0.7,
+    }
+}
+
+fn write(
+    folder: &Path,
+    reconstruction: &Reconstruction,
+    images: &[epipole::sfm::SfmImage],
+) -> Result<Vec<String>, Failure> {
+    let model = reconstruction.to_colmap(images);
+    let files = [
+        ("cameras.txt", model.cameras.into_bytes()),
+        ("images.txt", model.images.into_bytes()),
+        ("points3D.txt", model.points.into_bytes()),
+        ("points.ply", reconstruction.to_ply()),
+    ];
+    let mut written = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        files::write(&path, &bytes)?;
+        written.push(path.display().to_string());
+    }
+    Ok(written)
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// The files given, folders replaced by the photographs in them, sorted.
+pub(super) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut paths = Vec::new();
+    for path in given {
+        if !path.is_dir() {
+            paths.push(path.clone());
+            continue;
+        }
+        let unreadable = |error: std::io::Error| {
+            Failure::new("read", format!("the folder cannot be read: {error}")).about(path)
+        };
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let file = entry.map_err(unreadable)?.path();
+            let extension = file.extension().and_then(|extension| extension.to_str());
+            let known = extension.map(str::to_lowercase);
+            if known.is_some_and(|e| ["png", "jpg", "jpeg", "webp"].contains(&&*e)) {
+                found.push(file);
+            }
+        }
+        if found.is_empty() {
+            return Err(Failure::new("read", "there are no photographs in this folder").about(path));
+        }
+        found.sort();
+        paths.extend(found);
+    }
+    Ok(paths)
+}

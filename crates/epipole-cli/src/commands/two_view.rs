@@ -1,0 +1,204 @@
+//! `epipole two-view`: the geometry of two photographs.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::features::{FeatureArguments, MatchArguments};
+use crate::matrices::{CameraArguments, Motion, intrinsics, row_major};
+use crate::photo::Photo;
+use crate::report::Report;
+use crate::robust::RobustArguments;
+use clap::{Args, ValueEnum};
+use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::epipolar::{estimate_relative_pose, find_fundamental, sampson_px};
+use epipole::homography::{find_homography, transfer_error_px};
+use epipole::two_view::{
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
+    estimate_two_view_calibrated,
+};
+use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Model {
+    /// Whichever fits best.
+    Auto,
+    /// Pixels only.
+    Fundamental,
+    /// For known intrinsics; also gives the motion.
+    Essential,
+    /// For a plane, or a camera that only turned.
+    Homography,
+}
+
+/// Find the geometry of two photographs.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: epipole two-view left.jpg right.jpg --focal-px 1200")]
+pub(crate) struct Arguments {
+    /// A PNG, JPEG or WebP file.
+    first: PathBuf,
+    /// A PNG, JPEG or WebP file.
+    second: PathBuf,
+    /// Which model to look for.
+    #[arg(long, value_enum, default_value = "auto")]
+    model: Model,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Intrinsics of the second camera; those of the first if not given.
+    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
+    k2: Option<Intrinsics>,
+    #[command(flatten)]
+    features: FeatureArguments,
+    #[command(flatten)]
+    matching: MatchArguments,
+    #[command(flatten)]
+    robust: RobustArguments,
+}
+
+/// What was found, whatever the model.
+struct Found {
+    kind: &'static str,
+    model: Matrix3<f64>,
+    inliers: Vec<bool>,
+    cam2_from_cam1: Option<RigidTransform>,
+    configuration: &'static str,
+    errors_px: Vec<f64>,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let photos = [Photo::read(&arguments.first)?, Photo::read(&arguments.second)?];
+    let found1 = arguments.features.detect(&photos[0], context)?;
+    let found2 = arguments.features.detect(&photos[1], context)?;
+    let mut matches = arguments.matching.run(&found1, &found2)?;
+    // Best first: some samplers make use of it.
+    matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    let pixels1: Vec<Point2<f64>> =
+        matches.iter().map(|m| found1.keypoints[m.index1].point()).collect();
+    let pixels2: Vec<Point2<f64>> =
+        matches.iter().map(|m| found2.keypoints[m.index2].point()).collect();
+    let found = estimate(arguments, context, &photos, &pixels1, &pixels2)?;
+
+    let num_inliers = found.inliers.iter().filter(|is| **is).count();
+    let of_inliers = found.errors_px.iter().zip(&found.inliers).filter(|(_, is)| **is);
+    let mean_px = of_inliers.map(|(error, _)| error).sum::<f64>() / num_inliers.max(1) as f64;
+    let rows: Vec<(f64, f64, f64, f64, u8)> = pixels1
+        .iter()
+        .zip(&pixels2)
+        .zip(&found.inliers)
+        .map(|((a, b), is_inlier)| (a.x, a.y, b.x, b.y, u8::from(*is_inlier)))
+        .collect();
+    let counts = [found1.keypoints.len(), found2.keypoints.len()];
+    Ok(Report::default()
+        .row("keypoints", format!("{} and {}", counts[0], counts[1]))
+        .row("matches", rows.len())
+        .row("model", found.kind)
+        .row("inliers", num_inliers)
+        .row("mean error of inliers", format!("{mean_px:.3} px"))
+        .row("configuration", found.configuration)
+        .field("model_kind", found.kind)
+        .field("model", row_major(&found.model))
+        .field("num_keypoints", counts)
+        .field("num_matches", rows.len())
+        .field("num_inliers", num_inliers)
+        .field("matches", rows)
+        .field("cam2_from_cam1", found.cam2_from_cam1.as_ref().map(Motion::from))
+        .field("mean_sampson_px", mean_px)
+        .field("configuration", found.configuration))
+}
+
+fn estimate(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+) -> Result<Found, Failure> {
+    let ransac = arguments.robust.options(context);
+    let options = TwoViewOptions { ransac, ..TwoViewOptions::default() };
+    let given = arguments.camera.given(&photos[0])?;
+    let errors = |f: &Matrix3<f64>| -> Vec<f64> {
+        pixels1.iter().zip(pixels2).map(|(a, b)| sampson_px(f, a, b)).collect()
+    };
+    match arguments.model {
+        Model::Auto => {
+            let report = match given {
+                Some(k1) => {
+                    let k2 = arguments.k2.unwrap_or(k1);
+                    estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options)?
+                }
+                None => estimate_two_view(pixels1, pixels2, &options)?,
+            };
+            Ok(of_report(report, pixels1, pixels2))
+        }
+        Model::Fundamental => {
+            let report = find_fundamental(pixels1, pixels2, &ransac)?;
+            Ok(Found {
+                kind: "fundamental",
+                errors_px: errors(&report.model),
+                model: report.model,
+                inliers: report.inliers,
+                cam2_from_cam1: None,
+                configuration: "general",
+            })
+        }
+        Model::Essential => {
+            let (k1, guess) = arguments.camera.or_guess(&photos[0])?;
+            if let Some(sentence) = guess {
+                context.warn(&sentence);
+            }
+            let k2 = arguments.k2.unwrap_or(k1);
+            let report = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &ransac)?;
+            let pose = &report.model;
+            let rotation = UnitQuaternion::from_matrix(&pose.rotation);
+            let translation = Translation3::from(pose.direction);
+            Ok(Found {
+                kind: "essential",
+                errors_px: errors(&pose.fundamental),
+                model: pose.essential(),
+                cam2_from_cam1: Some(RigidTransform::from_parts(translation, rotation)),
+                inliers: report.inliers.clone(),
+                configuration: "general",
+            })
+        }
+        Model::Homography => {
+            let report = find_homography(pixels1, pixels2, &ransac)?;
+            let error = |(a, b)| transfer_error_px(&report.model, a, b);
+            Ok(Found {
+                kind: "homography",
+                errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
+                model: report.model,
+                inliers: report.inliers,
+                cam2_from_cam1: None,
+                configuration: "planar",
+            })
+        }
+    }
+}
+
+fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Found {
+    let pairs = || pixels1.iter().zip(pixels2);
+    let (kind, model) = match report.model {
+        TwoViewModel::Fundamental(f) => ("fundamental", f),
+        TwoViewModel::Essential(e) => ("essential", e),
+        TwoViewModel::Homography(h) => ("homography", h),
+    };
+    let errors_px = match (report.model, &report.fundamental) {
+        (TwoViewModel::Homography(h), _) => {
+            pairs().map(|(a, b)| transfer_error_px(&h, a, b)).collect()
+        }
+        (_, Some(f)) => pairs().map(|(a, b)| sampson_px(f, a, b)).collect(),
+        (_, None) => vec![0.0; pixels1.len()],
+    };
+    Found {
+        kind,
+        model,
+        errors_px,
+        inliers: report.inliers,
+        cam2_from_cam1: report.cam2_from_cam1,
+        configuration: match report.configuration {
+            Configuration::General => "general",
+            Configuration::Planar => "planar",
+            Configuration::Panoramic => "panoramic",
+            Configuration::Degenerate => "degenerate",
+        },
+    }
+}
