@@ -96,5 +96,9 @@ impl CameraArguments {
 }
 
 fn centered(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failure> {
-    Ok(Intrinsics::centered(focal_px, photo.color.width(), photo.color.height())?)
+    Ok(Intrinsics::centered(
+        focal_px,
+        photo.color.width(),
+        photo.color.height(),
+    )?)
 }

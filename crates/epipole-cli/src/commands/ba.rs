@@ -43,7 +43,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let text = files::read_text(&arguments.problem)?;
     let parsed = BalProblem::parse(&text);
     let mut problem = parsed.map_err(|error| Failure::from(error).about(&arguments.problem))?;
-    let options = LmOptions { max_iterations: arguments.max_iterations, ..LmOptions::default() };
+    let options = LmOptions {
+        max_iterations: arguments.max_iterations,
+        ..LmOptions::default()
+    };
     let loss = match arguments.loss {
         Loss::None => RobustLoss::Trivial,
         Loss::Huber => RobustLoss::Huber { width: 1.0 },
@@ -54,7 +57,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let report = adjust_bal(&mut problem, &options, loss, &mut |iteration| {
         history.push((iteration.index, iteration.cost));
         progress.set(iteration.index as f64 / arguments.max_iterations.max(1) as f64);
-        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     drop(progress);
     if let Some(path) = &arguments.output {

@@ -78,7 +78,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .collect();
     let num_inliers = inlier_errors.len();
     let mean_error_px = inlier_errors.iter().sum::<f64>() / num_inliers.max(1) as f64;
-    let mask: Vec<u8> = found.inliers.iter().map(|is_inlier| u8::from(*is_inlier)).collect();
+    let mask: Vec<u8> = found
+        .inliers
+        .iter()
+        .map(|is_inlier| u8::from(*is_inlier))
+        .collect();
     let mut report = Report::default()
         .row("inliers", format!("{num_inliers} of {}", mask.len()))
         .row("iterations", found.iterations)
@@ -123,12 +127,16 @@ fn fit(
         }
         Model::Homography => {
             let found = find_homography(pixels1, pixels2, &options)?;
-            let errors = pairs().map(|(a, b)| transfer_error_px(&found.model, a, b)).collect();
+            let errors = pairs()
+                .map(|(a, b)| transfer_error_px(&found.model, a, b))
+                .collect();
             Ok(of_matrix(&found, &found.model, errors, None))
         }
         Model::Fundamental => {
             let found = find_fundamental(pixels1, pixels2, &options)?;
-            let errors = pairs().map(|(a, b)| sampson_px(&found.model, a, b)).collect();
+            let errors = pairs()
+                .map(|(a, b)| sampson_px(&found.model, a, b))
+                .collect();
             Ok(of_matrix(&found, &found.model, errors, None))
         }
         Model::Essential => {
@@ -138,10 +146,11 @@ fn fit(
             let k2 = arguments.k2.unwrap_or(k1);
             let found = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)?;
             let pose = &found.model;
-            let errors = pairs().map(|(a, b)| sampson_px(&pose.fundamental, a, b)).collect();
+            let errors = pairs()
+                .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
+                .collect();
             let rotation = UnitQuaternion::from_matrix(&pose.rotation);
-            let motion =
-                RigidTransform::from_parts(Translation3::from(pose.direction), rotation);
+            let motion = RigidTransform::from_parts(Translation3::from(pose.direction), rotation);
             Ok(of_matrix(&found, &pose.essential(), errors, Some(motion)))
         }
         Model::Similarity => {

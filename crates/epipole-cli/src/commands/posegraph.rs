@@ -30,9 +30,16 @@ pub(crate) fn run(arguments: &Arguments, _context: &Context) -> Result<Report, F
     let text = files::read_text(&arguments.graph)?;
     let parsed = PoseGraph::parse_g2o(&text);
     let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
-    let options = LmOptions { max_iterations: arguments.max_iterations, ..LmOptions::default() };
+    let options = LmOptions {
+        max_iterations: arguments.max_iterations,
+        ..LmOptions::default()
+    };
     let report = graph.optimize(&options, RobustLoss::Trivial, &mut |_| {
-        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     if let Some(path) = &arguments.output {
         files::write(path, graph.to_g2o().as_bytes())?;

@@ -18,8 +18,10 @@ use std::path::{Path, PathBuf};
 
 /// Reconstruct cameras and points from photographs of one thing.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
-    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.")]
+#[command(
+    after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
+    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply."
+)]
 pub(crate) struct Arguments {
     /// Photographs, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
@@ -51,7 +53,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             context.warn(&sentence);
         }
         intrinsics.push(k);
-        photos.push(SfmPhoto { name: name(path), image: photo.color });
+        photos.push(SfmPhoto {
+            name: name(path),
+            image: photo.color,
+        });
     }
     let mut photo_options = PhotoOptions::default();
     photo_options.sift.max_features = arguments.max_features;
@@ -64,7 +69,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let progress = Progress::new(context, "structure from motion");
     let observer = &mut |step: &SfmProgress| {
         progress.set(share(step, paths.len()));
-        if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     };
     let (input, result) =
         reconstruct_photos(&photos, &intrinsics, &photo_options, &options, observer)?;
@@ -73,7 +82,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         context.warn("ended early; the result is what there was");
     }
     let Some(largest) = result.components.first() else {
-        return Err(Failure::new("no-consensus", "no two photographs show enough of the same thing"));
+        return Err(Failure::new(
+            "no-consensus",
+            "no two photographs show enough of the same thing",
+        ));
     };
     files::make_folder(&arguments.output)?;
     let mut written = write(&arguments.output, largest, &input.images)?;
@@ -82,7 +94,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         files::make_folder(&folder)?;
         written.extend(write(&folder, component, &input.images)?);
     }
-    let errors: f64 = largest.points.iter().map(|p| p.error_px * p.track.len() as f64).sum();
+    let errors: f64 = largest
+        .points
+        .iter()
+        .map(|p| p.error_px * p.track.len() as f64)
+        .sum();
     let mean_px = errors / largest.num_observations().max(1) as f64;
     let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
         let images = input.images.iter().zip(&component.cameras);
@@ -107,7 +123,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("images", registered(largest))
         .field("components", components)
         .field("complete", !result.cancelled)
-        .row("registered", format!("{registered_count} of {}", paths.len()))
+        .row(
+            "registered",
+            format!("{registered_count} of {}", paths.len()),
+        )
         .row("points", largest.points.len())
         .row("mean reprojection error", format!("{mean_px:.3} px"))
         .row("components", result.components.len())
@@ -123,7 +142,9 @@ fn share(step: &SfmProgress, num_photos: usize) -> f64 {
         SfmProgress::Detected { done, total } => part(0.0, 0.3, done, total),
         SfmProgress::Matched { done, total } => part(0.3, 0.6, done, total),
         SfmProgress::Verified { done, total } => part(0.6, 0.7, done, total),
-        SfmProgress::Registered { num_registered, .. } => part(0.7, 1.0, num_registered, num_photos),
+        SfmProgress::Registered { num_registered, .. } => {
+            part(0.7, 1.0, num_registered, num_photos)
+        }
         _ => 0.7,
     }
 }
@@ -150,7 +171,8 @@ fn write(
 }
 
 fn name(path: &Path) -> String {
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// The files given, folders replaced by the photographs in them, sorted.
@@ -174,7 +196,9 @@ pub(super) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             }
         }
         if found.is_empty() {
-            return Err(Failure::new("read", "there are no photographs in this folder").about(path));
+            return Err(
+                Failure::new("read", "there are no photographs in this folder").about(path),
+            );
         }
         found.sort();
         paths.extend(found);

@@ -65,20 +65,31 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let photos = [Photo::read(&arguments.first)?, Photo::read(&arguments.second)?];
+    let photos = [
+        Photo::read(&arguments.first)?,
+        Photo::read(&arguments.second)?,
+    ];
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let mut matches = arguments.matching.run(&found1, &found2)?;
     // Best first: some samplers make use of it.
     matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-    let pixels1: Vec<Point2<f64>> =
-        matches.iter().map(|m| found1.keypoints[m.index1].point()).collect();
-    let pixels2: Vec<Point2<f64>> =
-        matches.iter().map(|m| found2.keypoints[m.index2].point()).collect();
+    let pixels1: Vec<Point2<f64>> = matches
+        .iter()
+        .map(|m| found1.keypoints[m.index1].point())
+        .collect();
+    let pixels2: Vec<Point2<f64>> = matches
+        .iter()
+        .map(|m| found2.keypoints[m.index2].point())
+        .collect();
     let found = estimate(arguments, context, &photos, &pixels1, &pixels2)?;
 
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
-    let of_inliers = found.errors_px.iter().zip(&found.inliers).filter(|(_, is)| **is);
+    let of_inliers = found
+        .errors_px
+        .iter()
+        .zip(&found.inliers)
+        .filter(|(_, is)| **is);
     let mean_px = of_inliers.map(|(error, _)| error).sum::<f64>() / num_inliers.max(1) as f64;
     let rows: Vec<(f64, f64, f64, f64, u8)> = pixels1
         .iter()
@@ -100,7 +111,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("num_matches", rows.len())
         .field("num_inliers", num_inliers)
         .field("matches", rows)
-        .field("cam2_from_cam1", found.cam2_from_cam1.as_ref().map(Motion::from))
+        .field(
+            "cam2_from_cam1",
+            found.cam2_from_cam1.as_ref().map(Motion::from),
+        )
         .field("mean_sampson_px", mean_px)
         .field("configuration", found.configuration))
 }
@@ -113,10 +127,17 @@ fn estimate(
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
     let ransac = arguments.robust.options(context);
-    let options = TwoViewOptions { ransac, ..TwoViewOptions::default() };
+    let options = TwoViewOptions {
+        ransac,
+        ..TwoViewOptions::default()
+    };
     let given = arguments.camera.given(&photos[0])?;
     let errors = |f: &Matrix3<f64>| -> Vec<f64> {
-        pixels1.iter().zip(pixels2).map(|(a, b)| sampson_px(f, a, b)).collect()
+        pixels1
+            .iter()
+            .zip(pixels2)
+            .map(|(a, b)| sampson_px(f, a, b))
+            .collect()
     };
     match arguments.model {
         Model::Auto => {
