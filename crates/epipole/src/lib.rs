@@ -15,6 +15,7 @@
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
+//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`stereo`] | rectification, dense disparity, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |

@@ -6,7 +6,7 @@ use crate::optim::{
     SchurSystem, minimize,
 };
 use crate::{Error, Result};
-use nalgebra::{Matrix3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use std::ops::ControlFlow;
 
 /// A camera saw a point at a pixel.
@@ -103,6 +103,16 @@ pub(super) fn turned(rotation: &UnitQuaternion<f64>, delta: [f64; 3]) -> UnitQua
     UnitQuaternion::new_normalize((turn * rotation).into_inner())
 }
 
+/// A further camera that is bolted to each camera of a bundle, such as the right one of a stereo
+/// rig.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensor {
+    /// From the frame of the camera to that of the sensor; it is not refined.
+    pub sensor_from_camera: RigidTransform,
+    /// How the sensor's rays become pixels.
+    pub intrinsics: Intrinsics,
+}
+
 /// Cameras, points and observations.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
@@ -114,19 +124,40 @@ pub struct Bundle {
     pub points: Vec<Point3<f64>>,
     /// What was seen where.
     pub observations: Vec<Observation>,
+    /// Further cameras bolted to each camera.
+    pub sensors: Vec<Sensor>,
+    /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
+    /// entries are 0.
+    pub sensor_of_observation: Vec<usize>,
 }
 
 impl Bundle {
-    /// Predicted minus observed pixel; not finite if the point is in the camera's center plane.
-    pub fn residual_px(&self, observation: &Observation) -> Vector3<f64> {
-        let camera = &self.cameras[observation.camera];
-        let p = camera.cam_from_world * self.points[observation.point];
+    /// The intrinsics that an observation was made with, and its sensor if it is not the camera
+    /// itself.
+    fn lens(&self, observation: usize) -> (&Intrinsics, Option<&Sensor>) {
+        let sensor = match self.sensor_of_observation.get(observation) {
+            Some(&k) if k > 0 => self.sensors.get(k - 1),
+            _ => None,
+        };
+        let camera = &self.cameras[self.observations[observation].camera];
+        (sensor.map_or(&camera.intrinsics, |s| &s.intrinsics), sensor)
+    }
+
+    /// Predicted minus observed pixel of an observation, given by its index; not finite if the
+    /// point is in the camera's center plane. Points behind the camera are mirrored through its
+    /// center, as in [`adjust_bundle`].
+    pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
+        let o = &self.observations[observation];
+        let (intrinsics, sensor) = self.lens(observation);
+        let mut p = self.cameras[o.camera].cam_from_world * self.points[o.point];
+        if let Some(sensor) = sensor {
+            p = sensor.sensor_from_camera * p;
+        }
         let shown = self.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
-        let center = camera.intrinsics.principal_point();
-        Vector3::new(
-            camera.intrinsics.fu_px() * shown.x + center.x - observation.pixel.x,
-            camera.intrinsics.fv_px() * shown.y + center.y - observation.pixel.y,
-            p.z,
+        let center = intrinsics.principal_point();
+        Vector2::new(
+            intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
+            intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
         )
     }
 }
@@ -234,10 +265,8 @@ impl State {
 }
 
 struct Problem<'a> {
-    cameras: &'a [Camera],
-    observations: &'a [Observation],
+    bundle: &'a Bundle,
     pairs: Vec<(u32, u32)>,
-    num_points: usize,
     options: &'a BundleOptions,
     held_cameras: Vec<[bool; 6]>,
 }
@@ -246,10 +275,10 @@ impl BundleProblem<6, 3> for Problem<'_> {
     type Parameters = State;
 
     fn num_cameras(&self) -> usize {
-        self.cameras.len()
+        self.bundle.cameras.len()
     }
     fn num_points(&self) -> usize {
-        self.num_points
+        self.bundle.points.len()
     }
     fn observations(&self) -> &[(u32, u32)] {
         &self.pairs
@@ -273,9 +302,13 @@ impl BundleProblem<6, 3> for Problem<'_> {
     }
 
     fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
-        let o = &self.observations[observation];
-        let (camera, intrinsics) = (&state.cameras[o.camera], &self.cameras[o.camera].intrinsics);
-        let p = camera.matrix * state.points[o.point].coords + camera.translation;
+        let o = &self.bundle.observations[observation];
+        let camera = &state.cameras[o.camera];
+        let (intrinsics, sensor) = self.bundle.lens(observation);
+        let mut p = camera.matrix * state.points[o.point].coords + camera.translation;
+        if let Some(sensor) = sensor {
+            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
+        }
         let (x, y) = (p.x / p.z, p.y / p.z);
         let [focal, k1, k2] = state.shared;
         let r_sq = x * x + y * y;
@@ -288,10 +321,14 @@ impl BundleProblem<6, 3> for Problem<'_> {
     }
 
     fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, 3> {
-        let o = &self.observations[observation];
-        let (camera, intrinsics) = (&state.cameras[o.camera], &self.cameras[o.camera].intrinsics);
+        let o = &self.bundle.observations[observation];
+        let camera = &state.cameras[o.camera];
+        let (intrinsics, sensor) = self.bundle.lens(observation);
         let rotated = camera.matrix * state.points[o.point].coords;
-        let p = rotated + camera.translation;
+        let mut p = rotated + camera.translation;
+        if let Some(sensor) = sensor {
+            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
+        }
         let normalized = [p.x / p.z, p.y / p.z];
         let [x, y] = normalized;
         let [focal, k1, k2] = state.shared;
@@ -310,7 +347,10 @@ impl BundleProblem<6, 3> for Problem<'_> {
             terms.residual[row] = f * radial.factor * normalized[row] - seen[row];
             // ∂p/∂P = 1/z [1 0 −x; 0 1 −y], with x and y after the division.
             let (a, b) = (f * radial.jacobian[row][0], f * radial.jacobian[row][1]);
-            let by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
+            let mut by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
+            if let Some(sensor) = sensor {
+                by_p = sensor.sensor_from_camera.rotation.inverse() * by_p;
+            }
             // exp(δ) R X moves by δ × R X, and g · (δ × q) = δ · (q × g).
             let by_rotation = rotated.cross(&by_p);
             let by_point = camera.matrix.tr_mul(&by_p);
@@ -387,7 +427,10 @@ fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
             farthest = (distance, Some(i));
         }
     }
-    if let Some(other) = farthest.1 {
+    // A rig knows its own size, so only a single camera leaves the scale open.
+    if let Some(other) = farthest.1
+        && bundle.sensors.is_empty()
+    {
         // A change of scale moves this camera's translation along R (C − C₀).
         let camera = &bundle.cameras[other];
         let slide = camera.cam_from_world.rotation * (camera.center_in_world() - origin);
@@ -427,32 +470,44 @@ pub fn adjust_bundle(
         bundle.points.len(),
     )?;
     let mut state = State::new(bundle);
+    if let Some(&sensor) = bundle
+        .sensor_of_observation
+        .iter()
+        .find(|&&sensor| sensor > bundle.sensors.len())
+    {
+        return Err(Error::OutOfRange {
+            what: "an observation's sensor",
+            requirement: "0 or the number of an existing one",
+            value: sensor as f64,
+        });
+    }
     let problem = Problem {
-        cameras: &bundle.cameras,
-        observations: &bundle.observations,
+        bundle,
         pairs,
-        num_points: bundle.points.len(),
         options,
         held_cameras: held_freedoms(bundle, options),
     };
     let mut system = SchurSystem::new(&problem);
     let report = minimize(&mut system, &mut state, &options.lm, observer)?;
     let [focal, k1, k2] = state.shared;
-    let mut cameras = bundle.cameras.clone();
+    let (mut cameras, mut sensors) = (bundle.cameras.clone(), bundle.sensors.clone());
+    let scaled = |k: &Intrinsics| {
+        let center = k.principal_point();
+        Intrinsics::new(k.fu_px() * focal, k.fv_px() * focal, center.x, center.y)
+    };
     for (camera, new) in cameras.iter_mut().zip(&state.cameras) {
         camera.cam_from_world =
             RigidTransform::from_parts(Translation3::from(new.translation), new.rotation);
         if options.refine_focal {
-            let center = camera.intrinsics.principal_point();
-            camera.intrinsics = Intrinsics::new(
-                camera.intrinsics.fu_px() * focal,
-                camera.intrinsics.fv_px() * focal,
-                center.x,
-                center.y,
-            )?;
+            camera.intrinsics = scaled(&camera.intrinsics)?;
         }
     }
-    bundle.cameras = cameras;
+    if options.refine_focal {
+        for sensor in &mut sensors {
+            sensor.intrinsics = scaled(&sensor.intrinsics)?;
+        }
+    }
+    (bundle.cameras, bundle.sensors) = (cameras, sensors);
     bundle.points = state.points;
     bundle.distortion = RadialDistortion { k1, k2 };
     Ok(report)
@@ -490,14 +545,13 @@ mod tests {
         }
         for camera in 0..num_cameras {
             for point in 0..num_points {
-                let mut o = Observation {
+                bundle.observations.push(Observation {
                     camera,
                     point,
                     pixel: Point2::origin(),
-                };
-                let r = bundle.residual_px(&o);
-                o.pixel = Point2::new(r.x, r.y);
-                bundle.observations.push(o);
+                });
+                let last = bundle.observations.len() - 1;
+                bundle.observations[last].pixel = Point2::from(bundle.residual_px(last));
             }
         }
         bundle
@@ -537,11 +591,16 @@ mod tests {
             refine_distortion: true,
             ..BundleOptions::default()
         };
+        // The second half is seen by a sensor that looks from the side.
+        let turn = Vector3::new(0.05, -0.2, 0.1);
+        bundle.sensors.push(Sensor {
+            sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), turn),
+            intrinsics: Intrinsics::new(700.0, 710.0, 300.0, 200.0).unwrap(),
+        });
+        bundle.sensor_of_observation = (0..15).map(|o| usize::from(o >= 8)).collect();
         let problem = Problem {
-            cameras: &bundle.cameras,
-            observations: &bundle.observations,
+            bundle: &bundle,
             pairs: observation_pairs(&bundle.observations, 3, 5).unwrap(),
-            num_points: 5,
             options: &options,
             held_cameras: vec![[false; 6]; 3],
         };
@@ -573,7 +632,43 @@ mod tests {
                 DVector::from_row_slice(&problem.residual(&moved, index))
             };
             assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
+            let residual = bundle.residual_px(index);
+            assert!((residual - Vector2::from(terms.residual)).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn a_rig_knows_its_size() {
+        let mut bundle = arc(4, 30, RadialDistortion::default());
+        let truth = bundle.clone();
+        bundle.sensors.push(Sensor {
+            sensor_from_camera: RigidTransform::translation(-0.4, 0.0, 0.0),
+            intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
+        });
+        bundle.sensor_of_observation = vec![0; bundle.observations.len()];
+        for index in 0..bundle.observations.len() {
+            let copy = Observation {
+                pixel: Point2::origin(),
+                ..bundle.observations[index]
+            };
+            bundle.observations.push(copy);
+            bundle.sensor_of_observation.push(1);
+            let last = bundle.observations.len() - 1;
+            bundle.observations[last].pixel = Point2::from(bundle.residual_px(last));
+        }
+        disturb(&mut bundle, 0.02);
+        let options = BundleOptions {
+            lm: exact(),
+            ..BundleOptions::default()
+        };
+        let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+        assert!(report.final_cost < 1e-15, "{report:?}");
+        for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
+            let error = (got.center_in_world() - want.center_in_world()).norm();
+            assert!(error < 1e-7, "{error}");
+        }
+        bundle.sensor_of_observation[0] = 2;
+        assert!(adjust_bundle(&mut bundle, &options, &mut go_on).is_err());
     }
 
     #[test]
@@ -655,10 +750,8 @@ mod tests {
         };
         let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut stop).unwrap();
         assert_eq!(report.termination, Termination::Cancelled);
-        let sum: f64 = bundle
-            .observations
-            .iter()
-            .map(|o| 0.5 * bundle.residual_px(o).xy().norm_squared())
+        let sum: f64 = (0..bundle.observations.len())
+            .map(|o| 0.5 * bundle.residual_px(o).norm_squared())
             .sum();
         assert!((sum - report.final_cost).abs() <= 1e-9 * sum);
         assert!(report.final_cost < report.initial_cost);

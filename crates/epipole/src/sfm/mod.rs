@@ -4,18 +4,24 @@
 //!   format for such problems, and [`adjust_bal`] solves it.
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
-//! * [`PoseGraph`] spreads the error of closed loops over a trajectory.
+//! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
+//!   the path of a camera whose scale drifts.
+//! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
+//!   photographs, to cameras and points; [`Reconstruction`] writes them to files.
+//! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
 
 mod alignment;
 mod bal;
+mod builder;
 mod bundle;
 mod export;
 mod g2o;
 mod incremental;
+mod loop_closure;
+mod odometry;
 mod photos;
 mod pose_graph;
 mod reconstruction;
-mod resection;
 mod tokens;
 mod tracks;
 mod triangulate_track;
@@ -27,9 +33,15 @@ pub use alignment::{
     relative_pose_error,
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal};
-pub use bundle::{Bundle, BundleOptions, Gauge, Observation, RadialDistortion, adjust_bundle};
+pub use bundle::{
+    Bundle, BundleOptions, Gauge, Observation, RadialDistortion, Sensor, adjust_bundle,
+};
 pub use export::ColmapModel;
 pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+pub use loop_closure::{ClosedPath, LoopClosure, close_loops, find_similarity_of_points};
+pub use odometry::{
+    OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
+};
 pub use photos::{Photo, PhotoOptions, match_photos, reconstruct_photos};
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};

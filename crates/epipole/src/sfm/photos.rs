@@ -23,25 +23,32 @@ pub struct Photo {
 /// How features are found and matched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhotoOptions {
-    /// RootSIFT, up to 8192 features, faint ones too.
+    /// RootSIFT, up to 6000 features, faint ones too. Photographs of more than 1.5 megapixels
+    /// have features enough without being doubled in size, whatever `upsample` says.
     pub sift: SiftOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
+    /// Match each photograph with so many after it; 0 for all. For frames in order of time.
+    pub neighbors: usize,
 }
 
 impl Default for PhotoOptions {
     fn default() -> Self {
         Self {
             sift: SiftOptions {
-                max_features: 8192,
+                max_features: 6000,
                 contrast_threshold: 0.02,
                 normalization: SiftNormalization::Root,
                 ..SiftOptions::default()
             },
             matching: MatchOptions::default(),
+            neighbors: 0,
         }
     }
 }
+
+/// Doubling the size of larger photographs costs seconds each and yields what is not needed.
+const MAX_UPSAMPLED_PIXELS: u64 = 1_500_000;
 
 /// Keypoints of all photographs and matches between all pairs of them.
 ///
@@ -62,8 +69,13 @@ pub fn match_photos(
     let mut descriptors: Vec<Descriptors> = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
         let gray = gray_to_f32(&rgb_to_gray(&photo.image));
-        let features = detect_sift(&gray, &options.sift)?;
         let (width, height) = photo.image.dimensions();
+        let sift = SiftOptions {
+            upsample: options.sift.upsample
+                && u64::from(width) * u64::from(height) <= MAX_UPSAMPLED_PIXELS,
+            ..options.sift
+        };
+        let features = detect_sift(&gray, &sift)?;
         let color = |u: f64, v: f64| {
             let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
             photo.image.get_pixel(inside(u, width), inside(v, height)).0
@@ -84,10 +96,16 @@ pub fn match_photos(
             return Ok((images, None));
         }
     }
-    let total = photos.len() * photos.len().saturating_sub(1) / 2;
+    let reach = if options.neighbors == 0 {
+        photos.len()
+    } else {
+        options.neighbors
+    };
+    let after = |image: usize| image + 1..photos.len().min(image.saturating_add(reach + 1));
+    let total = (0..photos.len()).map(|image| after(image).len()).sum();
     let mut pairs = Vec::new();
     for image1 in 0..photos.len() {
-        for image2 in image1 + 1..photos.len() {
+        for image2 in after(image1) {
             let matches = match_descriptors(
                 &descriptors[image1],
                 &descriptors[image2],

@@ -118,6 +118,9 @@ pub(super) fn triangulate_track(
     max_error_px: f64,
     min_angle_rad: f64,
 ) -> Option<(Point3<f64>, Vec<bool>)> {
+    if sights.len() < 2 {
+        return None;
+    }
     let max_error_sq = max_error_px * max_error_px;
     let truncated = |point: &Point3<f64>| {
         let mut sum = 0.0;

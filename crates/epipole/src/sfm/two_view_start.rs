@@ -3,6 +3,7 @@
 use super::tracks::PairMatches;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
+use crate::homography::find_homography;
 use crate::robust::RansacOptions;
 use nalgebra::Point2;
 
@@ -15,7 +16,15 @@ pub(super) struct VerifiedPair {
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
     /// scenes, where the start of a reconstruction would be ill-conditioned.
     pub(super) median_angle_rad: f64,
+    /// A homography explains most matches: the scene is flat or the camera only turned. A pair
+    /// that shows depth makes the safer start.
+    pub(super) is_flat: bool,
 }
+
+/// Share of the matches that a homography may explain before a pair counts as flat.
+///
+/// Source: Schönberger & Frahm 2016, §4.1.
+const MAX_HOMOGRAPHY_SHARE: f64 = 0.8;
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///
@@ -56,9 +65,23 @@ pub(super) fn verify_pair(
         matches.push(pair.matches[n]);
     }
     angles.sort_by(f64::total_cmp);
+    let chosen = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+        let inlier = |n: &usize| report.inliers[*n];
+        (0..pixels.len())
+            .filter(inlier)
+            .map(|n| pixels[n])
+            .collect()
+    };
+    let few = RansacOptions {
+        max_iterations: 500,
+        ..*options
+    };
+    let is_flat = find_homography(&chosen(&pixels1), &chosen(&pixels2), &few)
+        .is_ok_and(|flat| flat.num_inliers as f64 > MAX_HOMOGRAPHY_SHARE * matches.len() as f64);
     Some(VerifiedPair {
         pair: PairMatches { matches, ..*pair },
         cam2_from_cam1,
         median_angle_rad: angles.get(angles.len() / 2).copied().unwrap_or(0.0),
+        is_flat,
     })
 }

@@ -1,0 +1,576 @@
+//! The state of a growing reconstruction and the stages that change it.
+//!
+//! The file is long because the stages share one state.
+
+use super::bundle::{Bundle, BundleOptions, Observation, RadialDistortion, Sensor, adjust_bundle};
+use super::incremental::{Reporter, SfmOptions, SfmProgress};
+use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
+use super::tracks::TrackElement;
+use super::triangulate_track::{Sight, triangulate_track, widest_angle_rad};
+use super::two_view_start::VerifiedPair;
+use crate::absolute_pose::find_absolute_pose;
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::optim::{Iteration, LmOptions, RobustLoss};
+use crate::robust::RansacOptions;
+use nalgebra::{Point2, Point3};
+use std::ops::ControlFlow;
+
+/// A point and the elements of its track that agree with it.
+#[derive(Debug, Clone)]
+pub(super) struct TrackPoint {
+    pub(super) position: Point3<f64>,
+    pub(super) seen: Vec<TrackElement>,
+}
+
+pub(super) struct Builder<'a> {
+    pub(super) images: &'a [SfmImage],
+    pub(super) options: &'a SfmOptions,
+    /// Distortion undone.
+    pub(super) pixels: Vec<Vec<Point2<f64>>>,
+    pub(super) intrinsics: Vec<Intrinsics>,
+    pub(super) distortion: RadialDistortion,
+    pub(super) tracks: &'a [Vec<TrackElement>],
+    /// Track of each keypoint, `u32::MAX` if none.
+    pub(super) track_of: &'a [Vec<u32>],
+    /// Images that earlier components have.
+    pub(super) taken: Vec<bool>,
+    /// Of a stereo rig: the second half of the images is what the right camera saw.
+    pub(super) rig: Option<Sensor>,
+    pub(super) cameras: Vec<Option<Camera>>,
+    pub(super) points: Vec<Option<TrackPoint>>,
+}
+
+/// All keypoints as a camera without distortion would show them.
+pub(super) fn undistorted(
+    images: &[SfmImage],
+    intrinsics: &[Intrinsics],
+    distortion: RadialDistortion,
+) -> Vec<Vec<Point2<f64>>> {
+    images
+        .iter()
+        .zip(intrinsics)
+        .map(|(image, k)| {
+            if distortion.is_none() {
+                return image.keypoints.clone();
+            }
+            let center = k.principal_point();
+            image
+                .keypoints
+                .iter()
+                .map(|pixel| {
+                    let ray = k.ray(pixel);
+                    let straight = distortion.undistort(&Point2::new(ray.x, ray.y));
+                    Point2::new(
+                        k.fu_px() * straight.x + center.x,
+                        k.fv_px() * straight.y + center.y,
+                    )
+                })
+                .collect()
+        })
+        .collect()
+}
+
+impl Builder<'_> {
+    /// The image that holds the camera of `image`, and 1 if it is the right one of a rig.
+    fn frame_of(&self, image: usize) -> (usize, usize) {
+        let num_frames = self.images.len() / 2;
+        if self.rig.is_some() && image >= num_frames {
+            (image - num_frames, 1)
+        } else {
+            (image, 0)
+        }
+    }
+
+    /// Places a camera, and with it the right one of its rig.
+    pub(super) fn place(&mut self, image: usize, camera: Option<Camera>) {
+        self.cameras[image] = camera;
+        if let Some(rig) = self.rig {
+            self.cameras[self.images.len() / 2 + image] = camera.map(|camera| Camera {
+                intrinsics: rig.intrinsics,
+                cam_from_world: rig.sensor_from_camera * camera.cam_from_world,
+            });
+        }
+    }
+
+    pub(super) fn num_registered(&self) -> usize {
+        self.cameras.iter().flatten().count()
+    }
+
+    pub(super) fn num_points(&self) -> usize {
+        self.points.iter().flatten().count()
+    }
+
+    fn pixel(&self, element: TrackElement) -> Point2<f64> {
+        self.pixels[element.image as usize][element.keypoint as usize]
+    }
+
+    fn sight(&self, element: TrackElement) -> Option<Sight> {
+        self.cameras[element.image as usize].map(|camera| Sight {
+            camera,
+            pixel: self.pixel(element),
+        })
+    }
+
+    /// Starts from the best pair that works.
+    pub(super) fn start(&mut self, verified: &[VerifiedPair], reporter: &mut Reporter<'_>) -> bool {
+        let mut wanted_rad = self.options.min_start_angle_deg.to_radians();
+        let mut tried = vec![false; verified.len()];
+        // Below a quarter of a degree a pair says nothing about depth.
+        while wanted_rad > 0.25f64.to_radians() {
+            let mut order: Vec<usize> = (0..verified.len())
+                .filter(|&n| {
+                    let v = &verified[n];
+                    !tried[n]
+                        && v.median_angle_rad >= wanted_rad
+                        && !self.taken[v.pair.image1]
+                        && !self.taken[v.pair.image2]
+                })
+                .collect();
+            order.sort_by_key(|&n| {
+                let v = &verified[n];
+                (v.is_flat, std::cmp::Reverse(v.pair.matches.len()), n)
+            });
+            for n in order {
+                tried[n] = true;
+                if self.start_from(&verified[n]) {
+                    let pair = &verified[n].pair;
+                    reporter.tell(&SfmProgress::Started {
+                        images: [pair.image1, pair.image2],
+                        num_points: self.num_points(),
+                    });
+                    return true;
+                }
+                if reporter.cancelled {
+                    return false;
+                }
+            }
+            wanted_rad *= 0.5;
+        }
+        false
+    }
+
+    pub(super) fn start_from(&mut self, verified: &VerifiedPair) -> bool {
+        let (a, b) = (verified.pair.image1, verified.pair.image2);
+        let camera = |intrinsics, cam_from_world| {
+            Some(Camera {
+                intrinsics,
+                cam_from_world,
+            })
+        };
+        self.cameras[a] = camera(self.intrinsics[a], RigidTransform::identity());
+        self.cameras[b] = camera(self.intrinsics[b], verified.cam2_from_cam1);
+        self.triangulate();
+        if self.num_points() >= self.options.min_num_inliers {
+            self.adjust(None, 20, false);
+            self.filter();
+            self.triangulate();
+        }
+        if self.num_points() >= self.options.min_num_inliers && self.num_registered() == 2 {
+            return true;
+        }
+        self.cameras.fill(None);
+        self.points.fill(None);
+        false
+    }
+
+    /// Adds images while there are any that can be added.
+    pub(super) fn grow(&mut self, reporter: &mut Reporter<'_>) {
+        // Points that an image saw when it could not be registered: it is tried again with more.
+        let mut failed_with = vec![0; self.images.len()];
+        let mut adjusted_at = self.num_registered();
+        while !reporter.cancelled {
+            let Some(image) = self.next_image(&failed_with) else {
+                break;
+            };
+            let Some(num_visible) = self.register(image) else {
+                failed_with[image] = self.visible(image).len();
+                continue;
+            };
+            debug_assert!(num_visible > 0);
+            self.triangulate_of(Some(image));
+            let num_registered = self.num_registered();
+            // Everything is refined while it is small, later whenever it has grown by a tenth.
+            let everything = num_registered <= 12 || num_registered * 10 >= adjusted_at * 11;
+            let cost = if everything {
+                adjusted_at = num_registered;
+                self.adjust(None, 15, num_registered >= 4)
+            } else {
+                let near = self.neighborhood(image, 6);
+                self.adjust(Some(&near), 15, false)
+            };
+            self.filter();
+            if everything {
+                self.complete();
+                self.triangulate();
+            }
+            if let Some(cost) = cost {
+                reporter.tell(&SfmProgress::Adjusted { cost });
+            }
+            reporter.tell(&SfmProgress::Registered {
+                image,
+                num_registered: self.num_registered(),
+                num_points: self.num_points(),
+            });
+        }
+        if reporter.cancelled {
+            return;
+        }
+        for _ in 0..2 {
+            self.complete();
+            self.triangulate();
+            let cost = self.adjust(None, 50, true);
+            self.filter();
+            if let Some(cost) = cost
+                && !reporter.tell(&SfmProgress::Adjusted { cost })
+            {
+                return;
+            }
+        }
+    }
+
+    /// The points that an image sees through its tracks.
+    pub(super) fn visible(&self, image: usize) -> Vec<(TrackElement, usize)> {
+        let mut visible = Vec::new();
+        for (keypoint, &track) in self.track_of[image].iter().enumerate() {
+            if track != u32::MAX && self.points[track as usize].is_some() {
+                let element = TrackElement {
+                    image: image as u32,
+                    keypoint: keypoint as u32,
+                };
+                visible.push((element, track as usize));
+            }
+        }
+        visible
+    }
+
+    /// The image whose view of the points is best: many, and spread over the picture.
+    ///
+    /// Source: Schönberger & Frahm 2016, §4.2.
+    fn next_image(&self, failed_with: &[usize]) -> Option<usize> {
+        let mut best = None;
+        for image in 0..self.images.len() {
+            if self.cameras[image].is_some() || self.taken[image] {
+                continue;
+            }
+            let visible = self.visible(image);
+            let again = failed_with[image];
+            if visible.len() < self.options.min_num_inliers.max(again + again / 4 + 1) {
+                continue;
+            }
+            let (width, height) = (self.images[image].width, self.images[image].height);
+            let mut score = 0;
+            for level in 1..=4 {
+                let side = 1usize << level;
+                let mut occupied = vec![false; side * side];
+                for (element, _) in &visible {
+                    let pixel = self.images[image].keypoints[element.keypoint as usize];
+                    let cell = |x: f64, size: u32| {
+                        let share = (x + 0.5) / f64::from(size.max(1));
+                        ((share * side as f64) as usize).min(side - 1)
+                    };
+                    occupied[cell(pixel.y, height) * side + cell(pixel.x, width)] = true;
+                }
+                score += side * side * occupied.iter().filter(|x| **x).count();
+            }
+            let rank = (score, visible.len());
+            if best.is_none_or(|(other, _)| rank > other) {
+                best = Some((rank, image));
+            }
+        }
+        best.map(|(_, image)| image)
+    }
+
+    /// Finds the camera of an image from the points it sees, and adds its observations.
+    pub(super) fn register(&mut self, image: usize) -> Option<usize> {
+        let visible = self.visible(image);
+        let (mut pixels, mut positions) = (Vec::new(), Vec::new());
+        for (element, track) in &visible {
+            if let Some(point) = &self.points[*track] {
+                pixels.push(self.pixel(*element));
+                positions.push(point.position);
+            }
+        }
+        let ransac = RansacOptions {
+            max_error_px: self.options.max_registration_error_px,
+            seed: self.options.seed,
+            ..RansacOptions::default()
+        };
+        let intrinsics = self.intrinsics[image];
+        // Without consensus the image is not registered, and may be later.
+        let found = find_absolute_pose(&positions, &pixels, &intrinsics, &ransac).ok()?;
+        if found.num_unique_inliers < self.options.min_num_inliers {
+            return None;
+        }
+        let camera = Camera {
+            intrinsics,
+            cam_from_world: found.model,
+        };
+        self.place(image, Some(camera));
+        for ((element, track), inlier) in visible.iter().zip(&found.inliers) {
+            if *inlier && let Some(point) = &mut self.points[*track] {
+                insert(&mut point.seen, *element);
+            }
+        }
+        Some(found.num_inliers)
+    }
+
+    pub(super) fn triangulate(&mut self) {
+        self.triangulate_of(None);
+    }
+
+    /// Triangulates tracks without a point, all or those of one image.
+    pub(super) fn triangulate_of(&mut self, image: Option<usize>) {
+        let candidates: Vec<usize> = match image {
+            Some(image) => self.track_of[image]
+                .iter()
+                .filter(|&&track| track != u32::MAX)
+                .map(|&track| track as usize)
+                .collect(),
+            None => (0..self.tracks.len()).collect(),
+        };
+        let candidates: Vec<usize> = candidates
+            .into_iter()
+            .filter(|&track| self.points[track].is_none())
+            .collect();
+        let mut found: Vec<Option<TrackPoint>> = vec![None; candidates.len()];
+        let this = &*self;
+        crate::optim::parallel::for_each(&mut found, |n, found| {
+            let (elements, sights): (Vec<_>, Vec<_>) = this.tracks[candidates[n]]
+                .iter()
+                .filter_map(|element| Some((*element, this.sight(*element)?)))
+                .unzip();
+            if sights.len() < 2 {
+                return;
+            }
+            *found = triangulate_track(
+                &sights,
+                this.options.max_reprojection_error_px,
+                this.options.min_angle_deg.to_radians(),
+            )
+            .map(|(position, inliers)| TrackPoint {
+                position,
+                seen: elements
+                    .into_iter()
+                    .zip(inliers)
+                    .filter(|(_, inlier)| *inlier)
+                    .map(|(element, _)| element)
+                    .collect(),
+            });
+        });
+        for (track, point) in candidates.into_iter().zip(found) {
+            self.points[track] = point;
+        }
+    }
+
+    /// Picks up observations that fit their point after all.
+    pub(super) fn complete(&mut self) {
+        let max_error_sq = {
+            let max_error_px = self.options.max_reprojection_error_px;
+            max_error_px * max_error_px
+        };
+        for track in 0..self.tracks.len() {
+            let Some(mut point) = self.points[track].take() else {
+                continue;
+            };
+            for element in &self.tracks[track] {
+                if !point.seen.contains(element)
+                    && let Some(sight) = self.sight(*element)
+                    && sight.error_sq(&point.position) <= max_error_sq
+                {
+                    insert(&mut point.seen, *element);
+                }
+            }
+            self.points[track] = Some(point);
+        }
+    }
+
+    /// Drops observations that fit badly, points seen under too small an angle, and cameras that
+    /// see too little.
+    pub(super) fn filter(&mut self) {
+        let max_error_px = self.options.max_reprojection_error_px;
+        let min_angle_rad = self.options.min_angle_deg.to_radians();
+        loop {
+            let mut points = std::mem::take(&mut self.points);
+            let this = &*self;
+            crate::optim::parallel::for_each(&mut points, |_, slot| {
+                let Some(point) = slot else { return };
+                let position = point.position;
+                point.seen.retain(|element| {
+                    this.sight(*element).is_some_and(|sight| {
+                        sight.error_sq(&position) <= max_error_px * max_error_px
+                    })
+                });
+                let centers = point
+                    .seen
+                    .iter()
+                    .filter_map(|element| this.cameras[element.image as usize])
+                    .map(|camera| camera.center_in_world());
+                if point.seen.len() < 2 || widest_angle_rad(&position, centers) < min_angle_rad {
+                    *slot = None;
+                }
+            });
+            self.points = points;
+            let mut counts = vec![0; self.cameras.len()];
+            for element in self.points.iter().flatten().flat_map(|point| &point.seen) {
+                counts[self.frame_of(element.image as usize).0] += 1;
+            }
+            let mut dropped = false;
+            for (image, count) in counts.into_iter().enumerate() {
+                if self.cameras[image].is_some() && self.frame_of(image).1 == 0 && count < 6 {
+                    self.place(image, None);
+                    dropped = true;
+                }
+            }
+            if !dropped {
+                break;
+            }
+        }
+    }
+
+    /// The image itself and those that share most points with it.
+    fn neighborhood(&self, image: usize, count: usize) -> Vec<usize> {
+        let mut shared = vec![0; self.images.len()];
+        for point in self.points.iter().flatten() {
+            if point
+                .seen
+                .iter()
+                .any(|element| element.image as usize == image)
+            {
+                for element in &point.seen {
+                    shared[element.image as usize] += 1;
+                }
+            }
+        }
+        let mut order: Vec<usize> = (0..self.images.len()).filter(|&i| shared[i] > 0).collect();
+        order.sort_by_key(|&i| (std::cmp::Reverse(shared[i]), i));
+        order.truncate(count);
+        order
+    }
+
+    /// Bundle adjustment of everything, or of some images with the points that they see; returns
+    /// the cost.
+    pub(super) fn adjust(
+        &mut self,
+        free: Option<&[usize]>,
+        max_iterations: usize,
+        with_intrinsics: bool,
+    ) -> Option<f64> {
+        let is_free = |image: usize| free.is_none_or(|list| list.contains(&self.frame_of(image).0));
+        let mut bundle = Bundle {
+            distortion: self.distortion,
+            sensors: self.rig.into_iter().collect(),
+            ..Bundle::default()
+        };
+        let mut camera_of = vec![usize::MAX; self.images.len()];
+        let mut image_of = Vec::new();
+        let mut track_of = Vec::new();
+        let mut options = BundleOptions {
+            lm: LmOptions {
+                max_iterations,
+                cost_tolerance: 1e-7,
+                ..LmOptions::default()
+            },
+            // A pixel and a half: beyond it matches are more often wrong than imprecise.
+            loss: RobustLoss::Cauchy { width: 1.5 },
+            refine_focal: with_intrinsics && self.options.refine_focal,
+            refine_distortion: with_intrinsics && self.options.refine_distortion,
+            ..BundleOptions::default()
+        };
+        for (track, point) in self.points.iter().enumerate() {
+            let Some(point) = point else { continue };
+            if !point
+                .seen
+                .iter()
+                .any(|element| is_free(element.image as usize))
+            {
+                continue;
+            }
+            for element in &point.seen {
+                let (image, sensor) = self.frame_of(element.image as usize);
+                let Some(camera) = self.cameras[image] else {
+                    continue;
+                };
+                if camera_of[image] == usize::MAX {
+                    camera_of[image] = bundle.cameras.len();
+                    bundle.cameras.push(camera);
+                    image_of.push(image);
+                    options.held_cameras.push(!is_free(image));
+                }
+                bundle.observations.push(Observation {
+                    camera: camera_of[image],
+                    point: bundle.points.len(),
+                    pixel: self.images[element.image as usize].keypoints[element.keypoint as usize],
+                });
+                bundle.sensor_of_observation.push(sensor);
+            }
+            bundle.points.push(point.position);
+            track_of.push(track);
+        }
+        let mut go_on = |_: &Iteration| ControlFlow::Continue(());
+        let report = adjust_bundle(&mut bundle, &options, &mut go_on).ok()?;
+        for (image, camera) in image_of.into_iter().zip(&bundle.cameras) {
+            self.place(image, Some(*camera));
+        }
+        for (track, position) in track_of.into_iter().zip(&bundle.points) {
+            if let Some(point) = &mut self.points[track] {
+                point.position = *position;
+            }
+        }
+        if options.refine_focal || options.refine_distortion {
+            self.share_intrinsics(&bundle);
+        }
+        Some(report.final_cost)
+    }
+
+    /// Gives refined intrinsics to the images that are still to come.
+    fn share_intrinsics(&mut self, bundle: &Bundle) {
+        let registered = (0..self.images.len()).find(|&image| self.cameras[image].is_some());
+        if let Some(camera) = registered.and_then(|image| self.cameras[image])
+            && let Some(image) = registered
+        {
+            let factor = camera.intrinsics.fu_px() / self.intrinsics[image].fu_px();
+            for k in &mut self.intrinsics {
+                let center = k.principal_point();
+                if let Ok(refined) =
+                    Intrinsics::new(k.fu_px() * factor, k.fv_px() * factor, center.x, center.y)
+                {
+                    *k = refined;
+                }
+            }
+        }
+        for (camera, intrinsics) in self.cameras.iter_mut().zip(&self.intrinsics) {
+            if let Some(camera) = camera {
+                camera.intrinsics = *intrinsics;
+            }
+        }
+        self.distortion = bundle.distortion;
+        self.pixels = undistorted(self.images, &self.intrinsics, self.distortion);
+    }
+
+    pub(super) fn finish(mut self) -> Reconstruction {
+        let mut reconstruction = Reconstruction {
+            distortion: self.distortion,
+            points: self
+                .points
+                .drain(..)
+                .flatten()
+                .map(|point| ScenePoint {
+                    position: point.position,
+                    color: [128; 3],
+                    track: point.seen,
+                    error_px: 0.0,
+                })
+                .collect(),
+            cameras: self.cameras,
+        };
+        reconstruction.finish_points(self.images);
+        reconstruction
+    }
+}
+
+/// Inserts into a list sorted by image.
+fn insert(seen: &mut Vec<TrackElement>, element: TrackElement) {
+    if let Err(place) = seen.binary_search(&element) {
+        seen.insert(place, element);
+    }
+}
