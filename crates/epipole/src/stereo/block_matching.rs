@@ -295,15 +295,12 @@ impl<'a> Windows<'a> {
     fn add_row(&mut self, v: usize) {
         let (width, n) = (self.search.width, self.search.num_cells);
         let left = self.search.row_of(self.left, v);
-        reverse(
-            &self.search,
-            self.search.row_of(self.right, v),
-            &mut self.entering,
-        );
+        let right = self.search.row_of(self.right, v);
+        self.search.reverse(right, &mut self.entering);
         for (u, cells) in self.columns.chunks_exact_mut(n).enumerate() {
             let row = &self.entering[width - 1 - u..][..n];
-            for d in 0..n {
-                cells[d] += i16::from(left[u].abs_diff(row[d]));
+            for (sum, &gray) in cells.iter_mut().zip(row) {
+                *sum += i16::from(gap(left[u], gray));
             }
             self.textures[u] += i32::from(left[u].abs_diff(self.cap));
         }
@@ -321,7 +318,7 @@ impl<'a> Windows<'a> {
             self.search.row_of(self.left, old),
         );
         for (row, to) in [(new, &mut self.entering), (old, &mut self.leaving)] {
-            reverse(&self.search, self.search.row_of(self.right, row), to);
+            self.search.reverse(self.search.row_of(self.right, row), to);
         }
         for u in 0..width + radius {
             if u < width {
@@ -329,11 +326,7 @@ impl<'a> Windows<'a> {
                 let entering = &self.entering[width - 1 - u..][..n];
                 let leaving = &self.leaving[width - 1 - u..][..n];
                 let (gray_in, gray_out) = (new_left[u], old_left[u]);
-                for d in 0..n {
-                    let gain = i16::from(gray_in.abs_diff(entering[d]));
-                    let loss = i16::from(gray_out.abs_diff(leaving[d]));
-                    cells[d] += gain - loss;
-                }
+                exchange(cells, gray_in, entering, gray_out, leaving);
                 self.textures[u] +=
                     i32::from(gray_in.abs_diff(self.cap)) - i32::from(gray_out.abs_diff(self.cap));
             }
@@ -347,17 +340,11 @@ impl<'a> Windows<'a> {
             }
             let entering = &self.columns[column(u)];
             if u < radius {
-                for d in 0..n {
-                    window[d] += entering[d];
-                }
+                slide(window, entering);
             } else {
                 let leaving = &self.columns[column(u.saturating_sub(2 * radius))];
                 let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
-                for d in 0..n {
-                    let sum = window[d] + entering[d];
-                    out[d] = sum;
-                    window[d] = sum - leaving[d];
-                }
+                slide_out(window, entering, leaving, out);
             }
         }
     }
@@ -383,13 +370,39 @@ impl<'a> Windows<'a> {
     }
 }
 
-/// A right row from its end on: cell d of column u is at `width − 1 − u + d`. The border repeats
-/// outside.
+/// A column of the window gains the differences of one row and loses those of another.
 #[inline(always)]
-fn reverse(search: &Search, row: &[u8], reversed: &mut [u8]) {
-    let last = search.width as i64 - 1;
-    let begin = last - i64::from(search.min_disparity);
-    for (j, value) in reversed.iter_mut().enumerate() {
-        *value = row[(begin - j as i64).clamp(0, last) as usize];
+fn exchange(cells: &mut [i16], gray_in: u8, entering: &[u8], gray_out: u8, leaving: &[u8]) {
+    let n = cells.len();
+    let (entering, leaving) = (&entering[..n], &leaving[..n]);
+    for d in 0..n {
+        let gain = i16::from(gap(gray_in, entering[d]));
+        let loss = i16::from(gap(gray_out, leaving[d]));
+        cells[d] += gain - loss;
+    }
+}
+
+/// |a − b|, in steps that vector units have for bytes.
+#[inline(always)]
+fn gap(a: u8, b: u8) -> u8 {
+    a.max(b) - a.min(b)
+}
+
+#[inline(always)]
+fn slide(window: &mut [i16], entering: &[i16]) {
+    for (sum, column) in window.iter_mut().zip(entering) {
+        *sum += column;
+    }
+}
+
+/// A column enters, the sums are complete, a column leaves.
+#[inline(always)]
+fn slide_out(window: &mut [i16], entering: &[i16], leaving: &[i16], out: &mut [i16]) {
+    let n = window.len();
+    let (entering, leaving, out) = (&entering[..n], &leaving[..n], &mut out[..n]);
+    for d in 0..n {
+        let sum = window[d] + entering[d];
+        out[d] = sum;
+        window[d] = sum - leaving[d];
     }
 }

@@ -130,23 +130,11 @@ impl<'a> CostRows<'a> {
         let search = self.search;
         self.left.fill(search.left, v, &mut self.window);
         self.right.fill(search.right, v, &mut self.window);
-        let reverse = |from: &[u8], to: &mut [u8]| {
-            // Element j of the reversed row is right pixel `width − 1 − min_disparity − j`.
-            let last = search.width as i64 - 1 - i64::from(search.min_disparity);
-            for (j, value) in to.iter_mut().enumerate() {
-                let u = last - j as i64;
-                *value = if (0..search.width as i64).contains(&u) {
-                    from[u as usize]
-                } else {
-                    0
-                };
-            }
-        };
-        reverse(&self.right.gray, &mut self.reversed.gray);
-        reverse(&self.right.low, &mut self.reversed.low);
-        reverse(&self.right.high, &mut self.reversed.high);
+        search.reverse(&self.right.gray, &mut self.reversed.gray);
+        search.reverse(&self.right.low, &mut self.reversed.low);
+        search.reverse(&self.right.high, &mut self.reversed.high);
         for (from, to) in self.right.census.iter().zip(&mut self.reversed.census) {
-            reverse(from, to);
+            search.reverse(from, to);
         }
         match self.kind {
             StereoCost::Census => self.compare::<true, false>(costs),
@@ -200,9 +188,11 @@ impl<'a> CostRows<'a> {
                 cells_here[d] = cost;
             }
             let inside = search.cells_inside(u);
-            cells[..inside.start].fill(self.outside);
-            cells[inside.end..search.num_disparities].fill(self.outside);
-            cells[search.num_disparities..].fill(u8::MAX);
+            if inside.len() < n {
+                cells[..inside.start].fill(self.outside);
+                cells[inside.end..search.num_disparities].fill(self.outside);
+                cells[search.num_disparities..].fill(u8::MAX);
+            }
         }
     }
 }

@@ -30,43 +30,56 @@ struct Previous<'a> {
     jump: u8,
 }
 
-/// Continues N paths by one pixel; their sum is added to (or set in) `sums`.
-///
-/// `next` holds the N paths' cells one after the other, each behind its pad.
+/// Continues one path by one pixel: writes its costs to `next` and tells the smallest.
 #[inline(always)]
-fn step<const BLOCK: usize, const N: usize, const ADD: bool>(
-    costs: &[u8],
-    previous: [Previous; N],
-    p1: u8,
-    next: &mut [u8],
-    sums: &mut [i16],
-) -> [u8; N] {
-    let stride = costs.len() + 2 * PAD;
-    let mut minima = [[u8::MAX; BLOCK]; N];
+fn advance<const BLOCK: usize>(costs: &[u8], previous: Previous, p1: u8, next: &mut [u8]) -> u8 {
+    let (jump, minimum) = (previous.jump, previous.minimum);
+    let mut least = [u8::MAX; BLOCK];
     for at in (0..costs.len()).step_by(BLOCK) {
         let cost = &costs[at..at + BLOCK];
-        let sum = &mut sums[at..at + BLOCK];
-        let mut total = [0i16; BLOCK];
-        if ADD {
-            total.copy_from_slice(sum);
+        let before = &previous.cells[at..at + BLOCK + 2];
+        let after = &mut next[at..at + BLOCK];
+        for i in 0..BLOCK {
+            let beside = before[i].min(before[i + 2]).saturating_add(p1);
+            let best = before[i + 1].min(beside).min(jump).wrapping_sub(minimum);
+            let value = cost[i].saturating_add(best);
+            after[i] = value;
+            least[i] = least[i].min(value);
         }
-        for n in 0..N {
-            let before = &previous[n].cells[at..at + BLOCK + 2];
-            let begin = n * stride + PAD + at;
-            let after = &mut next[begin..begin + BLOCK];
-            let (jump, minimum) = (previous[n].jump, previous[n].minimum);
-            for i in 0..BLOCK {
-                let beside = before[i].min(before[i + 2]).saturating_add(p1);
-                let best = before[i + 1].min(beside).min(jump).wrapping_sub(minimum);
-                let value = cost[i].saturating_add(best);
-                after[i] = value;
-                minima[n][i] = minima[n][i].min(value);
-                total[i] += i16::from(value);
-            }
-        }
-        sum.copy_from_slice(&total);
     }
-    minima.map(|lanes| lanes.into_iter().fold(u8::MAX, u8::min))
+    let mut lowest = u8::MAX;
+    for lane in least {
+        lowest = lowest.min(lane);
+    }
+    lowest
+}
+
+/// Adds up (to `sums`, with ADD) the costs of N paths that lie `stride` apart. Apart from
+/// [`advance`], since sums need twice the bits and would halve the lanes there.
+#[inline(always)]
+fn add_up<const BLOCK: usize, const N: usize, const ADD: bool>(
+    paths: &[u8],
+    stride: usize,
+    sums: &mut [i16],
+) {
+    for at in (0..sums.len()).step_by(BLOCK) {
+        let sum = &mut sums[at..at + BLOCK];
+        let path_0 = &paths[at..at + BLOCK];
+        let other = |n: usize| if n < N { n * stride + at } else { at };
+        let path_1 = &paths[other(1)..][..BLOCK];
+        let path_2 = &paths[other(2)..][..BLOCK];
+        let path_3 = &paths[other(3)..][..BLOCK];
+        for i in 0..BLOCK {
+            let mut total = i16::from(path_0[i]);
+            if N >= 2 {
+                total += i16::from(path_1[i]);
+            }
+            if N >= 4 {
+                total += i16::from(path_2[i]) + i16::from(path_3[i]);
+            }
+            sum[i] = if ADD { sum[i] + total } else { total };
+        }
+    }
 }
 
 /// The path costs of one row of pixels in N directions, with a border pixel at either end.
@@ -144,14 +157,8 @@ impl<const N: usize> Sweep<N> {
         let (width, num_cells) = (gray.len(), self.num_cells);
         let stride = num_cells + 2 * PAD;
         let pixel_len = N * stride;
-        // Steps in u from the pixel to where each path comes from.
-        let ahead: isize = if self.backward { -1 } else { 1 };
-        let steps: [isize; N] = std::array::from_fn(|n| match (N, n) {
-            (_, 0) => -ahead,
-            (4, 1) => -ahead,
-            (4, 3) => ahead,
-            _ => 0,
-        });
+        // The step in u from a pixel to where its path along the row comes from.
+        let back: isize = if self.backward { 1 } else { -1 };
         std::mem::swap(&mut self.row, &mut self.row_before);
         let row_before = &self.row_before;
         for i in 0..width {
@@ -166,31 +173,35 @@ impl<const N: usize> Sweep<N> {
                 let along = &low[u * pixel_len..];
                 (along, &mut high[..pixel_len], self.row.minima[u][0])
             };
-            let previous: [Previous; N] = std::array::from_fn(|n| {
-                let there = (u as isize + steps[n]).clamp(0, width as isize - 1) as usize;
+            let costs = &costs[u * num_cells..(u + 1) * num_cells];
+            let mut minima = [0; N];
+            for n in 0..N {
+                let step = match (N, n) {
+                    (_, 0) | (4, 1) => back,
+                    (4, 3) => -back,
+                    _ => 0,
+                };
+                let there = (u as isize + step).clamp(0, width as isize - 1) as usize;
                 let (cells, minimum, gray_there) = if n == 0 {
                     (&along[PAD - 1..], along_minimum, gray[there])
                 } else {
-                    let pixel = (u as isize + 1 + steps[n]) as usize;
+                    let pixel = (u as isize + 1 + step) as usize;
                     let begin = pixel * pixel_len + n * stride + PAD - 1;
                     let minimum = row_before.minima[pixel][n];
                     (&row_before.cells[begin..], minimum, self.gray_before[there])
                 };
                 let p2 = penalties.p2_of_gray_step[usize::from(gray[u].abs_diff(gray_there))];
-                Previous {
+                let previous = Previous {
                     cells: &cells[..num_cells + 2],
                     minimum,
                     jump: minimum.saturating_add(p2),
-                }
-            });
-            let cells = u * num_cells..(u + 1) * num_cells;
-            self.row.minima[u + 1] = step::<BLOCK, N, ADD>(
-                &costs[cells.clone()],
-                previous,
-                penalties.p1,
-                next,
-                &mut sums[cells],
-            );
+                };
+                let target = &mut next[n * stride + PAD..][..num_cells];
+                minima[n] = advance::<BLOCK>(costs, previous, penalties.p1, target);
+            }
+            self.row.minima[u + 1] = minima;
+            let sums = &mut sums[u * num_cells..(u + 1) * num_cells];
+            add_up::<BLOCK, N, ADD>(&next[PAD..], stride, sums);
         }
         self.gray_before.copy_from_slice(gray);
     }

@@ -2,9 +2,6 @@
 
 use super::search::Search;
 
-/// Disparities of a block that are compared at once.
-const LANES: usize = 16;
-
 /// What makes an answer credible.
 #[derive(Clone, Copy)]
 pub(super) struct Tests {
@@ -68,14 +65,11 @@ impl<'a> Selector<'a> {
         self.right_sums.fill(i16::MAX);
         for (u, cells) in sums.chunks_exact(n).enumerate() {
             let at = self.search.width - 1 - u;
-            let best = &mut self.right_sums[at..at + n];
-            let winner = &mut self.right_winners[at..at + n];
-            let cells = &cells[..n];
-            for d in 0..n {
-                let better = cells[d] < best[d];
-                winner[d] = if better { d as i16 } else { winner[d] };
-                best[d] = best[d].min(cells[d]);
-            }
+            keep_smaller(
+                cells,
+                &mut self.right_sums[at..at + n],
+                &mut self.right_winners[at..at + n],
+            );
         }
     }
 
@@ -87,15 +81,13 @@ impl<'a> Selector<'a> {
             return true;
         }
         let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX)) as i16;
-        let mut below = [0i16; LANES];
-        for block in cells.chunks_exact(LANES) {
-            for i in 0..LANES {
-                below[i] += i16::from(block[i] <= limit);
-            }
+        let mut below = 0i16;
+        for &sum in cells {
+            below += i16::from(sum <= limit);
         }
         let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
         let expected = cells[near].iter().filter(|&&s| s <= limit).count();
-        below.iter().map(|&x| x as usize).sum::<usize>() <= expected
+        below as usize <= expected
     }
 
     /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
@@ -119,23 +111,28 @@ impl<'a> Selector<'a> {
     }
 }
 
+/// Where a sum is smaller than the best so far, it and its place replace them.
+#[inline(always)]
+fn keep_smaller(sums: &[i16], best: &mut [i16], places: &mut [i16]) {
+    let n = sums.len();
+    let (best, places) = (&mut best[..n], &mut places[..n]);
+    for d in 0..n {
+        let (sum, least, place) = (sums[d], best[d], places[d]);
+        places[d] = if sum < least { d as i16 } else { place };
+        best[d] = least.min(sum);
+    }
+}
+
 /// The smallest sum and its first place.
 #[inline(always)]
 fn minimum(cells: &[i16]) -> (i16, usize) {
-    let mut best = [i16::MAX; LANES];
-    let mut block_of_best = [0i16; LANES];
-    for (k, block) in cells.chunks_exact(LANES).enumerate() {
-        for i in 0..LANES {
-            let better = block[i] < best[i];
-            block_of_best[i] = if better { k as i16 } else { block_of_best[i] };
-            best[i] = best[i].min(block[i]);
-        }
+    let mut lowest = i16::MAX;
+    for &sum in cells {
+        lowest = lowest.min(sum);
     }
-    let lowest = best.iter().fold(i16::MAX, |m, &x| m.min(x));
     let mut place = i16::MAX;
-    for i in 0..LANES {
-        let here = block_of_best[i] * LANES as i16 + i as i16;
-        place = place.min(if best[i] == lowest { here } else { i16::MAX });
+    for (d, &sum) in cells.iter().enumerate() {
+        place = place.min(if sum == lowest { d as i16 } else { i16::MAX });
     }
     (lowest, place as usize)
 }
