@@ -3,9 +3,10 @@
 use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use super::prefilter::StereoPrefilter;
-use super::search::{Progress, Search, report, to_eight_bits};
+use super::search::{Search, to_eight_bits};
 use super::simd::{Kernel, run_widest};
 use super::winner::{Selector, Tests};
+use super::work::{Progress, Reporter, Strips};
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;
@@ -125,10 +126,30 @@ impl StereoBm {
     ) -> Result<DisparityImage> {
         let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
         self.check(&search)?;
-        let values = run_widest(Blocks {
-            search,
-            options: self,
-            progress,
+        let [left, right] = [left, right].map(|image| {
+            run_widest(Filter {
+                prefilter: self.prefilter,
+                image,
+                cap: self.prefilter_cap,
+            })
+        });
+        let mut values = vec![0.0; search.width * search.height];
+        let strips = Strips {
+            height: search.height,
+            width: search.width,
+            // The first rows of a strip cost as much again as the window is high.
+            least_rows: 4 * self.window_px as usize,
+        };
+        strips.run(&mut values, progress, |first_row, values, reporter| {
+            run_widest(Blocks {
+                search,
+                options: self,
+                left: &left,
+                right: &right,
+                first_row,
+                values,
+                reporter,
+            })
         })?;
         let mut disparity = search.image(values);
         remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
@@ -196,37 +217,55 @@ impl StereoBm {
     }
 }
 
-struct Blocks<'a, 'b> {
+/// The answers of some rows.
+struct Blocks<'a, 'r> {
     search: Search<'a>,
     options: &'a StereoBm,
-    progress: Progress<'b>,
+    left: &'a [u8],
+    right: &'a [u8],
+    first_row: usize,
+    values: &'a mut [f32],
+    reporter: &'a mut Reporter<'r>,
 }
 
 impl Kernel for Blocks<'_, '_> {
-    type Output = Result<Vec<f32>>;
+    type Output = Result<()>;
 
     #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let (search, options) = (self.search, self.options);
-        let mut values = vec![0.0; search.width * search.height];
-        let left = options.prefilter.apply(search.left, options.prefilter_cap);
-        let right = options.prefilter.apply(search.right, options.prefilter_cap);
-        let mut windows = Windows::new(search, options, &left, &right, 0);
+    fn run(self) -> Result<()> {
+        let Self {
+            search, options, ..
+        } = self;
+        let mut windows = Windows::new(search, options, self.left, self.right, self.first_row);
         let tests = Tests {
             uniqueness_percent: options.uniqueness_percent,
             left_right_max: options.left_right_max_px,
         };
         let mut selector = Selector::new(search, tests);
-        let mut sums = vec![0; search.width * search.num_cells];
-        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, v as f32 / search.height as f32)?;
-            }
-            windows.next_row(&mut sums);
-            selector.row(&mut sums, out);
+        let num_rows = self.values.len() / search.width;
+        for (i, out) in self.values.chunks_exact_mut(search.width).enumerate() {
+            self.reporter.report(i, num_rows)?;
+            windows.next_row(&mut selector);
+            selector.finish_row(out);
             windows.forget_flat(out);
         }
-        Ok(values)
+        Ok(())
+    }
+}
+
+/// The pre-filter on one picture.
+struct Filter<'a> {
+    prefilter: StereoPrefilter,
+    image: &'a GrayImage,
+    cap: u8,
+}
+
+impl Kernel for Filter<'_> {
+    type Output = Vec<u8>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<u8> {
+        self.prefilter.apply(self.image, self.cap)
     }
 }
 
@@ -245,8 +284,9 @@ struct Windows<'a> {
     columns: Vec<i16>,
     /// Magnitudes of the left's columns, summed likewise.
     textures: Vec<i32>,
-    /// The sums over the window of one pixel.
+    /// The sums over the window of one pixel: without the column that enters next, and complete.
     window: Vec<i16>,
+    sums: Vec<i16>,
     /// The right rows that enter and leave the window, from their ends on.
     entering: Vec<u8>,
     leaving: Vec<u8>,
@@ -275,6 +315,7 @@ impl<'a> Windows<'a> {
             columns: vec![0; search.width * search.num_cells],
             textures: vec![0; search.width],
             window: vec![0; search.num_cells],
+            sums: vec![0; search.num_cells],
             entering: vec![0; padded],
             leaving: vec![0; padded],
         };
@@ -306,9 +347,9 @@ impl<'a> Windows<'a> {
         }
     }
 
-    /// The sums of the next row: width × `num_cells`.
+    /// Hands the sums of the next row to the selector.
     #[inline(always)]
-    fn next_row(&mut self, sums: &mut [i16]) {
+    fn next_row(&mut self, selector: &mut Selector) {
         let (width, n, radius) = (self.search.width, self.search.num_cells, self.radius);
         let new = self.clamped((self.v + radius) as isize);
         let old = self.clamped(self.v as isize - 1 - radius as isize);
@@ -343,8 +384,9 @@ impl<'a> Windows<'a> {
                 slide(window, entering);
             } else {
                 let leaving = &self.columns[column(u.saturating_sub(2 * radius))];
-                let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
+                let out = &mut self.sums[..n];
                 slide_out(window, entering, leaving, out);
+                selector.pixel(u - radius, out);
             }
         }
     }

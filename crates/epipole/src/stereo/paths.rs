@@ -20,28 +20,54 @@ pub(super) struct Penalties {
     pub(super) p2_of_gray_step: [u8; 256],
 }
 
-/// Where a path comes from, at one pixel.
-#[derive(Clone, Copy)]
-struct Previous<'a> {
-    /// From the cell before disparity 0 to the cell after the last.
-    cells: &'a [u8],
-    minimum: u8,
-    /// `minimum + P2`.
-    jump: u8,
+/// The costs of one path at each pixel of a row, with a border pixel at either end.
+struct PathRow {
+    /// Per pixel: pad, cells, pad.
+    cells: Vec<u8>,
+    /// The smallest cell of each pixel.
+    minima: Vec<u8>,
+}
+
+impl PathRow {
+    /// Paths yet to begin: L = 0, so that a first pixel costs C alone.
+    fn new(width: usize, num_cells: usize) -> Self {
+        let mut cells = vec![u8::MAX; (width + 2) * (num_cells + 2 * PAD)];
+        for pixel in cells.chunks_exact_mut(num_cells + 2 * PAD) {
+            pixel[PAD..PAD + num_cells].fill(0);
+        }
+        Self {
+            cells,
+            minima: vec![0; width + 2],
+        }
+    }
 }
 
 /// Continues one path by one pixel: writes its costs to `next` and tells the smallest.
+///
+/// * `before`: from the cell before disparity 0 to the cell after the last
+/// * `minimum`: the smallest of them, `p2`: the penalty of a large step to here
 #[inline(always)]
-fn advance<const BLOCK: usize>(costs: &[u8], previous: Previous, p1: u8, next: &mut [u8]) -> u8 {
-    let (jump, minimum) = (previous.jump, previous.minimum);
+fn advance<const BLOCK: usize>(
+    costs: &[u8],
+    before: &[u8],
+    minimum: u8,
+    p1: u8,
+    p2: u8,
+    next: &mut [u8],
+) -> u8 {
+    let n = costs.len();
+    let jump = minimum.saturating_add(p2);
     let mut least = [u8::MAX; BLOCK];
-    for at in (0..costs.len()).step_by(BLOCK) {
-        let cost = &costs[at..at + BLOCK];
-        let before = &previous.cells[at..at + BLOCK + 2];
-        let after = &mut next[at..at + BLOCK];
+    let blocks = costs
+        .chunks_exact(BLOCK)
+        .zip(before[..n].chunks_exact(BLOCK))
+        .zip(before[1..n + 1].chunks_exact(BLOCK))
+        .zip(before[2..n + 2].chunks_exact(BLOCK))
+        .zip(next.chunks_exact_mut(BLOCK));
+    for ((((cost, below), same), above), after) in blocks {
         for i in 0..BLOCK {
-            let beside = before[i].min(before[i + 2]).saturating_add(p1);
-            let best = before[i + 1].min(beside).min(jump).wrapping_sub(minimum);
+            let beside = below[i].min(above[i]).saturating_add(p1);
+            let best = same[i].min(beside).min(jump).wrapping_sub(minimum);
             let value = cost[i].saturating_add(best);
             after[i] = value;
             least[i] = least[i].min(value);
@@ -54,51 +80,84 @@ fn advance<const BLOCK: usize>(costs: &[u8], previous: Previous, p1: u8, next: &
     lowest
 }
 
-/// Adds up (to `sums`, with ADD) the costs of N paths that lie `stride` apart. Apart from
-/// [`advance`], since sums need twice the bits and would halve the lanes there.
-#[inline(always)]
-fn add_up<const BLOCK: usize, const N: usize, const ADD: bool>(
-    paths: &[u8],
-    stride: usize,
-    sums: &mut [i16],
-) {
-    for at in (0..sums.len()).step_by(BLOCK) {
-        let sum = &mut sums[at..at + BLOCK];
-        let path_0 = &paths[at..at + BLOCK];
-        let other = |n: usize| if n < N { n * stride + at } else { at };
-        let path_1 = &paths[other(1)..][..BLOCK];
-        let path_2 = &paths[other(2)..][..BLOCK];
-        let path_3 = &paths[other(3)..][..BLOCK];
-        for i in 0..BLOCK {
-            let mut total = i16::from(path_0[i]);
-            if N >= 2 {
-                total += i16::from(path_1[i]);
-            }
-            if N >= 4 {
-                total += i16::from(path_2[i]) + i16::from(path_3[i]);
-            }
-            sum[i] = if ADD { sum[i] + total } else { total };
+/// A row of pixels that paths are continued through.
+#[derive(Clone, Copy)]
+struct Row<'a> {
+    /// width × `num_cells`.
+    costs: &'a [u8],
+    gray: &'a [u8],
+    num_cells: usize,
+    penalties: &'a Penalties,
+}
+
+impl Row<'_> {
+    #[inline(always)]
+    fn p2(&self, here: u8, there: u8) -> u8 {
+        self.penalties.p2_of_gray_step[usize::from(here.max(there) - here.min(there))]
+    }
+
+    /// A path that comes from the row before, `step` columns aside (−1, 0 or 1).
+    #[inline(always)]
+    fn continue_from_before<const BLOCK: usize>(
+        &self,
+        step: isize,
+        gray_before: &[u8],
+        before: &PathRow,
+        next: &mut PathRow,
+    ) {
+        let stride = self.num_cells + 2 * PAD;
+        let first = (1 + step) as usize;
+        let pixels = self
+            .costs
+            .chunks_exact(self.num_cells)
+            .zip(before.cells.chunks_exact(stride).skip(first))
+            .zip(before.minima.iter().skip(first))
+            .zip(next.cells.chunks_exact_mut(stride).skip(1))
+            .zip(next.minima.iter_mut().skip(1));
+        // The gray value at the other end of each step; the border's does not matter, since a
+        // path that begins has no costs yet.
+        let grays = self.gray.iter().enumerate();
+        let last = self.gray.len() as isize - 1;
+        for (((((costs, before), &minimum), next), next_minimum), (u, &here)) in pixels.zip(grays) {
+            let there = gray_before[(u as isize + step).clamp(0, last) as usize];
+            *next_minimum = advance::<BLOCK>(
+                costs,
+                &before[PAD - 1..PAD + self.num_cells + 1],
+                minimum,
+                self.penalties.p1,
+                self.p2(here, there),
+                &mut next[PAD..PAD + self.num_cells],
+            );
         }
     }
-}
 
-/// The path costs of one row of pixels in N directions, with a border pixel at either end.
-struct PathRow<const N: usize> {
-    /// Per pixel N × (pad, cells, pad).
-    cells: Vec<u8>,
-    minima: Vec<[u8; N]>,
-}
-
-impl<const N: usize> PathRow<N> {
-    /// Paths yet to begin: L = 0, so that a first pixel costs C alone.
-    fn new(width: usize, num_cells: usize) -> Self {
-        let mut cells = vec![u8::MAX; (width + 2) * N * (num_cells + 2 * PAD)];
-        for path in cells.chunks_exact_mut(num_cells + 2 * PAD) {
-            path[PAD..PAD + num_cells].fill(0);
-        }
-        Self {
-            cells,
-            minima: vec![[0; N]; width + 2],
+    /// The path along the row, from its first pixel to its last or the other way.
+    #[inline(always)]
+    fn continue_along<const BLOCK: usize>(&self, backward: bool, path: &mut PathRow) {
+        let (n, width) = (self.num_cells, self.gray.len());
+        let stride = n + 2 * PAD;
+        let mut minimum = 0;
+        let mut there = self.gray[if backward { width - 1 } else { 0 }];
+        for i in 0..width {
+            let u = if backward { width - 1 - i } else { i };
+            // Pixel u has the index u + 1, behind the border's.
+            let (low, high) = path
+                .cells
+                .split_at_mut((u + 1 + usize::from(backward)) * stride);
+            let (before, next) = if backward {
+                (&high[..stride], &mut low[(u + 1) * stride..])
+            } else {
+                (&low[u * stride..], &mut high[..stride])
+            };
+            minimum = advance::<BLOCK>(
+                &self.costs[u * n..(u + 1) * n],
+                &before[PAD - 1..PAD + n + 1],
+                minimum,
+                self.penalties.p1,
+                self.p2(self.gray[u], there),
+                &mut next[PAD..PAD + n],
+            );
+            there = self.gray[u];
         }
     }
 }
@@ -106,8 +165,9 @@ impl<const N: usize> PathRow<N> {
 /// A sweep over the rows that carries N paths: always the one along the row (first), with N = 2
 /// also the vertical one, with N = 4 also both diagonals.
 pub(super) struct Sweep<const N: usize> {
-    row: PathRow<N>,
-    row_before: PathRow<N>,
+    rows: [PathRow; N],
+    /// Of the row before, except for the path along the row, which needs none.
+    rows_before: Vec<PathRow>,
     gray_before: Vec<u8>,
     num_cells: usize,
     /// From the last pixel to the first.
@@ -117,9 +177,10 @@ pub(super) struct Sweep<const N: usize> {
 impl<const N: usize> Sweep<N> {
     /// * `num_cells`: disparities per pixel, a multiple of 16
     pub(super) fn new(width: usize, num_cells: usize, backward: bool) -> Self {
+        let row = || PathRow::new(width, num_cells);
         Self {
-            row: PathRow::new(width, num_cells),
-            row_before: PathRow::new(width, num_cells),
+            rows: std::array::from_fn(|_| row()),
+            rows_before: (1..N).map(|_| row()).collect(),
             gray_before: vec![0; width],
             num_cells,
             backward,
@@ -130,79 +191,87 @@ impl<const N: usize> Sweep<N> {
     ///
     /// * `costs`: width × `num_cells`
     /// * `gray`: this row of the left picture
-    /// * `sums`: receives (or, with ADD, gains) the sum of the N path costs
     #[inline(always)]
-    pub(super) fn next_row<const ADD: bool>(
-        &mut self,
-        costs: &[u8],
-        gray: &[u8],
-        penalties: &Penalties,
-        sums: &mut [i16],
-    ) {
+    pub(super) fn next_row(&mut self, costs: &[u8], gray: &[u8], penalties: &Penalties) {
+        let row = Row {
+            costs,
+            gray,
+            num_cells: self.num_cells,
+            penalties,
+        };
         if self.num_cells % 32 == 0 {
-            self.next_row_in_blocks::<32, ADD>(costs, gray, penalties, sums);
+            self.next_row_in_blocks::<32>(row);
         } else {
-            self.next_row_in_blocks::<16, ADD>(costs, gray, penalties, sums);
+            self.next_row_in_blocks::<16>(row);
         }
+        self.gray_before.copy_from_slice(gray);
     }
 
     #[inline(always)]
-    fn next_row_in_blocks<const BLOCK: usize, const ADD: bool>(
-        &mut self,
-        costs: &[u8],
-        gray: &[u8],
-        penalties: &Penalties,
-        sums: &mut [i16],
-    ) {
-        let (width, num_cells) = (gray.len(), self.num_cells);
-        let stride = num_cells + 2 * PAD;
-        let pixel_len = N * stride;
-        // The step in u from a pixel to where its path along the row comes from.
-        let back: isize = if self.backward { 1 } else { -1 };
-        std::mem::swap(&mut self.row, &mut self.row_before);
-        let row_before = &self.row_before;
-        for i in 0..width {
-            let u = if self.backward { width - 1 - i } else { i };
-            // The pixel before in this row is read while this one is written.
-            let (along, next, along_minimum) = if self.backward {
-                let (low, high) = self.row.cells.split_at_mut((u + 2) * pixel_len);
-                let next = &mut low[(u + 1) * pixel_len..];
-                (&high[..stride], next, self.row.minima[u + 2][0])
-            } else {
-                let (low, high) = self.row.cells.split_at_mut((u + 1) * pixel_len);
-                let along = &low[u * pixel_len..];
-                (along, &mut high[..pixel_len], self.row.minima[u][0])
-            };
-            let costs = &costs[u * num_cells..(u + 1) * num_cells];
-            let mut minima = [0; N];
-            for n in 0..N {
-                let step = match (N, n) {
-                    (_, 0) | (4, 1) => back,
-                    (4, 3) => -back,
-                    _ => 0,
-                };
-                let there = (u as isize + step).clamp(0, width as isize - 1) as usize;
-                let (cells, minimum, gray_there) = if n == 0 {
-                    (&along[PAD - 1..], along_minimum, gray[there])
-                } else {
-                    let pixel = (u as isize + 1 + step) as usize;
-                    let begin = pixel * pixel_len + n * stride + PAD - 1;
-                    let minimum = row_before.minima[pixel][n];
-                    (&row_before.cells[begin..], minimum, self.gray_before[there])
-                };
-                let p2 = penalties.p2_of_gray_step[usize::from(gray[u].abs_diff(gray_there))];
-                let previous = Previous {
-                    cells: &cells[..num_cells + 2],
-                    minimum,
-                    jump: minimum.saturating_add(p2),
-                };
-                let target = &mut next[n * stride + PAD..][..num_cells];
-                minima[n] = advance::<BLOCK>(costs, previous, penalties.p1, target);
-            }
-            self.row.minima[u + 1] = minima;
-            let sums = &mut sums[u * num_cells..(u + 1) * num_cells];
-            add_up::<BLOCK, N, ADD>(&next[PAD..], stride, sums);
+    fn next_row_in_blocks<const BLOCK: usize>(&mut self, row: Row) {
+        let [along, others @ ..] = &mut self.rows[..] else {
+            return;
+        };
+        row.continue_along::<BLOCK>(self.backward, along);
+        // Diagonals lean the way that the sweep goes along its rows.
+        let back = if self.backward { 1 } else { -1 };
+        let steps: [isize; 3] = if N == 4 { [back, 0, -back] } else { [0; 3] };
+        for ((next, before), step) in others.iter_mut().zip(&mut self.rows_before).zip(steps) {
+            std::mem::swap(next, before);
+            row.continue_from_before::<BLOCK>(step, &self.gray_before, before, next);
         }
-        self.gray_before.copy_from_slice(gray);
+    }
+
+    /// The costs of each path at column u of the last row.
+    #[inline(always)]
+    fn paths_at(&self, u: usize) -> [&[u8]; 4] {
+        let begin = (u + 1) * (self.num_cells + 2 * PAD) + PAD;
+        let path = |n: usize| &self.rows[n.min(N - 1)].cells[begin..begin + self.num_cells];
+        [path(0), path(1), path(2), path(3)]
+    }
+
+    /// Adds the costs of all paths at column u to `sums`.
+    #[inline(always)]
+    pub(super) fn add_to(&self, u: usize, sums: &mut [i16]) {
+        add::<N>(self.paths_at(u), sums);
+    }
+
+    /// The mean of the path costs of the last row, rounded, which fits eight bits; width ×
+    /// `num_cells`.
+    #[inline(always)]
+    pub(super) fn means(&self, means: &mut [u8]) {
+        for (u, means) in means.chunks_exact_mut(self.num_cells).enumerate() {
+            average::<N>(self.paths_at(u), means);
+        }
+    }
+}
+
+#[inline(always)]
+fn add<const N: usize>(paths: [&[u8]; 4], sums: &mut [i16]) {
+    let n = sums.len();
+    let [a, b, c, d] = paths.map(|path| &path[..n]);
+    for i in 0..n {
+        sums[i] += total::<N>(a[i], b[i], c[i], d[i]);
+    }
+}
+
+#[inline(always)]
+fn average<const N: usize>(paths: [&[u8]; 4], means: &mut [u8]) {
+    let n = means.len();
+    let [a, b, c, d] = paths.map(|path| &path[..n]);
+    for i in 0..n {
+        let total = total::<N>(a[i], b[i], c[i], d[i]);
+        means[i] = ((total + N as i16 / 2) >> N.ilog2()) as u8;
+    }
+}
+
+/// The sum of the first N.
+#[inline(always)]
+fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
+    let [a, b, c, d] = [i16::from(a), i16::from(b), i16::from(c), i16::from(d)];
+    match N {
+        1 => a,
+        2 => a + b,
+        _ => a + b + c + d,
     }
 }

@@ -3,11 +3,6 @@
 use super::DisparityImage;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::ControlFlow;
-
-/// Told the share of the work done, 0 to 1, from time to time and on the caller's thread; the
-/// answer [`ControlFlow::Break`] cancels.
-pub type Progress<'a> = &'a mut dyn FnMut(f32) -> ControlFlow<()>;
 
 /// Cells (pixels × disparities) beyond which no volume is begun: the memory would not be there.
 #[cfg(target_pointer_width = "64")]
@@ -147,14 +142,6 @@ impl<'a> Search<'a> {
 
     pub(super) fn image(&self, values: Vec<f32>) -> DisparityImage {
         DisparityImage::new(self.left.width(), self.left.height(), values)
-    }
-}
-
-/// Turns a canceling callback into an error.
-pub(super) fn report(progress: Progress, share: f32) -> Result<()> {
-    match progress(share) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Canceled),
     }
 }
 

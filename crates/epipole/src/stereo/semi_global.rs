@@ -4,12 +4,13 @@ use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
-use super::search::{Progress, Search, report, to_eight_bits};
+use super::search::{Search, to_eight_bits};
 use super::simd::{Kernel, run_widest};
 use super::winner::{Selector, Tests};
+use super::work::{Progress, Reporter, alone, in_two};
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// How many directions the costs are gathered from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -155,9 +156,11 @@ impl StereoSgm {
             penalties: self.penalties(),
         };
         let values = match self.paths {
-            StereoPaths::Five => run_widest(FivePaths {
-                task: &task,
-                progress,
+            StereoPaths::Five => alone(progress, |reporter| {
+                run_widest(FivePaths {
+                    task: &task,
+                    reporter,
+                })
             })?,
             StereoPaths::Four => task.both_ways::<2>(progress)?,
             StereoPaths::Eight => task.both_ways::<4>(progress)?,
@@ -245,104 +248,232 @@ impl Task<'_> {
         self.search.width * self.search.num_cells
     }
 
-    /// Paths down the picture, then up, N each; the sums of all pixels are kept in between.
+    /// N paths down and N paths up the picture.
+    ///
+    /// Both sweeps first go to the middle and store what they find. Then each goes on through the
+    /// other's half, where the sums are now complete. So one volume serves two threads, and the
+    /// result is the same with one.
     fn both_ways<const N: usize>(&self, progress: Progress) -> Result<Vec<f32>> {
-        let num_cells = self.search.check_volume()?;
+        let search = self.search;
+        let num_cells = search.check_volume()?;
         let mut volume = Volume {
             costs: vec![0; num_cells],
-            sums: vec![0; num_cells],
+            means: vec![0; num_cells],
         };
-        run_widest(Down::<N> {
-            task: self,
-            volume: &mut volume,
-            progress: &mut *progress,
-        })?;
-        run_widest(Up::<N> {
-            task: self,
-            volume: &mut volume,
+        let mut values = vec![0.0; search.width * search.height];
+        let middle = search.height / 2;
+        let (mut down, mut up) = (
+            HalfSweep::<N>::new(self, false),
+            HalfSweep::<N>::new(self, true),
+        );
+
+        let (top, bottom) = volume.split(middle * self.row_cells());
+        in_two(
             progress,
-        })
+            0.0..0.5,
+            |reporter| {
+                run_widest(Store {
+                    sweep: &mut down,
+                    rows: 0..middle,
+                    volume: top,
+                    reporter,
+                })
+            },
+            |reporter| {
+                let rows = middle..search.height;
+                run_widest(Store {
+                    sweep: &mut up,
+                    rows,
+                    volume: bottom,
+                    reporter,
+                })
+            },
+        )?;
+
+        let (top, bottom) = volume.split(middle * self.row_cells());
+        let (top_values, bottom_values) = values.split_at_mut(middle * search.width);
+        in_two(
+            progress,
+            0.5..1.0,
+            |reporter| {
+                run_widest(Complete {
+                    sweep: &mut down,
+                    rows: middle..search.height,
+                    volume: bottom,
+                    values: bottom_values,
+                    reporter,
+                })
+            },
+            |reporter| {
+                run_widest(Complete {
+                    sweep: &mut up,
+                    rows: 0..middle,
+                    volume: top,
+                    values: top_values,
+                    reporter,
+                })
+            },
+        )?;
+        Ok(values)
     }
 }
 
-/// The costs and sums of all pixels, height × width × `num_cells`.
+/// What one sweep leaves for the other: costs, and the means of N path costs, each rows × width ×
+/// `num_cells`.
 struct Volume {
     costs: Vec<u8>,
-    sums: Vec<i16>,
+    means: Vec<u8>,
 }
 
-/// Half of the paths, and the costs on the way.
-struct Down<'a, 'b, const N: usize> {
+impl Volume {
+    fn split(&mut self, at: usize) -> (VolumePart<'_>, VolumePart<'_>) {
+        let (top_costs, bottom_costs) = self.costs.split_at_mut(at);
+        let (top_means, bottom_means) = self.means.split_at_mut(at);
+        (
+            VolumePart {
+                costs: top_costs,
+                means: top_means,
+            },
+            VolumePart {
+                costs: bottom_costs,
+                means: bottom_means,
+            },
+        )
+    }
+}
+
+/// Some rows of a [`Volume`].
+struct VolumePart<'a> {
+    costs: &'a mut [u8],
+    means: &'a mut [u8],
+}
+
+/// N paths down the picture, or up.
+struct HalfSweep<'a, const N: usize> {
     task: &'a Task<'a>,
-    volume: &'a mut Volume,
-    progress: Progress<'b>,
+    cost_rows: CostRows<'a>,
+    paths: Sweep<N>,
+    selector: Selector<'a>,
+    upward: bool,
 }
 
-impl<const N: usize> Kernel for Down<'_, '_, N> {
+impl<'a, const N: usize> HalfSweep<'a, N> {
+    fn new(task: &'a Task<'a>, upward: bool) -> Self {
+        let search = task.search;
+        Self {
+            task,
+            cost_rows: task.cost_rows(),
+            paths: Sweep::new(search.width, search.num_cells, upward),
+            selector: Selector::new(search, task.options.tests()),
+            upward,
+        }
+    }
+
+    /// The i-th row to be visited of a range.
+    #[inline(always)]
+    fn visit(&self, rows: &Range<usize>, i: usize) -> usize {
+        if self.upward {
+            rows.end - 1 - i
+        } else {
+            rows.start + i
+        }
+    }
+}
+
+/// The first half of a sweep: keeps costs and path costs.
+struct Store<'a, 'b, 'r, const N: usize> {
+    sweep: &'a mut HalfSweep<'b, N>,
+    rows: Range<usize>,
+    volume: VolumePart<'a>,
+    reporter: &'a mut Reporter<'r>,
+}
+
+impl<const N: usize> Kernel for Store<'_, '_, '_, N> {
     type Output = Result<()>;
 
     #[inline(always)]
     fn run(self) -> Result<()> {
-        let task = self.task;
+        let Self {
+            sweep,
+            rows,
+            volume,
+            reporter,
+        } = self;
+        let task = sweep.task;
         let search = task.search;
-        let mut cost_rows = task.cost_rows();
-        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, false);
-        let rows = self
-            .volume
-            .costs
-            .chunks_exact_mut(task.row_cells())
-            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()));
-        for (v, (costs, sums)) in rows.enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, 0.5 * v as f32 / search.height as f32)?;
-            }
-            cost_rows.row(v, costs);
+        for i in 0..rows.len() {
+            reporter.report(i, rows.len())?;
+            let v = sweep.visit(&rows, i);
+            let cells =
+                (v - rows.start) * task.row_cells()..(v - rows.start + 1) * task.row_cells();
+            let costs = &mut volume.costs[cells.clone()];
+            sweep.cost_rows.row(v, costs);
             let gray = search.row_of(search.left.as_raw(), v);
-            sweep.next_row::<false>(costs, gray, &task.penalties, sums);
+            sweep.paths.next_row(costs, gray, &task.penalties);
+            sweep.paths.means(&mut volume.means[cells]);
         }
         Ok(())
     }
 }
 
-/// The other half, and the winners on the way.
-struct Up<'a, 'b, const N: usize> {
-    task: &'a Task<'a>,
-    volume: &'a mut Volume,
-    progress: Progress<'b>,
+/// The second half of a sweep: adds to what the other one stored, and selects.
+struct Complete<'a, 'b, 'r, const N: usize> {
+    sweep: &'a mut HalfSweep<'b, N>,
+    rows: Range<usize>,
+    volume: VolumePart<'a>,
+    values: &'a mut [f32],
+    reporter: &'a mut Reporter<'r>,
 }
 
-impl<const N: usize> Kernel for Up<'_, '_, N> {
-    type Output = Result<Vec<f32>>;
+impl<const N: usize> Kernel for Complete<'_, '_, '_, N> {
+    type Output = Result<()>;
 
     #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let task = self.task;
+    fn run(self) -> Result<()> {
+        let Self {
+            sweep,
+            rows,
+            volume,
+            values,
+            reporter,
+        } = self;
+        let task = sweep.task;
         let search = task.search;
-        let mut values = vec![0.0; search.width * search.height];
-        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, true);
-        let mut selector = Selector::new(search, task.options.tests());
-        let rows = self
-            .volume
-            .costs
-            .chunks_exact(task.row_cells())
-            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()))
-            .zip(values.chunks_exact_mut(search.width));
-        for (v, ((costs, sums), out)) in rows.enumerate().rev() {
-            if v % 16 == 0 {
-                report(self.progress, 1.0 - 0.5 * v as f32 / search.height as f32)?;
-            }
+        let mut sums = vec![0; search.num_cells];
+        for i in 0..rows.len() {
+            reporter.report(i, rows.len())?;
+            let v = sweep.visit(&rows, i);
+            let row = v - rows.start;
+            let cells = row * task.row_cells()..(row + 1) * task.row_cells();
             let gray = search.row_of(search.left.as_raw(), v);
-            sweep.next_row::<true>(costs, gray, &task.penalties, sums);
-            selector.row(sums, out);
+            sweep
+                .paths
+                .next_row(&volume.costs[cells.clone()], gray, &task.penalties);
+            let means = volume.means[cells].chunks_exact(search.num_cells);
+            for (u, means) in means.enumerate() {
+                scale_up(means, N as i16, &mut sums);
+                sweep.paths.add_to(u, &mut sums);
+                sweep.selector.pixel(u, &mut sums);
+            }
+            sweep
+                .selector
+                .finish_row(&mut values[row * search.width..(row + 1) * search.width]);
         }
-        Ok(values)
+        Ok(())
+    }
+}
+
+#[inline(always)]
+fn scale_up(means: &[u8], factor: i16, sums: &mut [i16]) {
+    for (sum, &mean) in sums.iter_mut().zip(means) {
+        *sum = i16::from(mean) * factor;
     }
 }
 
 /// Down the picture and along the row both ways, with the memory of a few rows.
-struct FivePaths<'a, 'b> {
+struct FivePaths<'a, 'r> {
     task: &'a Task<'a>,
-    progress: Progress<'b>,
+    reporter: &'a mut Reporter<'r>,
 }
 
 impl Kernel for FivePaths<'_, '_> {
@@ -354,20 +485,24 @@ impl Kernel for FivePaths<'_, '_> {
         let search = task.search;
         let mut cost_rows = task.cost_rows();
         let mut costs = vec![0; task.row_cells()];
-        let mut sums = vec![0; task.row_cells()];
+        let mut sums = vec![0; search.num_cells];
         let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
         let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
         let mut selector = Selector::new(search, task.options.tests());
         let mut values = vec![0.0; search.width * search.height];
         for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, v as f32 / search.height as f32)?;
-            }
+            self.reporter.report(v, search.height)?;
             cost_rows.row(v, &mut costs);
             let gray = search.row_of(search.left.as_raw(), v);
-            down.next_row::<false>(&costs, gray, &task.penalties, &mut sums);
-            back.next_row::<true>(&costs, gray, &task.penalties, &mut sums);
-            selector.row(&mut sums, out);
+            down.next_row(&costs, gray, &task.penalties);
+            back.next_row(&costs, gray, &task.penalties);
+            for u in 0..search.width {
+                sums.fill(0);
+                down.add_to(u, &mut sums);
+                back.add_to(u, &mut sums);
+                selector.pixel(u, &mut sums);
+            }
+            selector.finish_row(out);
         }
         Ok(values)
     }

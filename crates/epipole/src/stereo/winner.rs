@@ -11,10 +11,14 @@ pub(super) struct Tests {
     pub(super) left_right_max: Option<u32>,
 }
 
-/// Selects answers row by row.
+/// Selects the answers of a row, pixel by pixel.
 pub(super) struct Selector<'a> {
     search: Search<'a>,
     tests: Tests,
+    /// The best disparity of each left pixel, from the smallest looked for.
+    winners: Vec<usize>,
+    /// The vertex beside the winner; NaN where the pixel has no answer.
+    offsets: Vec<f32>,
     /// The best sum of each right pixel and its disparity, from the row's end on.
     right_sums: Vec<i16>,
     right_winners: Vec<i16>,
@@ -26,51 +30,49 @@ impl<'a> Selector<'a> {
         Self {
             search,
             tests,
-            right_sums: vec![0; len],
+            winners: vec![0; search.width],
+            offsets: vec![0.0; search.width],
+            right_sums: vec![i16::MAX; len],
             right_winners: vec![0; len],
         }
     }
 
-    /// * `sums`: width × `num_cells`; those beyond the last disparity are ignored
-    /// * `disparities`: the row's answers, NaN for none
+    /// Takes in the sums of column u, `num_cells` many; those beyond the last disparity are
+    /// overwritten.
     #[inline(always)]
-    pub(super) fn row(&mut self, sums: &mut [i16], disparities: &mut [f32]) {
+    pub(super) fn pixel(&mut self, u: usize, sums: &mut [i16]) {
         let (n, count) = (self.search.num_cells, self.search.num_disparities);
+        let sums = &mut sums[..n];
         if count < n {
-            for cells in sums.chunks_exact_mut(n) {
-                cells[count..].fill(i16::MAX);
-            }
+            sums[count..].fill(i16::MAX);
         }
         if self.tests.left_right_max.is_some() {
-            self.match_from_the_right(sums);
+            let at = self.search.width - 1 - u;
+            keep_smaller(
+                sums,
+                &mut self.right_sums[at..at + n],
+                &mut self.right_winners[at..at + n],
+            );
         }
-        for (u, (cells, out)) in sums.chunks_exact(n).zip(disparities).enumerate() {
-            let (best, winner) = minimum(cells);
-            let offset = refine(cells, winner);
-            let good = self.search.cells_inside(u).contains(&winner)
-                && self.is_unique(cells, best, winner)
-                && self.is_mutual(u, winner, offset);
-            *out = if good {
+        let (best, winner) = minimum(sums);
+        let good =
+            self.search.cells_inside(u).contains(&winner) && self.is_unique(sums, best, winner);
+        self.winners[u] = winner;
+        self.offsets[u] = if good { refine(sums, winner) } else { f32::NAN };
+    }
+
+    /// The answers after all pixels were taken in, NaN for none.
+    #[inline(always)]
+    pub(super) fn finish_row(&mut self, disparities: &mut [f32]) {
+        for (u, out) in disparities.iter_mut().enumerate() {
+            let (winner, offset) = (self.winners[u], self.offsets[u]);
+            *out = if !offset.is_nan() && self.is_mutual(u, winner, offset) {
                 (self.search.min_disparity + winner as i32) as f32 + offset
             } else {
                 f32::NAN
             };
         }
-    }
-
-    /// The best left pixel of each right pixel, along the diagonals of the row's sums.
-    #[inline(always)]
-    fn match_from_the_right(&mut self, sums: &[i16]) {
-        let n = self.search.num_cells;
         self.right_sums.fill(i16::MAX);
-        for (u, cells) in sums.chunks_exact(n).enumerate() {
-            let at = self.search.width - 1 - u;
-            keep_smaller(
-                cells,
-                &mut self.right_sums[at..at + n],
-                &mut self.right_winners[at..at + n],
-            );
-        }
     }
 
     /// No other disparity, apart from the winner's neighbors, comes close.
