@@ -17,6 +17,7 @@
 //! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | rectification, dense disparity, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`stereo`] | rectification, dense disparity by block matching and semi-global matching, depth, point clouds |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions

@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 ///
 /// The answer at (u, v) is the d that minimizes
 /// `Σ |L(u+i, v+j) − R(u+i−d, v+j)|` over the window, where L and R are the pre-filtered
-/// pictures; a parabola through the sums at d − 1, d, d + 1 gives its fraction.
+/// pictures; two lines of opposite slope through the sums at d − 1, d, d + 1 give its fraction.
 ///
 /// A pixel has no answer (NaN) where the window holds too little texture, the best match lies
 /// outside the right picture, another disparity fits nearly as well, the right picture disagrees,
@@ -117,7 +117,7 @@ impl StereoBm {
     /// As [`StereoBm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoBm::compute`], and [`Error::Canceled`].
+    /// As [`StereoBm::compute`], and [`Error::Cancelled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,

@@ -199,7 +199,7 @@ impl<const N: usize> Sweep<N> {
             num_cells: self.num_cells,
             penalties,
         };
-        if self.num_cells % 32 == 0 {
+        if self.num_cells.is_multiple_of(32) {
             self.next_row_in_blocks::<32>(row);
         } else {
             self.next_row_in_blocks::<16>(row);

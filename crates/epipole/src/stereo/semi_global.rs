@@ -33,7 +33,7 @@ pub enum StereoPaths {
 ///
 /// A pixel has no answer (NaN) where its best match lies outside the right picture, another
 /// disparity fits nearly as well, the right picture disagrees, or only a small speckle of pixels
-/// holds it. Pictures without any texture get no answers, not an error.
+/// holds it. Pictures without texture get one smooth surface or no answers, not an error.
 ///
 /// Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information".
 ///
@@ -96,11 +96,11 @@ impl Default for StereoSgm {
             small_step_penalty: 20,
             large_step_penalty: 100,
             edge_gray: 10,
-            uniqueness_percent: 5,
+            uniqueness_percent: 3,
             left_right_max_px: Some(1),
             speckle_size: 100,
             speckle_range_px: 2.0,
-            max_gap_px: 12,
+            max_gap_px: 16,
         }
     }
 }
@@ -141,7 +141,7 @@ impl StereoSgm {
     /// As [`StereoSgm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoSgm::compute`], and [`Error::Canceled`].
+    /// As [`StereoSgm::compute`], and [`Error::Cancelled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,

@@ -17,7 +17,7 @@ pub(super) struct Selector<'a> {
     tests: Tests,
     /// The best disparity of each left pixel, from the smallest looked for.
     winners: Vec<usize>,
-    /// The vertex beside the winner; NaN where the pixel has no answer.
+    /// The fraction beside the winner; NaN where the pixel has no answer.
     offsets: Vec<f32>,
     /// The best sum of each right pixel and its disparity, from the row's end on.
     right_sums: Vec<i16>,
@@ -139,8 +139,11 @@ fn minimum(cells: &[i16]) -> (i16, usize) {
     (lowest, place as usize)
 }
 
-/// How far the vertex of the parabola through the winner and its neighbors lies from the winner,
-/// −½ to ½.
+/// How far the true minimum lies from the winner, −½ to ½: where two lines of opposite slope meet
+/// that pass through the winner and its neighbors. Sums of absolute differences and of bits are
+/// such wedges; a parabola would draw fractions towards the whole numbers.
+///
+/// Source: Shimizu & Okutomi 2001, "Precise sub-pixel estimation on area-based matching".
 #[inline(always)]
 fn refine(cells: &[i16], winner: usize) -> f32 {
     if winner == 0 || winner + 1 >= cells.len() || cells[winner + 1] == i16::MAX {
@@ -151,9 +154,30 @@ fn refine(cells: &[i16], winner: usize) -> f32 {
         f32::from(cells[winner]),
         f32::from(cells[winner + 1]),
     ];
-    let curvature = below + above - 2.0 * best;
-    if curvature <= 0.0 {
+    let slope = below.max(above) - best;
+    if slope <= 0.0 {
         return 0.0;
     }
-    0.5 * (below - above) / curvature
+    0.5 * (below - above) / slope
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wedge_is_refined_exactly() {
+        // |d − 2.25| × 8 at 1, 2, 3.
+        assert_eq!(refine(&[18, 10, 2, 6, 14], 2), 0.25);
+        assert_eq!(refine(&[4, 4, 4], 1), 0.0);
+        assert_eq!(refine(&[1, 4], 0), 0.0);
+    }
+
+    #[test]
+    fn the_first_of_equal_sums_wins() {
+        let mut sums = [50i16; 32];
+        sums[17] = 9;
+        sums[30] = 9;
+        assert_eq!(minimum(&sums), (9, 17));
+    }
 }

@@ -19,10 +19,10 @@ impl Reporter<'_> {
     /// Before step `done` of `all`.
     ///
     /// # Errors
-    /// [`Error::Canceled`] if it is time to stop.
+    /// [`Error::Cancelled`] if it is time to stop.
     #[inline(never)]
     pub(super) fn report(&mut self, done: usize, all: usize) -> Result<()> {
-        if let (Some(callback), true) = (&mut self.callback, done % 8 == 0) {
+        if let (Some(callback), true) = (&mut self.callback, done.is_multiple_of(8)) {
             let part = done as f32 / all.max(1) as f32;
             let share = self.shares.start + (self.shares.end - self.shares.start) * part;
             if callback(share).is_break() {
@@ -30,7 +30,7 @@ impl Reporter<'_> {
             }
         }
         if self.canceled.load(Ordering::Relaxed) {
-            Err(Error::Canceled)
+            Err(Error::Cancelled)
         } else {
             Ok(())
         }
