@@ -4,9 +4,9 @@ use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
-use super::simd::{Kernel, run_widest};
 use super::winner::{Selector, Tests};
-use super::work::{Progress, Reporter, Strips};
+use super::work::{Progress, Strips};
+use crate::imaging::simd::dispatched;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;
@@ -126,13 +126,8 @@ impl StereoBm {
     ) -> Result<DisparityImage> {
         let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
         self.check(&search)?;
-        let [left, right] = [left, right].map(|image| {
-            run_widest(Filter {
-                prefilter: self.prefilter,
-                image,
-                cap: self.prefilter_cap,
-            })
-        });
+        let [left, right] =
+            [left, right].map(|image| self.prefilter.apply(image, self.prefilter_cap));
         let mut values = vec![0.0; search.width * search.height];
         let strips = Strips {
             height: search.height,
@@ -141,15 +136,21 @@ impl StereoBm {
             least_rows: 4 * self.window_px as usize,
         };
         strips.run(&mut values, progress, |first_row, values, reporter| {
-            run_widest(Blocks {
-                search,
-                options: self,
-                left: &left,
-                right: &right,
-                first_row,
-                values,
-                reporter,
-            })
+            let mut windows = Windows::new(search, self, &left, &right, first_row);
+            let tests = Tests {
+                uniqueness_percent: self.uniqueness_percent,
+                left_right_max: self.left_right_max_px,
+            };
+            let mut selector = Selector::new(search, tests);
+            let mut sums = vec![0; search.width * search.num_cells];
+            let num_rows = values.len() / search.width;
+            for (i, out) in values.chunks_exact_mut(search.width).enumerate() {
+                reporter.report(i, num_rows)?;
+                windows.next_row(&mut sums);
+                selector.row(&mut sums, out);
+                windows.forget_flat(out);
+            }
+            Ok(())
         })?;
         let mut disparity = search.image(values);
         remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
@@ -217,58 +218,6 @@ impl StereoBm {
     }
 }
 
-/// The answers of some rows.
-struct Blocks<'a, 'r> {
-    search: Search<'a>,
-    options: &'a StereoBm,
-    left: &'a [u8],
-    right: &'a [u8],
-    first_row: usize,
-    values: &'a mut [f32],
-    reporter: &'a mut Reporter<'r>,
-}
-
-impl Kernel for Blocks<'_, '_> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn run(self) -> Result<()> {
-        let Self {
-            search, options, ..
-        } = self;
-        let mut windows = Windows::new(search, options, self.left, self.right, self.first_row);
-        let tests = Tests {
-            uniqueness_percent: options.uniqueness_percent,
-            left_right_max: options.left_right_max_px,
-        };
-        let mut selector = Selector::new(search, tests);
-        let num_rows = self.values.len() / search.width;
-        for (i, out) in self.values.chunks_exact_mut(search.width).enumerate() {
-            self.reporter.report(i, num_rows)?;
-            windows.next_row(&mut selector);
-            selector.finish_row(out);
-            windows.forget_flat(out);
-        }
-        Ok(())
-    }
-}
-
-/// The pre-filter on one picture.
-struct Filter<'a> {
-    prefilter: StereoPrefilter,
-    image: &'a GrayImage,
-    cap: u8,
-}
-
-impl Kernel for Filter<'_> {
-    type Output = Vec<u8>;
-
-    #[inline(always)]
-    fn run(self) -> Vec<u8> {
-        self.prefilter.apply(self.image, self.cap)
-    }
-}
-
 /// Sums over windows, kept from row to row.
 struct Windows<'a> {
     search: Search<'a>,
@@ -284,9 +233,8 @@ struct Windows<'a> {
     columns: Vec<i16>,
     /// Magnitudes of the left's columns, summed likewise.
     textures: Vec<i32>,
-    /// The sums over the window of one pixel: without the column that enters next, and complete.
+    /// The sums over the window of one pixel.
     window: Vec<i16>,
-    sums: Vec<i16>,
     /// The right rows that enter and leave the window, from their ends on.
     entering: Vec<u8>,
     leaving: Vec<u8>,
@@ -294,7 +242,6 @@ struct Windows<'a> {
 
 impl<'a> Windows<'a> {
     /// Before row `first`.
-    #[inline(always)]
     fn new(
         search: Search<'a>,
         options: &StereoBm,
@@ -315,7 +262,6 @@ impl<'a> Windows<'a> {
             columns: vec![0; search.width * search.num_cells],
             textures: vec![0; search.width],
             window: vec![0; search.num_cells],
-            sums: vec![0; search.num_cells],
             entering: vec![0; padded],
             leaving: vec![0; padded],
         };
@@ -327,12 +273,10 @@ impl<'a> Windows<'a> {
         windows
     }
 
-    #[inline(always)]
     fn clamped(&self, v: isize) -> usize {
         v.clamp(0, self.search.height as isize - 1) as usize
     }
 
-    #[inline(always)]
     fn add_row(&mut self, v: usize) {
         let (width, n) = (self.search.width, self.search.num_cells);
         let left = self.search.row_of(self.left, v);
@@ -347,52 +291,31 @@ impl<'a> Windows<'a> {
         }
     }
 
-    /// Hands the sums of the next row to the selector.
-    #[inline(always)]
-    fn next_row(&mut self, selector: &mut Selector) {
-        let (width, n, radius) = (self.search.width, self.search.num_cells, self.radius);
-        let new = self.clamped((self.v + radius) as isize);
-        let old = self.clamped(self.v as isize - 1 - radius as isize);
+    /// The sums of the next row: width × `num_cells`.
+    fn next_row(&mut self, sums: &mut [i16]) {
+        let radius = self.radius as isize;
+        let new = self.clamped(self.v as isize + radius);
+        let old = self.clamped(self.v as isize - 1 - radius);
         self.v += 1;
-        let (new_left, old_left) = (
-            self.search.row_of(self.left, new),
-            self.search.row_of(self.left, old),
+        let search = &self.search;
+        let (new_left, old_left) = (search.row_of(self.left, new), search.row_of(self.left, old));
+        search.reverse(search.row_of(self.right, new), &mut self.entering);
+        search.reverse(search.row_of(self.right, old), &mut self.leaving);
+        for (texture, (new, old)) in self.textures.iter_mut().zip(new_left.iter().zip(old_left)) {
+            *texture += i32::from(new.abs_diff(self.cap)) - i32::from(old.abs_diff(self.cap));
+        }
+        slide_windows(
+            search.num_cells,
+            self.radius,
+            [new_left, old_left],
+            [&self.entering, &self.leaving],
+            &mut self.columns,
+            &mut self.window,
+            sums,
         );
-        for (row, to) in [(new, &mut self.entering), (old, &mut self.leaving)] {
-            self.search.reverse(self.search.row_of(self.right, row), to);
-        }
-        for u in 0..width + radius {
-            if u < width {
-                let cells = &mut self.columns[u * n..(u + 1) * n];
-                let entering = &self.entering[width - 1 - u..][..n];
-                let leaving = &self.leaving[width - 1 - u..][..n];
-                let (gray_in, gray_out) = (new_left[u], old_left[u]);
-                exchange(cells, gray_in, entering, gray_out, leaving);
-                self.textures[u] +=
-                    i32::from(gray_in.abs_diff(self.cap)) - i32::from(gray_out.abs_diff(self.cap));
-            }
-            let window = &mut self.window[..n];
-            let column = |u: usize| u.min(width - 1) * n..(u.min(width - 1) + 1) * n;
-            if u == 0 {
-                // Columns left of the picture repeat the first.
-                for (sum, first) in window.iter_mut().zip(&self.columns[column(0)]) {
-                    *sum = first * radius as i16;
-                }
-            }
-            let entering = &self.columns[column(u)];
-            if u < radius {
-                slide(window, entering);
-            } else {
-                let leaving = &self.columns[column(u.saturating_sub(2 * radius))];
-                let out = &mut self.sums[..n];
-                slide_out(window, entering, leaving, out);
-                selector.pixel(u - radius, out);
-            }
-        }
     }
 
     /// Takes back the answers of the last row where the window is flat.
-    #[inline(always)]
     fn forget_flat(&self, disparities: &mut [f32]) {
         if self.min_texture <= 0.0 {
             return;
@@ -408,6 +331,47 @@ impl<'a> Windows<'a> {
                 *value = f32::NAN;
             }
             sum -= self.textures[u.saturating_sub(self.radius)];
+        }
+    }
+}
+
+dispatched! {
+    /// The sums over the windows of a row.
+    ///
+    /// * `left`: the left rows that enter and leave the window, `right`: the right ones, reversed
+    /// * `columns`: sums over the window's rows, before: of the row above, after: of this one
+    /// * `window`: `num_cells` values to work with
+    fn slide_windows(
+        num_cells: usize,
+        radius: usize,
+        left: [&[u8]; 2],
+        right: [&[u8]; 2],
+        columns: &mut [i16],
+        window: &mut [i16],
+        sums: &mut [i16],
+    ) {
+        let (n, width) = (num_cells, left[0].len());
+        let column = |u: usize| u.min(width - 1) * n..(u.min(width - 1) + 1) * n;
+        for u in 0..width + radius {
+            if u < width {
+                let entering = &right[0][width - 1 - u..][..n];
+                let leaving = &right[1][width - 1 - u..][..n];
+                exchange(&mut columns[column(u)], left[0][u], entering, left[1][u], leaving);
+            }
+            if u == 0 {
+                // Columns left of the picture repeat the first.
+                for (sum, first) in window.iter_mut().zip(&columns[column(0)]) {
+                    *sum = first * radius as i16;
+                }
+            }
+            let entering = &columns[column(u)];
+            if u < radius {
+                slide(window, entering);
+            } else {
+                let leaving = &columns[column(u.saturating_sub(2 * radius))];
+                let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
+                slide_out(window, entering, leaving, out);
+            }
         }
     }
 }

@@ -15,7 +15,6 @@ mod rectify;
 mod rectify_uncalibrated;
 mod search;
 mod semi_global;
-mod simd;
 mod winner;
 mod work;
 

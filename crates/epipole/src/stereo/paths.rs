@@ -8,6 +8,8 @@
 //! Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information",
 //! equations 13 and 14.
 
+use crate::imaging::simd::dispatched;
+
 /// Bytes of "infinite cost" on either side of a path's disparities, so that d ± 1 exists.
 const PAD: usize = 8;
 
@@ -80,85 +82,106 @@ fn advance<const BLOCK: usize>(
     lowest
 }
 
-/// A row of pixels that paths are continued through.
-#[derive(Clone, Copy)]
-struct Row<'a> {
-    /// width × `num_cells`.
-    costs: &'a [u8],
-    gray: &'a [u8],
-    num_cells: usize,
-    penalties: &'a Penalties,
+dispatched! {
+    /// A path from the row before, one column aside or straight.
+    ///
+    /// * `p2`: of each pixel's step
+    /// * `before`, `before_minima`: from the pixel on that the first one comes from
+    /// * `next`, `next_minima`: from the first pixel on
+    fn continue_from_before<const BLOCK: usize>(
+        num_cells: usize,
+        costs: &[u8],
+        p1: u8,
+        p2: &[u8],
+        before: &[u8],
+        before_minima: &[u8],
+        next: &mut [u8],
+        next_minima: &mut [u8],
+    ) {
+        let stride = num_cells + 2 * PAD;
+        let pixels = costs
+            .chunks_exact(num_cells)
+            .zip(p2)
+            .zip(before.chunks_exact(stride))
+            .zip(before_minima)
+            .zip(next.chunks_exact_mut(stride))
+            .zip(next_minima);
+        for (((((costs, &p2), before), &minimum), next), next_minimum) in pixels {
+            let before = &before[PAD - 1..PAD + num_cells + 1];
+            let next = &mut next[PAD..PAD + num_cells];
+            *next_minimum = advance::<BLOCK>(costs, before, minimum, p1, p2, next);
+        }
+    }
 }
 
-impl Row<'_> {
-    #[inline(always)]
-    fn p2(&self, here: u8, there: u8) -> u8 {
-        self.penalties.p2_of_gray_step[usize::from(here.max(there) - here.min(there))]
-    }
-
-    /// A path that comes from the row before, `step` columns aside (−1, 0 or 1).
-    #[inline(always)]
-    fn continue_from_before<const BLOCK: usize>(
-        &self,
-        step: isize,
-        gray_before: &[u8],
-        before: &PathRow,
-        next: &mut PathRow,
-    ) {
-        let stride = self.num_cells + 2 * PAD;
-        let first = (1 + step) as usize;
-        let pixels = self
-            .costs
-            .chunks_exact(self.num_cells)
-            .zip(before.cells.chunks_exact(stride).skip(first))
-            .zip(before.minima.iter().skip(first))
-            .zip(next.cells.chunks_exact_mut(stride).skip(1))
-            .zip(next.minima.iter_mut().skip(1));
-        // The gray value at the other end of each step; the border's does not matter, since a
-        // path that begins has no costs yet.
-        let grays = self.gray.iter().enumerate();
-        let last = self.gray.len() as isize - 1;
-        for (((((costs, before), &minimum), next), next_minimum), (u, &here)) in pixels.zip(grays) {
-            let there = gray_before[(u as isize + step).clamp(0, last) as usize];
-            *next_minimum = advance::<BLOCK>(
-                costs,
-                &before[PAD - 1..PAD + self.num_cells + 1],
-                minimum,
-                self.penalties.p1,
-                self.p2(here, there),
-                &mut next[PAD..PAD + self.num_cells],
-            );
-        }
-    }
-
+dispatched! {
     /// The path along the row, from its first pixel to its last or the other way.
-    #[inline(always)]
-    fn continue_along<const BLOCK: usize>(&self, backward: bool, path: &mut PathRow) {
-        let (n, width) = (self.num_cells, self.gray.len());
-        let stride = n + 2 * PAD;
+    ///
+    /// * `path`: from the first pixel on
+    /// * `previous`: pad, cells, pad of the pixel before; zeros in the cells to begin with
+    fn continue_along<const BLOCK: usize>(
+        num_cells: usize,
+        backward: bool,
+        costs: &[u8],
+        p1: u8,
+        p2: &[u8],
+        path: &mut [u8],
+        previous: &mut [u8],
+    ) {
+        let stride = num_cells + 2 * PAD;
         let mut minimum = 0;
-        let mut there = self.gray[if backward { width - 1 } else { 0 }];
-        for i in 0..width {
-            let u = if backward { width - 1 - i } else { i };
-            // Pixel u has the index u + 1, behind the border's.
-            let (low, high) = path
-                .cells
-                .split_at_mut((u + 1 + usize::from(backward)) * stride);
-            let (before, next) = if backward {
-                (&high[..stride], &mut low[(u + 1) * stride..])
-            } else {
-                (&low[u * stride..], &mut high[..stride])
-            };
-            minimum = advance::<BLOCK>(
-                &self.costs[u * n..(u + 1) * n],
-                &before[PAD - 1..PAD + n + 1],
-                minimum,
-                self.penalties.p1,
-                self.p2(self.gray[u], there),
-                &mut next[PAD..PAD + n],
-            );
-            there = self.gray[u];
+        for i in 0..p2.len() {
+            let u = if backward { p2.len() - 1 - i } else { i };
+            let costs = &costs[u * num_cells..(u + 1) * num_cells];
+            let next = &mut path[u * stride + PAD..u * stride + PAD + num_cells];
+            let before = &previous[PAD - 1..PAD + num_cells + 1];
+            minimum = advance::<BLOCK>(costs, before, minimum, p1, p2[u], next);
+            // Kept apart from the row, so that reading it cannot meet the writing.
+            let kept = previous[PAD..PAD + num_cells].chunks_exact_mut(BLOCK);
+            for (kept, cells) in kept.zip(next.chunks_exact(BLOCK)) {
+                kept.copy_from_slice(cells);
+            }
         }
+    }
+}
+
+dispatched! {
+    /// The mean of N paths' costs, rounded.
+    ///
+    /// * `paths`: the rows of the paths, from the first pixel's cells on; the first N count
+    fn average<const N: usize>(num_cells: usize, paths: [&[u8]; 4], means: &mut [u8]) {
+        let stride = num_cells + 2 * PAD;
+        for (u, means) in means.chunks_exact_mut(num_cells).enumerate() {
+            let [a, b, c, d] = paths.map(|path| &path[u * stride..u * stride + num_cells]);
+            for i in 0..num_cells {
+                let total = total::<N>(a[i], b[i], c[i], d[i]);
+                means[i] = ((total + N as i16 / 2) >> N.ilog2()) as u8;
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// Adds N paths' costs to `sums`, as [`average`].
+    fn add<const N: usize>(num_cells: usize, paths: [&[u8]; 4], sums: &mut [i16]) {
+        let stride = num_cells + 2 * PAD;
+        for (u, sums) in sums.chunks_exact_mut(num_cells).enumerate() {
+            let [a, b, c, d] = paths.map(|path| &path[u * stride..u * stride + num_cells]);
+            for i in 0..num_cells {
+                sums[i] += total::<N>(a[i], b[i], c[i], d[i]);
+            }
+        }
+    }
+}
+
+/// The sum of the first N.
+#[inline(always)]
+fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
+    let [a, b, c, d] = [i16::from(a), i16::from(b), i16::from(c), i16::from(d)];
+    match N {
+        1 => a,
+        2 => a + b,
+        _ => a + b + c + d,
     }
 }
 
@@ -169,6 +192,9 @@ pub(super) struct Sweep<const N: usize> {
     /// Of the row before, except for the path along the row, which needs none.
     rows_before: Vec<PathRow>,
     gray_before: Vec<u8>,
+    /// The penalty of a large step to each pixel.
+    p2: Vec<u8>,
+    previous: Vec<u8>,
     num_cells: usize,
     /// From the last pixel to the first.
     backward: bool,
@@ -182,6 +208,8 @@ impl<const N: usize> Sweep<N> {
             rows: std::array::from_fn(|_| row()),
             rows_before: (1..N).map(|_| row()).collect(),
             gray_before: vec![0; width],
+            p2: vec![0; width],
+            previous: vec![u8::MAX; num_cells + 2 * PAD],
             num_cells,
             backward,
         }
@@ -191,87 +219,79 @@ impl<const N: usize> Sweep<N> {
     ///
     /// * `costs`: width × `num_cells`
     /// * `gray`: this row of the left picture
-    #[inline(always)]
     pub(super) fn next_row(&mut self, costs: &[u8], gray: &[u8], penalties: &Penalties) {
-        let row = Row {
-            costs,
-            gray,
-            num_cells: self.num_cells,
-            penalties,
-        };
         if self.num_cells.is_multiple_of(32) {
-            self.next_row_in_blocks::<32>(row);
+            self.next_row_in_blocks::<32>(costs, gray, penalties);
         } else {
-            self.next_row_in_blocks::<16>(row);
+            self.next_row_in_blocks::<16>(costs, gray, penalties);
         }
         self.gray_before.copy_from_slice(gray);
     }
 
-    #[inline(always)]
-    fn next_row_in_blocks<const BLOCK: usize>(&mut self, row: Row) {
+    fn next_row_in_blocks<const BLOCK: usize>(
+        &mut self,
+        costs: &[u8],
+        gray: &[u8],
+        penalties: &Penalties,
+    ) {
+        let (n, stride) = (self.num_cells, self.num_cells + 2 * PAD);
+        let (width, p1) = (gray.len(), penalties.p1);
         let [along, others @ ..] = &mut self.rows[..] else {
             return;
         };
-        row.continue_along::<BLOCK>(self.backward, along);
+        let back: isize = if self.backward { 1 } else { -1 };
+        penalties.of_steps(gray, gray, back, &mut self.p2);
+        self.previous[PAD..PAD + n].fill(0);
+        let path = &mut along.cells[stride..(width + 1) * stride];
+        let (p2, previous) = (&self.p2, &mut self.previous);
+        continue_along::<BLOCK>(n, self.backward, costs, p1, p2, path, previous);
+
         // Diagonals lean the way that the sweep goes along its rows.
-        let back = if self.backward { 1 } else { -1 };
         let steps: [isize; 3] = if N == 4 { [back, 0, -back] } else { [0; 3] };
         for ((next, before), step) in others.iter_mut().zip(&mut self.rows_before).zip(steps) {
             std::mem::swap(next, before);
-            row.continue_from_before::<BLOCK>(step, &self.gray_before, before, next);
+            penalties.of_steps(gray, &self.gray_before, step, &mut self.p2);
+            // Pixel u has the index u + 1, behind the border's.
+            let first = (1 + step) as usize;
+            continue_from_before::<BLOCK>(
+                n,
+                costs,
+                p1,
+                &self.p2,
+                &before.cells[first * stride..(first + width) * stride],
+                &before.minima[first..first + width],
+                &mut next.cells[stride..(width + 1) * stride],
+                &mut next.minima[1..width + 1],
+            );
         }
     }
 
-    /// The costs of each path at column u of the last row.
-    #[inline(always)]
-    fn paths_at(&self, u: usize) -> [&[u8]; 4] {
-        let begin = (u + 1) * (self.num_cells + 2 * PAD) + PAD;
-        let path = |n: usize| &self.rows[n.min(N - 1)].cells[begin..begin + self.num_cells];
-        [path(0), path(1), path(2), path(3)]
+    /// The last row of each path, from the first pixel's cells on.
+    fn paths(&self) -> [&[u8]; 4] {
+        let begin = self.num_cells + 3 * PAD;
+        std::array::from_fn(|n| &self.rows[n.min(N - 1)].cells[begin..])
     }
 
-    /// Adds the costs of all paths at column u to `sums`.
-    #[inline(always)]
-    pub(super) fn add_to(&self, u: usize, sums: &mut [i16]) {
-        add::<N>(self.paths_at(u), sums);
+    /// Adds the costs of all paths through the last row to `sums`, width × `num_cells`.
+    pub(super) fn add_to(&self, sums: &mut [i16]) {
+        add::<N>(self.num_cells, self.paths(), sums);
     }
 
     /// The mean of the path costs of the last row, rounded, which fits eight bits; width ×
     /// `num_cells`.
-    #[inline(always)]
     pub(super) fn means(&self, means: &mut [u8]) {
-        for (u, means) in means.chunks_exact_mut(self.num_cells).enumerate() {
-            average::<N>(self.paths_at(u), means);
+        average::<N>(self.num_cells, self.paths(), means);
+    }
+}
+
+impl Penalties {
+    /// P2 of the step to each pixel of a row from the one `step` columns aside in the row
+    /// `there`. What lies outside does not matter: a path that begins has no costs yet.
+    fn of_steps(&self, here: &[u8], there: &[u8], step: isize, p2: &mut [u8]) {
+        let last = here.len() as isize - 1;
+        for (u, (p2, &gray)) in p2.iter_mut().zip(here).enumerate() {
+            let other = there[(u as isize + step).clamp(0, last) as usize];
+            *p2 = self.p2_of_gray_step[usize::from(gray.abs_diff(other))];
         }
-    }
-}
-
-#[inline(always)]
-fn add<const N: usize>(paths: [&[u8]; 4], sums: &mut [i16]) {
-    let n = sums.len();
-    let [a, b, c, d] = paths.map(|path| &path[..n]);
-    for i in 0..n {
-        sums[i] += total::<N>(a[i], b[i], c[i], d[i]);
-    }
-}
-
-#[inline(always)]
-fn average<const N: usize>(paths: [&[u8]; 4], means: &mut [u8]) {
-    let n = means.len();
-    let [a, b, c, d] = paths.map(|path| &path[..n]);
-    for i in 0..n {
-        let total = total::<N>(a[i], b[i], c[i], d[i]);
-        means[i] = ((total + N as i16 / 2) >> N.ilog2()) as u8;
-    }
-}
-
-/// The sum of the first N.
-#[inline(always)]
-fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
-    let [a, b, c, d] = [i16::from(a), i16::from(b), i16::from(c), i16::from(d)];
-    match N {
-        1 => a,
-        2 => a + b,
-        _ => a + b + c + d,
     }
 }

@@ -5,7 +5,6 @@ use super::clean::{close_gaps, remove_speckles};
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
-use super::simd::{Kernel, run_widest};
 use super::winner::{Selector, Tests};
 use super::work::{Progress, Reporter, alone, in_two};
 use crate::{Error, Result};
@@ -156,12 +155,7 @@ impl StereoSgm {
             penalties: self.penalties(),
         };
         let values = match self.paths {
-            StereoPaths::Five => alone(progress, |reporter| {
-                run_widest(FivePaths {
-                    task: &task,
-                    reporter,
-                })
-            })?,
+            StereoPaths::Five => alone(progress, |reporter| task.five_paths(reporter))?,
             StereoPaths::Four => task.both_ways::<2>(progress)?,
             StereoPaths::Eight => task.both_ways::<4>(progress)?,
         };
@@ -248,6 +242,30 @@ impl Task<'_> {
         self.search.width * self.search.num_cells
     }
 
+    /// Down the picture and along the row both ways, with the memory of a few rows.
+    fn five_paths(&self, reporter: &mut Reporter) -> Result<Vec<f32>> {
+        let search = self.search;
+        let mut cost_rows = self.cost_rows();
+        let mut costs = vec![0; self.row_cells()];
+        let mut sums = vec![0; self.row_cells()];
+        let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
+        let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
+        let mut selector = Selector::new(search, self.options.tests());
+        let mut values = vec![0.0; search.width * search.height];
+        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
+            reporter.report(v, search.height)?;
+            cost_rows.row(v, &mut costs);
+            let gray = search.row_of(search.left.as_raw(), v);
+            down.next_row(&costs, gray, &self.penalties);
+            back.next_row(&costs, gray, &self.penalties);
+            sums.fill(0);
+            down.add_to(&mut sums);
+            back.add_to(&mut sums);
+            selector.row(&mut sums, out);
+        }
+        Ok(values)
+    }
+
     /// N paths down and N paths up the picture.
     ///
     /// Both sweeps first go to the middle and store what they find. Then each goes on through the
@@ -262,57 +280,24 @@ impl Task<'_> {
         };
         let mut values = vec![0.0; search.width * search.height];
         let middle = search.height / 2;
-        let (mut down, mut up) = (
-            HalfSweep::<N>::new(self, false),
-            HalfSweep::<N>::new(self, true),
-        );
+        let (upper, lower) = (0..middle, middle..search.height);
+        let mut down = HalfSweep::<N>::new(self, false);
+        let mut up = HalfSweep::<N>::new(self, true);
 
         let (top, bottom) = volume.split(middle * self.row_cells());
         in_two(
             progress,
             0.0..0.5,
-            |reporter| {
-                run_widest(Store {
-                    sweep: &mut down,
-                    rows: 0..middle,
-                    volume: top,
-                    reporter,
-                })
-            },
-            |reporter| {
-                let rows = middle..search.height;
-                run_widest(Store {
-                    sweep: &mut up,
-                    rows,
-                    volume: bottom,
-                    reporter,
-                })
-            },
+            |reporter| down.store(upper.clone(), top, reporter),
+            |reporter| up.store(lower.clone(), bottom, reporter),
         )?;
-
         let (top, bottom) = volume.split(middle * self.row_cells());
         let (top_values, bottom_values) = values.split_at_mut(middle * search.width);
         in_two(
             progress,
             0.5..1.0,
-            |reporter| {
-                run_widest(Complete {
-                    sweep: &mut down,
-                    rows: middle..search.height,
-                    volume: bottom,
-                    values: bottom_values,
-                    reporter,
-                })
-            },
-            |reporter| {
-                run_widest(Complete {
-                    sweep: &mut up,
-                    rows: 0..middle,
-                    volume: top,
-                    values: top_values,
-                    reporter,
-                })
-            },
+            |reporter| down.complete(lower.clone(), bottom, bottom_values, reporter),
+            |reporter| up.complete(upper.clone(), top, top_values, reporter),
         )?;
         Ok(values)
     }
@@ -369,141 +354,64 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
         }
     }
 
-    /// The i-th row to be visited of a range.
-    #[inline(always)]
-    fn visit(&self, rows: &Range<usize>, i: usize) -> usize {
-        if self.upward {
-            rows.end - 1 - i
-        } else {
-            rows.start + i
-        }
+    /// The rows of a range in the order of the sweep: how many went before, and which.
+    fn visits(&self, rows: &Range<usize>) -> impl Iterator<Item = (usize, usize)> + use<N> {
+        let (rows, upward) = (rows.clone(), self.upward);
+        (0..rows.len()).map(move |i| {
+            let v = if upward {
+                rows.end - 1 - i
+            } else {
+                rows.start + i
+            };
+            (i, v)
+        })
     }
-}
 
-/// The first half of a sweep: keeps costs and path costs.
-struct Store<'a, 'b, 'r, const N: usize> {
-    sweep: &'a mut HalfSweep<'b, N>,
-    rows: Range<usize>,
-    volume: VolumePart<'a>,
-    reporter: &'a mut Reporter<'r>,
-}
-
-impl<const N: usize> Kernel for Store<'_, '_, '_, N> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn run(self) -> Result<()> {
-        let Self {
-            sweep,
-            rows,
-            volume,
-            reporter,
-        } = self;
-        let task = sweep.task;
-        let search = task.search;
-        for i in 0..rows.len() {
+    /// The first half of the sweep: keeps costs and path costs.
+    fn store(
+        &mut self,
+        rows: Range<usize>,
+        volume: VolumePart,
+        reporter: &mut Reporter,
+    ) -> Result<()> {
+        let (search, len) = (self.task.search, self.task.row_cells());
+        for (i, v) in self.visits(&rows) {
             reporter.report(i, rows.len())?;
-            let v = sweep.visit(&rows, i);
-            let cells =
-                (v - rows.start) * task.row_cells()..(v - rows.start + 1) * task.row_cells();
+            let cells = (v - rows.start) * len..(v - rows.start + 1) * len;
             let costs = &mut volume.costs[cells.clone()];
-            sweep.cost_rows.row(v, costs);
+            self.cost_rows.row(v, costs);
             let gray = search.row_of(search.left.as_raw(), v);
-            sweep.paths.next_row(costs, gray, &task.penalties);
-            sweep.paths.means(&mut volume.means[cells]);
+            self.paths.next_row(costs, gray, &self.task.penalties);
+            self.paths.means(&mut volume.means[cells]);
         }
         Ok(())
     }
-}
 
-/// The second half of a sweep: adds to what the other one stored, and selects.
-struct Complete<'a, 'b, 'r, const N: usize> {
-    sweep: &'a mut HalfSweep<'b, N>,
-    rows: Range<usize>,
-    volume: VolumePart<'a>,
-    values: &'a mut [f32],
-    reporter: &'a mut Reporter<'r>,
-}
-
-impl<const N: usize> Kernel for Complete<'_, '_, '_, N> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn run(self) -> Result<()> {
-        let Self {
-            sweep,
-            rows,
-            volume,
-            values,
-            reporter,
-        } = self;
-        let task = sweep.task;
-        let search = task.search;
-        let mut sums = vec![0; search.num_cells];
-        for i in 0..rows.len() {
+    /// The second half: adds to what the other sweep stored, and selects.
+    fn complete(
+        &mut self,
+        rows: Range<usize>,
+        volume: VolumePart,
+        values: &mut [f32],
+        reporter: &mut Reporter,
+    ) -> Result<()> {
+        let (search, len) = (self.task.search, self.task.row_cells());
+        let mut sums = vec![0; len];
+        for (i, v) in self.visits(&rows) {
             reporter.report(i, rows.len())?;
-            let v = sweep.visit(&rows, i);
             let row = v - rows.start;
-            let cells = row * task.row_cells()..(row + 1) * task.row_cells();
+            let cells = row * len..(row + 1) * len;
             let gray = search.row_of(search.left.as_raw(), v);
-            sweep
-                .paths
-                .next_row(&volume.costs[cells.clone()], gray, &task.penalties);
-            let means = volume.means[cells].chunks_exact(search.num_cells);
-            for (u, means) in means.enumerate() {
-                scale_up(means, N as i16, &mut sums);
-                sweep.paths.add_to(u, &mut sums);
-                sweep.selector.pixel(u, &mut sums);
+            let costs = &volume.costs[cells.clone()];
+            self.paths.next_row(costs, gray, &self.task.penalties);
+            // The mean times N is the other sweep's sum, to within half of N.
+            for (sum, &mean) in sums.iter_mut().zip(&volume.means[cells]) {
+                *sum = i16::from(mean) * N as i16;
             }
-            sweep
-                .selector
-                .finish_row(&mut values[row * search.width..(row + 1) * search.width]);
+            self.paths.add_to(&mut sums);
+            let out = &mut values[row * search.width..(row + 1) * search.width];
+            self.selector.row(&mut sums, out);
         }
         Ok(())
-    }
-}
-
-#[inline(always)]
-fn scale_up(means: &[u8], factor: i16, sums: &mut [i16]) {
-    for (sum, &mean) in sums.iter_mut().zip(means) {
-        *sum = i16::from(mean) * factor;
-    }
-}
-
-/// Down the picture and along the row both ways, with the memory of a few rows.
-struct FivePaths<'a, 'r> {
-    task: &'a Task<'a>,
-    reporter: &'a mut Reporter<'r>,
-}
-
-impl Kernel for FivePaths<'_, '_> {
-    type Output = Result<Vec<f32>>;
-
-    #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let task = self.task;
-        let search = task.search;
-        let mut cost_rows = task.cost_rows();
-        let mut costs = vec![0; task.row_cells()];
-        let mut sums = vec![0; search.num_cells];
-        let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
-        let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
-        let mut selector = Selector::new(search, task.options.tests());
-        let mut values = vec![0.0; search.width * search.height];
-        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
-            self.reporter.report(v, search.height)?;
-            cost_rows.row(v, &mut costs);
-            let gray = search.row_of(search.left.as_raw(), v);
-            down.next_row(&costs, gray, &task.penalties);
-            back.next_row(&costs, gray, &task.penalties);
-            for u in 0..search.width {
-                sums.fill(0);
-                down.add_to(u, &mut sums);
-                back.add_to(u, &mut sums);
-                selector.pixel(u, &mut sums);
-            }
-            selector.finish_row(out);
-        }
-        Ok(values)
     }
 }

@@ -1,6 +1,7 @@
 //! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
 
 use super::search::Search;
+use crate::imaging::simd::dispatched;
 
 /// What makes an answer credible.
 #[derive(Clone, Copy)]
@@ -11,85 +12,66 @@ pub(super) struct Tests {
     pub(super) left_right_max: Option<u32>,
 }
 
-/// Selects the answers of a row, pixel by pixel.
+/// Selects the answers row by row.
 pub(super) struct Selector<'a> {
     search: Search<'a>,
     tests: Tests,
     /// The best disparity of each left pixel, from the smallest looked for.
-    winners: Vec<usize>,
-    /// The fraction beside the winner; NaN where the pixel has no answer.
+    winners: Vec<i16>,
+    /// The fraction beside the winner; NaN where it is not unique.
     offsets: Vec<f32>,
-    /// The best sum of each right pixel and its disparity, from the row's end on.
+    /// The best sum of each right pixel and its disparity, from the row's end on; empty without
+    /// a left–right test.
     right_sums: Vec<i16>,
     right_winners: Vec<i16>,
 }
 
 impl<'a> Selector<'a> {
     pub(super) fn new(search: Search<'a>, tests: Tests) -> Self {
-        let len = search.width + search.num_cells;
+        let len = match tests.left_right_max {
+            Some(_) => search.width + search.num_cells,
+            None => 0,
+        };
         Self {
             search,
             tests,
             winners: vec![0; search.width],
             offsets: vec![0.0; search.width],
-            right_sums: vec![i16::MAX; len],
+            right_sums: vec![0; len],
             right_winners: vec![0; len],
         }
     }
 
-    /// Takes in the sums of column u, `num_cells` many; those beyond the last disparity are
-    /// overwritten.
-    #[inline(always)]
-    pub(super) fn pixel(&mut self, u: usize, sums: &mut [i16]) {
+    /// * `sums`: width × `num_cells`; those beyond the last disparity are overwritten
+    /// * `disparities`: the row's answers, NaN for none
+    pub(super) fn row(&mut self, sums: &mut [i16], disparities: &mut [f32]) {
         let (n, count) = (self.search.num_cells, self.search.num_disparities);
-        let sums = &mut sums[..n];
         if count < n {
-            sums[count..].fill(i16::MAX);
+            for cells in sums.chunks_exact_mut(n) {
+                cells[count..].fill(i16::MAX);
+            }
         }
-        if self.tests.left_right_max.is_some() {
-            let at = self.search.width - 1 - u;
-            keep_smaller(
-                sums,
-                &mut self.right_sums[at..at + n],
-                &mut self.right_winners[at..at + n],
-            );
-        }
-        let (best, winner) = minimum(sums);
-        let good =
-            self.search.cells_inside(u).contains(&winner) && self.is_unique(sums, best, winner);
-        self.winners[u] = winner;
-        self.offsets[u] = if good { refine(sums, winner) } else { f32::NAN };
-    }
-
-    /// The answers after all pixels were taken in, NaN for none.
-    #[inline(always)]
-    pub(super) fn finish_row(&mut self, disparities: &mut [f32]) {
+        self.right_sums.fill(i16::MAX);
+        find_winners(
+            n,
+            self.tests.uniqueness_percent as i32,
+            sums,
+            &mut self.winners,
+            &mut self.offsets,
+            &mut self.right_sums,
+            &mut self.right_winners,
+        );
         for (u, out) in disparities.iter_mut().enumerate() {
-            let (winner, offset) = (self.winners[u], self.offsets[u]);
-            *out = if !offset.is_nan() && self.is_mutual(u, winner, offset) {
+            let (winner, offset) = (self.winners[u] as usize, self.offsets[u]);
+            let good = !offset.is_nan()
+                && self.search.cells_inside(u).contains(&winner)
+                && self.is_mutual(u, winner, offset);
+            *out = if good {
                 (self.search.min_disparity + winner as i32) as f32 + offset
             } else {
                 f32::NAN
             };
         }
-        self.right_sums.fill(i16::MAX);
-    }
-
-    /// No other disparity, apart from the winner's neighbors, comes close.
-    #[inline(always)]
-    fn is_unique(&self, cells: &[i16], best: i16, winner: usize) -> bool {
-        let percent = self.tests.uniqueness_percent as i32;
-        if percent == 0 {
-            return true;
-        }
-        let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX)) as i16;
-        let mut below = 0i16;
-        for &sum in cells {
-            below += i16::from(sum <= limit);
-        }
-        let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
-        let expected = cells[near].iter().filter(|&&s| s <= limit).count();
-        below as usize <= expected
     }
 
     /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
@@ -111,6 +93,55 @@ impl<'a> Selector<'a> {
             }
         })
     }
+}
+
+dispatched! {
+    /// The winner of each pixel and its fraction, and the winners seen from the right.
+    fn find_winners(
+        num_cells: usize,
+        uniqueness_percent: i32,
+        sums: &[i16],
+        winners: &mut [i16],
+        offsets: &mut [f32],
+        right_sums: &mut [i16],
+        right_winners: &mut [i16],
+    ) {
+        let width = winners.len();
+        for (u, cells) in sums.chunks_exact(num_cells).enumerate() {
+            if !right_sums.is_empty() {
+                // The diagonal of this row's sums that ends in right pixel u.
+                let at = width - 1 - u;
+                keep_smaller(
+                    cells,
+                    &mut right_sums[at..at + num_cells],
+                    &mut right_winners[at..at + num_cells],
+                );
+            }
+            let (best, winner) = minimum(cells);
+            winners[u] = winner as i16;
+            offsets[u] = if is_unique(cells, best, winner, uniqueness_percent) {
+                refine(cells, winner)
+            } else {
+                f32::NAN
+            };
+        }
+    }
+}
+
+/// No other disparity, apart from the winner's neighbors, comes within so many percent.
+#[inline(always)]
+fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
+    if percent == 0 {
+        return true;
+    }
+    let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX) - 1) as i16;
+    let mut below = 0i16;
+    for &sum in cells {
+        below += i16::from(sum <= limit);
+    }
+    let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
+    let expected = cells[near].iter().filter(|&&s| s <= limit).count();
+    below as usize <= expected
 }
 
 /// Where a sum is smaller than the best so far, it and its place replace them.
