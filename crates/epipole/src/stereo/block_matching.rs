@@ -369,7 +369,7 @@ dispatched! {
                 slide(window, entering);
             } else {
                 let leaving = &columns[column(u.saturating_sub(2 * radius))];
-                let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
+                let out = &mut sums[(u - radius) * n..][..n];
                 slide_out(window, entering, leaving, out);
             }
         }

@@ -204,18 +204,18 @@ dispatched! {
     ) {
         let width = left.gray.len();
         for (u, costs) in costs.chunks_exact_mut(num_cells).enumerate() {
-            let cells = width - 1 - u..width - 1 - u + num_cells;
+            let at = width - 1 - u;
             let (gray, low, high) = (left.gray[u], left.low[u], left.high[u]);
             let bits = [left.census[0][u], left.census[1][u], left.census[2][u]];
             let (grays, lows, highs) = (
-                &reversed.gray[cells.clone()],
-                &reversed.low[cells.clone()],
-                &reversed.high[cells.clone()],
+                &reversed.gray[at..][..num_cells],
+                &reversed.low[at..][..num_cells],
+                &reversed.high[at..][..num_cells],
             );
             let (bits_0, bits_1, bits_2) = (
-                &reversed.census[0][cells.clone()],
-                &reversed.census[1][cells.clone()],
-                &reversed.census[2][cells],
+                &reversed.census[0][at..][..num_cells],
+                &reversed.census[1][at..][..num_cells],
+                &reversed.census[2][at..][..num_cells],
             );
             for d in 0..num_cells {
                 let mut cost = 0;

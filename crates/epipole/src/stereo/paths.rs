@@ -152,7 +152,9 @@ dispatched! {
     fn average<const N: usize>(num_cells: usize, paths: [&[u8]; 4], means: &mut [u8]) {
         let stride = num_cells + 2 * PAD;
         for (u, means) in means.chunks_exact_mut(num_cells).enumerate() {
-            let [a, b, c, d] = paths.map(|path| &path[u * stride..u * stride + num_cells]);
+            let at = u * stride;
+            let (a, b) = (&paths[0][at..][..num_cells], &paths[1][at..][..num_cells]);
+            let (c, d) = (&paths[2][at..][..num_cells], &paths[3][at..][..num_cells]);
             for i in 0..num_cells {
                 let total = total::<N>(a[i], b[i], c[i], d[i]);
                 means[i] = ((total + N as i16 / 2) >> N.ilog2()) as u8;
@@ -166,7 +168,9 @@ dispatched! {
     fn add<const N: usize>(num_cells: usize, paths: [&[u8]; 4], sums: &mut [i16]) {
         let stride = num_cells + 2 * PAD;
         for (u, sums) in sums.chunks_exact_mut(num_cells).enumerate() {
-            let [a, b, c, d] = paths.map(|path| &path[u * stride..u * stride + num_cells]);
+            let at = u * stride;
+            let (a, b) = (&paths[0][at..][..num_cells], &paths[1][at..][..num_cells]);
+            let (c, d) = (&paths[2][at..][..num_cells], &paths[3][at..][..num_cells]);
             for i in 0..num_cells {
                 sums[i] += total::<N>(a[i], b[i], c[i], d[i]);
             }
@@ -288,10 +292,14 @@ impl Penalties {
     /// P2 of the step to each pixel of a row from the one `step` columns aside in the row
     /// `there`. What lies outside does not matter: a path that begins has no costs yet.
     fn of_steps(&self, here: &[u8], there: &[u8], step: isize, p2: &mut [u8]) {
-        let last = here.len() as isize - 1;
-        for (u, (p2, &gray)) in p2.iter_mut().zip(here).enumerate() {
-            let other = there[(u as isize + step).clamp(0, last) as usize];
-            *p2 = self.p2_of_gray_step[usize::from(gray.abs_diff(other))];
+        let width = here.len();
+        // The pixels whose neighbor is inside.
+        let begin = usize::from(step < 0).min(width);
+        let end = width - usize::from(step > 0).min(width);
+        p2.fill(self.p2_of_gray_step[0]);
+        let there = &there[(begin as isize + step) as usize..];
+        for ((p2, &a), &b) in p2[begin..end].iter_mut().zip(&here[begin..end]).zip(there) {
+            *p2 = self.p2_of_gray_step[usize::from(a.abs_diff(b))];
         }
     }
 }

@@ -113,8 +113,8 @@ dispatched! {
                 let at = width - 1 - u;
                 keep_smaller(
                     cells,
-                    &mut right_sums[at..at + num_cells],
-                    &mut right_winners[at..at + num_cells],
+                    &mut right_sums[at..][..num_cells],
+                    &mut right_winners[at..][..num_cells],
                 );
             }
             let (best, winner) = minimum(cells);
