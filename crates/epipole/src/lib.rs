@@ -18,6 +18,7 @@
 //! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
 //! | [`stereo`] | rectification, dense disparity, depth |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`stereo`] | rectification, dense disparity by block matching and semi-global matching, depth, point clouds |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions

@@ -3,10 +3,12 @@
 //! A camera is intrinsics (how rays become pixels) and a rigid transform (where it stands).
 //! Camera frame: x right, y down, z forward.
 
+mod distortion;
 mod intrinsics;
 mod rigid;
 mod view;
 
+pub use distortion::Distortion;
 pub use intrinsics::Intrinsics;
 pub use rigid::{RigidTransform, cross_matrix, look_at, relative_motion};
 pub use view::Camera;

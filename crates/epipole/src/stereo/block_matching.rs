@@ -3,9 +3,10 @@
 use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use super::prefilter::StereoPrefilter;
-use super::search::{Progress, Search, report, to_eight_bits};
-use super::simd::{Kernel, run_widest};
+use super::search::{Search, to_eight_bits};
 use super::winner::{Selector, Tests};
+use super::work::{Progress, Strips};
+use crate::imaging::simd::dispatched;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;
@@ -14,7 +15,7 @@ use std::ops::ControlFlow;
 ///
 /// The answer at (u, v) is the d that minimizes
 /// `Σ |L(u+i, v+j) − R(u+i−d, v+j)|` over the window, where L and R are the pre-filtered
-/// pictures; a parabola through the sums at d − 1, d, d + 1 gives its fraction.
+/// pictures; two lines of opposite slope through the sums at d − 1, d, d + 1 give its fraction.
 ///
 /// A pixel has no answer (NaN) where the window holds too little texture, the best match lies
 /// outside the right picture, another disparity fits nearly as well, the right picture disagrees,
@@ -116,7 +117,7 @@ impl StereoBm {
     /// As [`StereoBm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoBm::compute`], and [`Error::Canceled`].
+    /// As [`StereoBm::compute`], and [`Error::Cancelled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,
@@ -125,10 +126,31 @@ impl StereoBm {
     ) -> Result<DisparityImage> {
         let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
         self.check(&search)?;
-        let values = run_widest(Blocks {
-            search,
-            options: self,
-            progress,
+        let [left, right] =
+            [left, right].map(|image| self.prefilter.apply(image, self.prefilter_cap));
+        let mut values = vec![0.0; search.width * search.height];
+        let strips = Strips {
+            height: search.height,
+            width: search.width,
+            // The first rows of a strip cost as much again as the window is high.
+            least_rows: 4 * self.window_px as usize,
+        };
+        strips.run(&mut values, progress, |first_row, values, reporter| {
+            let mut windows = Windows::new(search, self, &left, &right, first_row);
+            let tests = Tests {
+                uniqueness_percent: self.uniqueness_percent,
+                left_right_max: self.left_right_max_px,
+            };
+            let mut selector = Selector::new(search, tests);
+            let mut sums = vec![0; search.width * search.num_cells];
+            let num_rows = values.len() / search.width;
+            for (i, out) in values.chunks_exact_mut(search.width).enumerate() {
+                reporter.report(i, num_rows)?;
+                windows.next_row(&mut sums);
+                selector.row(&mut sums, out);
+                windows.forget_flat(out);
+            }
+            Ok(())
         })?;
         let mut disparity = search.image(values);
         remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
@@ -196,40 +218,6 @@ impl StereoBm {
     }
 }
 
-struct Blocks<'a, 'b> {
-    search: Search<'a>,
-    options: &'a StereoBm,
-    progress: Progress<'b>,
-}
-
-impl Kernel for Blocks<'_, '_> {
-    type Output = Result<Vec<f32>>;
-
-    #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let (search, options) = (self.search, self.options);
-        let mut values = vec![0.0; search.width * search.height];
-        let left = options.prefilter.apply(search.left, options.prefilter_cap);
-        let right = options.prefilter.apply(search.right, options.prefilter_cap);
-        let mut windows = Windows::new(search, options, &left, &right, 0);
-        let tests = Tests {
-            uniqueness_percent: options.uniqueness_percent,
-            left_right_max: options.left_right_max_px,
-        };
-        let mut selector = Selector::new(search, tests);
-        let mut sums = vec![0; search.width * search.num_cells];
-        for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, v as f32 / search.height as f32)?;
-            }
-            windows.next_row(&mut sums);
-            selector.row(&mut sums, out);
-            windows.forget_flat(out);
-        }
-        Ok(values)
-    }
-}
-
 /// Sums over windows, kept from row to row.
 struct Windows<'a> {
     search: Search<'a>,
@@ -254,7 +242,6 @@ struct Windows<'a> {
 
 impl<'a> Windows<'a> {
     /// Before row `first`.
-    #[inline(always)]
     fn new(
         search: Search<'a>,
         options: &StereoBm,
@@ -286,84 +273,49 @@ impl<'a> Windows<'a> {
         windows
     }
 
-    #[inline(always)]
     fn clamped(&self, v: isize) -> usize {
         v.clamp(0, self.search.height as isize - 1) as usize
     }
 
-    #[inline(always)]
     fn add_row(&mut self, v: usize) {
         let (width, n) = (self.search.width, self.search.num_cells);
         let left = self.search.row_of(self.left, v);
-        reverse(
-            &self.search,
-            self.search.row_of(self.right, v),
-            &mut self.entering,
-        );
+        let right = self.search.row_of(self.right, v);
+        self.search.reverse(right, &mut self.entering);
         for (u, cells) in self.columns.chunks_exact_mut(n).enumerate() {
             let row = &self.entering[width - 1 - u..][..n];
-            for d in 0..n {
-                cells[d] += i16::from(left[u].abs_diff(row[d]));
+            for (sum, &gray) in cells.iter_mut().zip(row) {
+                *sum += i16::from(gap(left[u], gray));
             }
             self.textures[u] += i32::from(left[u].abs_diff(self.cap));
         }
     }
 
     /// The sums of the next row: width × `num_cells`.
-    #[inline(always)]
     fn next_row(&mut self, sums: &mut [i16]) {
-        let (width, n, radius) = (self.search.width, self.search.num_cells, self.radius);
-        let new = self.clamped((self.v + radius) as isize);
-        let old = self.clamped(self.v as isize - 1 - radius as isize);
+        let radius = self.radius as isize;
+        let new = self.clamped(self.v as isize + radius);
+        let old = self.clamped(self.v as isize - 1 - radius);
         self.v += 1;
-        let (new_left, old_left) = (
-            self.search.row_of(self.left, new),
-            self.search.row_of(self.left, old),
+        let search = &self.search;
+        let (new_left, old_left) = (search.row_of(self.left, new), search.row_of(self.left, old));
+        search.reverse(search.row_of(self.right, new), &mut self.entering);
+        search.reverse(search.row_of(self.right, old), &mut self.leaving);
+        for (texture, (new, old)) in self.textures.iter_mut().zip(new_left.iter().zip(old_left)) {
+            *texture += i32::from(new.abs_diff(self.cap)) - i32::from(old.abs_diff(self.cap));
+        }
+        slide_windows(
+            search.num_cells,
+            self.radius,
+            [new_left, old_left],
+            [&self.entering, &self.leaving],
+            &mut self.columns,
+            &mut self.window,
+            sums,
         );
-        for (row, to) in [(new, &mut self.entering), (old, &mut self.leaving)] {
-            reverse(&self.search, self.search.row_of(self.right, row), to);
-        }
-        for u in 0..width + radius {
-            if u < width {
-                let cells = &mut self.columns[u * n..(u + 1) * n];
-                let entering = &self.entering[width - 1 - u..][..n];
-                let leaving = &self.leaving[width - 1 - u..][..n];
-                let (gray_in, gray_out) = (new_left[u], old_left[u]);
-                for d in 0..n {
-                    let gain = i16::from(gray_in.abs_diff(entering[d]));
-                    let loss = i16::from(gray_out.abs_diff(leaving[d]));
-                    cells[d] += gain - loss;
-                }
-                self.textures[u] +=
-                    i32::from(gray_in.abs_diff(self.cap)) - i32::from(gray_out.abs_diff(self.cap));
-            }
-            let window = &mut self.window[..n];
-            let column = |u: usize| u.min(width - 1) * n..(u.min(width - 1) + 1) * n;
-            if u == 0 {
-                // Columns left of the picture repeat the first.
-                for (sum, first) in window.iter_mut().zip(&self.columns[column(0)]) {
-                    *sum = first * radius as i16;
-                }
-            }
-            let entering = &self.columns[column(u)];
-            if u < radius {
-                for d in 0..n {
-                    window[d] += entering[d];
-                }
-            } else {
-                let leaving = &self.columns[column(u.saturating_sub(2 * radius))];
-                let out = &mut sums[(u - radius) * n..(u - radius + 1) * n];
-                for d in 0..n {
-                    let sum = window[d] + entering[d];
-                    out[d] = sum;
-                    window[d] = sum - leaving[d];
-                }
-            }
-        }
     }
 
     /// Takes back the answers of the last row where the window is flat.
-    #[inline(always)]
     fn forget_flat(&self, disparities: &mut [f32]) {
         if self.min_texture <= 0.0 {
             return;
@@ -383,13 +335,80 @@ impl<'a> Windows<'a> {
     }
 }
 
-/// A right row from its end on: cell d of column u is at `width − 1 − u + d`. The border repeats
-/// outside.
+dispatched! {
+    /// The sums over the windows of a row.
+    ///
+    /// * `left`: the left rows that enter and leave the window, `right`: the right ones, reversed
+    /// * `columns`: sums over the window's rows, before: of the row above, after: of this one
+    /// * `window`: `num_cells` values to work with
+    fn slide_windows(
+        num_cells: usize,
+        radius: usize,
+        left: [&[u8]; 2],
+        right: [&[u8]; 2],
+        columns: &mut [i16],
+        window: &mut [i16],
+        sums: &mut [i16],
+    ) {
+        let (n, width) = (num_cells, left[0].len());
+        let column = |u: usize| u.min(width - 1) * n..(u.min(width - 1) + 1) * n;
+        for u in 0..width + radius {
+            if u < width {
+                let entering = &right[0][width - 1 - u..][..n];
+                let leaving = &right[1][width - 1 - u..][..n];
+                exchange(&mut columns[column(u)], left[0][u], entering, left[1][u], leaving);
+            }
+            if u == 0 {
+                // Columns left of the picture repeat the first.
+                for (sum, first) in window.iter_mut().zip(&columns[column(0)]) {
+                    *sum = first * radius as i16;
+                }
+            }
+            let entering = &columns[column(u)];
+            if u < radius {
+                slide(window, entering);
+            } else {
+                let leaving = &columns[column(u.saturating_sub(2 * radius))];
+                let out = &mut sums[(u - radius) * n..][..n];
+                slide_out(window, entering, leaving, out);
+            }
+        }
+    }
+}
+
+/// A column of the window gains the differences of one row and loses those of another.
 #[inline(always)]
-fn reverse(search: &Search, row: &[u8], reversed: &mut [u8]) {
-    let last = search.width as i64 - 1;
-    let begin = last - i64::from(search.min_disparity);
-    for (j, value) in reversed.iter_mut().enumerate() {
-        *value = row[(begin - j as i64).clamp(0, last) as usize];
+fn exchange(cells: &mut [i16], gray_in: u8, entering: &[u8], gray_out: u8, leaving: &[u8]) {
+    let n = cells.len();
+    let (entering, leaving) = (&entering[..n], &leaving[..n]);
+    for d in 0..n {
+        let gain = i16::from(gap(gray_in, entering[d]));
+        let loss = i16::from(gap(gray_out, leaving[d]));
+        cells[d] += gain - loss;
+    }
+}
+
+/// |a − b|, in steps that vector units have for bytes.
+#[inline(always)]
+fn gap(a: u8, b: u8) -> u8 {
+    a.max(b) - a.min(b)
+}
+
+#[inline(always)]
+fn slide(window: &mut [i16], entering: &[i16]) {
+    for (sum, column) in window.iter_mut().zip(entering) {
+        *sum += column;
+    }
+}
+
+/// A column enters, the sums are complete, a column leaves.
+#[inline(always)]
+fn slide_out(window: &mut [i16], entering: &[i16], leaving: &[i16], out: &mut [i16]) {
+    let n = window.len();
+    let (entering, leaving, out) = (&entering[..n], &leaving[..n], &mut out[..n]);
+    for d in 0..n {
+        let sum = window[d] + entering[d];
+        out[d] = sum;
+        window[d] = sum - leaving[d];
     }
 }

@@ -31,58 +31,92 @@ pub fn remove_speckles(disparity: &mut DisparityImage, min_size: u32, range_px: 
     }
     let width = disparity.width() as usize;
     let values = disparity.values_mut();
-    let mut sets = Sets::new(values.len());
-    // NaN compares as false, so it connects to nothing.
+    // Pixels connected along their row are a run; runs connected across rows are a set.
+    let mut run_of_pixel = vec![NO_RUN; values.len()];
+    let mut runs = Sets::default();
     for i in 0..values.len() {
-        if i % width > 0 && (values[i] - values[i - 1]).abs() <= range_px {
-            sets.join(i, i - 1);
+        // NaN compares as false, so it connects to nothing.
+        if values[i].is_nan() {
+            continue;
         }
-        if i >= width && (values[i] - values[i - width]).abs() <= range_px {
-            sets.join(i, i - width);
+        let is_first = i % width == 0 || !connected(values[i], values[i - 1], range_px);
+        let run = if is_first {
+            runs.add()
+        } else {
+            run_of_pixel[i - 1]
+        };
+        run_of_pixel[i] = run;
+        runs.sizes[run as usize] += 1;
+        if i >= width && connected(values[i], values[i - width], range_px) {
+            let above = run_of_pixel[i - width];
+            // Most pixels repeat what the one before them said.
+            let repeats = !is_first
+                && above == run_of_pixel[i - 1 - width]
+                && connected(values[i - 1], values[i - 1 - width], range_px);
+            if !repeats {
+                runs.join(run, above);
+            }
         }
     }
-    for i in 0..values.len() {
-        let root = sets.root(i);
-        if sets.sizes[root] < min_size {
-            values[i] = f32::NAN;
+    let is_small = runs.smaller_than(min_size);
+    for (value, &run) in values.iter_mut().zip(&run_of_pixel) {
+        if run != NO_RUN && is_small[run as usize] {
+            *value = f32::NAN;
         }
     }
     Ok(())
 }
 
-/// Disjoint sets of pixels; a set's root is its first pixel.
+/// The run of a pixel without answer.
+const NO_RUN: u32 = u32::MAX;
+
+fn connected(a: f32, b: f32, range_px: f32) -> bool {
+    (a - b).abs() <= range_px
+}
+
+/// Disjoint sets of runs.
+#[derive(Default)]
 struct Sets {
     parents: Vec<u32>,
+    /// Pixels of each run alone.
     sizes: Vec<u32>,
 }
 
 impl Sets {
-    fn new(len: usize) -> Self {
-        Self {
-            parents: (0..len as u32).collect(),
-            sizes: vec![1; len],
-        }
+    fn add(&mut self) -> u32 {
+        let new = self.parents.len() as u32;
+        self.parents.push(new);
+        self.sizes.push(0);
+        new
     }
 
-    #[inline]
-    fn root(&mut self, i: usize) -> usize {
-        let mut i = i;
-        while self.parents[i] as usize != i {
-            let parent = self.parents[i] as usize;
-            self.parents[i] = self.parents[parent];
-            i = self.parents[i] as usize;
+    fn root(&mut self, run: u32) -> u32 {
+        let mut run = run;
+        while self.parents[run as usize] != run {
+            let parent = self.parents[run as usize];
+            let grandparent = self.parents[parent as usize];
+            self.parents[run as usize] = grandparent;
+            run = grandparent;
         }
-        i
+        run
     }
 
-    #[inline]
-    fn join(&mut self, i: usize, j: usize) {
-        let (a, b) = (self.root(i), self.root(j));
-        if a != b {
-            let (first, second) = (a.min(b), a.max(b));
-            self.parents[second] = first as u32;
-            self.sizes[first] += self.sizes[second];
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parents[a.max(b) as usize] = a.min(b);
+    }
+
+    /// Of each run, whether its set has fewer pixels.
+    fn smaller_than(&mut self, min_size: u32) -> Vec<bool> {
+        let roots: Vec<u32> = (0..self.parents.len() as u32)
+            .map(|r| self.root(r))
+            .collect();
+        let mut totals = vec![0; roots.len()];
+        for (&root, &size) in roots.iter().zip(&self.sizes) {
+            totals[root as usize] += size;
         }
+        let is_small = |&root: &u32| totals[root as usize] < min_size;
+        roots.iter().map(is_small).collect()
     }
 }
 
@@ -91,6 +125,9 @@ impl Sets {
 /// goes on behind the gap. Where they differ more, one end hides what lies behind, and the gap
 /// stays.
 pub(super) fn close_gaps(disparity: &mut DisparityImage, max_gap: usize, range_px: f32) {
+    if max_gap == 0 {
+        return;
+    }
     let (width, height) = (disparity.width() as usize, disparity.height() as usize);
     let values = disparity.values_mut();
     for v in 0..height {
@@ -126,5 +163,89 @@ fn close_gaps_of_line(
             }
         }
         before = Some(k);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    const NAN: f32 = f32::NAN;
+
+    /// The same by growing each set pixel by pixel.
+    fn grown(disparity: &DisparityImage, min_size: usize, range_px: f32) -> DisparityImage {
+        let (width, height) = (disparity.width() as usize, disparity.height() as usize);
+        let values = disparity.as_raw();
+        let mut out = values.to_vec();
+        let mut seen = vec![false; values.len()];
+        for start in 0..values.len() {
+            let mut set = vec![start];
+            let mut next = 0;
+            if seen[start] || values[start].is_nan() {
+                continue;
+            }
+            seen[start] = true;
+            while next < set.len() {
+                let i = set[next];
+                next += 1;
+                let (u, v) = (i % width, i / width);
+                for (inside, j) in [
+                    (u > 0, i.wrapping_sub(1)),
+                    (u + 1 < width, i + 1),
+                    (v > 0, i.wrapping_sub(width)),
+                    (v + 1 < height, i + width),
+                ] {
+                    if inside && !seen[j] && connected(values[i], values[j], range_px) {
+                        seen[j] = true;
+                        set.push(j);
+                    }
+                }
+            }
+            if set.len() < min_size {
+                set.iter().for_each(|&i| out[i] = NAN);
+            }
+        }
+        DisparityImage::new(disparity.width(), disparity.height(), out)
+    }
+
+    #[test]
+    fn sets_of_runs_are_the_sets_that_grow_pixel_by_pixel() {
+        let mut random = Random::new(2);
+        for (width, height) in [(1, 40), (40, 1), (23, 17), (64, 48)] {
+            for levels in [2, 4, 9] {
+                let values = (0..width * height)
+                    .map(|_| match random.below(levels + 1) {
+                        0 => NAN,
+                        level => level as f32 * 1.5,
+                    })
+                    .collect();
+                let disparity = DisparityImage::from_raw(width, height, values).unwrap();
+                for (min_size, range_px) in [(2, 0.0), (5, 0.0), (5, 1.5), (200, 1.5)] {
+                    let mut found = disparity.clone();
+                    remove_speckles(&mut found, min_size, range_px).unwrap();
+                    assert_eq!(found, grown(&disparity, min_size as usize, range_px));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn only_short_gaps_between_equals_are_closed() {
+        let row = vec![1.0, NAN, NAN, 2.5, NAN, 9.0, NAN, NAN, NAN, 9.0, NAN];
+        let mut disparity = DisparityImage::from_raw(11, 1, row.clone()).unwrap();
+        close_gaps(&mut disparity, 2, 2.0);
+        assert_eq!(disparity.as_raw()[..4], [1.0, 1.5, 2.0, 2.5]);
+        assert!(
+            [4, 6, 7, 8, 10]
+                .iter()
+                .all(|&u| disparity.get(u, 0).is_none())
+        );
+        // Along a column too.
+        let mut disparity = DisparityImage::from_raw(1, 11, row).unwrap();
+        close_gaps(&mut disparity, 3, 2.0);
+        assert_eq!(disparity.get(0, 7), Some(9.0));
+        assert_eq!(disparity.get(0, 4), None);
+        assert_eq!(disparity.get(0, 10), None);
     }
 }

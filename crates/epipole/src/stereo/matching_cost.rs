@@ -12,6 +12,7 @@
 //! to image sampling".
 
 use super::search::Search;
+use crate::imaging::simd::dispatched;
 use image::GrayImage;
 
 /// The census window is 5×5: 24 comparisons with the center, three bytes.
@@ -51,7 +52,6 @@ impl PreparedRow {
         }
     }
 
-    #[inline(always)]
     fn fill(&mut self, image: &GrayImage, v: usize, window: &mut [Vec<u8>]) {
         let (width, height) = (image.width() as usize, image.height() as usize);
         for (k, row) in window.iter_mut().enumerate() {
@@ -61,35 +61,54 @@ impl PreparedRow {
             row[RADIUS..RADIUS + width].copy_from_slice(pixels);
             row[RADIUS + width..].fill(pixels[width - 1]);
         }
-        let center = &window[RADIUS][RADIUS..RADIUS + width];
-        self.gray[..width].copy_from_slice(center);
-        let before = &window[RADIUS][RADIUS - 1..RADIUS - 1 + width];
-        let after = &window[RADIUS][RADIUS + 1..RADIUS + 1 + width];
-        let (low, high) = (&mut self.low[..width], &mut self.high[..width]);
-        for u in 0..width {
-            let half_before = (u16::from(center[u]) + u16::from(before[u])) / 2;
-            let half_after = (u16::from(center[u]) + u16::from(after[u])) / 2;
-            let (a, b) = (half_before as u8, half_after as u8);
-            low[u] = center[u].min(a).min(b);
-            high[u] = center[u].max(a).max(b);
-        }
+        let middle = &window[RADIUS];
+        let center = &middle[RADIUS..RADIUS + width];
+        self.gray.copy_from_slice(center);
+        let (before, after) = (&middle[RADIUS - 1..], &middle[RADIUS + 1..]);
+        half_pixel_range(center, before, after, &mut self.low, &mut self.high);
         for plane in &mut self.census {
-            plane[..width].fill(0);
+            plane.fill(0);
         }
         let mut bit = 0;
         for dv in 0..=2 * RADIUS {
             for du in 0..=2 * RADIUS {
-                if (dv, du) == (RADIUS, RADIUS) {
-                    continue;
+                if (dv, du) != (RADIUS, RADIUS) {
+                    let neighbors = &window[dv][du..du + width];
+                    mark_darker(center, neighbors, 1 << (bit % 8), &mut self.census[bit / 8]);
+                    bit += 1;
                 }
-                let neighbor = &window[dv][du..du + width];
-                let plane = &mut self.census[bit / 8][..width];
-                let mask = 1u8 << (bit % 8);
-                for u in 0..width {
-                    plane[u] |= if neighbor[u] < center[u] { mask } else { 0 };
-                }
-                bit += 1;
             }
+        }
+    }
+}
+
+dispatched! {
+    /// The smallest and largest value within half a pixel on either side.
+    fn half_pixel_range(
+        center: &[u8],
+        before: &[u8],
+        after: &[u8],
+        low: &mut [u8],
+        high: &mut [u8],
+    ) {
+        let n = center.len();
+        let (before, after, low, high) = (&before[..n], &after[..n], &mut low[..n], &mut high[..n]);
+        for u in 0..n {
+            let a = ((u16::from(center[u]) + u16::from(before[u])) / 2) as u8;
+            let b = ((u16::from(center[u]) + u16::from(after[u])) / 2) as u8;
+            low[u] = center[u].min(a).min(b);
+            high[u] = center[u].max(a).max(b);
+        }
+    }
+}
+
+dispatched! {
+    /// Sets a bit where the neighbor is darker than the center.
+    fn mark_darker(center: &[u8], neighbors: &[u8], bit: u8, plane: &mut [u8]) {
+        let n = center.len();
+        let (neighbors, plane) = (&neighbors[..n], &mut plane[..n]);
+        for u in 0..n {
+            plane[u] |= if neighbors[u] < center[u] { bit } else { 0 };
         }
     }
 }
@@ -125,70 +144,90 @@ impl<'a> CostRows<'a> {
     }
 
     /// The costs of row v: width × `num_cells`.
-    #[inline(always)]
     pub(super) fn row(&mut self, v: usize, costs: &mut [u8]) {
         let search = self.search;
         self.left.fill(search.left, v, &mut self.window);
         self.right.fill(search.right, v, &mut self.window);
-        let reverse = |from: &[u8], to: &mut [u8]| {
-            // Element j of the reversed row is right pixel `width − 1 − min_disparity − j`.
-            let last = search.width as i64 - 1 - i64::from(search.min_disparity);
-            for (j, value) in to.iter_mut().enumerate() {
-                let u = last - j as i64;
-                *value = if (0..search.width as i64).contains(&u) {
-                    from[u as usize]
-                } else {
-                    0
-                };
-            }
-        };
-        reverse(&self.right.gray, &mut self.reversed.gray);
-        reverse(&self.right.low, &mut self.reversed.low);
-        reverse(&self.right.high, &mut self.reversed.high);
+        search.reverse(&self.right.gray, &mut self.reversed.gray);
+        search.reverse(&self.right.low, &mut self.reversed.low);
+        search.reverse(&self.right.high, &mut self.reversed.high);
         for (from, to) in self.right.census.iter().zip(&mut self.reversed.census) {
-            reverse(from, to);
+            search.reverse(from, to);
         }
         match self.kind {
-            StereoCost::Census => self.compare::<true, false>(costs),
-            StereoCost::BirchfieldTomasi => self.compare::<false, true>(costs),
-            StereoCost::Both => self.compare::<true, true>(costs),
+            StereoCost::Census => compare::<CENSUS>(
+                search.num_cells,
+                self.cap,
+                &self.left,
+                &self.reversed,
+                costs,
+            ),
+            StereoCost::BirchfieldTomasi => compare::<GRAY>(
+                search.num_cells,
+                self.cap,
+                &self.left,
+                &self.reversed,
+                costs,
+            ),
+            StereoCost::Both => compare::<BOTH>(
+                search.num_cells,
+                self.cap,
+                &self.left,
+                &self.reversed,
+                costs,
+            ),
+        }
+        for (u, cells) in costs.chunks_exact_mut(search.num_cells).enumerate() {
+            let inside = search.cells_inside(u);
+            if inside.len() < cells.len() {
+                cells[..inside.start].fill(self.outside);
+                cells[inside.end..search.num_disparities].fill(self.outside);
+                cells[search.num_disparities..].fill(u8::MAX);
+            }
         }
     }
+}
 
-    #[inline(always)]
-    fn compare<const CENSUS: bool, const GRAY: bool>(&self, costs: &mut [u8]) {
-        let search = &self.search;
-        let n = search.num_cells;
-        let (left, right, cap) = (&self.left, &self.reversed, self.cap);
-        for (u, cells) in costs.chunks_exact_mut(n).enumerate() {
-            let at = search.width - 1 - u;
+/// What [`compare`] adds up.
+const CENSUS: u8 = 1;
+const GRAY: u8 = 2;
+const BOTH: u8 = CENSUS | GRAY;
+
+dispatched! {
+    /// The costs of a row, width × `num_cells`; those outside the right picture are arbitrary.
+    fn compare<const KIND: u8>(
+        num_cells: usize,
+        cap: u8,
+        left: &PreparedRow,
+        reversed: &PreparedRow,
+        costs: &mut [u8],
+    ) {
+        let width = left.gray.len();
+        for (u, costs) in costs.chunks_exact_mut(num_cells).enumerate() {
+            let at = width - 1 - u;
             let (gray, low, high) = (left.gray[u], left.low[u], left.high[u]);
             let bits = [left.census[0][u], left.census[1][u], left.census[2][u]];
             let (grays, lows, highs) = (
-                &right.gray[at..at + n],
-                &right.low[at..at + n],
-                &right.high[at..at + n],
+                &reversed.gray[at..][..num_cells],
+                &reversed.low[at..][..num_cells],
+                &reversed.high[at..][..num_cells],
             );
             let (bits_0, bits_1, bits_2) = (
-                &right.census[0][at..at + n],
-                &right.census[1][at..at + n],
-                &right.census[2][at..at + n],
+                &reversed.census[0][at..][..num_cells],
+                &reversed.census[1][at..][..num_cells],
+                &reversed.census[2][at..][..num_cells],
             );
-            let cells_here = &mut cells[..n];
-            for d in 0..n {
+            for d in 0..num_cells {
                 let mut cost = 0;
-                if CENSUS {
-                    let (a, b, c) = (
-                        bits[0] ^ bits_0[d],
-                        bits[1] ^ bits_1[d],
-                        bits[2] ^ bits_2[d],
-                    );
+                if KIND & CENSUS != 0 {
+                    let (a, b) = (bits[0] ^ bits_0[d], bits[1] ^ bits_1[d]);
+                    let c = bits[2] ^ bits_2[d];
                     // Three bytes added bit by bit leave two to be counted.
                     let half = a ^ b;
                     let (ones, twos) = (half ^ c, (a & b) | (half & c));
                     cost = count_bits(ones) + 2 * count_bits(twos);
                 }
-                if GRAY {
+                if KIND & GRAY != 0 {
                     let from_left = gray
                         .saturating_sub(highs[d])
                         .max(lows[d].saturating_sub(gray));
@@ -197,12 +236,8 @@ impl<'a> CostRows<'a> {
                         .max(low.saturating_sub(grays[d]));
                     cost += from_left.min(from_right).min(cap);
                 }
-                cells_here[d] = cost;
+                costs[d] = cost;
             }
-            let inside = search.cells_inside(u);
-            cells[..inside.start].fill(self.outside);
-            cells[inside.end..search.num_disparities].fill(self.outside);
-            cells[search.num_disparities..].fill(u8::MAX);
         }
     }
 }

@@ -1,22 +1,35 @@
-//! Two photographs taken side by side: dense disparity and depth.
+//! Two photographs taken side by side: rectification, dense disparity, depth, point clouds.
 
 mod block_matching;
 mod clean;
 mod depth;
 mod disparity_image;
+mod export;
+mod fill;
 mod matching_cost;
 mod paths;
+mod pixel_map;
+mod point_cloud;
 mod prefilter;
+mod rectify;
+mod rectify_uncalibrated;
 mod search;
 mod semi_global;
-mod simd;
 mod winner;
+mod work;
 
 pub use block_matching::StereoBm;
 pub use clean::remove_speckles;
 pub use depth::{DepthInterval, depth_from_disparity, depth_interval};
 pub use disparity_image::DisparityImage;
+pub use fill::fill_gaps;
 pub use matching_cost::StereoCost;
+pub use pixel_map::PixelMap;
+pub use point_cloud::{PointCloud, depth_image, point_cloud};
 pub use prefilter::StereoPrefilter;
-pub use search::Progress;
+pub use rectify::{
+    PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,
+};
+pub use rectify_uncalibrated::{UncalibratedRectification, rectify_uncalibrated};
 pub use semi_global::{StereoPaths, StereoSgm};
+pub use work::Progress;

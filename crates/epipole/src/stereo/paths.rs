@@ -8,6 +8,8 @@
 //! Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information",
 //! equations 13 and 14.
 
+use crate::imaging::simd::dispatched;
+
 /// Bytes of "infinite cost" on either side of a path's disparities, so that d ± 1 exists.
 const PAD: usize = 8;
 
@@ -20,82 +22,183 @@ pub(super) struct Penalties {
     pub(super) p2_of_gray_step: [u8; 256],
 }
 
-/// Where a path comes from, at one pixel.
-#[derive(Clone, Copy)]
-struct Previous<'a> {
-    /// From the cell before disparity 0 to the cell after the last.
-    cells: &'a [u8],
-    minimum: u8,
-    /// `minimum + P2`.
-    jump: u8,
-}
-
-/// Continues N paths by one pixel; their sum is added to (or set in) `sums`.
-///
-/// `next` holds the N paths' cells one after the other, each behind its pad.
-#[inline(always)]
-fn step<const BLOCK: usize, const N: usize, const ADD: bool>(
-    costs: &[u8],
-    previous: [Previous; N],
-    p1: u8,
-    next: &mut [u8],
-    sums: &mut [i16],
-) -> [u8; N] {
-    let stride = costs.len() + 2 * PAD;
-    let mut minima = [[u8::MAX; BLOCK]; N];
-    for at in (0..costs.len()).step_by(BLOCK) {
-        let cost = &costs[at..at + BLOCK];
-        let sum = &mut sums[at..at + BLOCK];
-        let mut total = [0i16; BLOCK];
-        if ADD {
-            total.copy_from_slice(sum);
-        }
-        for n in 0..N {
-            let before = &previous[n].cells[at..at + BLOCK + 2];
-            let begin = n * stride + PAD + at;
-            let after = &mut next[begin..begin + BLOCK];
-            let (jump, minimum) = (previous[n].jump, previous[n].minimum);
-            for i in 0..BLOCK {
-                let beside = before[i].min(before[i + 2]).saturating_add(p1);
-                let best = before[i + 1].min(beside).min(jump).wrapping_sub(minimum);
-                let value = cost[i].saturating_add(best);
-                after[i] = value;
-                minima[n][i] = minima[n][i].min(value);
-                total[i] += i16::from(value);
-            }
-        }
-        sum.copy_from_slice(&total);
-    }
-    minima.map(|lanes| lanes.into_iter().fold(u8::MAX, u8::min))
-}
-
-/// The path costs of one row of pixels in N directions, with a border pixel at either end.
-struct PathRow<const N: usize> {
-    /// Per pixel N × (pad, cells, pad).
+/// The costs of one path at each pixel of a row, with a border pixel at either end.
+struct PathRow {
+    /// Per pixel: pad, cells, pad.
     cells: Vec<u8>,
-    minima: Vec<[u8; N]>,
+    /// The smallest cell of each pixel.
+    minima: Vec<u8>,
 }
 
-impl<const N: usize> PathRow<N> {
+impl PathRow {
     /// Paths yet to begin: L = 0, so that a first pixel costs C alone.
     fn new(width: usize, num_cells: usize) -> Self {
-        let mut cells = vec![u8::MAX; (width + 2) * N * (num_cells + 2 * PAD)];
-        for path in cells.chunks_exact_mut(num_cells + 2 * PAD) {
-            path[PAD..PAD + num_cells].fill(0);
+        let mut cells = vec![u8::MAX; (width + 2) * (num_cells + 2 * PAD)];
+        for pixel in cells.chunks_exact_mut(num_cells + 2 * PAD) {
+            pixel[PAD..PAD + num_cells].fill(0);
         }
         Self {
             cells,
-            minima: vec![[0; N]; width + 2],
+            minima: vec![0; width + 2],
         }
+    }
+}
+
+/// Continues one path by one pixel: writes its costs to `next` and tells the smallest.
+///
+/// * `before`: from the cell before disparity 0 to the cell after the last
+/// * `minimum`: the smallest of them, `p2`: the penalty of a large step to here
+#[inline(always)]
+fn advance<const BLOCK: usize>(
+    costs: &[u8],
+    before: &[u8],
+    minimum: u8,
+    p1: u8,
+    p2: u8,
+    next: &mut [u8],
+) -> u8 {
+    let n = costs.len();
+    let jump = minimum.saturating_add(p2);
+    let mut least = [u8::MAX; BLOCK];
+    let blocks = costs
+        .chunks_exact(BLOCK)
+        .zip(before[..n].chunks_exact(BLOCK))
+        .zip(before[1..n + 1].chunks_exact(BLOCK))
+        .zip(before[2..n + 2].chunks_exact(BLOCK))
+        .zip(next.chunks_exact_mut(BLOCK));
+    for ((((cost, below), same), above), after) in blocks {
+        for i in 0..BLOCK {
+            let beside = below[i].min(above[i]).saturating_add(p1);
+            let best = same[i].min(beside).min(jump).wrapping_sub(minimum);
+            let value = cost[i].saturating_add(best);
+            after[i] = value;
+            least[i] = least[i].min(value);
+        }
+    }
+    let mut lowest = u8::MAX;
+    for lane in least {
+        lowest = lowest.min(lane);
+    }
+    lowest
+}
+
+dispatched! {
+    /// A path from the row before, one column aside or straight.
+    ///
+    /// * `p2`: of each pixel's step
+    /// * `before`, `before_minima`: from the pixel on that the first one comes from
+    /// * `next`, `next_minima`: from the first pixel on
+    fn continue_from_before<const BLOCK: usize>(
+        num_cells: usize,
+        costs: &[u8],
+        p1: u8,
+        p2: &[u8],
+        before: &[u8],
+        before_minima: &[u8],
+        next: &mut [u8],
+        next_minima: &mut [u8],
+    ) {
+        let stride = num_cells + 2 * PAD;
+        let pixels = costs
+            .chunks_exact(num_cells)
+            .zip(p2)
+            .zip(before.chunks_exact(stride))
+            .zip(before_minima)
+            .zip(next.chunks_exact_mut(stride))
+            .zip(next_minima);
+        for (((((costs, &p2), before), &minimum), next), next_minimum) in pixels {
+            let before = &before[PAD - 1..PAD + num_cells + 1];
+            let next = &mut next[PAD..PAD + num_cells];
+            *next_minimum = advance::<BLOCK>(costs, before, minimum, p1, p2, next);
+        }
+    }
+}
+
+dispatched! {
+    /// The path along the row, from its first pixel to its last or the other way.
+    ///
+    /// * `path`: from the first pixel on
+    /// * `previous`: pad, cells, pad of the pixel before; zeros in the cells to begin with
+    fn continue_along<const BLOCK: usize>(
+        num_cells: usize,
+        backward: bool,
+        costs: &[u8],
+        p1: u8,
+        p2: &[u8],
+        path: &mut [u8],
+        previous: &mut [u8],
+    ) {
+        let stride = num_cells + 2 * PAD;
+        let mut minimum = 0;
+        for i in 0..p2.len() {
+            let u = if backward { p2.len() - 1 - i } else { i };
+            let costs = &costs[u * num_cells..(u + 1) * num_cells];
+            let next = &mut path[u * stride + PAD..u * stride + PAD + num_cells];
+            let before = &previous[PAD - 1..PAD + num_cells + 1];
+            minimum = advance::<BLOCK>(costs, before, minimum, p1, p2[u], next);
+            // Kept apart from the row, so that reading it cannot meet the writing.
+            let kept = previous[PAD..PAD + num_cells].chunks_exact_mut(BLOCK);
+            for (kept, cells) in kept.zip(next.chunks_exact(BLOCK)) {
+                kept.copy_from_slice(cells);
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// The mean of N paths' costs, rounded.
+    ///
+    /// * `paths`: the rows of the paths, from the first pixel's cells on; the first N count
+    fn average<const N: usize>(num_cells: usize, paths: [&[u8]; 4], means: &mut [u8]) {
+        let stride = num_cells + 2 * PAD;
+        for (u, means) in means.chunks_exact_mut(num_cells).enumerate() {
+            let at = u * stride;
+            let (a, b) = (&paths[0][at..][..num_cells], &paths[1][at..][..num_cells]);
+            let (c, d) = (&paths[2][at..][..num_cells], &paths[3][at..][..num_cells]);
+            for i in 0..num_cells {
+                let total = total::<N>(a[i], b[i], c[i], d[i]);
+                means[i] = ((total + N as i16 / 2) >> N.ilog2()) as u8;
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// Adds N paths' costs to `sums`, as [`average`].
+    fn add<const N: usize>(num_cells: usize, paths: [&[u8]; 4], sums: &mut [i16]) {
+        let stride = num_cells + 2 * PAD;
+        for (u, sums) in sums.chunks_exact_mut(num_cells).enumerate() {
+            let at = u * stride;
+            let (a, b) = (&paths[0][at..][..num_cells], &paths[1][at..][..num_cells]);
+            let (c, d) = (&paths[2][at..][..num_cells], &paths[3][at..][..num_cells]);
+            for i in 0..num_cells {
+                sums[i] += total::<N>(a[i], b[i], c[i], d[i]);
+            }
+        }
+    }
+}
+
+/// The sum of the first N.
+#[inline(always)]
+fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
+    let [a, b, c, d] = [i16::from(a), i16::from(b), i16::from(c), i16::from(d)];
+    match N {
+        1 => a,
+        2 => a + b,
+        _ => a + b + c + d,
     }
 }
 
 /// A sweep over the rows that carries N paths: always the one along the row (first), with N = 2
 /// also the vertical one, with N = 4 also both diagonals.
 pub(super) struct Sweep<const N: usize> {
-    row: PathRow<N>,
-    row_before: PathRow<N>,
+    rows: [PathRow; N],
+    /// Of the row before, except for the path along the row, which needs none.
+    rows_before: Vec<PathRow>,
     gray_before: Vec<u8>,
+    /// The penalty of a large step to each pixel.
+    p2: Vec<u8>,
+    previous: Vec<u8>,
     num_cells: usize,
     /// From the last pixel to the first.
     backward: bool,
@@ -104,10 +207,13 @@ pub(super) struct Sweep<const N: usize> {
 impl<const N: usize> Sweep<N> {
     /// * `num_cells`: disparities per pixel, a multiple of 16
     pub(super) fn new(width: usize, num_cells: usize, backward: bool) -> Self {
+        let row = || PathRow::new(width, num_cells);
         Self {
-            row: PathRow::new(width, num_cells),
-            row_before: PathRow::new(width, num_cells),
+            rows: std::array::from_fn(|_| row()),
+            rows_before: (1..N).map(|_| row()).collect(),
             gray_before: vec![0; width],
+            p2: vec![0; width],
+            previous: vec![u8::MAX; num_cells + 2 * PAD],
             num_cells,
             backward,
         }
@@ -117,81 +223,83 @@ impl<const N: usize> Sweep<N> {
     ///
     /// * `costs`: width × `num_cells`
     /// * `gray`: this row of the left picture
-    /// * `sums`: receives (or, with ADD, gains) the sum of the N path costs
-    #[inline(always)]
-    pub(super) fn next_row<const ADD: bool>(
+    pub(super) fn next_row(&mut self, costs: &[u8], gray: &[u8], penalties: &Penalties) {
+        if self.num_cells.is_multiple_of(32) {
+            self.next_row_in_blocks::<32>(costs, gray, penalties);
+        } else {
+            self.next_row_in_blocks::<16>(costs, gray, penalties);
+        }
+        self.gray_before.copy_from_slice(gray);
+    }
+
+    fn next_row_in_blocks<const BLOCK: usize>(
         &mut self,
         costs: &[u8],
         gray: &[u8],
         penalties: &Penalties,
-        sums: &mut [i16],
     ) {
-        if self.num_cells % 32 == 0 {
-            self.next_row_in_blocks::<32, ADD>(costs, gray, penalties, sums);
-        } else {
-            self.next_row_in_blocks::<16, ADD>(costs, gray, penalties, sums);
+        let (n, stride) = (self.num_cells, self.num_cells + 2 * PAD);
+        let (width, p1) = (gray.len(), penalties.p1);
+        let [along, others @ ..] = &mut self.rows[..] else {
+            return;
+        };
+        let back: isize = if self.backward { 1 } else { -1 };
+        penalties.of_steps(gray, gray, back, &mut self.p2);
+        self.previous[PAD..PAD + n].fill(0);
+        let path = &mut along.cells[stride..(width + 1) * stride];
+        let (p2, previous) = (&self.p2, &mut self.previous);
+        continue_along::<BLOCK>(n, self.backward, costs, p1, p2, path, previous);
+
+        // Diagonals lean the way that the sweep goes along its rows.
+        let steps: [isize; 3] = if N == 4 { [back, 0, -back] } else { [0; 3] };
+        for ((next, before), step) in others.iter_mut().zip(&mut self.rows_before).zip(steps) {
+            std::mem::swap(next, before);
+            penalties.of_steps(gray, &self.gray_before, step, &mut self.p2);
+            // Pixel u has the index u + 1, behind the border's.
+            let first = (1 + step) as usize;
+            continue_from_before::<BLOCK>(
+                n,
+                costs,
+                p1,
+                &self.p2,
+                &before.cells[first * stride..(first + width) * stride],
+                &before.minima[first..first + width],
+                &mut next.cells[stride..(width + 1) * stride],
+                &mut next.minima[1..width + 1],
+            );
         }
     }
 
-    #[inline(always)]
-    fn next_row_in_blocks<const BLOCK: usize, const ADD: bool>(
-        &mut self,
-        costs: &[u8],
-        gray: &[u8],
-        penalties: &Penalties,
-        sums: &mut [i16],
-    ) {
-        let (width, num_cells) = (gray.len(), self.num_cells);
-        let stride = num_cells + 2 * PAD;
-        let pixel_len = N * stride;
-        // Steps in u from the pixel to where each path comes from.
-        let ahead: isize = if self.backward { -1 } else { 1 };
-        let steps: [isize; N] = std::array::from_fn(|n| match (N, n) {
-            (_, 0) => -ahead,
-            (4, 1) => -ahead,
-            (4, 3) => ahead,
-            _ => 0,
-        });
-        std::mem::swap(&mut self.row, &mut self.row_before);
-        let row_before = &self.row_before;
-        for i in 0..width {
-            let u = if self.backward { width - 1 - i } else { i };
-            // The pixel before in this row is read while this one is written.
-            let (along, next, along_minimum) = if self.backward {
-                let (low, high) = self.row.cells.split_at_mut((u + 2) * pixel_len);
-                let next = &mut low[(u + 1) * pixel_len..];
-                (&high[..stride], next, self.row.minima[u + 2][0])
-            } else {
-                let (low, high) = self.row.cells.split_at_mut((u + 1) * pixel_len);
-                let along = &low[u * pixel_len..];
-                (along, &mut high[..pixel_len], self.row.minima[u][0])
-            };
-            let previous: [Previous; N] = std::array::from_fn(|n| {
-                let there = (u as isize + steps[n]).clamp(0, width as isize - 1) as usize;
-                let (cells, minimum, gray_there) = if n == 0 {
-                    (&along[PAD - 1..], along_minimum, gray[there])
-                } else {
-                    let pixel = (u as isize + 1 + steps[n]) as usize;
-                    let begin = pixel * pixel_len + n * stride + PAD - 1;
-                    let minimum = row_before.minima[pixel][n];
-                    (&row_before.cells[begin..], minimum, self.gray_before[there])
-                };
-                let p2 = penalties.p2_of_gray_step[usize::from(gray[u].abs_diff(gray_there))];
-                Previous {
-                    cells: &cells[..num_cells + 2],
-                    minimum,
-                    jump: minimum.saturating_add(p2),
-                }
-            });
-            let cells = u * num_cells..(u + 1) * num_cells;
-            self.row.minima[u + 1] = step::<BLOCK, N, ADD>(
-                &costs[cells.clone()],
-                previous,
-                penalties.p1,
-                next,
-                &mut sums[cells],
-            );
+    /// The last row of each path, from the first pixel's cells on.
+    fn paths(&self) -> [&[u8]; 4] {
+        let begin = self.num_cells + 3 * PAD;
+        std::array::from_fn(|n| &self.rows[n.min(N - 1)].cells[begin..])
+    }
+
+    /// Adds the costs of all paths through the last row to `sums`, width × `num_cells`.
+    pub(super) fn add_to(&self, sums: &mut [i16]) {
+        add::<N>(self.num_cells, self.paths(), sums);
+    }
+
+    /// The mean of the path costs of the last row, rounded, which fits eight bits; width ×
+    /// `num_cells`.
+    pub(super) fn means(&self, means: &mut [u8]) {
+        average::<N>(self.num_cells, self.paths(), means);
+    }
+}
+
+impl Penalties {
+    /// P2 of the step to each pixel of a row from the one `step` columns aside in the row
+    /// `there`. What lies outside does not matter: a path that begins has no costs yet.
+    fn of_steps(&self, here: &[u8], there: &[u8], step: isize, p2: &mut [u8]) {
+        let width = here.len();
+        // The pixels whose neighbor is inside.
+        let begin = usize::from(step < 0).min(width);
+        let end = width - usize::from(step > 0).min(width);
+        p2.fill(self.p2_of_gray_step[0]);
+        let there = &there[(begin as isize + step) as usize..];
+        for ((p2, &a), &b) in p2[begin..end].iter_mut().zip(&here[begin..end]).zip(there) {
+            *p2 = self.p2_of_gray_step[usize::from(a.abs_diff(b))];
         }
-        self.gray_before.copy_from_slice(gray);
     }
 }

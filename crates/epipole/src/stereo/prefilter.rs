@@ -1,5 +1,6 @@
 //! What block matching compares instead of gray values: details, without slow changes of light.
 
+use crate::imaging::simd::dispatched;
 use image::GrayImage;
 
 /// What is done to both pictures before blocks are compared.
@@ -17,7 +18,6 @@ const MEAN_RADIUS: usize = 4;
 
 impl StereoPrefilter {
     /// The filtered picture plus `cap`, so 0 to 2 cap. Border pixels are repeated outside.
-    #[inline(always)]
     pub(super) fn apply(self, image: &GrayImage, cap: u8) -> Vec<u8> {
         match self {
             Self::XSobel => x_sobel(image, cap),
@@ -31,59 +31,61 @@ fn limited(x: i16, cap: u8) -> u8 {
     (x.clamp(-i16::from(cap), i16::from(cap)) + i16::from(cap)) as u8
 }
 
-#[inline(always)]
-fn x_sobel(image: &GrayImage, cap: u8) -> Vec<u8> {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let row = |v: usize| &image.as_raw()[v * width..(v + 1) * width];
-    let mut out = vec![0; width * height];
-    // Each column's 1-2-1 sum, with a repeated column at either end.
-    let mut sums = vec![0i16; width + 2];
-    for (v, out) in out.chunks_exact_mut(width).enumerate() {
-        let (above, here) = (row(v.saturating_sub(1)), row(v));
-        let below = row((v + 1).min(height - 1));
-        let inner = &mut sums[1..=width];
-        for u in 0..width {
-            inner[u] = i16::from(above[u]) + 2 * i16::from(here[u]) + i16::from(below[u]);
-        }
-        sums[0] = sums[1];
-        sums[width + 1] = sums[width];
-        let (before, after) = (&sums[..width], &sums[2..]);
-        for u in 0..width {
-            out[u] = limited(after[u] - before[u], cap);
-        }
-    }
-    out
-}
-
-#[inline(always)]
-fn local_mean(image: &GrayImage, cap: u8) -> Vec<u8> {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let row = |v: usize| &image.as_raw()[v * width..(v + 1) * width];
-    let area = (2 * MEAN_RADIUS as i32 + 1) * (2 * MEAN_RADIUS as i32 + 1);
-    let mut out = vec![0; width * height];
-    let mut columns = vec![0i32; width + 2 * MEAN_RADIUS];
-    for (v, out) in out.chunks_exact_mut(width).enumerate() {
-        columns.fill(0);
-        for k in 0..=2 * MEAN_RADIUS {
-            let from = row((v + k).saturating_sub(MEAN_RADIUS).min(height - 1));
+dispatched! {
+    fn x_sobel(image: &GrayImage, cap: u8) -> Vec<u8> {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let row = |v: usize| &image.as_raw()[v * width..(v + 1) * width];
+        let mut out = vec![0; width * height];
+        // Each column's 1-2-1 sum, with a repeated column at either end.
+        let mut sums = vec![0i16; width + 2];
+        for (v, out) in out.chunks_exact_mut(width).enumerate() {
+            let (above, here) = (row(v.saturating_sub(1)), row(v));
+            let below = row((v + 1).min(height - 1));
+            let inner = &mut sums[1..=width];
             for u in 0..width {
-                columns[MEAN_RADIUS + u] += i32::from(from[u]);
+                inner[u] = i16::from(above[u]) + 2 * i16::from(here[u]) + i16::from(below[u]);
+            }
+            sums[0] = sums[1];
+            sums[width + 1] = sums[width];
+            let (before, after) = (&sums[..width], &sums[2..]);
+            for u in 0..width {
+                out[u] = limited(after[u] - before[u], cap);
             }
         }
-        let (first, last) = (columns[MEAN_RADIUS], columns[MEAN_RADIUS + width - 1]);
-        columns[..MEAN_RADIUS].fill(first);
-        columns[MEAN_RADIUS + width..].fill(last);
-        let mut sum: i32 = columns[..2 * MEAN_RADIUS].iter().sum();
-        let here = row(v);
-        for u in 0..width {
-            sum += columns[u + 2 * MEAN_RADIUS];
-            // Rounded to nearest: sums are never negative.
-            let mean = (2 * sum + area) / (2 * area);
-            out[u] = limited(i16::from(here[u]) - mean as i16, cap);
-            sum -= columns[u];
-        }
+        out
     }
-    out
+}
+
+dispatched! {
+    fn local_mean(image: &GrayImage, cap: u8) -> Vec<u8> {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let row = |v: usize| &image.as_raw()[v * width..(v + 1) * width];
+        let area = (2 * MEAN_RADIUS as i32 + 1) * (2 * MEAN_RADIUS as i32 + 1);
+        let mut out = vec![0; width * height];
+        let mut columns = vec![0i32; width + 2 * MEAN_RADIUS];
+        for (v, out) in out.chunks_exact_mut(width).enumerate() {
+            columns.fill(0);
+            for k in 0..=2 * MEAN_RADIUS {
+                let from = row((v + k).saturating_sub(MEAN_RADIUS).min(height - 1));
+                for u in 0..width {
+                    columns[MEAN_RADIUS + u] += i32::from(from[u]);
+                }
+            }
+            let (first, last) = (columns[MEAN_RADIUS], columns[MEAN_RADIUS + width - 1]);
+            columns[..MEAN_RADIUS].fill(first);
+            columns[MEAN_RADIUS + width..].fill(last);
+            let mut sum: i32 = columns[..2 * MEAN_RADIUS].iter().sum();
+            let here = row(v);
+            for u in 0..width {
+                sum += columns[u + 2 * MEAN_RADIUS];
+                // Rounded to nearest: sums are never negative.
+                let mean = (2 * sum + area) / (2 * area);
+                out[u] = limited(i16::from(here[u]) - mean as i16, cap);
+                sum -= columns[u];
+            }
+        }
+        out
+    }
 }
 
 #[cfg(test)]

@@ -3,11 +3,6 @@
 use super::DisparityImage;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::ControlFlow;
-
-/// Told the share of the work done, 0 to 1, from time to time and on the caller's thread; the
-/// answer [`ControlFlow::Break`] cancels.
-pub type Progress<'a> = &'a mut dyn FnMut(f32) -> ControlFlow<()>;
 
 /// Cells (pixels × disparities) beyond which no volume is begun: the memory would not be there.
 #[cfg(target_pointer_width = "64")]
@@ -114,6 +109,29 @@ impl<'a> Search<'a> {
         &pixels[v * self.width..(v + 1) * self.width]
     }
 
+    /// A right row from its end on, so that candidates of increasing disparity lie side by side:
+    /// cell d of column u is at `width − 1 − u + d`. The border repeats outside.
+    #[inline(always)]
+    pub(super) fn reverse(&self, row: &[u8], reversed: &mut [u8]) {
+        let (width, len) = (self.width as i64, reversed.len() as i64);
+        let row = &row[..self.width];
+        // Element j is right pixel `begin − j`.
+        let begin = width - 1 - i64::from(self.min_disparity);
+        let first_inside = (begin - width + 1).clamp(0, len);
+        let end_inside = (begin + 1).clamp(first_inside, len);
+        let (head, rest) = reversed.split_at_mut(first_inside as usize);
+        let (inside, tail) = rest.split_at_mut((end_inside - first_inside) as usize);
+        head.fill(row[self.width - 1]);
+        tail.fill(row[0]);
+        if !inside.is_empty() {
+            let last = (begin - first_inside) as usize;
+            let from = &row[last + 1 - inside.len()..=last];
+            for (to, &value) in inside.iter_mut().zip(from.iter().rev()) {
+                *to = value;
+            }
+        }
+    }
+
     /// The cells of column u whose right pixel lies inside the picture.
     pub(super) fn cells_inside(&self, u: usize) -> std::ops::Range<usize> {
         let nearest = u as i64 - i64::from(self.min_disparity);
@@ -124,14 +142,6 @@ impl<'a> Search<'a> {
 
     pub(super) fn image(&self, values: Vec<f32>) -> DisparityImage {
         DisparityImage::new(self.left.width(), self.left.height(), values)
-    }
-}
-
-/// Turns a canceling callback into an error.
-pub(super) fn report(progress: Progress, share: f32) -> Result<()> {
-    match progress(share) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Canceled),
     }
 }
 

@@ -4,12 +4,12 @@ use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
-use super::search::{Progress, Search, report, to_eight_bits};
-use super::simd::{Kernel, run_widest};
+use super::search::{Search, to_eight_bits};
 use super::winner::{Selector, Tests};
+use super::work::{Progress, Reporter, alone, in_two};
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// How many directions the costs are gathered from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,7 +32,7 @@ pub enum StereoPaths {
 ///
 /// A pixel has no answer (NaN) where its best match lies outside the right picture, another
 /// disparity fits nearly as well, the right picture disagrees, or only a small speckle of pixels
-/// holds it. Pictures without any texture get no answers, not an error.
+/// holds it. Pictures without texture get one smooth surface or no answers, not an error.
 ///
 /// Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information".
 ///
@@ -95,11 +95,11 @@ impl Default for StereoSgm {
             small_step_penalty: 20,
             large_step_penalty: 100,
             edge_gray: 10,
-            uniqueness_percent: 5,
+            uniqueness_percent: 3,
             left_right_max_px: Some(1),
             speckle_size: 100,
             speckle_range_px: 2.0,
-            max_gap_px: 12,
+            max_gap_px: 16,
         }
     }
 }
@@ -140,7 +140,7 @@ impl StereoSgm {
     /// As [`StereoSgm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoSgm::compute`], and [`Error::Canceled`].
+    /// As [`StereoSgm::compute`], and [`Error::Cancelled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,
@@ -155,10 +155,7 @@ impl StereoSgm {
             penalties: self.penalties(),
         };
         let values = match self.paths {
-            StereoPaths::Five => run_widest(FivePaths {
-                task: &task,
-                progress,
-            })?,
+            StereoPaths::Five => alone(progress, |reporter| task.five_paths(reporter))?,
             StereoPaths::Four => task.both_ways::<2>(progress)?,
             StereoPaths::Eight => task.both_ways::<4>(progress)?,
         };
@@ -245,130 +242,176 @@ impl Task<'_> {
         self.search.width * self.search.num_cells
     }
 
-    /// Paths down the picture, then up, N each; the sums of all pixels are kept in between.
-    fn both_ways<const N: usize>(&self, progress: Progress) -> Result<Vec<f32>> {
-        let num_cells = self.search.check_volume()?;
-        let mut volume = Volume {
-            costs: vec![0; num_cells],
-            sums: vec![0; num_cells],
-        };
-        run_widest(Down::<N> {
-            task: self,
-            volume: &mut volume,
-            progress: &mut *progress,
-        })?;
-        run_widest(Up::<N> {
-            task: self,
-            volume: &mut volume,
-            progress,
-        })
-    }
-}
-
-/// The costs and sums of all pixels, height × width × `num_cells`.
-struct Volume {
-    costs: Vec<u8>,
-    sums: Vec<i16>,
-}
-
-/// Half of the paths, and the costs on the way.
-struct Down<'a, 'b, const N: usize> {
-    task: &'a Task<'a>,
-    volume: &'a mut Volume,
-    progress: Progress<'b>,
-}
-
-impl<const N: usize> Kernel for Down<'_, '_, N> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn run(self) -> Result<()> {
-        let task = self.task;
-        let search = task.search;
-        let mut cost_rows = task.cost_rows();
-        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, false);
-        let rows = self
-            .volume
-            .costs
-            .chunks_exact_mut(task.row_cells())
-            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()));
-        for (v, (costs, sums)) in rows.enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, 0.5 * v as f32 / search.height as f32)?;
-            }
-            cost_rows.row(v, costs);
-            let gray = search.row_of(search.left.as_raw(), v);
-            sweep.next_row::<false>(costs, gray, &task.penalties, sums);
-        }
-        Ok(())
-    }
-}
-
-/// The other half, and the winners on the way.
-struct Up<'a, 'b, const N: usize> {
-    task: &'a Task<'a>,
-    volume: &'a mut Volume,
-    progress: Progress<'b>,
-}
-
-impl<const N: usize> Kernel for Up<'_, '_, N> {
-    type Output = Result<Vec<f32>>;
-
-    #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let task = self.task;
-        let search = task.search;
-        let mut values = vec![0.0; search.width * search.height];
-        let mut sweep = Sweep::<N>::new(search.width, search.num_cells, true);
-        let mut selector = Selector::new(search, task.options.tests());
-        let rows = self
-            .volume
-            .costs
-            .chunks_exact(task.row_cells())
-            .zip(self.volume.sums.chunks_exact_mut(task.row_cells()))
-            .zip(values.chunks_exact_mut(search.width));
-        for (v, ((costs, sums), out)) in rows.enumerate().rev() {
-            if v % 16 == 0 {
-                report(self.progress, 1.0 - 0.5 * v as f32 / search.height as f32)?;
-            }
-            let gray = search.row_of(search.left.as_raw(), v);
-            sweep.next_row::<true>(costs, gray, &task.penalties, sums);
-            selector.row(sums, out);
-        }
-        Ok(values)
-    }
-}
-
-/// Down the picture and along the row both ways, with the memory of a few rows.
-struct FivePaths<'a, 'b> {
-    task: &'a Task<'a>,
-    progress: Progress<'b>,
-}
-
-impl Kernel for FivePaths<'_, '_> {
-    type Output = Result<Vec<f32>>;
-
-    #[inline(always)]
-    fn run(self) -> Result<Vec<f32>> {
-        let task = self.task;
-        let search = task.search;
-        let mut cost_rows = task.cost_rows();
-        let mut costs = vec![0; task.row_cells()];
-        let mut sums = vec![0; task.row_cells()];
+    /// Down the picture and along the row both ways, with the memory of a few rows.
+    fn five_paths(&self, reporter: &mut Reporter) -> Result<Vec<f32>> {
+        let search = self.search;
+        let mut cost_rows = self.cost_rows();
+        let mut costs = vec![0; self.row_cells()];
+        let mut sums = vec![0; self.row_cells()];
         let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
         let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
-        let mut selector = Selector::new(search, task.options.tests());
+        let mut selector = Selector::new(search, self.options.tests());
         let mut values = vec![0.0; search.width * search.height];
         for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
-            if v % 16 == 0 {
-                report(self.progress, v as f32 / search.height as f32)?;
-            }
+            reporter.report(v, search.height)?;
             cost_rows.row(v, &mut costs);
             let gray = search.row_of(search.left.as_raw(), v);
-            down.next_row::<false>(&costs, gray, &task.penalties, &mut sums);
-            back.next_row::<true>(&costs, gray, &task.penalties, &mut sums);
+            down.next_row(&costs, gray, &self.penalties);
+            back.next_row(&costs, gray, &self.penalties);
+            sums.fill(0);
+            down.add_to(&mut sums);
+            back.add_to(&mut sums);
             selector.row(&mut sums, out);
         }
         Ok(values)
+    }
+
+    /// N paths down and N paths up the picture.
+    ///
+    /// Both sweeps first go to the middle and store what they find. Then each goes on through the
+    /// other's half, where the sums are now complete. So one volume serves two threads, and the
+    /// result is the same with one.
+    fn both_ways<const N: usize>(&self, progress: Progress) -> Result<Vec<f32>> {
+        let search = self.search;
+        let num_cells = search.check_volume()?;
+        let mut volume = Volume {
+            costs: vec![0; num_cells],
+            means: vec![0; num_cells],
+        };
+        let mut values = vec![0.0; search.width * search.height];
+        let middle = search.height / 2;
+        let (upper, lower) = (0..middle, middle..search.height);
+        let mut down = HalfSweep::<N>::new(self, false);
+        let mut up = HalfSweep::<N>::new(self, true);
+
+        let (top, bottom) = volume.split(middle * self.row_cells());
+        in_two(
+            progress,
+            0.0..0.5,
+            |reporter| down.store(upper.clone(), top, reporter),
+            |reporter| up.store(lower.clone(), bottom, reporter),
+        )?;
+        let (top, bottom) = volume.split(middle * self.row_cells());
+        let (top_values, bottom_values) = values.split_at_mut(middle * search.width);
+        in_two(
+            progress,
+            0.5..1.0,
+            |reporter| down.complete(lower.clone(), bottom, bottom_values, reporter),
+            |reporter| up.complete(upper.clone(), top, top_values, reporter),
+        )?;
+        Ok(values)
+    }
+}
+
+/// What one sweep leaves for the other: costs, and the means of N path costs, each rows × width ×
+/// `num_cells`.
+struct Volume {
+    costs: Vec<u8>,
+    means: Vec<u8>,
+}
+
+impl Volume {
+    fn split(&mut self, at: usize) -> (VolumePart<'_>, VolumePart<'_>) {
+        let (top_costs, bottom_costs) = self.costs.split_at_mut(at);
+        let (top_means, bottom_means) = self.means.split_at_mut(at);
+        (
+            VolumePart {
+                costs: top_costs,
+                means: top_means,
+            },
+            VolumePart {
+                costs: bottom_costs,
+                means: bottom_means,
+            },
+        )
+    }
+}
+
+/// Some rows of a [`Volume`].
+struct VolumePart<'a> {
+    costs: &'a mut [u8],
+    means: &'a mut [u8],
+}
+
+/// N paths down the picture, or up.
+struct HalfSweep<'a, const N: usize> {
+    task: &'a Task<'a>,
+    cost_rows: CostRows<'a>,
+    paths: Sweep<N>,
+    selector: Selector<'a>,
+    upward: bool,
+}
+
+impl<'a, const N: usize> HalfSweep<'a, N> {
+    fn new(task: &'a Task<'a>, upward: bool) -> Self {
+        let search = task.search;
+        Self {
+            task,
+            cost_rows: task.cost_rows(),
+            paths: Sweep::new(search.width, search.num_cells, upward),
+            selector: Selector::new(search, task.options.tests()),
+            upward,
+        }
+    }
+
+    /// The rows of a range in the order of the sweep: how many went before, and which.
+    fn visits(&self, rows: &Range<usize>) -> impl Iterator<Item = (usize, usize)> + use<N> {
+        let (rows, upward) = (rows.clone(), self.upward);
+        (0..rows.len()).map(move |i| {
+            let v = if upward {
+                rows.end - 1 - i
+            } else {
+                rows.start + i
+            };
+            (i, v)
+        })
+    }
+
+    /// The first half of the sweep: keeps costs and path costs.
+    fn store(
+        &mut self,
+        rows: Range<usize>,
+        volume: VolumePart,
+        reporter: &mut Reporter,
+    ) -> Result<()> {
+        let (search, len) = (self.task.search, self.task.row_cells());
+        for (i, v) in self.visits(&rows) {
+            reporter.report(i, rows.len())?;
+            let cells = (v - rows.start) * len..(v - rows.start + 1) * len;
+            let costs = &mut volume.costs[cells.clone()];
+            self.cost_rows.row(v, costs);
+            let gray = search.row_of(search.left.as_raw(), v);
+            self.paths.next_row(costs, gray, &self.task.penalties);
+            self.paths.means(&mut volume.means[cells]);
+        }
+        Ok(())
+    }
+
+    /// The second half: adds to what the other sweep stored, and selects.
+    fn complete(
+        &mut self,
+        rows: Range<usize>,
+        volume: VolumePart,
+        values: &mut [f32],
+        reporter: &mut Reporter,
+    ) -> Result<()> {
+        let (search, len) = (self.task.search, self.task.row_cells());
+        let mut sums = vec![0; len];
+        for (i, v) in self.visits(&rows) {
+            reporter.report(i, rows.len())?;
+            let row = v - rows.start;
+            let cells = row * len..(row + 1) * len;
+            let gray = search.row_of(search.left.as_raw(), v);
+            let costs = &volume.costs[cells.clone()];
+            self.paths.next_row(costs, gray, &self.task.penalties);
+            // The mean times N is the other sweep's sum, to within half of N.
+            for (sum, &mean) in sums.iter_mut().zip(&volume.means[cells]) {
+                *sum = i16::from(mean) * N as i16;
+            }
+            self.paths.add_to(&mut sums);
+            let out = &mut values[row * search.width..(row + 1) * search.width];
+            self.selector.row(&mut sums, out);
+        }
+        Ok(())
     }
 }

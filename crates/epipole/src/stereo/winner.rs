@@ -1,9 +1,7 @@
 //! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
 
 use super::search::Search;
-
-/// Disparities of a block that are compared at once.
-const LANES: usize = 16;
+use crate::imaging::simd::dispatched;
 
 /// What makes an answer credible.
 #[derive(Clone, Copy)]
@@ -14,29 +12,38 @@ pub(super) struct Tests {
     pub(super) left_right_max: Option<u32>,
 }
 
-/// Selects answers row by row.
+/// Selects the answers row by row.
 pub(super) struct Selector<'a> {
     search: Search<'a>,
     tests: Tests,
-    /// The best sum of each right pixel and its disparity, from the row's end on.
+    /// The best disparity of each left pixel, from the smallest looked for.
+    winners: Vec<i16>,
+    /// The fraction beside the winner; NaN where it is not unique.
+    offsets: Vec<f32>,
+    /// The best sum of each right pixel and its disparity, from the row's end on; empty without
+    /// a left–right test.
     right_sums: Vec<i16>,
     right_winners: Vec<i16>,
 }
 
 impl<'a> Selector<'a> {
     pub(super) fn new(search: Search<'a>, tests: Tests) -> Self {
-        let len = search.width + search.num_cells;
+        let len = match tests.left_right_max {
+            Some(_) => search.width + search.num_cells,
+            None => 0,
+        };
         Self {
             search,
             tests,
+            winners: vec![0; search.width],
+            offsets: vec![0.0; search.width],
             right_sums: vec![0; len],
             right_winners: vec![0; len],
         }
     }
 
-    /// * `sums`: width × `num_cells`; those beyond the last disparity are ignored
+    /// * `sums`: width × `num_cells`; those beyond the last disparity are overwritten
     /// * `disparities`: the row's answers, NaN for none
-    #[inline(always)]
     pub(super) fn row(&mut self, sums: &mut [i16], disparities: &mut [f32]) {
         let (n, count) = (self.search.num_cells, self.search.num_disparities);
         if count < n {
@@ -44,14 +51,20 @@ impl<'a> Selector<'a> {
                 cells[count..].fill(i16::MAX);
             }
         }
-        if self.tests.left_right_max.is_some() {
-            self.match_from_the_right(sums);
-        }
-        for (u, (cells, out)) in sums.chunks_exact(n).zip(disparities).enumerate() {
-            let (best, winner) = minimum(cells);
-            let offset = refine(cells, winner);
-            let good = self.search.cells_inside(u).contains(&winner)
-                && self.is_unique(cells, best, winner)
+        self.right_sums.fill(i16::MAX);
+        find_winners(
+            n,
+            self.tests.uniqueness_percent as i32,
+            sums,
+            &mut self.winners,
+            &mut self.offsets,
+            &mut self.right_sums,
+            &mut self.right_winners,
+        );
+        for (u, out) in disparities.iter_mut().enumerate() {
+            let (winner, offset) = (self.winners[u] as usize, self.offsets[u]);
+            let good = !offset.is_nan()
+                && self.search.cells_inside(u).contains(&winner)
                 && self.is_mutual(u, winner, offset);
             *out = if good {
                 (self.search.min_disparity + winner as i32) as f32 + offset
@@ -59,43 +72,6 @@ impl<'a> Selector<'a> {
                 f32::NAN
             };
         }
-    }
-
-    /// The best left pixel of each right pixel, along the diagonals of the row's sums.
-    #[inline(always)]
-    fn match_from_the_right(&mut self, sums: &[i16]) {
-        let n = self.search.num_cells;
-        self.right_sums.fill(i16::MAX);
-        for (u, cells) in sums.chunks_exact(n).enumerate() {
-            let at = self.search.width - 1 - u;
-            let best = &mut self.right_sums[at..at + n];
-            let winner = &mut self.right_winners[at..at + n];
-            let cells = &cells[..n];
-            for d in 0..n {
-                let better = cells[d] < best[d];
-                winner[d] = if better { d as i16 } else { winner[d] };
-                best[d] = best[d].min(cells[d]);
-            }
-        }
-    }
-
-    /// No other disparity, apart from the winner's neighbors, comes close.
-    #[inline(always)]
-    fn is_unique(&self, cells: &[i16], best: i16, winner: usize) -> bool {
-        let percent = self.tests.uniqueness_percent as i32;
-        if percent == 0 {
-            return true;
-        }
-        let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX)) as i16;
-        let mut below = [0i16; LANES];
-        for block in cells.chunks_exact(LANES) {
-            for i in 0..LANES {
-                below[i] += i16::from(block[i] <= limit);
-            }
-        }
-        let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
-        let expected = cells[near].iter().filter(|&&s| s <= limit).count();
-        below.iter().map(|&x| x as usize).sum::<usize>() <= expected
     }
 
     /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
@@ -119,29 +95,86 @@ impl<'a> Selector<'a> {
     }
 }
 
+dispatched! {
+    /// The winner of each pixel and its fraction, and the winners seen from the right.
+    fn find_winners(
+        num_cells: usize,
+        uniqueness_percent: i32,
+        sums: &[i16],
+        winners: &mut [i16],
+        offsets: &mut [f32],
+        right_sums: &mut [i16],
+        right_winners: &mut [i16],
+    ) {
+        let width = winners.len();
+        for (u, cells) in sums.chunks_exact(num_cells).enumerate() {
+            if !right_sums.is_empty() {
+                // The diagonal of this row's sums that ends in right pixel u.
+                let at = width - 1 - u;
+                keep_smaller(
+                    cells,
+                    &mut right_sums[at..][..num_cells],
+                    &mut right_winners[at..][..num_cells],
+                );
+            }
+            let (best, winner) = minimum(cells);
+            winners[u] = winner as i16;
+            offsets[u] = if is_unique(cells, best, winner, uniqueness_percent) {
+                refine(cells, winner)
+            } else {
+                f32::NAN
+            };
+        }
+    }
+}
+
+/// No other disparity, apart from the winner's neighbors, comes within so many percent.
+#[inline(always)]
+fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
+    if percent == 0 {
+        return true;
+    }
+    let limit = (i32::from(best) * 100 / (100 - percent)).min(i32::from(i16::MAX) - 1) as i16;
+    let mut below = 0i16;
+    for &sum in cells {
+        below += i16::from(sum <= limit);
+    }
+    let near = winner.saturating_sub(1)..(winner + 2).min(cells.len());
+    let expected = cells[near].iter().filter(|&&s| s <= limit).count();
+    below as usize <= expected
+}
+
+/// Where a sum is smaller than the best so far, it and its place replace them.
+#[inline(always)]
+fn keep_smaller(sums: &[i16], best: &mut [i16], places: &mut [i16]) {
+    let n = sums.len();
+    let (best, places) = (&mut best[..n], &mut places[..n]);
+    for d in 0..n {
+        let (sum, least, place) = (sums[d], best[d], places[d]);
+        places[d] = if sum < least { d as i16 } else { place };
+        best[d] = least.min(sum);
+    }
+}
+
 /// The smallest sum and its first place.
 #[inline(always)]
 fn minimum(cells: &[i16]) -> (i16, usize) {
-    let mut best = [i16::MAX; LANES];
-    let mut block_of_best = [0i16; LANES];
-    for (k, block) in cells.chunks_exact(LANES).enumerate() {
-        for i in 0..LANES {
-            let better = block[i] < best[i];
-            block_of_best[i] = if better { k as i16 } else { block_of_best[i] };
-            best[i] = best[i].min(block[i]);
-        }
+    let mut lowest = i16::MAX;
+    for &sum in cells {
+        lowest = lowest.min(sum);
     }
-    let lowest = best.iter().fold(i16::MAX, |m, &x| m.min(x));
     let mut place = i16::MAX;
-    for i in 0..LANES {
-        let here = block_of_best[i] * LANES as i16 + i as i16;
-        place = place.min(if best[i] == lowest { here } else { i16::MAX });
+    for (d, &sum) in cells.iter().enumerate() {
+        place = place.min(if sum == lowest { d as i16 } else { i16::MAX });
     }
     (lowest, place as usize)
 }
 
-/// How far the vertex of the parabola through the winner and its neighbors lies from the winner,
-/// −½ to ½.
+/// How far the true minimum lies from the winner, −½ to ½: where two lines of opposite slope meet
+/// that pass through the winner and its neighbors. Sums of absolute differences and of bits are
+/// such wedges; a parabola would draw fractions towards the whole numbers.
+///
+/// Source: Shimizu & Okutomi 2001, "Precise sub-pixel estimation on area-based matching".
 #[inline(always)]
 fn refine(cells: &[i16], winner: usize) -> f32 {
     if winner == 0 || winner + 1 >= cells.len() || cells[winner + 1] == i16::MAX {
@@ -152,9 +185,30 @@ fn refine(cells: &[i16], winner: usize) -> f32 {
         f32::from(cells[winner]),
         f32::from(cells[winner + 1]),
     ];
-    let curvature = below + above - 2.0 * best;
-    if curvature <= 0.0 {
+    let slope = below.max(above) - best;
+    if slope <= 0.0 {
         return 0.0;
     }
-    0.5 * (below - above) / curvature
+    0.5 * (below - above) / slope
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wedge_is_refined_exactly() {
+        // |d − 2.25| × 8 at 1, 2, 3.
+        assert_eq!(refine(&[18, 10, 2, 6, 14], 2), 0.25);
+        assert_eq!(refine(&[4, 4, 4], 1), 0.0);
+        assert_eq!(refine(&[1, 4], 0), 0.0);
+    }
+
+    #[test]
+    fn the_first_of_equal_sums_wins() {
+        let mut sums = [50i16; 32];
+        sums[17] = 9;
+        sums[30] = 9;
+        assert_eq!(minimum(&sums), (9, 17));
+    }
 }

@@ -1,0 +1,715 @@
+//! Calibrated rectification: both pictures redrawn as if the cameras stood parallel.
+
+use super::PixelMap;
+use crate::camera::{Distortion, Intrinsics, RigidTransform};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, UnitVector3, Vector2, Vector3};
+
+/// A camera of a stereo rig: how rays become pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StereoCamera {
+    /// K.
+    pub intrinsics: Intrinsics,
+    /// The lens; [`Distortion::NONE`] for an ideal one.
+    pub distortion: Distortion,
+}
+
+/// Choices of [`rectify_calibrated`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RectifyOptions {
+    /// 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until
+    /// every pixel of the photographs is shown. Between: in between.
+    pub alpha: f64,
+    /// Size of the results, pixels; none: that of the photographs.
+    pub size: Option<(u32, u32)>,
+    /// Whether both results have the same principal point, so that points at infinity have
+    /// disparity 0. Otherwise each shows what its own camera sees best.
+    pub zero_disparity_at_infinity: bool,
+}
+
+impl Default for RectifyOptions {
+    /// Only valid pixels, the photographs' size, disparity 0 at infinity.
+    fn default() -> Self {
+        Self {
+            alpha: 0.0,
+            size: None,
+            zero_disparity_at_infinity: true,
+        }
+    }
+}
+
+/// A rectangle of pixel coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PixelRect {
+    /// Left end.
+    pub u_min: f64,
+    /// Upper end.
+    pub v_min: f64,
+    /// Right end.
+    pub u_max: f64,
+    /// Lower end.
+    pub v_max: f64,
+}
+
+/// A rectified rig: two virtual cameras that stand parallel and share a focal length, so that
+/// matches share a row (or, if `is_vertical`, a column).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rectification {
+    /// The photographs' cameras.
+    pub cameras: [StereoCamera; 2],
+    /// Rotation of each camera's rays into the rectified frame.
+    pub rect_from_cam: [Rotation3<f64>; 2],
+    /// Intrinsics of the rectified pictures.
+    pub intrinsics: [Intrinsics; 2],
+    /// Homography from undistorted pixels of each photograph to rectified pixels,
+    /// `H = K_rect R K⁻¹`.
+    pub homographies: [Matrix3<f64>; 2],
+    /// `(X, Y, Z, W) = Q (u, v, d, 1)` in the rectified frame of the first camera, where (u, v)
+    /// is a pixel of the first picture and d its disparity `u1 − u2` (`v1 − v2` if vertical).
+    pub q: Matrix4<f64>,
+    /// Whether the second camera stands above or below the first: then matches share a column.
+    pub is_vertical: bool,
+    /// Distance between the cameras, meters.
+    pub baseline_m: f64,
+    /// Size of the rectified pictures, pixels.
+    pub width: u32,
+    /// See `width`.
+    pub height: u32,
+    /// The largest rectangle in each rectified picture that its camera saw whole.
+    pub valid: [PixelRect; 2],
+}
+
+/// Rectifies a calibrated rig.
+///
+/// Each camera turns by half of the rotation between them, so both pictures suffer equally; then
+/// both turn, by the smallest angle, until the baseline lies along the rows (or along the
+/// columns, if the second camera stands rather above or below). The smallest angle never turns a
+/// picture upside down: a second camera on the left gives negative disparities instead.
+///
+/// * `cameras`: of the first (left) and second (right) photograph
+/// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
+/// * `width`, `height`: of both photographs, pixels
+///
+/// # Errors
+/// [`Error::Degenerate`] if the cameras stand at one place, or one in front of the other: then no
+/// common image plane sees the scene. [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
+/// empty size.
+///
+/// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
+/// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+/// use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
+/// // Two ideal cameras that stand parallel, 0.1 m apart: nothing needs to change.
+/// let intrinsics = Intrinsics::centered(500.0, 640, 480)?;
+/// let camera = StereoCamera { intrinsics, distortion: Distortion::NONE };
+/// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
+/// let rig = rectify_calibrated(
+///     &[camera, camera], &cam2_from_cam1, 640, 480, &RectifyOptions::default())?;
+/// assert!((rig.intrinsics[0].fu_px() - 500.0).abs() < 1e-6);
+/// // A disparity of 25 px in the middle is 500 × 0.1 / 25 = 2 m away.
+/// let x = rig.q * nalgebra::Vector4::new(319.5, 239.5, 25.0, 1.0);
+/// assert!((x.z / x.w - 2.0).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn rectify_calibrated(
+    cameras: &[StereoCamera; 2],
+    cam2_from_cam1: &RigidTransform,
+    width: u32,
+    height: u32,
+    options: &RectifyOptions,
+) -> Result<Rectification> {
+    let (new_width, new_height) = options.size.unwrap_or((width, height));
+    check(width, height, new_width, new_height, options.alpha)?;
+    let turned = turn_parallel(cam2_from_cam1)?;
+    let rect_from_cam = turned.rect_from_cam;
+
+    // A focal length to begin with; the zoom follows.
+    let focal_px = cameras
+        .iter()
+        .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
+        .fold(f64::INFINITY, f64::min);
+    let outlines = [0, 1].map(|i| outline(&cameras[i], &rect_from_cam[i], width, height));
+    let [outline1, outline2] = outlines;
+    let outlines = [outline1?, outline2?];
+
+    let new_size = Vector2::new(f64::from(new_width), f64::from(new_height));
+    let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
+    // The direction that each photograph's middle looks to, seen in the result's middle.
+    let mut centers = outlines.each_ref().map(|o| middle - o.center * focal_px);
+    let mean = (centers[0] + centers[1]) / 2.0;
+    if options.zero_disparity_at_infinity {
+        centers = [mean; 2];
+    } else if turned.is_vertical {
+        centers.iter_mut().for_each(|c| c.x = mean.x);
+    } else {
+        centers.iter_mut().for_each(|c| c.y = mean.y);
+    }
+    let zoom = zoom(&outlines, &centers, focal_px, &new_size, options.alpha)?;
+    // The zoom leaves the principal points where they are.
+    let focal_px = focal_px * zoom;
+    let new_intrinsics = |c: &Vector2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y);
+    let intrinsics = [new_intrinsics(&centers[0])?, new_intrinsics(&centers[1])?];
+    let homographies = [0, 1].map(|i| {
+        let k_inverse = cameras[i].intrinsics.inverse_matrix();
+        intrinsics[i].matrix() * rect_from_cam[i].matrix() * k_inverse
+    });
+    let valid = [0, 1].map(|i| {
+        let rect = outlines[i].inner.scaled(focal_px, &centers[i]);
+        PixelRect {
+            u_min: rect.u_min.max(0.0),
+            v_min: rect.v_min.max(0.0),
+            u_max: rect.u_max.min(new_size.x - 1.0),
+            v_max: rect.v_max.min(new_size.y - 1.0),
+        }
+    });
+    let axis = usize::from(turned.is_vertical);
+    Ok(Rectification {
+        cameras: *cameras,
+        rect_from_cam,
+        intrinsics,
+        homographies,
+        q: q_matrix(
+            focal_px,
+            &centers[0],
+            turned.translation[axis],
+            centers[0][axis] - centers[1][axis],
+        ),
+        is_vertical: turned.is_vertical,
+        baseline_m: turned.translation.norm(),
+        width: new_width,
+        height: new_height,
+        valid,
+    })
+}
+
+impl Rectification {
+    /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless `index` is 0 or 1, [`Error::PointBehindCamera`] if the
+    /// rectified camera looks away from it, and as [`Distortion::undistort`].
+    pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
+        let i = checked_index(index)?;
+        let ray = self.cameras[i].intrinsics.ray(pixel);
+        let ray = self.cameras[i].distortion.undistort(&ray.xy().into())?;
+        let turned = self.rect_from_cam[i] * Vector3::new(ray.x, ray.y, 1.0);
+        self.intrinsics[i].project(&turned.into())
+    }
+
+    /// The place in photograph 0 or 1 that a rectified pixel is read from: rotation and lens in
+    /// one step. None where the camera could not see it.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    pub fn source_pixel(
+        &self,
+        index: usize,
+        rectified: &Point2<f64>,
+    ) -> Result<Option<Point2<f64>>> {
+        let i = checked_index(index)?;
+        let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
+        if ray.z <= 0.0 {
+            return Ok(None);
+        }
+        let distortion = &self.cameras[i].distortion;
+        let ray = Point2::new(ray.x / ray.z, ray.y / ray.z);
+        // Beyond its fold the lens model shows the same place twice.
+        if !distortion.is_seen(&ray) {
+            return Ok(None);
+        }
+        let bent = distortion.distort(&ray);
+        let k = &self.cameras[i].intrinsics;
+        let center = k.principal_point();
+        Ok(Some(Point2::new(
+            k.fu_px() * bent.x + center.x,
+            k.fv_px() * bent.y + center.y,
+        )))
+    }
+
+    /// The map that redraws photograph 0 or 1.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    pub fn map(&self, index: usize) -> Result<PixelMap> {
+        checked_index(index)?;
+        Ok(PixelMap::from_fn(self.width, self.height, |u, v| {
+            let rectified = Point2::new(f64::from(u), f64::from(v));
+            self.source_pixel(index, &rectified).ok().flatten()
+        }))
+    }
+}
+
+fn checked_index(index: usize) -> Result<usize> {
+    if index < 2 {
+        Ok(index)
+    } else {
+        Err(Error::OutOfRange {
+            what: "the number of a rig's camera",
+            requirement: "0 or 1",
+            value: index as f64,
+        })
+    }
+}
+
+fn check(width: u32, height: u32, new_width: u32, new_height: u32, alpha: f64) -> Result<()> {
+    for (what, value) in [
+        ("the photographs' width", width),
+        ("the photographs' height", height),
+        ("the rectified width", new_width),
+        ("the rectified height", new_height),
+    ] {
+        if value < 2 {
+            return Err(Error::OutOfRange {
+                what,
+                requirement: "at least 2 pixels",
+                value: f64::from(value),
+            });
+        }
+    }
+    if !(0.0..=1.0).contains(&alpha) {
+        return Err(Error::OutOfRange {
+            what: "alpha",
+            requirement: "from 0 to 1",
+            value: alpha,
+        });
+    }
+    Ok(())
+}
+
+/// Rotations that make two cameras parallel, with the baseline along an image axis.
+struct Turned {
+    rect_from_cam: [Rotation3<f64>; 2],
+    is_vertical: bool,
+    /// From the second to the first center, in the rectified frame: along ±x or ±y.
+    translation: Vector3<f64>,
+}
+
+fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
+    let what = "a rectification";
+    let rotation = cam2_from_cam1.rotation.to_rotation_matrix();
+    let t = cam2_from_cam1.translation.vector;
+    if !t.iter().all(|x| x.is_finite()) || !rotation.matrix().iter().all(|x| x.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "the motion between the cameras",
+        });
+    }
+    if t.norm() < 1e-12 {
+        return Err(Error::Degenerate {
+            what,
+            why: "both cameras stand at one place",
+        });
+    }
+    let half = half_rotation(&rotation);
+    // x2 = R x1 + t seen in the frame halfway: R^½ x1 and R^−½ x2 differ by R^−½ t alone.
+    let halfway = half.inverse() * t;
+    let is_vertical = halfway.y.abs() > halfway.x.abs();
+    let sideways = halfway.xy().amax();
+    // Beyond 60° from the image plane the epipole comes into the picture.
+    if halfway.z.abs() > 1.732 * sideways {
+        return Err(Error::Degenerate {
+            what,
+            why: "one camera stands in front of the other",
+        });
+    }
+    let axis = if is_vertical {
+        Vector3::y()
+    } else {
+        Vector3::x()
+    };
+    let target = axis * halfway.dot(&axis).signum();
+    let align = shortest_rotation(&halfway, &target);
+    Ok(Turned {
+        rect_from_cam: [align * half, align * half.inverse()],
+        is_vertical,
+        translation: align * halfway,
+    })
+}
+
+/// The rotation by half the angle about the same axis.
+fn half_rotation(rotation: &Rotation3<f64>) -> Rotation3<f64> {
+    let m = rotation.matrix();
+    // sin and cos of the angle, times 2.
+    let axis = Vector3::new(
+        m[(2, 1)] - m[(1, 2)],
+        m[(0, 2)] - m[(2, 0)],
+        m[(1, 0)] - m[(0, 1)],
+    );
+    let angle = libm::atan2(axis.norm(), m.trace() - 1.0);
+    match UnitVector3::try_new(axis, 1e-15) {
+        Some(axis) => Rotation3::from_axis_angle(&axis, angle / 2.0),
+        None => Rotation3::identity(),
+    }
+}
+
+/// The rotation by the smallest angle that takes the direction of `from` to that of `to`.
+fn shortest_rotation(from: &Vector3<f64>, to: &Vector3<f64>) -> Rotation3<f64> {
+    let axis = from.cross(to);
+    let angle = libm::atan2(axis.norm(), from.dot(to));
+    match UnitVector3::try_new(axis, 1e-15 * from.norm() * to.norm()) {
+        Some(axis) => Rotation3::from_axis_angle(&axis, angle),
+        None => Rotation3::identity(),
+    }
+}
+
+/// What a photograph covers in the rectified frame, in units of the focal length.
+struct Outline {
+    /// The largest rectangle inside, whose corners need not be the photograph's.
+    inner: PixelRect,
+    /// The smallest rectangle around.
+    outer: PixelRect,
+    /// The mean of the photograph's corners.
+    center: Vector2<f64>,
+}
+
+impl PixelRect {
+    fn scaled(&self, factor: f64, offset: &Vector2<f64>) -> Self {
+        Self {
+            u_min: self.u_min * factor + offset.x,
+            v_min: self.v_min * factor + offset.y,
+            u_max: self.u_max * factor + offset.x,
+            v_max: self.v_max * factor + offset.y,
+        }
+    }
+}
+
+/// Follows the photograph's border.
+fn outline(
+    camera: &StereoCamera,
+    rect_from_cam: &Rotation3<f64>,
+    width: u32,
+    height: u32,
+) -> Result<Outline> {
+    const STEPS: u32 = 64;
+    let (last_u, last_v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
+    let turned = |u: f64, v: f64| -> Result<Vector2<f64>> {
+        let ray = camera.intrinsics.ray(&Point2::new(u, v));
+        let ray = camera.distortion.undistort(&ray.xy().into())?;
+        let ray = rect_from_cam * Vector3::new(ray.x, ray.y, 1.0);
+        if ray.z < 1e-3 {
+            return Err(Error::Degenerate {
+                what: "a rectification",
+                why: "the cameras look in directions too far apart",
+            });
+        }
+        Ok(ray.xy() / ray.z)
+    };
+    let around = f64::INFINITY;
+    let mut inner = PixelRect {
+        u_min: -around,
+        v_min: -around,
+        u_max: around,
+        v_max: around,
+    };
+    let mut outer = PixelRect {
+        u_min: around,
+        v_min: around,
+        u_max: -around,
+        v_max: -around,
+    };
+    for k in 0..=STEPS {
+        let share = f64::from(k) / f64::from(STEPS);
+        let (u, v) = (share * last_u, share * last_v);
+        let (left, right) = (turned(0.0, v)?, turned(last_u, v)?);
+        let (top, bottom) = (turned(u, 0.0)?, turned(u, last_v)?);
+        inner.u_min = inner.u_min.max(left.x);
+        inner.u_max = inner.u_max.min(right.x);
+        inner.v_min = inner.v_min.max(top.y);
+        inner.v_max = inner.v_max.min(bottom.y);
+        for p in [left, right, top, bottom] {
+            outer.u_min = outer.u_min.min(p.x);
+            outer.u_max = outer.u_max.max(p.x);
+            outer.v_min = outer.v_min.min(p.y);
+            outer.v_max = outer.v_max.max(p.y);
+        }
+    }
+    let corners = [
+        turned(0.0, 0.0)?,
+        turned(last_u, 0.0)?,
+        turned(0.0, last_v)?,
+        turned(last_u, last_v)?,
+    ];
+    let center = corners.iter().sum::<Vector2<f64>>() / 4.0;
+    Ok(Outline {
+        inner,
+        outer,
+        center,
+    })
+}
+
+/// How much to multiply the focal length by, so that the results show what alpha asks for.
+fn zoom(
+    outlines: &[Outline; 2],
+    centers: &[Vector2<f64>; 2],
+    focal_px: f64,
+    new_size: &Vector2<f64>,
+    alpha: f64,
+) -> Result<f64> {
+    let mut all_valid: f64 = 0.0;
+    let mut all_shown = f64::INFINITY;
+    for (outline, center) in outlines.iter().zip(centers) {
+        // From the principal point to each side: of the result, and of what the camera covers.
+        let room = [
+            center.x,
+            center.y,
+            new_size.x - 1.0 - center.x,
+            new_size.y - 1.0 - center.y,
+        ];
+        let sides = |r: &PixelRect| [-r.u_min, -r.v_min, r.u_max, r.v_max].map(|x| x * focal_px);
+        for (room, covered) in room.into_iter().zip(sides(&outline.inner)) {
+            if covered <= 0.0 || room <= 0.0 {
+                return Err(Error::Degenerate {
+                    what: "a rectification",
+                    why: "the photographs hardly overlap after it",
+                });
+            }
+            all_valid = all_valid.max(room / covered);
+        }
+        for (room, covered) in room.into_iter().zip(sides(&outline.outer)) {
+            all_shown = all_shown.min(room / covered);
+        }
+    }
+    Ok(all_valid * (1.0 - alpha) + all_shown * alpha)
+}
+
+/// Q of a parallel rig.
+///
+/// * `translation`: the coordinate of t along the baseline's axis; −B for a second camera to the
+///   right
+/// * `offset_px`: the difference of the principal points along it
+#[rustfmt::skip]
+fn q_matrix(focal_px: f64, center: &Vector2<f64>, translation: f64, offset_px: f64) -> Matrix4<f64> {
+    Matrix4::new(
+        1.0, 0.0, 0.0,                -center.x,
+        0.0, 1.0, 0.0,                -center.y,
+        0.0, 0.0, 0.0,                focal_px,
+        0.0, 0.0, -1.0 / translation, offset_px / translation,
+    )
+}
+
+/// Q of a rectified pair with a focal length and principal point in common:
+/// `X = (u − cu) B/d`, `Y = (v − cv) B/d`, `Z = f B/d`.
+///
+/// * `focal_px`: pixels, > 0; `baseline_m`: meters, > 0
+/// * `cu_px`, `cv_px`: the principal point, pixels
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a focal length or baseline ≤ 0, [`Error::NotFinite`] for NaN or
+/// infinities.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::stereo::q_from_rig;
+/// let q = q_from_rig(700.0, 0.12, 320.0, 240.0)?;
+/// let x = q * nalgebra::Vector4::new(420.0, 240.0, 30.0, 1.0);
+/// assert!((x.z / x.w - 2.8).abs() < 1e-12); // 700 × 0.12 / 30
+/// assert!((x.x / x.w - 0.4).abs() < 1e-12); // 100 × 0.12 / 30
+/// # Ok(()) }
+/// ```
+pub fn q_from_rig(focal_px: f64, baseline_m: f64, cu_px: f64, cv_px: f64) -> Result<Matrix4<f64>> {
+    for (what, value) in [
+        ("the focal length", focal_px),
+        ("the baseline", baseline_m),
+        ("the principal point's u", cu_px),
+        ("the principal point's v", cv_px),
+    ] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { what });
+        }
+    }
+    for (what, value) in [("the focal length", focal_px), ("the baseline", baseline_m)] {
+        if value <= 0.0 {
+            return Err(Error::OutOfRange {
+                what,
+                requirement: "greater than 0",
+                value,
+            });
+        }
+    }
+    Ok(q_matrix(
+        focal_px,
+        &Vector2::new(cu_px, cv_px),
+        -baseline_m,
+        0.0,
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+    use nalgebra::{Point3, UnitQuaternion, Vector4};
+
+    fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> StereoCamera {
+        StereoCamera {
+            intrinsics: Intrinsics::new(fu, fv, cu, cv).unwrap(),
+            distortion: Distortion::from_coefficients(k).unwrap(),
+        }
+    }
+
+    fn motion(rotation: [f64; 3], translation: [f64; 3]) -> RigidTransform {
+        RigidTransform::from_parts(
+            Vector3::from(translation).into(),
+            UnitQuaternion::from_scaled_axis(Vector3::from(rotation)),
+        )
+    }
+
+    fn photograph(camera: &StereoCamera, x_in_cam: &Point3<f64>) -> Point2<f64> {
+        let bent = camera.distortion.distort(&Point2::new(
+            x_in_cam.x / x_in_cam.z,
+            x_in_cam.y / x_in_cam.z,
+        ));
+        camera
+            .intrinsics
+            .project(&Point3::new(bent.x, bent.y, 1.0))
+            .unwrap()
+    }
+
+    fn wide_rig() -> [StereoCamera; 2] {
+        [
+            camera(
+                458.654,
+                457.296,
+                367.215,
+                248.375,
+                [-0.2834, 0.074, 0.0002, 1.8e-5, 0.0],
+            ),
+            camera(
+                457.587,
+                456.134,
+                379.999,
+                255.238,
+                [-0.2837, 0.0745, -0.0001, -3.6e-5, 0.0],
+            ),
+        ]
+    }
+
+    /// Points of the world land in the same row or column, at the disparity that Q turns back
+    /// into their place, the right way up.
+    #[test]
+    fn matches_share_a_line_and_q_gives_them_back() {
+        let mut random = Random::new(5);
+        for (rotation, translation, vertical) in [
+            ([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009], false),
+            ([0.1, 0.15, -0.2], [-0.2, 0.05, 0.06], false),
+            ([0.02, -0.1, 0.1], [0.03, -0.15, 0.02], true),
+            ([0.02, 0.1, 0.1], [0.01, 0.15, 0.02], true),
+            ([0.0, 0.0, 0.0], [0.3, 0.0, 0.0], false),
+        ] {
+            let cam2_from_cam1 = motion(rotation, translation);
+            for (alpha, same) in [(0.0, true), (1.0, true), (0.5, false)] {
+                let options = RectifyOptions {
+                    alpha,
+                    zero_disparity_at_infinity: same,
+                    ..Default::default()
+                };
+                let cameras = wide_rig();
+                let rig =
+                    rectify_calibrated(&cameras, &cam2_from_cam1, 752, 480, &options).unwrap();
+                assert_eq!(rig.is_vertical, vertical);
+                let mut tested = 0;
+                for _ in 0..200 {
+                    let x1 = Point3::new(
+                        random.uniform(-1.0, 1.0),
+                        random.uniform(-0.7, 0.7),
+                        random.uniform(1.5, 6.0),
+                    );
+                    let x2 = cam2_from_cam1 * x1;
+                    if x2.z < 1.0 || x2.x.abs() > 0.9 * x2.z || x2.y.abs() > 0.7 * x2.z {
+                        continue;
+                    }
+                    tested += 1;
+                    let [p1, p2] = [(0, x1), (1, x2)].map(|(i, x)| {
+                        let seen = photograph(&cameras[i], &x);
+                        let p = rig.rectify_pixel(i, &seen).unwrap();
+                        let back = rig.source_pixel(i, &p).unwrap().unwrap();
+                        assert!((back - seen).norm() < 1e-7);
+                        p
+                    });
+                    let d = p1 - p2;
+                    let (along, across) = if vertical { (d.y, d.x) } else { (d.x, d.y) };
+                    assert!(across.abs() < 1e-7, "off by {across}");
+                    let x = rig.q * Vector4::new(p1.x, p1.y, along, 1.0);
+                    let found = Point3::new(x.x / x.w, x.y / x.w, x.z / x.w);
+                    assert!((found - rig.rect_from_cam[0] * x1).norm() < 1e-6);
+                }
+                assert!(tested > 50);
+                for (rotation, h) in rig.rect_from_cam.iter().zip(&rig.homographies) {
+                    assert!(rotation.angle() < 0.6, "turned by {}", rotation.angle());
+                    // Up stays up.
+                    let m = rotation.matrix();
+                    assert!(m[(0, 0)] > 0.7 && m[(1, 1)] > 0.7);
+                    assert!(h.determinant() > 0.0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
+        let cam2_from_cam1 = motion([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009]);
+        let mut options = RectifyOptions::default();
+        let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+        for i in 0..2 {
+            let mask = tight.map(i).unwrap().mask(752, 480);
+            assert!(mask.as_raw().iter().all(|&m| m == 255));
+            let valid = tight.valid[i];
+            assert_eq!((valid.u_min, valid.v_min), (0.0, 0.0));
+            assert_eq!((valid.u_max, valid.v_max), (751.0, 479.0));
+        }
+        options.alpha = 1.0;
+        let wide = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+        for i in 0..2 {
+            for (u, v) in [
+                (0.0, 0.0),
+                (751.0, 0.0),
+                (0.0, 479.0),
+                (751.0, 479.0),
+                (375.0, 0.0),
+            ] {
+                let p = wide.rectify_pixel(i, &Point2::new(u, v)).unwrap();
+                assert!(p.x > -1e-6 && p.y > -1e-6 && p.x < 751.000001 && p.y < 479.000001);
+            }
+            assert!(wide.map(i).unwrap().mask(752, 480).as_raw().contains(&0));
+        }
+        assert!(wide.intrinsics[0].fu_px() < tight.intrinsics[0].fu_px());
+    }
+
+    #[test]
+    fn hopeless_rigs_are_refused() {
+        let options = RectifyOptions::default();
+        let rig = |m: RigidTransform, w, h, o: &RectifyOptions| {
+            rectify_calibrated(&wide_rig(), &m, w, h, o)
+        };
+        let side = motion([0.0; 3], [-0.1, 0.0, 0.0]);
+        assert!(matches!(
+            rig(motion([0.1, 0.0, 0.0], [0.0; 3]), 752, 480, &options),
+            Err(Error::Degenerate { .. })
+        ));
+        assert!(matches!(
+            rig(motion([0.0; 3], [0.01, 0.0, -0.5]), 752, 480, &options),
+            Err(Error::Degenerate { .. })
+        ));
+        assert!(
+            rig(
+                motion([0.0, 3.0, 0.0], [-0.1, 0.0, 0.0]),
+                752,
+                480,
+                &options
+            )
+            .is_err()
+        );
+        assert!(rig(motion([0.0; 3], [f64::NAN, 0.0, 0.0]), 752, 480, &options).is_err());
+        assert!(rig(side, 0, 480, &options).is_err());
+        for alpha in [-0.1, 1.1, f64::NAN] {
+            assert!(rig(side, 752, 480, &RectifyOptions { alpha, ..options }).is_err());
+        }
+        let good = rig(side, 752, 480, &options).unwrap();
+        assert!(good.map(2).is_err());
+        assert!(good.rectify_pixel(2, &Point2::new(0.0, 0.0)).is_err());
+        assert!(q_from_rig(0.0, 1.0, 0.0, 0.0).is_err());
+        assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
+    }
+}
