@@ -33,16 +33,16 @@ mod error;
 pub mod absolute_pose;
 pub mod camera;
 pub mod epipolar;
-pub mod homography;
 pub mod feature;
+pub mod homography;
 pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
 pub mod stereo;
+pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
-pub mod synthetic;
 
 pub use absolute_pose::find_absolute_pose;
 pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};

@@ -37,6 +37,13 @@ impl Coordinates {
         Self { lists }
     }
 
+    /// Some of the matches.
+    pub(crate) fn subset(&self, indices: &[usize]) -> Self {
+        let lists =
+            [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect());
+        Self { lists }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.lists[0].len()
     }

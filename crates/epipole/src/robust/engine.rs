@@ -279,7 +279,8 @@ impl<E: Estimator> Ransac<E> {
             return Err(no_consensus);
         };
         if self.options.local_optimization {
-            self.improve(&mut best, true);
+            self.improve(&mut best);
+            self.polish(&mut best);
         }
         let max_error_px = self.options.max_error_px;
         self.estimator
@@ -323,7 +324,7 @@ impl<E: Estimator> Ransac<E> {
             if let Some(model) = recovered {
                 changed |= self.replace_if_better(&mut candidate, model);
             }
-            changed |= self.improve(&mut candidate, false);
+            changed |= self.improve(&mut candidate);
         }
         let known = self
             .best
@@ -339,28 +340,19 @@ impl<E: Estimator> Ransac<E> {
     }
 
     /// Alternates between finding the inliers and fitting to them while that helps.
-    fn improve(&mut self, candidate: &mut Candidate<E::Model>, last: bool) -> bool {
+    ///
+    /// A model straight from a sample is rough: the first fit looks twice as far, and counts only
+    /// together with a second one at the right distance.
+    fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
         let max_error_px = self.options.max_error_px;
-        let rounds = if last {
-            self.options.inner_iterations.max(1)
-        } else {
-            self.options.inner_iterations
-        };
-        let mut changed = false;
-        for _ in 0..rounds {
-            self.estimator
-                .inliers(&candidate.model, max_error_px, &mut self.inliers);
-            if self.inliers.len() < self.estimator.sample_size() {
+        let wide = self
+            .fitted(&candidate.model.clone(), 2.0 * max_error_px)
+            .and_then(|model| self.fitted(&model, max_error_px));
+        let mut changed = wide.is_some_and(|model| self.replace_if_better(candidate, model));
+        for _ in 1..self.options.inner_iterations {
+            let Some(model) = self.fitted(&candidate.model.clone(), max_error_px) else {
                 break;
-            }
-            let fitted = if last {
-                self.estimator
-                    .polish(&candidate.model, &self.inliers, max_error_px)
-            } else {
-                self.estimator
-                    .refine(&candidate.model, &self.inliers, max_error_px)
             };
-            let Some(model) = fitted else { break };
             let before = candidate.support.cost;
             if !self.replace_if_better(candidate, model) {
                 break;
@@ -372,6 +364,37 @@ impl<E: Estimator> Ransac<E> {
             }
         }
         changed
+    }
+
+    /// A model refined from its inliers, if there are enough.
+    fn fitted(&mut self, model: &E::Model, max_error_px: f64) -> Option<E::Model> {
+        self.estimator
+            .inliers(model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return None;
+        }
+        self.estimator.refine(model, &self.inliers, max_error_px)
+    }
+
+    /// The last refinement. Its result may weigh errors differently from the score, so it is kept
+    /// unless it loses inliers: one in twenty at most.
+    fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&candidate.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let polished = self
+            .estimator
+            .polish(&candidate.model, &self.inliers, max_error_px);
+        if let Some(model) = polished {
+            let support = self.support(&model, f64::INFINITY);
+            if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
+                *candidate = Candidate { model, support };
+                self.refinements += 1;
+            }
+        }
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {
