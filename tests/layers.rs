@@ -35,6 +35,7 @@ const ROOMS: &[&str] = &[
     "homography",
     "absolute_pose",
     "triangulation",
+    "two_view",
     "stereo",
     "sfm",
     "synthetic",

@@ -277,18 +277,52 @@ impl Canvas {
         self.clip = outer;
     }
 
-    /// A filled rectangle.
+    /// A filled rectangle, its sides moved to the nearest device pixels.
     pub fn fill_rect(&mut self, rect: Rect, role: Role, opacity: f64) {
-        let left = rect.x.max(self.clip.x);
-        let top = rect.y.max(self.clip.y);
-        let right = rect.right().min(self.clip.right());
-        let bottom = rect.bottom().min(self.clip.bottom());
-        let skia_rect =
-            tiny_skia::Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32);
-        if let Some(skia_rect) = skia_rect {
-            let paint = self.paint(role, opacity);
-            self.pixmap
-                .fill_rect(skia_rect, &paint, self.transform(), None);
+        // Whole pixels need no coverage, so a large rectangle costs little.
+        let device = |low: f64, high: f64, clip: (f64, f64), most: u32| {
+            let (low, high) = (low.max(clip.0), high.min(clip.1));
+            if !(low < high) {
+                return 0..0;
+            }
+            let start = (low * self.scale).round();
+            let end = (high * self.scale).round().max(start + 1.0);
+            let most = f64::from(most);
+            start.clamp(0.0, most) as usize..end.clamp(0.0, most) as usize
+        };
+        let (clip, width) = (self.clip, self.pixmap.width() as usize);
+        let columns = device(
+            rect.x,
+            rect.right(),
+            (clip.x, clip.right()),
+            self.pixmap.width(),
+        );
+        let rows = device(
+            rect.y,
+            rect.bottom(),
+            (clip.y, clip.bottom()),
+            self.pixmap.height(),
+        );
+        let [r, g, b] = self.theme.color(role);
+        let alpha = (opacity.clamp(0.0, 1.0) * 255.0).round() as u16;
+        let color = [r, g, b, 255].repeat(columns.len());
+        let added: Vec<u16> = color
+            .iter()
+            .map(|&channel| u16::from(channel) * alpha + 128)
+            .collect();
+        let data = self.pixmap.data_mut();
+        for row in rows {
+            let start = (row * width + columns.start) * 4;
+            let bytes = &mut data[start..start + color.len()];
+            if alpha == 255 {
+                bytes.copy_from_slice(&color);
+                continue;
+            }
+            for (byte, &added) in bytes.iter_mut().zip(&added) {
+                let sum = added + u16::from(*byte) * (255 - alpha);
+                // The nearest whole number to sum / 255.
+                *byte = ((sum + (sum >> 8)) >> 8) as u8;
+            }
         }
     }
 
@@ -813,6 +847,21 @@ mod tests {
         assert_eq!(lines, ["one two", "three", "four"]);
         assert_eq!(break_lines("long", 10.0, 1.0), ["long"]);
         assert!(break_lines(" ", 10.0, 50.0).is_empty());
+    }
+
+    #[test]
+    fn a_rectangle_fills_whole_pixels() {
+        let mut canvas = Canvas::new(6.0, 4.0, 2.0, Theme::Dark, Picture::default()).unwrap();
+        canvas.fill_rect(Rect::new(1.1, 0.9, 2.0, 50.0), Role::Ink, 1.0);
+        canvas.fill_rect(Rect::new(4.0, 0.0, 1.0, 1.0), Role::Ink, 0.5);
+        canvas.fill_rect(Rect::new(f64::NAN, 0.0, 1.0, f64::INFINITY), Role::Ink, 1.0);
+        let pixmap = canvas.finish().0.unwrap();
+        let red = |x, y| pixmap.pixel(x, y).unwrap().red();
+        let [ink, behind] = [Role::Ink, Role::Background].map(|role| Theme::Dark.color(role)[0]);
+        assert_eq!([red(1, 5), red(2, 1), red(6, 5)], [behind; 3]);
+        assert_eq!([red(2, 2), red(5, 7)], [ink; 2]);
+        let middle = (u16::from(ink) + u16::from(behind)) / 2;
+        assert!(u16::from(red(8, 0)).abs_diff(middle) <= 1);
     }
 
     #[test]

@@ -8,41 +8,90 @@ use epipole::math::random::Random;
 use epipole_widgets::Figure;
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
+use std::ops::ControlFlow;
 
 const NUM_SEQUENCES: u64 = 2000;
-const LONGEST: usize = 12;
+const LONGEST: usize = 8;
 
 #[test]
 fn any_events_leave_a_sound_figure_whose_state_round_trips() {
-    for (index, entry) in FIGURES.iter().enumerate() {
-        let mut refused = 0;
-        for sequence in 0..NUM_SEQUENCES {
-            let mut random = Random::new(1000 * index as u64 + sequence * 7919);
-            let mut figure = Figure::new(entry.name).unwrap();
-            for _ in 0..=random.below(LONGEST) {
-                let event = random_event(&figure, &mut random);
-                let before = (random.below(16) == 0).then(|| figure.query());
-                if let Err(problem) = figure.update(&event) {
-                    refused += 1;
-                    assert!(problem.to_string().len() > 20, "{problem}");
-                    if let Some(before) = before {
-                        assert_eq!(figure.query(), before, "{event:?} was refused");
-                    }
+    std::thread::scope(|scope| {
+        for (index, entry) in FIGURES.iter().enumerate() {
+            scope.spawn(move || fuzz(entry.name, index as u64));
+        }
+    });
+}
+
+fn fuzz(name: &str, seed: u64) {
+    let mut refused = 0;
+    for sequence in 0..NUM_SEQUENCES {
+        let mut random = Random::new(1_000_000 * seed + sequence);
+        let mut figure = Figure::new(name).unwrap();
+        for _ in 0..=random.below(LONGEST) {
+            let event = random_event(&figure, &mut random);
+            let before = (random.below(16) == 0).then(|| figure.query());
+            if let Err(problem) = figure.update(&event) {
+                refused += 1;
+                assert!(problem.to_string().len() > 20, "{problem}");
+                if let Some(before) = before {
+                    assert_eq!(figure.query(), before, "{event:?} was refused");
                 }
             }
-            assert_sound(&figure, random.uniform(280.0, 1200.0));
-            let copy = copy_of(&figure);
-            assert_eq!(copy.state(), figure.state(), "sequence {sequence}");
-            assert_eq!(copy.handles(), figure.handles(), "{}", figure.query());
-            let readouts = (copy.readouts(), figure.readouts());
-            assert_eq!(readouts.0, readouts.1, "{}", figure.query());
-            assert_eq!(copy.describe(), figure.describe(), "{}", figure.query());
         }
-        assert!(
-            refused > 100,
-            "{}: only {refused} events were bad",
-            entry.name
-        );
+        // Jobs take long, so most states are looked at while theirs is still to be done.
+        let finishes_job = sequence % 100 == 0;
+        if finishes_job {
+            figure.finish_job();
+            assert_eq!(figure.job(), None, "{name} computes forever");
+        }
+        assert_sound(&figure, random.uniform(280.0, 1200.0));
+        // Links to hundreds of points take long to read.
+        if figure.handles().len() < 20 || sequence % 8 == 0 {
+            let mut copy = copy_of(&figure);
+            if finishes_job {
+                copy.finish_job();
+            }
+            let query = figure.query();
+            assert_eq!(copy.state(), figure.state(), "{name}, sequence {sequence}");
+            assert_eq!(copy.handles(), figure.handles(), "{name} at {query}");
+            assert_eq!(copy.readouts(), figure.readouts(), "{name} at {query}");
+            assert_eq!(copy.describe(), figure.describe(), "{name} at {query}");
+        }
+    }
+    assert!(refused > 100, "{name}: only {refused} events were bad");
+}
+
+#[test]
+fn jobs_survive_requests_of_any_bytes() {
+    let mut random = Random::new(8);
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.name).unwrap();
+        let request = figure.job().map(|job| job.request).unwrap_or_default();
+        for _ in 0..200 {
+            let mut bytes = request.clone();
+            bytes.truncate(random.below(request.len() + 1));
+            for _ in 0..random.below(4) {
+                if !bytes.is_empty() {
+                    let index = random.below(bytes.len().min(64));
+                    bytes[index] = random.below(256) as u8;
+                }
+            }
+            let mut go_on = |_: f64| ControlFlow::Break(());
+            if let Err(problem) = Figure::compute(entry.name, &bytes, &mut go_on) {
+                assert!(!problem.to_string().is_empty());
+            }
+        }
+        // Whatever an answer holds, the figure shows something.
+        while let Some(job) = figure.job() {
+            let answer = (0..random.below(50)).map(|_| random.below(256) as u8);
+            let taken = figure.job_done(job.key(), Ok(answer.collect()));
+            assert!(taken);
+            assert_sound(&figure, 400.0);
+            if figure.job().is_some_and(|next| next.key() == job.key()) {
+                break;
+            }
+        }
+        assert!(!figure.job_done(12345, Ok(Vec::new())));
     }
 }
 

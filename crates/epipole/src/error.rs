@@ -88,4 +88,14 @@ pub enum Error {
     /// The caller's progress callback asked to stop.
     #[error("the computation was canceled")]
     Canceled,
+    /// A text that breaks the rules of its format.
+    #[error("{what} is malformed in line {line}: {why}")]
+    Malformed {
+        /// What was read, such as "the bundle adjustment problem".
+        what: &'static str,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong there.
+        why: String,
+    },
 }

@@ -15,8 +15,8 @@
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
-//! | [`stereo`] | depth from disparity |
-//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
+//! | [`stereo`] | rectification, dense disparity, depth |
+//! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions
@@ -39,6 +39,7 @@ pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod robust;
+pub mod sfm;
 pub mod stereo;
 pub mod synthetic;
 pub mod triangulation;

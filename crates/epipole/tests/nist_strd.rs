@@ -513,6 +513,7 @@ fn certified_values_from_both_starts() {
         step_tolerance: 1e-15,
         cost_tolerance: 0.0,
         initial_damping: 1e3,
+        patience: 0,
     };
     let mut sum_of_digits = 0.0;
     let mut fits = 0.0;

@@ -42,6 +42,12 @@ pub enum Problem {
         /// Height in device pixels.
         height: f64,
     },
+    /// A computation in another place, such as a worker of the page, ended with this sentence.
+    #[error("{sentence}")]
+    Elsewhere {
+        /// What it said.
+        sentence: String,
+    },
     /// The mathematics behind the figure refused.
     #[error(transparent)]
     Core(#[from] epipole::Error),

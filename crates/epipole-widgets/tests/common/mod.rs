@@ -9,10 +9,12 @@ const LONGEST_DESCRIPTION: usize = 400;
 
 /// One event, usually sensible, sometimes not.
 pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
-    let controls = figure.controls();
-    let handles = figure.handles();
     match random.below(100) {
-        0..35 if !controls.is_empty() => {
+        0..35 => {
+            let controls = figure.controls();
+            if controls.is_empty() {
+                return Event::Reset;
+            }
             let control = &controls[random.below(controls.len())];
             let value = match random.below(8) {
                 0 => odd_value(random),
@@ -28,7 +30,11 @@ pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
                 },
             }
         }
-        35..60 if !handles.is_empty() => {
+        35..60 => {
+            let handles = figure.handles();
+            if handles.is_empty() {
+                return Event::Tick { dt_s: 0.02 };
+            }
             let handle = &handles[random.below(handles.len())];
             let mut along = |[low, high]: [f64; 2]| {
                 let margin = 0.2 * (high - low);
@@ -43,9 +49,12 @@ pub fn random_event(figure: &Figure, random: &mut Random) -> Event {
                 y: along(handle.y_range),
             }
         }
-        60..66 if !handles.is_empty() => Event::HandleRemoved {
-            id: handles[random.below(handles.len())].id.clone(),
-        },
+        60..66 => {
+            let handles = figure.handles();
+            let index = random.below(handles.len().max(1));
+            let id = handles.get(index).map_or("none", |handle| &handle.id);
+            Event::HandleRemoved { id: id.to_owned() }
+        }
         66..80 => {
             let layout = figure.layout(random.uniform(280.0, 1200.0));
             let panel = &layout.panels[random.below(layout.panels.len())];

@@ -60,6 +60,10 @@ pub struct LmOptions {
     pub cost_tolerance: f64,
     /// The first λ, relative to the diagonal of `JᵀJ`.
     pub initial_damping: f64,
+    /// How many steps in a row may raise the cost before the loop returns to the best place and
+    /// tries smaller ones. 0, a cost that never rises, suits most problems; on pose graphs the
+    /// full step first bends the trajectory and only the next one stretches it into place.
+    pub patience: usize,
 }
 
 impl Default for LmOptions {
@@ -70,6 +74,7 @@ impl Default for LmOptions {
             step_tolerance: 1e-10,
             cost_tolerance: 1e-9,
             initial_damping: 1e-4,
+            patience: 0,
         }
     }
 }
@@ -131,7 +136,7 @@ pub struct LmReport {
 
 /// Beyond this damping a step no longer moves anything.
 const MAX_DAMPING: f64 = 1e24;
-const MIN_DAMPING: f64 = 1e-60;
+const MIN_DAMPING: f64 = 1e-20;
 
 /// Minimizes `½ Σ ρ(‖r‖²)` from `parameters`, in place, and says how it went.
 ///
@@ -145,7 +150,8 @@ const MIN_DAMPING: f64 = 1e-60;
 /// [`Error::NotFinite`] if the cost or gradient at the start is not finite.
 ///
 /// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
-/// in Marquardt's method", §3.
+/// in Marquardt's method", §3; steps that may raise the cost are the
+/// watchdog technique of Chamberlain, Powell, Lemaréchal & Pedersen 1982.
 pub fn minimize<S: System>(
     system: &mut S,
     parameters: &mut S::Parameters,
@@ -168,6 +174,9 @@ pub fn minimize<S: System>(
     let mut damping = options.initial_damping.clamp(MIN_DAMPING, MAX_DAMPING);
     let mut raise = 2.0;
     let mut candidate = parameters.clone();
+    // While the cost is above the best: the best place, and how many steps ago it was left.
+    let mut best: Option<S::Parameters> = None;
+    let mut steps_away = 0;
     let start = Iteration {
         index: 0,
         cost: here.cost,
@@ -193,58 +202,78 @@ pub fn minimize<S: System>(
             if step.norm <= options.step_tolerance * (here.parameter_norm + options.step_tolerance)
             {
                 report.termination = Termination::SmallStep;
-                return Ok(report);
+                break;
             }
             system.step(parameters, &mut candidate);
             let cost = system.cost(&candidate);
-            let decrease = here.cost - cost;
-            if decrease > 0.0 {
-                let previous_cost = here.cost;
+            let improves = cost < report.final_cost;
+            if improves || (cost.is_finite() && steps_away < options.patience) {
                 let there = system.linearize(&candidate);
                 if there.cost.is_finite() && there.gradient_max.is_finite() {
                     std::mem::swap(parameters, &mut candidate);
+                    let decrease = here.cost - there.cost;
                     here = there;
-                    accepted = true;
-                    report.accepted += 1;
-                    report.final_cost = here.cost;
-                    let gain = decrease / step.predicted_decrease.max(f64::MIN_POSITIVE);
-                    let slope = 2.0 * gain - 1.0;
-                    damping *= (1.0 - slope * slope * slope).clamp(1.0 / 3.0, 2.0);
-                    raise = 2.0;
-                    if here.gradient_max <= options.gradient_tolerance {
-                        converged = Some(Termination::SmallGradient);
-                    } else if decrease <= options.cost_tolerance * previous_cost {
-                        converged = Some(Termination::SmallCostChange);
+                    if improves {
+                        let best_before = report.final_cost;
+                        report.final_cost = here.cost;
+                        report.accepted += 1;
+                        accepted = true;
+                        best = None;
+                        steps_away = 0;
+                        let gain = decrease / step.predicted_decrease.max(f64::MIN_POSITIVE);
+                        let slope = 2.0 * gain - 1.0;
+                        damping *= (1.0 - slope * slope * slope).clamp(1.0 / 3.0, 2.0);
+                        raise = 2.0;
+                        if here.gradient_max <= options.gradient_tolerance {
+                            converged = Some(Termination::SmallGradient);
+                        } else if best_before - here.cost <= options.cost_tolerance * best_before {
+                            converged = Some(Termination::SmallCostChange);
+                        }
+                    } else {
+                        // The place that was left is now in `candidate`.
+                        best.get_or_insert_with(|| candidate.clone());
+                        steps_away += 1;
                     }
                 } else {
                     // Where the derivatives are not finite the search cannot go on: undo.
                     system.linearize(parameters);
                 }
             }
-        }
-        if !accepted {
+            if !accepted && (steps_away == 0 || steps_away == options.patience) {
+                if let Some(place) = best.take() {
+                    *parameters = place;
+                    here = system.linearize(parameters);
+                    steps_away = 0;
+                }
+                damping *= raise;
+                raise *= 2.0;
+            }
+        } else {
             damping *= raise;
             raise *= 2.0;
         }
         damping = damping.max(MIN_DAMPING);
         let iteration = Iteration {
             index: report.iterations,
-            cost: here.cost,
+            cost: report.final_cost,
             damping: used_damping,
             accepted,
         };
         if observer(&iteration).is_break() {
             report.termination = Termination::Cancelled;
-            return Ok(report);
+            break;
         }
         if let Some(termination) = converged {
             report.termination = termination;
-            return Ok(report);
+            break;
         }
         if damping > MAX_DAMPING {
             report.termination = Termination::Stuck;
-            return Ok(report);
+            break;
         }
+    }
+    if let Some(place) = best {
+        *parameters = place;
     }
     Ok(report)
 }

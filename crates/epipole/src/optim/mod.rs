@@ -5,6 +5,8 @@
 //! * [`minimize_fixed`] serves problems whose number of parameters is known when compiling, such
 //!   as a pose or a fundamental matrix. It does not allocate.
 //! * [`minimize_dense`] serves a [`DenseProblem`] of any size, by QR.
+//! * [`SchurSystem`] serves bundle adjustment: some cameras, very many points.
+//! * [`GraphSystem`] serves pose graphs: blocks, few of which meet.
 //! * [`RobustLoss`] bounds the influence of outliers; the loop accepts a step only if the true
 //!   robust cost decreases, never a weighted surrogate.
 //! * [`check_jacobian`] compares an analytic Jacobian with central differences.
@@ -12,15 +14,23 @@
 //! The cost is always `½ Σ ρ(‖rᵢ‖²)`.
 
 mod check;
+pub(crate) mod cholesky;
 mod dense;
 mod fixed;
+mod graph;
 mod levenberg_marquardt;
 mod loss;
+pub(crate) mod parallel;
+mod schur;
+pub(crate) mod sparse;
 
 pub use check::{check_jacobian, numeric_jacobian};
 pub use dense::{DenseProblem, minimize_dense};
+pub(crate) use fixed::is_positive_definite;
 pub use fixed::{FixedProblem, NormalEquations, minimize_fixed};
+pub use graph::{EdgeTerms, GraphProblem, GraphSystem};
 pub use levenberg_marquardt::{
     Iteration, Linearization, LmOptions, LmReport, Step, System, Termination, minimize,
 };
 pub use loss::RobustLoss;
+pub use schur::{BundleProblem, BundleStep, ObservationTerms, SchurSystem};

@@ -273,6 +273,12 @@ impl<'a> Shade<'a> {
             if *index == own && !body.hollow {
                 continue;
             }
+            // Is some of its box above the surface?
+            let (half, _) = caster.shape.bounds();
+            let reach = half.dot(&(caster.local_from_world * n).abs());
+            if (center - p).dot(n) + reach < 2.0 * LIFT_M {
+                continue;
+            }
             // Does the cone from the point to the window touch the caster's sphere?
             let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
             let off = (center - (origin + to_center * along)).norm();

@@ -11,12 +11,14 @@ use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma, RgbImage};
-use nalgebra::{Matrix3, Point2, Vector2, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 use std::ops::Range;
 
 /// Side of the squares of pixels that share a list of candidates.
 const TILE: u32 = 8;
 const NEAR: f64 = 1e-9;
+/// Depth beyond which things are in front of the camera, metres.
+const FRONT_M: f64 = 1e-6;
 
 /// Offsets of the extra rays at an edge: no two share a row or a column.
 const EDGE_OFFSETS: [(f64, f64); 8] = [
@@ -447,35 +449,46 @@ fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (
         return (everywhere, everywhere, f64::INFINITY);
     }
     let (half, center) = body.shape.bounds();
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    let mut nearest = f64::INFINITY;
-    let mut num_behind = 0;
-    for corner in 0..8 {
-        let sign = |bit: i32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+    let corners: [Point3<f64>; 8] = std::array::from_fn(|corner| {
+        let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
         let x_in_world = body.local_from_world.tr_mul(&local) + body.center + shift;
-        let x_in_cam = camera.cam_from_world * nalgebra::Point3::from(x_in_world);
-        nearest = nearest.min(x_in_cam.z - 1e-9);
-        match camera.intrinsics.project(&x_in_cam) {
-            Ok(pixel) if x_in_cam.z > 1e-6 => {
-                for i in 0..2 {
-                    low[i] = low[i].min(pixel[i]);
-                    high[i] = high[i].max(pixel[i]);
-                }
+        camera.cam_from_world * Point3::from(x_in_world)
+    });
+    let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut include = |x_in_cam: &Point3<f64>| {
+        if let Ok(pixel) = camera.intrinsics.project(x_in_cam) {
+            for i in 0..2 {
+                low[i] = low[i].min(pixel[i]);
+                high[i] = high[i].max(pixel[i]);
             }
-            _ => num_behind += 1,
+        }
+    };
+    for (index, a) in corners.iter().enumerate() {
+        if a.z >= FRONT_M {
+            include(a);
+        }
+        // The edges from this corner that cross the plane just in front of the camera.
+        for bit in 0..3 {
+            let b = &corners[index ^ (1 << bit)];
+            if a.z < FRONT_M && b.z >= FRONT_M {
+                include(&(b + (a - b) * ((b.z - FRONT_M) / (b.z - a.z))));
+            }
         }
     }
-    match num_behind {
-        // One pixel more for the rays between pixel centers.
-        0 => {
-            let range = |i: usize| (low[i].floor() as i64 - 1, high[i].ceil() as i64 + 1);
-            (range(0), range(1), nearest)
-        }
+    if low[0] > high[0] {
         // Nothing of it lies in front of the camera.
-        8 => ((1, 0), (1, 0), nearest),
-        _ => (everywhere, everywhere, nearest),
+        return ((1, 0), (1, 0), nearest);
     }
+    // One pixel more for the rays between pixel centers. The casts saturate.
+    let range = |i: usize| {
+        (
+            (low[i].floor() as i64).saturating_sub(1),
+            (high[i].ceil() as i64).saturating_add(1),
+        )
+    };
+    (range(0), range(1), nearest)
 }
 
 #[cfg(test)]
@@ -513,9 +526,9 @@ mod tests {
     }
 
     const PINNED: (u64, u64, u64) = (
-        957_760_244_409_160_640,
-        13_568_254_789_158_502_066,
-        2_003_876_323_505_076_712,
+        10_741_224_663_931_580_679,
+        2_364_551_451_600_395_988,
+        17_117_404_129_774_592_211,
     );
 
     #[test]

@@ -123,7 +123,7 @@ fn room() -> Vec<Body> {
         ROOM_CENTER,
         &wall(size.z, 0.37),
     )
-    .painted(BACK, &wall(size.x, 0.0).lit(108, 72))
+    .painted(BACK, &wall(size.x, 0.0).lit(88, 60))
     .painted(RIGHT, &wall(size.z, 0.61))
     .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
     .painted(
@@ -139,8 +139,8 @@ fn room() -> Vec<Body> {
     vec![
         walls,
         wares.picture(&wares.landscape, LANDSCAPE_M, [-0.36, -0.47, on_back], 0.0),
-        wares.picture(&wares.geometric, GEOMETRIC_M, [0.34, -0.50, on_back], 0.0),
-        wares.picture(&wares.star_chart, STAR_CHART_M, [0.87, -0.46, on_back], 0.0),
+        wares.picture(&wares.geometric, GEOMETRIC_M, [0.32, -0.50, on_back], 0.0),
+        wares.picture(&wares.star_chart, STAR_CHART_M, [0.84, -0.46, on_back], 0.0),
         wares.picture(
             &wares.star_chart,
             STAR_CHART_M,
@@ -164,7 +164,7 @@ fn table() -> Vec<Body> {
     let z = -0.06;
     let top = Arc::new(paint::boards(
         &wares.noise,
-        [1024, 512],
+        [512, 512],
         [width as f32, depth as f32],
         8.0,
     ));
@@ -185,13 +185,22 @@ fn table() -> Vec<Body> {
             [0.0, thick / 2.0, z],
             &plank(1.0, 0.03),
         )
-        .painted(TOP, &Paint::new(&top).glossy(0.55).lit(184, 112)),
-        cuboid(
-            [width - 0.16, 0.09, depth - 0.16],
-            [0.0, thick + 0.045, z],
-            &plank(0.9, 0.09),
-        ),
+        .painted(TOP, &Paint::new(&top).glossy(0.55).lit(148, 90)),
     ];
+    // The apron is four boards rather than one block: the rays to the top then need not ask it.
+    for side in [-1.0, 1.0] {
+        let (x, y) = (side * (width / 2.0 - 0.09), thick + 0.045);
+        bodies.push(cuboid(
+            [0.022, 0.09, depth - 0.2],
+            [x, y, z],
+            &plank(0.5, 0.09),
+        ));
+        bodies.push(cuboid(
+            [width - 0.2, 0.09, 0.022],
+            [0.0, y, z + side * (depth / 2.0 - 0.09)],
+            &plank(0.9, 0.09),
+        ));
+    }
     for (side_x, side_z) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
         bodies.push(cuboid(
             [0.07, 0.75 - thick, 0.07],
@@ -224,13 +233,13 @@ fn things() -> Vec<Body> {
             &print.clone().repeated(1.0, 0.01),
         )
         .turned(0.16)
-        .painted(TOP, &print.lit(80, 56))
+        .painted(TOP, &print.lit(72, 52))
         .painted(FRONT, &Paint::new(&cloth).repeated(1.0, 0.01)),
     ];
     let on_cloth = -cloth_m;
 
     // Three books, the lowest the largest, not quite in line.
-    let stack = [-0.33, 0.0, 0.06];
+    let stack = [-0.315, 0.0, 0.06];
     let heights = [0.046, 0.037, 0.032];
     bodies.extend(wares.book(0, stack, [0.295, heights[0], 0.215], -0.10));
     bodies.extend(wares.book(
@@ -246,7 +255,7 @@ fn things() -> Vec<Body> {
         -0.21,
     ));
     let stack_m: f64 = heights.iter().sum();
-    bodies.extend(wares.apple([-0.345, -stack_m, 0.055], 0.041, 0.6));
+    bodies.extend(wares.apple([-0.33, -stack_m, 0.055], 0.041, 0.6));
 
     bodies.extend(wares.mug([0.19, on_cloth, -0.16], -0.45, 1.12));
     bodies.push(wares.jug([0.045, 0.0, 0.215], 0.3, 1.0));

@@ -620,7 +620,7 @@ impl Model for RansacRace {
                         Event::HandleMoved {
                             id: "p1".to_owned(),
                             x: 640.0,
-                            y: 0.0,
+                            y: 480.0,
                         },
                     ]
                 },

@@ -243,13 +243,14 @@ fn draw_grid(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels) {
     let (left, far) = panel.canvas_from_world((TABLE_M[0], TABLE_M[3]));
     let (right, near) = panel.canvas_from_world((TABLE_M[1], TABLE_M[2]));
     let table = Rect::new(left, far, right - left, near - far);
-    canvas.fill_rect(table, Role::Grid, 0.35);
+    canvas.fill_rect(table, Role::Background, 1.0);
+    for x in [left, right] {
+        canvas.line((x, far), (x, near), Stroke::solid(Role::Grid, 1.0));
+    }
+    canvas.line((left, near), (right, near), Stroke::solid(Role::Grid, 1.0));
     let style = TextStyle::new(Role::Muted, SMALL);
-    let place = (
-        right - 8.0,
-        panel.canvas_from_world((0.0, DEPTH_RANGE_M[1] + 0.4)).1,
-    );
-    canvas.label(place, "table", style.end());
+    let place = ((right - 6.0, near - 10.0), Align::End);
+    labels.draw(canvas, &[place], "table", style);
     for meters in 0..=10 {
         let z = f64::from(meters);
         let y = panel.canvas_from_world((0.0, z)).1;

@@ -19,7 +19,7 @@ pub(crate) fn block_print(noise: &Noise, aspect: f32) -> Texture {
         [0.045, 0.085, 0.24],
         [0.50, 0.115, 0.05],
     );
-    Texture::paint(512, 512, false, |s, t| {
+    Texture::paint(512, 256, false, |s, t| {
         // In units of the height.
         let (x, y) = (s * aspect, t);
         let rim = x.min(aspect - x).min(y.min(1.0 - y));
@@ -69,7 +69,7 @@ pub(crate) fn block_print(noise: &Noise, aspect: f32) -> Texture {
         // Thread over thread.
         let (wx, wy) = (x * 300.0, y * 300.0);
         let weave = noise.value(wx, y * 40.0) + noise.value(x * 40.0 + 70.0, wy);
-        let crease = noise.octaves(x * 3.0 + y * 2.0, y * 2.0 - x, 2);
+        let crease = 0.6 * noise.value(x * 3.0 + y * 2.0, y * 2.0 - x);
         color = dim(color, 1.0 + 0.10 * weave + 0.16 * crease);
         with_gloss(color, 0.0)
     })

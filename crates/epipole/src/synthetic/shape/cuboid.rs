@@ -53,13 +53,12 @@ impl Cuboid {
     pub(super) fn meet(&self, ray: &Ray, near: f64, far: f64) -> Option<Contact> {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut enter_part, mut leave_part) = (0, 0);
-        for axis in 0..3 {
-            let inverse = 1.0 / ray.direction[axis];
-            let low = (-self.half[axis] - ray.origin[axis]) * inverse;
-            let high = (self.half[axis] - ray.origin[axis]) * inverse;
+        let mut slab = |origin: f64, direction: f64, half: f64, part: u32| {
+            let inverse = 1.0 / direction;
+            let (low, high) = ((-half - origin) * inverse, (half - origin) * inverse);
             let negative = inverse < 0.0;
             let (first, last) = if negative { (high, low) } else { (low, high) };
-            let part = 2 * axis as u32 + u32::from(negative);
+            let part = part + u32::from(negative);
             // A ray inside a slab's plane gives NaN, and every comparison with it is false.
             if first > enter {
                 enter = first;
@@ -69,7 +68,11 @@ impl Cuboid {
                 leave = last;
                 leave_part = part ^ 1;
             }
-        }
+        };
+        let (o, d, half) = (&ray.origin, &ray.direction, &self.half);
+        slab(o.x, d.x, half.x, 0);
+        slab(o.y, d.y, half.y, 2);
+        slab(o.z, d.z, half.z, 4);
         if enter > leave {
             return None;
         }

@@ -1,0 +1,162 @@
+//! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
+
+use super::wasm::Module;
+use super::{Assets, Tools, add_hashed, fonts, read};
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// How the style sheet names fonts, before they have their hashed names.
+const FONT: &str = "stix-two:";
+
+/// The style sheet and the scripts that every page uses.
+pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
+    // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
+    let mut css = bundle(
+        tools,
+        "web/theme/book.css",
+        &["--external:stix-two:*"],
+        fast,
+        assets,
+    )?;
+    let path = css.remove("book").context("esbuild made no style sheet")?;
+    let bytes = assets.files.remove(&path).unwrap_or_default();
+    let mut text = String::from_utf8(bytes)?;
+    while let Some(start) = text.find(FONT) {
+        let name: String = text[start + FONT.len()..]
+            .chars()
+            .take_while(|c| c.is_ascii_alphanumeric() || *c == '-')
+            .collect();
+        let url = fonts::font_url(assets, &name)?;
+        text.replace_range(start..start + FONT.len() + name.len(), &url);
+    }
+    assets.css = add_hashed(&mut assets.files, "book", "css", text.into_bytes());
+
+    let head = bundle(tools, "web/book/head.ts", &["--format=iife"], fast, assets)?;
+    assets.head = head
+        .get("head")
+        .cloned()
+        .context("esbuild made no head.js")?;
+    let module = ["--format=esm", "--splitting"];
+    let page = bundle(tools, "web/book/page.ts", &module, fast, assets)?;
+    assets.page = page
+        .get("page")
+        .cloned()
+        .context("esbuild made no page.js")?;
+    Ok(())
+}
+
+/// The custom elements: `web/src/worker.ts` first, as the elements name it, then
+/// `web/src/index.ts`. The sources find the other files beside their own through the constants
+/// `EPIPOLE_WASM` and `EPIPOLE_WORKER`, and the generated bindings as the module `epipole-web`.
+pub(super) fn add_elements(
+    tools: &Tools,
+    module: &Module,
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<()> {
+    let wasm = add_hashed(&mut assets.files, "epipole", "wasm", module.wasm.clone());
+    let define = |name: &str, path: &str| {
+        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
+    };
+    let alias = format!("--alias:epipole-web={}", module.glue.display());
+    let mut flags = vec![
+        "--format=esm".to_owned(),
+        alias,
+        define("EPIPOLE_WASM", &wasm),
+    ];
+    let worker = "web/src/worker.ts";
+    if tools.project.join(worker).is_file() {
+        let made = bundle(tools, worker, &borrowed(&flags), fast, assets)?;
+        let worker = made.get("worker").context("esbuild made no worker.js")?;
+        flags.push(define("EPIPOLE_WORKER", worker));
+    }
+    let made = bundle(tools, "web/src/index.ts", &borrowed(&flags), fast, assets)?;
+    let elements = made
+        .get("index")
+        .context("esbuild made no script for the elements")?;
+    let embed = format!("export * from \"../{elements}\";\n");
+    assets
+        .files
+        .insert("embed/epipole.js".to_owned(), embed.into_bytes());
+    assets.elements = Some(elements.clone());
+    Ok(())
+}
+
+fn borrowed(flags: &[String]) -> Vec<&str> {
+    flags.iter().map(String::as_str).collect()
+}
+
+#[derive(Deserialize)]
+struct Report {
+    outputs: BTreeMap<PathBuf, Output>,
+}
+
+#[derive(Deserialize)]
+struct Output {
+    #[serde(rename = "entryPoint")]
+    entry: Option<PathBuf>,
+}
+
+/// Bundles one entry into `assets`. Returns name of the entry → path.
+fn bundle(
+    tools: &Tools,
+    entry: &str,
+    flags: &[&str],
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<BTreeMap<String, String>> {
+    let stem = Path::new(entry)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let folder = tools.work.join("bundle").join(&stem);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder)?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let report = tools.work.join(format!("{stem}.json"));
+    let mut command = Command::new(tools.modules.join(".bin/esbuild"));
+    command
+        .arg(entry)
+        .args([
+            "--bundle",
+            "--target=es2022,chrome107,firefox104,safari16",
+            "--log-level=warning",
+        ])
+        .args([
+            "--entry-names=[name]-[hash]",
+            "--chunk-names=[name]-[hash]",
+            "--legal-comments=none",
+        ])
+        .arg(format!("--outdir={}", folder.display()))
+        .arg(format!("--metafile={}", report.display()))
+        .args(flags);
+    if !fast {
+        command.arg("--minify");
+    }
+    tools.run(&mut command)?;
+    let report: Report = serde_json::from_slice(&read(&report)?)?;
+    let mut entries = BTreeMap::new();
+    for (path, output) in report.outputs {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let to = format!("assets/{name}");
+        assets
+            .files
+            .insert(to.clone(), read(&tools.project.join(&path))?);
+        if output
+            .entry
+            .is_some_and(|from| from.file_stem() == Path::new(entry).file_stem())
+        {
+            entries.insert(stem.clone(), to);
+        }
+    }
+    Ok(entries)
+}

@@ -1,0 +1,265 @@
+//! What each directive becomes. This table is the authors' vocabulary:
+//!
+//! | written | becomes |
+//! |---|---|
+//! | `{{#figure name key=value … \| caption}}` | a live figure with its poster, number and caption |
+//! | `{{#ref fig-name}}` | a link "Figure 4.1" |
+//! | `{{#value name key=value … digits=2}}` | a number computed by the core; also in formulas |
+//! | `{{#cite key other \| §3}}` | a citation, linked to the list of references |
+//! | `{{#note text}}` or `{{#note \| text}}` | a numbered note in the margin (as a footnote `[^x]`) |
+//! | `{{#quiz name}}` | the quiz `quizzes/name.toml` |
+//! | `{{#references}}` | the list of all cited works |
+//! | `{{#progress}}` | the reader's quiz results, kept in their own browser |
+//! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
+
+use crate::directives::Directive;
+use crate::html::escape;
+use crate::markdown::Renderer;
+use crate::page::FigureEntry;
+use crate::posters::{self, Posters};
+use crate::problems::{Place, name_list};
+use crate::references::cite;
+use crate::shared::{PAGE_OF_REFERENCES, QuizEntry, token};
+use crate::source::Source;
+use crate::{numbers, quiz};
+
+const KNOWN: [&str; 9] = [
+    "cite",
+    "figure",
+    "include",
+    "note",
+    "progress",
+    "quiz",
+    "ref",
+    "references",
+    "value",
+];
+
+/// The HTML that takes a directive's place.
+pub(crate) enum Insert {
+    /// A printed number.
+    Value(String),
+    /// Something inside a paragraph, and its words for the search.
+    Inline { html: String, text: String },
+    /// Something that is a paragraph of its own.
+    Block { html: String },
+}
+
+impl Insert {
+    /// As plain text, or LaTeX.
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Insert::Value(text) | Insert::Inline { text, .. } => text.clone(),
+            Insert::Block { .. } => String::new(),
+        }
+    }
+
+    /// As HTML. A number gets a real minus sign.
+    pub(crate) fn html(&self) -> String {
+        match self {
+            Insert::Value(text) => {
+                let shown = text
+                    .strip_prefix('-')
+                    .map_or(text.clone(), |rest| format!("−{rest}"));
+                format!("<span class=\"value\">{}</span>", escape(&shown))
+            }
+            Insert::Inline { html, .. } | Insert::Block { html } => html.clone(),
+        }
+    }
+}
+
+/// What a directive becomes, or a sentence that says what is wrong with it.
+pub(crate) fn expand(
+    renderer: &mut Renderer,
+    directive: &Directive,
+    body: Option<Source>,
+    place: &Place,
+) -> Result<Insert, String> {
+    let words = &directive.words;
+    let one_word = |what: &str| match &words[..] {
+        [word] => Ok(word.clone()),
+        _ => Err(format!("write {{{{#{} {what}}}}}", directive.name)),
+    };
+    match directive.name.as_str() {
+        "value" => {
+            numbers::print(&one_word("name key=value …")?, &directive.settings).map(Insert::Value)
+        }
+        "figure" => figure(
+            renderer,
+            directive,
+            one_word("name key=value … | caption")?,
+            body,
+            place,
+        ),
+        "ref" => {
+            let id = one_word("figure-id")?;
+            renderer.shared.wants_figure(&id, place);
+            let html = format!(
+                "<a class=\"ref\" href=\"{}\">{}</a>",
+                token("figure-page", &id),
+                token("figure-number", &id)
+            );
+            Ok(Insert::Inline {
+                html,
+                text: String::new(),
+            })
+        }
+        "cite" => {
+            if words.is_empty() {
+                return Err("write {{#cite key …}}".to_owned());
+            }
+            if words
+                .iter()
+                .any(|key| renderer.shared.references.label(key).is_some())
+            {
+                renderer.shared.wants_references(place);
+            }
+            let locator = body.map(|body| body.text().to_owned());
+            let shared = renderer.shared;
+            let page = token(PAGE_OF_REFERENCES, "");
+            let html = cite(
+                words,
+                locator.as_deref(),
+                &shared.references,
+                &page,
+                place,
+                shared.problems,
+            );
+            let labels: Vec<String> = words
+                .iter()
+                .filter_map(|key| shared.references.label(key))
+                .collect();
+            Ok(Insert::Inline {
+                html,
+                text: labels.join("; "),
+            })
+        }
+        "note" => {
+            let Some(body) = body else {
+                return Err("write {{#note | text}}".to_owned());
+            };
+            let html = renderer.inline(&body);
+            Ok(Insert::Inline {
+                html: renderer.note(&html),
+                text: String::new(),
+            })
+        }
+        "quiz" => quiz_block(renderer, &one_word("name")?),
+        "references" => {
+            renderer.page.has_references = true;
+            Ok(Insert::Block {
+                html: renderer.shared.references.list(),
+            })
+        }
+        "progress" => Ok(Insert::Block {
+            html: token("progress", ""),
+        }),
+        "include" => Err("{{#include}} could not be read".to_owned()),
+        other => Err(format!(
+            "unknown directive \"{other}\"; known: {}",
+            name_list(&KNOWN)
+        )),
+    }
+}
+
+fn figure(
+    renderer: &mut Renderer,
+    directive: &Directive,
+    name: String,
+    caption: Option<Source>,
+    place: &Place,
+) -> Result<Insert, String> {
+    let shared = renderer.shared;
+    let names = shared.gallery.names();
+    if !names.contains(&name) {
+        return Err(format!(
+            "unknown figure \"{name}\"; known figures: {}",
+            name_list(&names)
+        ));
+    }
+    let Some(caption) = caption else {
+        return Err(format!(
+            "figure {name} needs a caption: {{{{#figure {name} … | caption}}}}"
+        ));
+    };
+    let of_builder = |key: &str| key == "id";
+    let settings: Vec<(String, String)> = directive
+        .settings
+        .iter()
+        .filter(|(key, _)| !of_builder(key))
+        .cloned()
+        .collect();
+    let id = match directive.settings.iter().find(|(key, _)| key == "id") {
+        Some((_, id)) => id.clone(),
+        None => renderer.page.figure_id(&name),
+    };
+    let figure = shared
+        .gallery
+        .open(&name, &settings)
+        .map_err(|error| format!("figure {name}: {error}"))?;
+    let number = renderer.page.next_figure_number();
+    let entry = FigureEntry {
+        id: id.clone(),
+        number: number.clone(),
+        place: place.clone(),
+    };
+    renderer.page.figures.push(entry);
+
+    let posters = match shared.posters_in() {
+        Some(folder) => posters::draw(figure.as_ref(), &name, &settings, renderer, folder)?,
+        None => Posters::default(),
+    };
+    let description = figure.description();
+    renderer.page.words.push_str(&description);
+    renderer.page.words.push(' ');
+    let caption = renderer.inline(&caption);
+    let attributes: String = settings
+        .iter()
+        .map(|(key, value)| format!(" {}=\"{}\"", escape(key), escape(value)))
+        .collect();
+    // The first figure of a page may be in sight at once; the others can wait.
+    let loading = if renderer.page.figures.len() == 1 {
+        "eager"
+    } else {
+        "lazy"
+    };
+    let html = format!(
+        "<figure class=\"epipole\" id=\"{id}\">\n\
+         <epipole-figure name=\"{name}\"{attributes}>\
+         <picture>{sources}<img src=\"{src}\" alt=\"{alt}\" width=\"{width}\" height=\"{height}\" \
+         loading=\"{loading}\" decoding=\"async\"></picture></epipole-figure>\n\
+         <figcaption><a class=\"figure-number\" href=\"#{id}\">Figure {number}</a> {caption}</figcaption>\n\
+         </figure>\n",
+        id = escape(&id),
+        alt = escape(&description),
+        sources = posters.sources,
+        src = posters.src,
+        width = posters.size.0,
+        height = posters.size.1,
+    );
+    Ok(Insert::Block { html })
+}
+
+fn quiz_block(renderer: &mut Renderer, name: &str) -> Result<Insert, String> {
+    let shared = renderer.shared;
+    if !name
+        .chars()
+        .all(|letter| letter.is_ascii_alphanumeric() || letter == '-')
+    {
+        return Err(format!("\"{name}\" is not the name of a quiz"));
+    }
+    let Some(source) = shared.read(&format!("quizzes/{name}.toml")) else {
+        return Err(format!("there is no quizzes/{name}.toml"));
+    };
+    let mut inline = |text: &str, place: Place| renderer.inline(&Source::new(text, place));
+    let (html, questions) = quiz::render(name, &source, &mut inline, shared.problems);
+    let page = renderer.page.path.clone();
+    let title = renderer.page.title.clone();
+    shared.add_quiz(QuizEntry {
+        name: name.to_owned(),
+        page,
+        title,
+        questions,
+    });
+    Ok(Insert::Block { html })
+}

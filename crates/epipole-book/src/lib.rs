@@ -1,0 +1,33 @@
+//! The book builder: chapters in Markdown to a static site.
+//!
+//! mdBook reads `content/` ([`site`]); this crate renders it: live figures with posters drawn at
+//! build time ([`figures`]), formulas as MathML ([`math`]), numbers computed by the core
+//! ([`numbers`]), citations ([`references`]), quizzes ([`quiz`]) and checked links ([`links`]). The
+//! authors' notation is in [`directives`] and its vocabulary in `expand.rs`. [`assets`] makes what
+//! the browser downloads beside the pages; [`serve`] shows the result while one writes.
+//!
+//! Whatever is wrong in the content is reported with file and line, all of it at once, and the
+//! build fails.
+
+pub mod assets;
+pub mod compress;
+pub mod directives;
+mod expand;
+pub mod figures;
+pub mod highlight;
+pub mod html;
+mod include;
+mod links;
+mod markdown;
+pub mod math;
+pub mod numbers;
+pub mod page;
+mod posters;
+pub mod problems;
+pub mod quiz;
+pub mod references;
+pub mod serve;
+mod shared;
+pub mod site;
+pub mod source;
+pub mod template;

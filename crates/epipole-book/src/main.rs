@@ -1,0 +1,120 @@
+//! `epipole-book build | serve | check`.
+
+use anyhow::{Context, Result};
+use clap::{Parser, Subcommand};
+use epipole_book::figures::Widgets;
+use epipole_book::serve;
+use epipole_book::site::{Options, Outcome, build};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Builds the Epipole book.
+#[derive(Parser)]
+#[command(version)]
+struct Cli {
+    /// The folder with content/, web/ and crates/.
+    #[arg(long, global = true, default_value = ".")]
+    project: PathBuf,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Make the site.
+    Build {
+        /// Where it goes; target/book if not given.
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// As for `serve`: faster, larger, pages that reload.
+        #[arg(long, hide = true)]
+        live: bool,
+    },
+    /// Make the site, serve it, and make it again when a file changes.
+    Serve {
+        /// The port at localhost.
+        #[arg(long, default_value_t = 8000)]
+        port: u16,
+        /// Serve what is in target/book as it is, built by `build`, and watch nothing.
+        #[arg(long)]
+        no_watch: bool,
+    },
+    /// Look for mistakes in the content only: no scripts, no fonts, nothing written.
+    Check,
+}
+
+fn main() -> ExitCode {
+    match run(&Cli::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<bool> {
+    let project = std::path::absolute(&cli.project)
+        .with_context(|| format!("{} is not a folder", cli.project.display()))?;
+    let out = project.join("target/book");
+    match &cli.command {
+        Command::Build { out: chosen, live } => {
+            let out = chosen.clone().unwrap_or(out);
+            once(&Options {
+                project,
+                out,
+                assets: true,
+                live: *live,
+                check: false,
+            })
+        }
+        Command::Check => once(&Options {
+            project,
+            out,
+            assets: false,
+            live: true,
+            check: true,
+        }),
+        Command::Serve { port, no_watch } => {
+            let options = Options {
+                project,
+                out,
+                assets: true,
+                live: true,
+                check: false,
+            };
+            serve::serve(&options, *port, !no_watch)?;
+            Ok(true)
+        }
+    }
+}
+
+/// Builds once and says how it went. False if the content has problems.
+fn once(options: &Options) -> Result<bool> {
+    let start = Instant::now();
+    match build(options, &Widgets)? {
+        Outcome::Problems(problems) => {
+            for problem in &problems {
+                eprintln!("{problem}");
+            }
+            let count = problems.len();
+            eprintln!(
+                "{count} problem{} in the content",
+                if count == 1 { "" } else { "s" }
+            );
+            Ok(false)
+        }
+        Outcome::Built { pages, files } => {
+            let seconds = start.elapsed().as_secs_f64();
+            if options.check {
+                println!("{pages} pages, no problems ({seconds:.1} s)");
+            } else {
+                let out = options.out.display();
+                println!("{pages} pages, {files} files in {out} ({seconds:.1} s)");
+            }
+            Ok(true)
+        }
+    }
+}

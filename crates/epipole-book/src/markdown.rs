@@ -1,0 +1,469 @@
+//! A chapter's Markdown to HTML. Directives become stand-ins of private-use characters before
+//! Markdown is parsed, and their HTML takes the stand-ins' place afterwards: so Markdown cannot
+//! mangle it, and every event still knows its file and line.
+
+use crate::directives::{Directive, Piece, markdown_options, split};
+use crate::expand::Insert;
+use crate::highlight::highlight;
+use crate::html::{escape, forbidden_inline, slug};
+use crate::links;
+use crate::math::{Layout, mathml};
+use crate::page::{Heading, Page};
+use crate::problems::Place;
+use crate::shared::Shared;
+use crate::source::Source;
+use pulldown_cmark::{BlockQuoteKind, CodeBlockKind, CowStr, Event, Parser, Tag, TagEnd};
+use std::collections::HashMap;
+use std::ops::Range;
+
+const OPEN: char = '\u{E000}';
+const CLOSE: char = '\u{E001}';
+
+type Located<'a> = (Event<'a>, Range<usize>);
+
+/// Renders one chapter; its page grows as it goes.
+pub(crate) struct Renderer<'a> {
+    pub(crate) shared: &'a Shared<'a>,
+    pub(crate) page: Page,
+    notes: usize,
+}
+
+/// What the events of one text refer to.
+struct Text<'a> {
+    source: &'a Source,
+    inserts: &'a [Insert],
+    footnotes: HashMap<CowStr<'a>, Vec<Located<'a>>>,
+}
+
+impl<'a> Renderer<'a> {
+    pub(crate) fn new(shared: &'a Shared<'a>, page: Page) -> Self {
+        Renderer {
+            shared,
+            page,
+            notes: 0,
+        }
+    }
+
+    /// A whole text with paragraphs, headings and so on.
+    pub(crate) fn block(&mut self, source: &Source) -> String {
+        self.render(source, false)
+    }
+
+    /// A text that stands inside a paragraph, such as a caption.
+    pub(crate) fn inline(&mut self, source: &Source) -> String {
+        self.render(source, true)
+    }
+
+    /// Notes a problem.
+    pub(crate) fn report(&self, place: Place, message: impl Into<String>) {
+        self.shared.problems.report(place, message);
+    }
+
+    fn render(&mut self, source: &Source, inline: bool) -> String {
+        let mut expanded = Source::default();
+        let mut inserts = Vec::new();
+        for piece in split(source) {
+            match piece {
+                Piece::Text(range) => expanded.push_slice(source, range),
+                Piece::Broken(range, message) => self.report(source.place(range.start), message),
+                Piece::Directive(directive) => {
+                    let place = source.place(directive.span.start);
+                    let insert = self.directive(source, &directive);
+                    expanded.push(&format!("{OPEN}{}{CLOSE}", inserts.len()), place);
+                    inserts.push(insert);
+                }
+            }
+        }
+        let mut events: Vec<Located> = Parser::new_ext(expanded.text(), markdown_options())
+            .into_offset_iter()
+            .collect();
+        let footnotes = take_footnotes(&mut events);
+        let text = Text {
+            source: &expanded,
+            inserts: &inserts,
+            footnotes,
+        };
+        self.events(&events, &text, inline)
+    }
+
+    fn directive(&mut self, source: &Source, directive: &Directive) -> Insert {
+        let place = source.place(directive.span.start);
+        let body = directive.body.clone().map(|range| source.slice(range));
+        match crate::expand::expand(self, directive, body, &place) {
+            Ok(insert) => insert,
+            Err(message) => {
+                self.report(place, message);
+                Insert::Inline {
+                    html: String::new(),
+                    text: String::new(),
+                }
+            }
+        }
+    }
+
+    /// HTML of a run of events. `tight` leaves out the tags of paragraphs.
+    fn events(&mut self, events: &[Located], text: &Text, tight: bool) -> String {
+        let mut out: Vec<Event> = Vec::new();
+        let mut at = 0;
+        while at < events.len() {
+            let (event, range) = &events[at];
+            let place = || text.source.place(range.start);
+            let mut next = at + 1;
+            match event {
+                Event::Start(Tag::Paragraph) => {
+                    next = end_of(events, at);
+                    let inner = &events[at + 1..next - 1];
+                    if let Some(block) = self.lone_block(inner, text) {
+                        out.push(Event::Html(block.into()));
+                    } else {
+                        self.page.describe(|| plain(inner, text));
+                        let html = self.events(inner, text, tight);
+                        let html = match (tight, out.is_empty()) {
+                            (false, _) => format!("<p>{html}</p>\n"),
+                            (true, true) => html,
+                            (true, false) => format!("<br>{html}"),
+                        };
+                        out.push(Event::Html(html.into()));
+                        self.page.words.push(' ');
+                    }
+                }
+                Event::Start(Tag::Heading { level, id, .. }) => {
+                    next = end_of(events, at);
+                    let inner = &events[at + 1..next - 1];
+                    let html = self.heading(*level as u8, id.as_deref(), inner, text);
+                    out.push(Event::Html(html.into()));
+                }
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    next = end_of(events, at);
+                    let code: String = events[at + 1..next - 1]
+                        .iter()
+                        .map(|(event, _)| match event {
+                            Event::Text(code) => code.as_ref(),
+                            _ => "",
+                        })
+                        .collect();
+                    out.push(Event::Html(listing(&code, kind).into()));
+                }
+                Event::Start(Tag::BlockQuote(Some(kind))) => {
+                    next = end_of(events, at);
+                    let html = self.events(&events[at + 1..next - 1], text, false);
+                    out.push(Event::Html(callout(*kind, &html).into()));
+                }
+                Event::Start(Tag::Table(_)) => {
+                    out.push(Event::Html("<div class=\"table\">".into()));
+                    out.push(event.clone());
+                }
+                Event::End(TagEnd::Table) => {
+                    out.push(event.clone());
+                    out.push(Event::Html("</div>\n".into()));
+                }
+                Event::Start(Tag::Link {
+                    link_type,
+                    dest_url,
+                    title,
+                    id,
+                }) => {
+                    let dest_url = links::rewrite(self, dest_url, place()).into();
+                    out.push(Event::Start(Tag::Link {
+                        link_type: *link_type,
+                        dest_url,
+                        title: title.clone(),
+                        id: id.clone(),
+                    }));
+                }
+                Event::Start(Tag::Image {
+                    dest_url, title, ..
+                }) => {
+                    next = end_of(events, at);
+                    let alternative = plain(&events[at + 1..next - 1], text);
+                    let html = links::image(self, dest_url, title, &alternative, place());
+                    out.push(Event::InlineHtml(html.into()));
+                }
+                Event::InlineMath(latex) => {
+                    out.push(Event::InlineHtml(
+                        self.formula(latex, Layout::Inline, text, place()).into(),
+                    ));
+                }
+                Event::DisplayMath(latex) => {
+                    out.push(Event::InlineHtml(
+                        self.formula(latex, Layout::Display, text, place()).into(),
+                    ));
+                }
+                Event::Text(words) => self.text(words, text, &mut out),
+                Event::Code(code) => {
+                    let code = self.substitute(code, text, Insert::text);
+                    self.page.words.push_str(&code);
+                    out.push(Event::Code(code.into()));
+                }
+                Event::Html(html) | Event::InlineHtml(html) => {
+                    if let Some(offence) = forbidden_inline(html) {
+                        let message = format!("{offence}: pages hold no inline scripts and styles");
+                        self.report(place(), message);
+                    }
+                    let html = self.substitute(html, text, Insert::html);
+                    out.push(Event::Html(html.into()));
+                }
+                Event::FootnoteReference(label) => match text.footnotes.get(label) {
+                    Some(definition) => {
+                        let note = self.events(definition, text, true);
+                        out.push(Event::InlineHtml(self.note(&note).into()));
+                    }
+                    None => self.report(place(), format!("no footnote is called \"{label}\"")),
+                },
+                Event::SoftBreak => {
+                    self.page.words.push(' ');
+                    out.push(Event::SoftBreak);
+                }
+                event => out.push(event.clone()),
+            }
+            at = next;
+        }
+        let mut html = String::new();
+        pulldown_cmark::html::push_html(&mut html, out.into_iter());
+        html
+    }
+
+    /// A note in the margin (below its line on a narrow screen).
+    pub(crate) fn note(&mut self, html: &str) -> String {
+        self.notes += 1;
+        let number = self.notes;
+        format!(
+            "<sup class=\"note-mark\">{number}</sup><small class=\"note\" role=\"note\">\
+             <sup class=\"note-number\">{number}</sup> {html}</small>"
+        )
+    }
+
+    /// The HTML of a paragraph that holds nothing but one block.
+    fn lone_block(&self, inner: &[Located], text: &Text) -> Option<String> {
+        let mut words = String::new();
+        for (event, _) in inner {
+            match event {
+                Event::Text(part) => words.push_str(part),
+                Event::SoftBreak => words.push(' '),
+                _ => return None,
+            }
+        }
+        let digits = words.trim().strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
+        match text.inserts.get(digits.parse::<usize>().ok()?)? {
+            Insert::Block { html } => Some(html.clone()),
+            _ => None,
+        }
+    }
+
+    fn heading(&mut self, level: u8, id: Option<&str>, inner: &[Located], text: &Text) -> String {
+        let title = plain(inner, text);
+        let wanted = id.map_or_else(|| slug(&title), str::to_owned);
+        let mut id = wanted.clone();
+        let mut count = 1;
+        while self.page.headings.iter().any(|heading| heading.id == id) {
+            id = format!("{wanted}-{count}");
+            count += 1;
+        }
+        self.page.start_section(&id, &title);
+        let html = self.events(inner, text, true);
+        let heading = Heading {
+            level,
+            id: id.clone(),
+            title: title.clone(),
+            html: html.clone(),
+        };
+        self.page.headings.push(heading);
+        let (id, title) = (escape(&id), escape(&title));
+        if level == 1 {
+            let number = match &self.page.number {
+                Some(number) => format!(
+                    "<span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter </span>{number}</span> "
+                ),
+                None => String::new(),
+            };
+            return format!("<h1 id=\"{id}\">{number}{html}</h1>\n");
+        }
+        format!(
+            "<h{level} id=\"{id}\">{html} <a class=\"anchor\" href=\"#{id}\" \
+             aria-label=\"Link to the section {title}\">#</a></h{level}>\n"
+        )
+    }
+
+    fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {
+        let latex = self.substitute(latex, text, Insert::text);
+        self.page.words.push(' ');
+        match mathml(&latex, layout) {
+            Ok(html) => html,
+            Err(message) => {
+                self.report(place, format!("formula `{}`: {message}", latex.trim()));
+                String::new()
+            }
+        }
+    }
+
+    /// Text with the stand-ins of directives replaced.
+    fn text(&mut self, words: &str, text: &Text, out: &mut Vec<Event>) {
+        for part in parts(words) {
+            match part {
+                Part::Words(words) => {
+                    self.page.words.push_str(words);
+                    out.push(Event::Text(words.to_owned().into()));
+                }
+                Part::Insert(index) => {
+                    let Some(insert) = text.inserts.get(index) else {
+                        continue;
+                    };
+                    if let Insert::Block { .. } = insert {
+                        let at = text.source.text().find(&format!("{OPEN}{index}{CLOSE}"));
+                        let place = text.source.place(at.unwrap_or(0));
+                        self.report(place, "this must stand in a paragraph of its own");
+                        continue;
+                    }
+                    self.page.words.push_str(&insert.text());
+                    out.push(Event::InlineHtml(insert.html().into()));
+                }
+            }
+        }
+    }
+
+    fn substitute(&self, words: &str, text: &Text, form: fn(&Insert) -> String) -> String {
+        substitute(words, text.inserts, form)
+    }
+}
+
+enum Part<'a> {
+    Words(&'a str),
+    Insert(usize),
+}
+
+fn parts(words: &str) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    let mut rest = words;
+    while let Some(open) = rest.find(OPEN) {
+        let Some(close) = rest[open..].find(CLOSE) else {
+            break;
+        };
+        if open > 0 {
+            parts.push(Part::Words(&rest[..open]));
+        }
+        let digits = &rest[open + OPEN.len_utf8()..open + close];
+        if let Ok(index) = digits.parse() {
+            parts.push(Part::Insert(index));
+        }
+        rest = &rest[open + close + CLOSE.len_utf8()..];
+    }
+    if !rest.is_empty() {
+        parts.push(Part::Words(rest));
+    }
+    parts
+}
+
+fn substitute(words: &str, inserts: &[Insert], form: fn(&Insert) -> String) -> String {
+    let mut text = String::new();
+    for part in parts(words) {
+        match part {
+            Part::Words(words) => text.push_str(words),
+            Part::Insert(index) => text.push_str(&inserts.get(index).map(form).unwrap_or_default()),
+        }
+    }
+    text
+}
+
+/// The words of a run of events, without marks.
+fn plain(events: &[Located], text: &Text) -> String {
+    let mut words = String::new();
+    for (event, _) in events {
+        match event {
+            Event::Text(part) | Event::Code(part) | Event::InlineMath(part) => {
+                words.push_str(&substitute(part, text.inserts, Insert::text));
+            }
+            Event::SoftBreak | Event::HardBreak => words.push(' '),
+            _ => {}
+        }
+    }
+    words.trim().to_owned()
+}
+
+/// The index after the end of the element that starts at `start`.
+fn end_of(events: &[Located], start: usize) -> usize {
+    let mut depth = 0_usize;
+    for (at, (event, _)) in events.iter().enumerate().skip(start) {
+        match event {
+            Event::Start(_) => depth += 1,
+            Event::End(_) => {
+                depth = depth.saturating_sub(1);
+                if depth == 0 {
+                    return at + 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    events.len()
+}
+
+/// Takes the definitions of footnotes out of the events: they become margin notes.
+fn take_footnotes<'a>(events: &mut Vec<Located<'a>>) -> HashMap<CowStr<'a>, Vec<Located<'a>>> {
+    let mut footnotes = HashMap::new();
+    let mut at = 0;
+    while at < events.len() {
+        if let Event::Start(Tag::FootnoteDefinition(label)) = &events[at].0 {
+            let label = label.clone();
+            let end = end_of(events, at);
+            let mut definition: Vec<Located> = events.drain(at..end).collect();
+            definition.remove(0);
+            definition.pop();
+            footnotes.insert(label, definition);
+        } else {
+            at += 1;
+        }
+    }
+    footnotes
+}
+
+fn listing(code: &str, kind: &CodeBlockKind) -> String {
+    let language = match kind {
+        CodeBlockKind::Fenced(info) => info.split([' ', ',']).next().unwrap_or("").to_owned(),
+        CodeBlockKind::Indented => String::new(),
+    };
+    let shown = if language == "rust" {
+        without_hidden_lines(code)
+    } else {
+        code.to_owned()
+    };
+    let class = if language.is_empty() {
+        String::new()
+    } else {
+        format!(" class=\"language-{}\"", escape(&language))
+    };
+    let label = match language.as_str() {
+        "python" => "Python",
+        "rust" => "Rust",
+        "html" => "HTML",
+        "sh" | "console" | "bash" => "Command line",
+        _ => "Listing",
+    };
+    format!(
+        "<pre data-language=\"{label}\"><code{class}>{}</code></pre>\n",
+        highlight(&shown, &language)
+    )
+}
+
+/// As in Rust's own documentation, a line that starts with `# ` is run but not shown.
+fn without_hidden_lines(code: &str) -> String {
+    let hidden = |line: &&str| {
+        let line = line.trim_start();
+        line.trim_end() == "#" || line.starts_with("# ")
+    };
+    code.split_inclusive('\n')
+        .filter(|line| !hidden(line))
+        .collect()
+}
+
+fn callout(kind: BlockQuoteKind, html: &str) -> String {
+    let (class, title) = match kind {
+        BlockQuoteKind::Note => ("note", "Note"),
+        BlockQuoteKind::Tip => ("tip", "Try it"),
+        BlockQuoteKind::Important => ("important", "Remember"),
+        BlockQuoteKind::Warning => ("warning", "Beware"),
+        BlockQuoteKind::Caution => ("caution", "Common mistake"),
+    };
+    format!(
+        "<div class=\"callout callout-{class}\">\n<p class=\"callout-title\">{title}</p>\n{html}</div>\n"
+    )
+}

@@ -1,0 +1,149 @@
+//! LaTeX to MathML, at build time: no script on the page, selectable, readable by screen readers.
+
+use crate::html::escape;
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+
+/// Whether a formula stands in a line of text or on its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// `$…$`
+    Inline,
+    /// `$$…$$`
+    Display,
+}
+
+/// A formula as MathML, with its LaTeX as an annotation.
+///
+/// # Errors
+/// What is wrong with the LaTeX, in one line.
+pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
+    let latex = latex.trim();
+    if latex.is_empty() {
+        return Err("an empty formula".to_owned());
+    }
+    let storage = Storage::new();
+    let events: Vec<_> = Parser::new(latex, &storage)
+        .collect::<Result<_, _>>()
+        .map_err(|error| one_line(&error.to_string()))?;
+    let annotation = escape(latex);
+    let config = RenderConfig {
+        display_mode: match layout {
+            Layout::Inline => DisplayMode::Inline,
+            Layout::Display => DisplayMode::Block,
+        },
+        annotation: Some(&annotation),
+        ..RenderConfig::default()
+    };
+    let mut html = String::new();
+    let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
+    push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
+    let html = escape_leaves(&html);
+    if html.contains("<merror") || html.contains(" style=") {
+        return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());
+    }
+    Ok(match layout {
+        Layout::Inline => html,
+        Layout::Display => format!("<span class=\"formula\">{html}</span>"),
+    })
+}
+
+/// The renderer writes operators and words as they are: `<mo><</mo>`. This escapes what stands
+/// inside the elements that hold text.
+fn escape_leaves(html: &str) -> String {
+    let mut escaped = String::with_capacity(html.len());
+    let mut rest = html;
+    while let Some(open) = rest.find("<m") {
+        let name: String = rest[open + 1..]
+            .chars()
+            .take_while(char::is_ascii_alphabetic)
+            .collect();
+        let Some(end) = rest[open..].find('>') else {
+            break;
+        };
+        let inside = open + end + 1;
+        let close = format!("</{name}>");
+        let is_leaf = matches!(name.as_str(), "mi" | "mn" | "mo" | "mtext" | "ms");
+        match rest[inside..].find(&close).filter(|_| is_leaf) {
+            Some(length) => {
+                escaped.push_str(&rest[..inside]);
+                escaped.push_str(&escape_once(&rest[inside..inside + length]));
+                escaped.push_str(&close);
+                rest = &rest[inside + length + close.len()..];
+            }
+            None => {
+                escaped.push_str(&rest[..inside]);
+                rest = &rest[inside..];
+            }
+        }
+    }
+    escaped.push_str(rest);
+    escaped
+}
+
+/// Escapes what is not yet escaped.
+fn escape_once(text: &str) -> String {
+    let plain = text
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&");
+    escape(&plain)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_of_the_book() {
+        for latex in [
+            r"\mathbf{x}_2^\top F \, \mathbf{x}_1 = 0",
+            r"N = \left\lceil \frac{\log(1-p)}{\log(1-w^s)} \right\rceil",
+            r"E = [\mathbf{t}]_\times R = K_2^\top F K_1",
+            r"\begin{pmatrix} a & b \\ c & d \end{pmatrix}",
+            r"\sum_{i,j} \lVert q_{ij} - \pi(C_i, X_j) \rVert^2",
+            r"\nabla I = (I_u, I_v), \quad Z = \frac{f B}{d}",
+            r"\begin{aligned} a &= b \\ &= c \end{aligned}",
+            r"\begin{cases} 1 & x > 0 \\ 0 & \text{otherwise} \end{cases}",
+        ] {
+            let html =
+                mathml(latex, Layout::Display).unwrap_or_else(|error| panic!("{latex}: {error}"));
+            assert!(
+                html.contains("<math") && html.ends_with("</math></span>"),
+                "{html}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_wrong_formula_is_refused() {
+        for latex in [
+            r"\frac{1}",
+            r"\nosuchcommand x",
+            r"\left( x",
+            "",
+            "a_b_c",
+            r"\color{red} x",
+        ] {
+            let message = mathml(latex, Layout::Inline)
+                .err()
+                .unwrap_or_else(|| panic!("{latex}"));
+            assert!(!message.is_empty() && !message.contains('\n'));
+        }
+    }
+
+    #[test]
+    fn the_annotation_is_escaped() {
+        let html = mathml("a < b", Layout::Inline).unwrap();
+        assert!(
+            html.contains("a &lt; b") && html.contains("<mo>&lt;</mo>"),
+            "{html}"
+        );
+        let html = mathml(r"\text{if } a \& b <c", Layout::Inline).unwrap();
+        assert!(html.contains("&amp;</m") && !html.contains("<c"), "{html}");
+    }
+}

@@ -1,0 +1,271 @@
+//! Every number that a chapter prints and the core can compute.
+//!
+//! A chapter writes `{{#value ransac.trials s=2 w=0.5 p=0.99}}`; the name stands in
+//! [`registry`], with what it needs and the core's function. `digits=` sets the decimals. An unknown name or
+//! parameter fails the build, so prose cannot drift away from the code.
+
+mod registry;
+
+use crate::problems::name_list;
+pub use registry::REGISTRY;
+
+/// A number as the core gives it, and how many decimals to print.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Number {
+    /// A whole number.
+    Count(u64),
+    /// A real number and its decimals.
+    Real(f64, usize),
+}
+
+/// One line of the registry.
+pub struct Entry {
+    /// What a chapter calls it.
+    pub name: &'static str,
+    /// The parameters; all must be given.
+    pub parameters: &'static [&'static str],
+    /// What it is, for authors.
+    pub summary: &'static str,
+    compute: fn(&Arguments) -> Result<Number, String>,
+}
+
+/// The values of an entry's parameters.
+pub struct Arguments<'a> {
+    names: &'static [&'static str],
+    values: &'a [f64],
+}
+
+impl Arguments<'_> {
+    fn get(&self, name: &str) -> f64 {
+        let index = self.names.iter().position(|known| *known == name);
+        index
+            .and_then(|index| self.values.get(index).copied())
+            .unwrap_or(f64::NAN)
+    }
+
+    /// A parameter that counts something.
+    fn count(&self, name: &str) -> Result<usize, String> {
+        let value = self.get(name);
+        if value >= 0.0 && value < 1e9 && value == value.trunc() {
+            Ok(value as usize)
+        } else {
+            Err(format!("{name}={value} is not a count"))
+        }
+    }
+}
+
+/// The text of a number: `name` and `settings` as an author writes them.
+///
+/// # Errors
+/// A sentence that says which name, parameter or value is wrong, and what is known.
+pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String> {
+    let mut digits = None;
+    let mut rest = Vec::new();
+    for (key, value) in settings {
+        if key == "digits" {
+            let places: usize = value
+                .parse()
+                .map_err(|_| format!("digits={value} is not a small whole number"))?;
+            digits = Some(places.min(12));
+        } else {
+            rest.push((key.clone(), value.clone()));
+        }
+    }
+    Ok(match compute(name, &rest)? {
+        Number::Count(count) => count.to_string(),
+        Number::Real(value, places) => fixed(value, digits.unwrap_or(places)),
+    })
+}
+
+/// The number itself, for an answer that a reader types.
+///
+/// # Errors
+/// As [`print`].
+pub fn compute(name: &str, settings: &[(String, String)]) -> Result<Number, String> {
+    let Some(entry) = REGISTRY.iter().find(|entry| entry.name == name) else {
+        let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+        return Err(format!(
+            "unknown number \"{name}\"; known numbers: {}",
+            name_list(&known)
+        ));
+    };
+    for (key, _) in settings {
+        if !entry.parameters.contains(&key.as_str()) {
+            let known = name_list(entry.parameters);
+            return Err(format!(
+                "{name} has no parameter \"{key}\"; its parameters: {known}"
+            ));
+        }
+    }
+    let mut values = Vec::new();
+    for parameter in entry.parameters {
+        let Some((_, text)) = settings.iter().find(|(key, _)| key == parameter) else {
+            return Err(format!("{name} needs {parameter}=…"));
+        };
+        let value: f64 = text
+            .parse()
+            .map_err(|_| format!("{parameter}={text} is not a number"))?;
+        if !value.is_finite() {
+            return Err(format!("{parameter}={text} is not a finite number"));
+        }
+        values.push(value);
+    }
+    let number = (entry.compute)(&Arguments {
+        names: entry.parameters,
+        values: &values,
+    })
+    .map_err(|error| format!("{name}: {error}"))?;
+    match number {
+        Number::Real(value, _) if !value.is_finite() => Err(format!("{name} is not finite here")),
+        number => Ok(number),
+    }
+}
+
+/// `value` with `places` decimals; never `-0`.
+fn fixed(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|letter| matches!(letter, '0' | '.')) => zero.to_owned(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(call: &str) -> Result<String, String> {
+        let mut words = call.split_whitespace();
+        let name = words.next().unwrap();
+        let settings: Vec<(String, String)> = words
+            .map(|word| word.split_once('=').unwrap())
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect();
+        print(name, &settings)
+    }
+
+    /// The worked examples of the book. Each can be checked by hand.
+    #[test]
+    fn worked_numbers() {
+        let pair = "f=500 cu=320 cv=240 tx=-0.2 ty=0 tz=-0.5";
+        let matched = format!("{pair} u=400 v=300 u2=362 v2=324 digits=2");
+        let mut used = Vec::new();
+        for (call, expected) in [
+            // 320 + 500 · 0.1 / 2
+            ("camera.project-u f=500 cu=320 x=0.1 z=2", "345.0"),
+            // 320 + 500 · (−0.2) / (−0.5), and 240.
+            (&format!("epipolar.epipole2-u {pair}"), "520"),
+            (&format!("epipolar.epipole2-v {pair}"), "240"),
+            // From (400, 300) to (520, 240); from (420, 340) to (520, 240).
+            (
+                &format!("epipolar.slope {pair} u=400 v=300 digits=1"),
+                "-0.5",
+            ),
+            (
+                &format!("epipolar.slope {pair} u=420 v=340 digits=2"),
+                "-1.00",
+            ),
+            // (362 + 2 · 324 − 1000) / √5
+            (&format!("epipolar.distance2-px {matched}"), "4.47"),
+            // NumPy: |x2ᵀ F x1| / √((Fx1)₁² + (Fx1)₂² + (Fᵀx2)₁² + (Fᵀx2)₂²), F = K⁻ᵀ [t]ₓ K⁻¹
+            (&format!("epipolar.sampson-px {matched}"), "2.68"),
+            // The table of scikit-image's `dynamic_max_trials`.
+            ("ransac.trials s=2 w=0.95 p=0.99", "2"),
+            ("ransac.trials s=2 w=0.9 p=0.99", "3"),
+            ("ransac.trials s=2 w=0.7 p=0.99", "7"),
+            ("ransac.trials s=2 w=0.5 p=0.99", "17"),
+            ("ransac.trials s=8 w=0.9 p=0.99", "9"),
+            ("ransac.trials s=8 w=0.7 p=0.99", "78"),
+            ("ransac.trials s=8 w=0.5 p=0.99", "1177"),
+            ("ransac.trials-exact s=2 w=0.5 p=0.99 digits=3", "16.008"),
+            // 1 − 0.75¹⁶
+            (
+                "ransac.confidence-percent s=2 w=0.5 n=16 digits=3",
+                "98.998",
+            ),
+            // COLMAP's test of RANSAC.
+            (
+                "ransac.trials-without-replacement inliers=10 data=100 s=3 p=0.99",
+                "6204",
+            ),
+            (
+                "ransac.trials-without-replacement inliers=50 data=100 s=3 p=0.99",
+                "36",
+            ),
+            ("stereo.disparity left=410 right=380", "30"),
+            // 700 · 0.12 = 84
+            ("stereo.depth f=700 b=0.12 d=30 digits=2", "2.80"),
+            ("stereo.depth f=700 b=0.12 d=60 digits=2", "1.40"),
+            ("stereo.depth f=700 b=0.12 d=3 digits=1", "28.0"),
+            ("stereo.depth f=700 b=0.12 d=4 digits=1", "21.0"),
+            // 100 / 42
+            ("stereo.depth-error f=700 b=0.06 z=10 digits=1", "2.4"),
+        ] {
+            assert_eq!(printed(call).as_deref(), Ok(expected), "{call}");
+            used.push(call.split(' ').next().unwrap().to_owned());
+        }
+        for entry in REGISTRY {
+            assert!(
+                used.iter().any(|name| name == entry.name),
+                "{} is not pinned",
+                entry.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_entry_is_pinned_by_name_once() {
+        let mut names: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+        names.sort_unstable();
+        let count = names.len();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+
+    #[test]
+    fn mistakes_are_sentences() {
+        for (call, part) in [
+            (
+                "nosuch",
+                "unknown number \"nosuch\"; known numbers: camera.project-u, epipolar.epipole2-u",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 w=1",
+                "has no parameter \"w\"; its parameters: f, cu",
+            ),
+            ("camera.project-u f=1 cu=1 x=1", "needs z=…"),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=two",
+                "z=two is not a number",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=NaN",
+                "z=NaN is not a finite number",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=-1",
+                "not in front of the camera",
+            ),
+            (
+                "camera.project-u f=1 cu=1 x=1 z=1 digits=-1",
+                "not a small whole number",
+            ),
+            ("ransac.trials s=2.5 w=0.5 p=0.99", "s=2.5 is not a count"),
+            ("ransac.trials s=2 w=1.5 p=0.99", "the share of inliers"),
+            ("stereo.depth f=700 b=0.12 d=0", "infinitely far away"),
+            (
+                "epipolar.epipole2-u f=500 cu=320 cv=240 tx=1 ty=0 tz=0",
+                "infinitely far away",
+            ),
+        ] {
+            let message = printed(call).unwrap_err();
+            assert!(message.contains(part), "{call}: {message}");
+        }
+    }
+
+    #[test]
+    fn minus_zero_has_no_sign() {
+        assert_eq!(fixed(-0.0004, 2), "0.00");
+        assert_eq!(fixed(-100.0, 0), "-100");
+    }
+}

@@ -1,0 +1,99 @@
+//! What is wrong with the content, and where. A build collects every problem before it fails.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// A line of a content file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The file, relative to the project.
+    pub file: PathBuf,
+    /// Counted from 1.
+    pub line: usize,
+}
+
+impl Place {
+    /// A line, counted from 1, of a file.
+    pub fn new(file: impl AsRef<Path>, line: usize) -> Place {
+        Place {
+            file: file.as_ref().to_path_buf(),
+            line,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file.display(), self.line)
+    }
+}
+
+/// One thing that an author has to repair.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Problem {
+    /// Where the author wrote it.
+    pub place: Place,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+/// The problems found so far. Shared by all stages of a build.
+#[derive(Debug, Default)]
+pub struct Problems(Mutex<Vec<Problem>>);
+
+impl Problems {
+    /// Notes a problem and goes on.
+    pub fn report(&self, place: Place, message: impl Into<String>) {
+        let mut list = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        list.push(Problem {
+            place,
+            message: message.into(),
+        });
+    }
+
+    /// Every problem once, in the order of files and lines.
+    pub fn sorted(&self) -> Vec<Problem> {
+        let mut list = self
+            .0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        list.sort();
+        list.dedup();
+        list
+    }
+}
+
+/// `known` names as a list for people: `a, b, c`, or `none` where there are none.
+pub fn name_list<S: AsRef<str>>(known: &[S]) -> String {
+    if known.is_empty() {
+        return "none".to_owned();
+    }
+    known
+        .iter()
+        .map(AsRef::as_ref)
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn problems_are_sorted_by_place_and_reported_once() {
+        let problems = Problems::default();
+        problems.report(Place::new("b.md", 2), "second");
+        problems.report(Place::new("a.md", 9), "first");
+        problems.report(Place::new("b.md", 2), "second");
+        let all: Vec<String> = problems.sorted().iter().map(ToString::to_string).collect();
+        assert_eq!(all, ["a.md:9: first", "b.md:2: second"]);
+    }
+}

@@ -1,0 +1,403 @@
+//! The whole site: chapters through mdBook's loader, pages through our renderer, files to disk.
+
+use crate::assets::{self, Assets};
+use crate::compress;
+use crate::figures::Gallery;
+use crate::html::{escape, forbidden_inline, path_to_root};
+use crate::include::include;
+use crate::links;
+use crate::markdown::Renderer;
+use crate::page::Page;
+use crate::problems::{Problem, Problems, name_list};
+use crate::shared::{PAGE_OF_REFERENCES, Shared, resolve};
+use crate::source::Source;
+use crate::template::{Nav, Template};
+use anyhow::{Context, Result};
+use mdbook_driver::MDBook;
+use mdbook_driver::book::{Book, BookItem, Chapter};
+use mdbook_driver::config::Config;
+use mdbook_renderer::RenderContext;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// What to build, and how.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The folder with `content/`, `web/` and `crates/`.
+    pub project: PathBuf,
+    /// Where the site goes.
+    pub out: PathBuf,
+    /// Whether to make what the browser downloads beside the pages: styles, fonts, scripts,
+    /// WebAssembly. A check of the content needs none of it.
+    pub assets: bool,
+    /// Look for problems only: write nothing.
+    pub check: bool,
+    /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
+    pub live: bool,
+}
+
+/// How a build ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// The site is in place.
+    Built {
+        /// Number of pages.
+        pages: usize,
+        /// Number of files, compressed ones included.
+        files: usize,
+    },
+    /// The content has problems; nothing was written.
+    Problems(Vec<Problem>),
+}
+
+/// Builds the book.
+///
+/// # Errors
+/// A missing tool or an unreadable folder. What is wrong in the content is not an error but
+/// [`Outcome::Problems`].
+pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
+    let content = options.project.join("content");
+    let problems = Problems::default();
+    let posters = assets::target_folder(&options.project).join("book-work/posters");
+    if !options.check {
+        std::fs::create_dir_all(&posters)
+            .with_context(|| format!("cannot make the folder {}", posters.display()))?;
+    }
+    let posters = (!options.check).then_some(posters);
+    let shared = Shared::new(&content, gallery, posters, &problems);
+    check_summary(&shared);
+    if !problems.sorted().is_empty() {
+        return Ok(Outcome::Problems(problems.sorted()));
+    }
+
+    let config_file = content.join("book.toml");
+    let mut config = Config::from_disk(&config_file)
+        .with_context(|| format!("{} cannot be read", config_file.display()))?;
+    config.book.src = ".".into();
+    config.build.create_missing = false;
+    config.build.use_default_preprocessors = false;
+    let book = MDBook::load_with_config(&content, config)?;
+    let site = Site {
+        shared: &shared,
+        pages: Mutex::default(),
+    };
+    book.execute_build_process(&site)?;
+    let mut pages = site
+        .pages
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner);
+
+    let summary = Summary::of(&book.book, first_chapter(&book.config));
+    resolve_pages(&mut pages, &shared);
+    links::check(&pages, &summary.drafts, &problems);
+    for page in &pages {
+        if let Some(offence) = forbidden_inline(&page.html) {
+            let place = shared.place(&page.path.replace(".html", ".md"), 1);
+            problems.report(
+                place,
+                format!("{offence}: pages hold no inline scripts and styles"),
+            );
+        }
+    }
+    if !problems.sorted().is_empty() {
+        return Ok(Outcome::Problems(problems.sorted()));
+    }
+
+    if options.check {
+        return Ok(Outcome::Built {
+            pages: pages.len(),
+            files: 0,
+        });
+    }
+
+    let mut files = shared.take_files();
+    let assets = if options.assets {
+        let used = assets::used_letters(&pages);
+        assets::make(options, &used)?
+    } else {
+        Assets::default()
+    };
+    files.extend(assets.files.clone());
+    let search = serde_json::to_vec(
+        &pages
+            .iter()
+            .flat_map(|page| &page.sections)
+            .collect::<Vec<_>>(),
+    )?;
+    let search = assets::add_hashed(&mut files, "search", "json", search);
+
+    let template_file = options.project.join("web/theme/index.hbs");
+    let template = Template::load(&template_file, &book.config, &assets, &search, options.live)?;
+    for (index, page) in pages.iter().enumerate() {
+        let nav = Nav::new(&summary.entries, &pages, index);
+        files.insert(page.path.clone(), template.page(page, &nav)?.into_bytes());
+    }
+    if !files.contains_key("index.html")
+        && let Some(first) = pages.first()
+        && let Some(html) = files.get(&first.path).cloned()
+    {
+        files.insert("index.html".to_owned(), html);
+    }
+    files.insert(
+        "404.html".to_owned(),
+        template.not_found(&summary.entries, &pages)?.into_bytes(),
+    );
+    files.insert(
+        "robots.txt".to_owned(),
+        b"User-agent: *\nAllow: /\n".to_vec(),
+    );
+    files.insert(".nojekyll".to_owned(), Vec::new());
+    compress::add(&mut files, options.live)?;
+    let report = Outcome::Built {
+        pages: pages.len(),
+        files: files.len(),
+    };
+    write(&files, &options.out)?;
+    Ok(report)
+}
+
+/// mdBook's view of our renderer.
+struct Site<'a> {
+    shared: &'a Shared<'a>,
+    pages: Mutex<Vec<Page>>,
+}
+
+impl mdbook_renderer::Renderer for Site<'_> {
+    fn name(&self) -> &str {
+        "epipole"
+    }
+
+    fn render(&self, context: &RenderContext) -> Result<()> {
+        let first = first_chapter(&context.config);
+        let pages: Vec<Page> = context
+            .book
+            .chapters()
+            .map(|chapter| self.page(chapter, first))
+            .collect();
+        *self.pages.lock().unwrap_or_else(PoisonError::into_inner) = pages;
+        Ok(())
+    }
+}
+
+impl Site<'_> {
+    fn page(&self, chapter: &Chapter, first: u32) -> Page {
+        let file = chapter
+            .path
+            .as_deref()
+            .unwrap_or(Path::new(""))
+            .to_string_lossy();
+        let file = file.replace('\\', "/");
+        let source = Source::new(chapter.content.clone(), self.shared.place(&file, 1));
+        let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let source = include(&source, folder, self.shared);
+        let page = Page {
+            path: html_path(&file),
+            title: chapter.name.clone(),
+            number: number(chapter, first),
+            ..Page::default()
+        };
+        let mut renderer = Renderer::new(self.shared, page);
+        let html = renderer.block(&source);
+        let mut page = renderer.page;
+        page.html = html;
+        page.end_section();
+        if page
+            .headings
+            .iter()
+            .filter(|heading| heading.level == 1)
+            .count()
+            != 1
+        {
+            let message = "a chapter starts with its title, `# …`, and has no other of that level";
+            self.shared.problems.report(source.place(0), message);
+        }
+        page
+    }
+}
+
+fn html_path(file: &str) -> String {
+    format!("{}.html", file.strip_suffix(".md").unwrap_or(file))
+}
+
+/// `[output.epipole] first-chapter = 0` in `book.toml`: the number of the first numbered chapter.
+fn first_chapter(config: &Config) -> u32 {
+    config
+        .get::<u32>("output.epipole.first-chapter")
+        .ok()
+        .flatten()
+        .unwrap_or(1)
+}
+
+fn number(chapter: &Chapter, first: u32) -> Option<String> {
+    let numbers = chapter.number.as_ref()?;
+    let shifted = numbers
+        .iter()
+        .enumerate()
+        .map(|(level, &number)| match level {
+            0 => (number + first).saturating_sub(1).to_string(),
+            _ => number.to_string(),
+        });
+    Some(shifted.collect::<Vec<_>>().join("."))
+}
+
+/// A line of the table of contents.
+#[derive(Debug, Clone)]
+pub(crate) enum Entry {
+    Part(String),
+    Separator,
+    Chapter {
+        number: Option<String>,
+        title: String,
+        path: Option<String>,
+    },
+}
+
+struct Summary {
+    entries: Vec<Entry>,
+    drafts: BTreeSet<String>,
+}
+
+impl Summary {
+    fn of(book: &Book, first: u32) -> Summary {
+        let mut entries = Vec::new();
+        for item in book.iter() {
+            entries.push(match item {
+                BookItem::Separator => Entry::Separator,
+                BookItem::PartTitle(title) => Entry::Part(title.clone()),
+                BookItem::Chapter(chapter) => Entry::Chapter {
+                    number: number(chapter, first),
+                    title: chapter.name.clone(),
+                    path: chapter
+                        .path
+                        .as_ref()
+                        .map(|path| html_path(&path.to_string_lossy())),
+                },
+            });
+        }
+        Summary {
+            entries,
+            drafts: BTreeSet::new(),
+        }
+    }
+}
+
+/// Chapters that `SUMMARY.md` names but that do not exist, by line.
+fn check_summary(shared: &Shared) {
+    use pulldown_cmark::{Event, Parser, Tag};
+    let Some(source) = shared.read("SUMMARY.md") else {
+        shared.problems.report(
+            shared.place("SUMMARY.md", 1),
+            "there is no table of contents",
+        );
+        return;
+    };
+    for (event, range) in Parser::new(source.text()).into_offset_iter() {
+        if let Event::Start(Tag::Link { dest_url, .. }) = event
+            && !dest_url.is_empty()
+            && !shared.path(&dest_url).is_file()
+        {
+            let message = format!("there is no chapter {dest_url} (a draft has empty parentheses)");
+            shared.problems.report(source.place(range.start), message);
+        }
+    }
+}
+
+/// Fills in what pages say of one another.
+fn resolve_pages(pages: &mut [Page], shared: &Shared) {
+    let mut figures: BTreeMap<String, (String, String)> = BTreeMap::new();
+    for page in pages.iter() {
+        for figure in &page.figures {
+            figures.insert(
+                figure.id.clone(),
+                (page.path.clone(), figure.number.clone()),
+            );
+        }
+    }
+    for (id, place) in shared.wanted_figures() {
+        if !figures.contains_key(&id) {
+            let known: Vec<&String> = figures.keys().collect();
+            let message = format!(
+                "no figure is called \"{id}\"; figures: {}",
+                name_list(&known)
+            );
+            shared.problems.report(place, message);
+        }
+    }
+    let list = pages
+        .iter()
+        .find(|page| page.has_references)
+        .map(|page| page.path.clone());
+    if let (None, Some(place)) = (&list, shared.wanted_references()) {
+        let message = "something is cited, but no chapter holds {{#references}}";
+        shared.problems.report(place, message);
+    }
+    let list = list.unwrap_or_default();
+    let progress = progress_table(shared);
+    for page in pages {
+        let root = path_to_root(&page.path);
+        let own = page.path.clone();
+        page.html = resolve(&page.html, |kind, name| match kind {
+            "figure-page" => match figures.get(name) {
+                Some((path, _)) if *path == own => format!("#{}", escape(name)),
+                Some((path, _)) => format!("{root}{path}#{}", escape(name)),
+                None => String::new(),
+            },
+            "figure-number" => figures
+                .get(name)
+                .map(|(_, number)| format!("Figure {number}"))
+                .unwrap_or_default(),
+            "progress" => progress.replace("href=\"", &format!("href=\"{root}")),
+            PAGE_OF_REFERENCES => format!("{root}{list}"),
+            _ => String::new(),
+        });
+    }
+}
+
+/// A table of all quizzes; the script of the page fills in the results.
+fn progress_table(shared: &Shared) -> String {
+    let mut html = String::from(
+        "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
+         </th><th scope=\"col\">Questions</th><th scope=\"col\">Solved</th></tr></thead>\n<tbody>\n",
+    );
+    for quiz in shared.quizzes() {
+        html.push_str(&format!(
+            "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td><td>{}</td>\
+             <td class=\"solved\">–</td></tr>\n",
+            escape(&quiz.name),
+            quiz.page,
+            escape(&quiz.title),
+            quiz.questions
+        ));
+    }
+    html.push_str(
+        "</tbody>\n</table></div>\n<p><button type=\"button\" class=\"reset-progress\" hidden>\
+         Forget my answers</button></p>\n</div>\n",
+    );
+    html
+}
+
+/// Writes the site beside its place and then moves it there, so that a reader never sees half.
+fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {
+    let next = out.with_extension("next");
+    remove(&next)?;
+    for (path, bytes) in files {
+        let path = next.join(path);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        }
+        std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    remove(out)?;
+    std::fs::rename(&next, out).with_context(|| format!("cannot put the site at {}", out.display()))
+}
+
+fn remove(folder: &Path) -> Result<()> {
+    match std::fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(error).with_context(|| format!("cannot remove {}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,578 @@
+//! Small books in temporary folders: what comes out, and what each mistake says.
+
+use epipole_book::figures::{Figure, Gallery, Poster, Room};
+use epipole_book::html::forbidden_inline;
+use epipole_book::site::{Options, Outcome, build};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// One figure, `dot`, with the parameter `size`.
+struct OneDot;
+
+struct Dot(f64);
+
+impl Gallery for OneDot {
+    fn names(&self) -> Vec<String> {
+        vec!["dot".to_owned()]
+    }
+
+    fn open(&self, _: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
+        let mut size = 3.0;
+        for (key, value) in settings {
+            match key.as_str() {
+                "size" => {
+                    size = value
+                        .parse()
+                        .map_err(|_| format!("{key}={value} is no number"))?
+                }
+                _ => return Err(format!("no parameter \"{key}\"; its parameters are size")),
+            }
+        }
+        Ok(Box::new(Dot(size)))
+    }
+}
+
+impl Figure for Dot {
+    fn description(&self) -> String {
+        format!("A \"dot\" of size {}.", self.0)
+    }
+
+    fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
+        let (width, height) = (room.width() * scale, 10 * scale);
+        Ok([255, 0].map(|level| {
+            let rgba = [level, level, level, 255].repeat((width * height) as usize);
+            Poster {
+                width,
+                height,
+                rgba,
+            }
+        }))
+    }
+}
+
+/// A project with the real template and these content files.
+struct Book {
+    folder: TempDir,
+}
+
+impl Book {
+    fn new(files: &[(&str, &str)]) -> Book {
+        let folder = tempfile::tempdir().unwrap();
+        let book = Book { folder };
+        let template = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/theme/index.hbs");
+        book.write(
+            "web/theme/index.hbs",
+            &fs::read_to_string(template).unwrap(),
+        );
+        book.write(
+            "content/book.toml",
+            "[book]\ntitle = \"Tiny\"\nlanguage = \"en\"\nsrc = \".\"\n[output.epipole]\nfirst-chapter = 0\n",
+        );
+        for (path, text) in files {
+            book.write(&format!("content/{path}"), text);
+        }
+        book
+    }
+
+    /// A book of one chapter.
+    fn of_chapter(text: &str) -> Book {
+        Book::new(&[("SUMMARY.md", "- [One](one.md)\n"), ("one.md", text)])
+    }
+
+    fn write(&self, path: &str, text: &str) {
+        let path = self.folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+
+    fn build(&self) -> Outcome {
+        let options = Options {
+            project: self.folder.path().to_path_buf(),
+            out: self.out(),
+            assets: false,
+            live: false,
+            check: false,
+        };
+        build(&options, &OneDot).unwrap()
+    }
+
+    fn out(&self) -> PathBuf {
+        self.folder.path().join("target/book")
+    }
+
+    fn page(&self, path: &str) -> String {
+        fs::read_to_string(self.out().join(path)).unwrap()
+    }
+
+    fn article(&self, path: &str) -> String {
+        let page = self.page(path);
+        let start = page.find("<article>").unwrap() + "<article>".len();
+        page[start..page.find("</article>").unwrap()]
+            .trim()
+            .to_owned()
+    }
+
+    #[track_caller]
+    fn must_build(&self) {
+        if let Outcome::Problems(problems) = self.build() {
+            panic!("{problems:#?}");
+        }
+    }
+
+    #[track_caller]
+    fn problems(&self) -> Vec<String> {
+        match self.build() {
+            Outcome::Problems(problems) => problems.iter().map(ToString::to_string).collect(),
+            Outcome::Built { .. } => panic!("it was built"),
+        }
+    }
+}
+
+#[test]
+fn a_tiny_chapter_as_html() {
+    let book = Book::of_chapter(
+        "# A *title*\n\nIs it {{#value camera.project-u f=500 cu=320 x=-1 z=2 digits=0}}? \"Yes\".\n\n\
+         ## Next part {#next}\n\n[Up](#next) and `a < b`.\n",
+    );
+    book.must_build();
+    assert_eq!(
+        book.article("one.html"),
+        "<h1 id=\"a-title\"><span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter \
+         </span>0</span> A <em>title</em></h1>\n\
+         <p>Is it <span class=\"value\">70</span>? “Yes”.</p>\n\
+         <h2 id=\"next\">Next part <a class=\"anchor\" href=\"#next\" \
+         aria-label=\"Link to the section Next part\">#</a></h2>\n\
+         <p><a href=\"#next\">Up</a> and <code>a &lt; b</code>.</p>"
+    );
+    let page = book.page("one.html");
+    assert!(page.contains("<title>One · Tiny</title>"), "{page}");
+    assert!(
+        page.contains("name=\"description\" content=\"Is it 70? “Yes”.\""),
+        "{page}"
+    );
+    assert_eq!(book.page("index.html"), page);
+}
+
+#[test]
+fn a_number_has_a_minus_sign_in_text_and_stands_in_formulas() {
+    let value = "{{#value camera.project-u f=500 cu=0 x=-1 z=2 digits=0}}";
+    let book = Book::of_chapter(&format!("# One\n\n{value} and $u = {value}$.\n"));
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(
+        article.contains("<span class=\"value\">−250</span>"),
+        "{article}"
+    );
+    assert!(article.contains("<mn>250</mn>"), "{article}");
+    assert!(article.contains("u = -250</annotation>"), "{article}");
+}
+
+#[test]
+fn figures_have_posters_numbers_and_permanent_names() {
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](one.md)\n- [Two](part/two.md)\n"),
+        (
+            "one.md",
+            "# One\n\n{{#figure dot | First.}}\n\n{{#figure dot size=4 | A *second*\n$x^{2}$ one.}}\n",
+        ),
+        (
+            "part/two.md",
+            "# Two\n\n{{#figure dot id=other | Third.}}\n\nSee {{#ref fig-dot-2}}, {{#ref other}}.\n",
+        ),
+    ]);
+    book.must_build();
+    let one = book.article("one.html");
+    assert!(
+        one.contains("<figure class=\"epipole\" id=\"fig-dot\">"),
+        "{one}"
+    );
+    assert!(
+        one.contains("<epipole-figure name=\"dot\" size=\"4\">"),
+        "{one}"
+    );
+    assert!(
+        one.contains("alt=\"A &quot;dot&quot; of size 4.\" width=\"760\" height=\"10\""),
+        "{one}"
+    );
+    assert!(one.contains("Figure 0.2</a> A <em>second</em>"), "{one}");
+    assert!(!one.contains("<p><figure"), "{one}");
+    let two = book.article("part/two.html");
+    assert!(
+        two.contains("href=\"../one.html#fig-dot-2\">Figure 0.2</a>"),
+        "{two}"
+    );
+    assert!(two.contains("href=\"#other\">Figure 1.1</a>"), "{two}");
+    let source = two
+        .split("srcset=\"")
+        .nth(1)
+        .unwrap()
+        .split('"')
+        .next()
+        .unwrap();
+    assert!(
+        source.starts_with("../assets/figures/dot-narrow-dark-"),
+        "{source}"
+    );
+    assert!(book.out().join("part").join(source).is_file());
+}
+
+#[test]
+fn every_mistake_names_its_file_and_line_and_all_are_told() {
+    let figure = "content/one.md:3: ";
+    for (text, expected) in [
+        (
+            "{{#figure cube | C.}}",
+            "unknown figure \"cube\"; known figures: dot",
+        ),
+        (
+            "{{#figure dot color=1 | C.}}",
+            "figure dot: no parameter \"color\"; its parameters are size",
+        ),
+        (
+            "{{#figure dot size=big | C.}}",
+            "figure dot: size=big is no number",
+        ),
+        ("{{#figure dot}}", "figure dot needs a caption"),
+        (
+            "Words {{#figure dot | C.}} words",
+            "must stand in a paragraph of its own",
+        ),
+        (
+            "{{#value nosuch}}",
+            "unknown number \"nosuch\"; known numbers: camera.project-u",
+        ),
+        (
+            "{{#value camera.project-u f=1}}",
+            "camera.project-u needs cu=…",
+        ),
+        (
+            "{{#cite nobody}}",
+            "unknown reference \"nobody\"; known references: none",
+        ),
+        (
+            "{{#ref fig-none}}",
+            "no figure is called \"fig-none\"; figures: none",
+        ),
+        ("{{#quiz none}}", "there is no quizzes/none.toml"),
+        (
+            "{{#include none.py}}",
+            "there is no file none.py to include",
+        ),
+        (
+            "{{#frame x}}",
+            "unknown directive \"frame\"; known: cite, figure",
+        ),
+        ("{{#value a", "`{{#` without `}}`"),
+        ("$\\frac{1}$", "formula `\\frac{1}`: "),
+        (
+            "[a](two.md)",
+            "the link \"two.md\" leads to no chapter; chapters: one.md",
+        ),
+        (
+            "[a](#three)",
+            "the link \"#three\" leads to no section; anchors there: ",
+        ),
+        (
+            "[a](one.md#three)",
+            "the link \"one.md#three\" leads to no section",
+        ),
+        ("[a](/one.md)", "starts with /"),
+        ("[a](data.csv)", "leads nowhere: there is no data.csv"),
+        ("![a](a.png)", "there is no picture a.png"),
+        (
+            "![](https://a.b/c.png)",
+            "must be a file of the content folder",
+        ),
+        (
+            "<p style=\"color: red\">",
+            "the attribute style=\"color: red\" of <p>",
+        ),
+        ("<script>1</script>", "an inline <script>"),
+        ("<a onclick=\"b()\">c</a>", "the attribute onclick"),
+    ] {
+        let problems = Book::of_chapter(&format!("# One\n\n{text}\n")).problems();
+        let found = problems
+            .iter()
+            .any(|problem| problem.starts_with(figure) && problem.contains(expected));
+        assert!(found, "{text}: {problems:#?}");
+    }
+
+    let book = Book::of_chapter("# One\n\n{{#figure a | C.}}\n\n> - {{#value b}}\n\n[c](#c)\n");
+    let places: Vec<String> = book.problems().iter().map(|p| p[..16].to_owned()).collect();
+    assert_eq!(
+        places,
+        ["content/one.md:3", "content/one.md:5", "content/one.md:7"]
+    );
+    assert!(!book.out().exists(), "nothing is written");
+}
+
+#[test]
+fn lines_are_right_inside_captions_notes_tables_and_after_includes() {
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](one.md)\n"),
+        ("code.py", "a = 1\nb = 2\n"),
+        (
+            "one.md",
+            "# One\n\n```python\n{{#include code.py}}\n```\n\n{{#figure dot | A\ncaption with\n\
+             {{#value nosuch}}.}}\n\nText{{#note | with\n$\\bad$}}.\n\n| a |\n|---|\n| {{#cite x}} |\n",
+        ),
+    ]);
+    let places: Vec<String> = book
+        .problems()
+        .iter()
+        .map(|p| p.split(": ").next().unwrap().to_owned())
+        .collect();
+    assert_eq!(
+        places,
+        ["content/one.md:9", "content/one.md:12", "content/one.md:16"]
+    );
+}
+
+#[test]
+fn a_missing_chapter_and_a_missing_title() {
+    let book = Book::new(&[("SUMMARY.md", "# Contents\n\n- [One](one.md)\n")]);
+    assert_eq!(
+        book.problems(),
+        ["content/SUMMARY.md:3: there is no chapter one.md (a draft has empty parentheses)"]
+    );
+    let problems = Book::of_chapter("No title.\n").problems();
+    assert!(problems[0].starts_with("content/one.md:1: a chapter starts with its title"));
+    let problems = Book::new(&[]).problems();
+    assert_eq!(
+        problems,
+        ["content/SUMMARY.md:1: there is no table of contents"]
+    );
+}
+
+#[test]
+fn includes_keep_only_what_the_anchor_marks() {
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](one.md)\n"),
+        (
+            "code.py",
+            "import x\n# ANCHOR: f\nf = 1\n# ANCHOR_END: f\ng = 2\n",
+        ),
+        (
+            "one.md",
+            "# One\n\n```python\n{{#include code.py:f}}\n```\n\n\\{{#include code.py}}\n",
+        ),
+    ]);
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(
+        article.contains("<code class=\"language-python\">f = <span"),
+        "{article}"
+    );
+    assert!(
+        !article.contains("import") && !article.contains("ANCHOR"),
+        "{article}"
+    );
+    assert!(article.contains("<p>{{#include code.py}}</p>"), "{article}");
+}
+
+#[test]
+fn notes_and_footnotes_go_to_the_margin() {
+    let book = Book::of_chapter("# One\n\nA{{#note | *one*}} b[^n].\n\n[^n]: two `c`\n");
+    book.must_build();
+    let article = book.article("one.html");
+    let notes = article
+        .matches("<small class=\"note\" role=\"note\">")
+        .count();
+    assert_eq!(notes, 2, "{article}");
+    assert!(
+        article.contains("<sup class=\"note-number\">1</sup> <em>one</em></small>"),
+        "{article}"
+    );
+    assert!(
+        article.contains("<sup class=\"note-number\">2</sup> two <code>c</code></small>"),
+        "{article}"
+    );
+}
+
+#[test]
+fn hidden_lines_of_rust_listings_are_not_shown() {
+    let book =
+        Book::of_chapter("# One\n\n```rust\n# fn main() {\n#\n#[test]\nlet a = 1;\n# }\n```\n");
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(
+        !article.contains("main") && article.contains("#["),
+        "{article}"
+    );
+}
+
+#[test]
+fn citations_lead_to_the_list() {
+    let references = "[a1]\nauthors = [\"Author, An\"]\nyear = 2001\ntitle = \"Title\"\n";
+    let chapter = ("one.md", "# One\n\nAs {{#cite a1 | §2}} says.\n");
+    let summary = "- [One](one.md)\n";
+    let book = Book::new(&[
+        ("SUMMARY.md", summary),
+        chapter,
+        ("references.toml", references),
+    ]);
+    let expected = "content/one.md:3: something is cited, but no chapter holds {{#references}}";
+    assert_eq!(book.problems(), [expected]);
+    let summary = "- [One](one.md)\n\n[References](refs.md)\n";
+    let list = ("refs.md", "# References\n\n{{#references}}\n");
+    let book = Book::new(&[
+        ("SUMMARY.md", summary),
+        chapter,
+        list,
+        ("references.toml", references),
+    ]);
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(
+        article.contains("<a class=\"cite\" href=\"refs.html#a1\">Author 2001</a>, §2"),
+        "{article}"
+    );
+    assert!(
+        book.article("refs.html")
+            .contains("<li id=\"a1\">An Author (2001).")
+    );
+}
+
+#[test]
+fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
+    let quiz =
+        "[[question]]\nid = \"a\"\nprompt = \"What is $x$?\"\nanswer = 7\nexplanation = \"So.\"\n";
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](one.md)\n\n[Progress](progress.md)\n"),
+        ("one.md", "# One\n\n{{#quiz one}}\n"),
+        ("progress.md", "# Progress\n\n{{#progress}}\n"),
+        ("quizzes/one.toml", quiz),
+    ]);
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(
+        article.contains("<legend>") && article.contains("<math"),
+        "{article}"
+    );
+    assert!(
+        article.contains("<details class=\"solution\">") && article.contains("<strong>7</strong>")
+    );
+    let progress = book.article("progress.html");
+    assert!(
+        progress.contains("<tr data-quiz=\"one\"><td><a href=\"one.html\">One</a></td><td>1</td>")
+    );
+
+    book.write(
+        "content/quizzes/one.toml",
+        &quiz.replace("answer = 7", "value = \"nosuch\""),
+    );
+    let problems = book.problems();
+    assert!(problems[0].starts_with("content/quizzes/one.toml:1: question \"a\": unknown number"));
+}
+
+#[test]
+fn drafts_are_listed_but_lead_nowhere() {
+    let book = Book::new(&[
+        (
+            "SUMMARY.md",
+            "- [One](one.md)\n- [Later]()\n- [Three](three.md)\n",
+        ),
+        ("one.md", "# One\n\nText.\n"),
+        ("three.md", "# Three\n\nText.\n"),
+    ]);
+    book.must_build();
+    let page = book.page("one.html");
+    assert!(
+        page.contains("<li class=\"draft\"><span class=\"number\">1</span>"),
+        "{page}"
+    );
+    assert!(
+        page.contains("<a class=\"next\" href=\"three.html\">"),
+        "{page}"
+    );
+}
+
+/// All files below a folder.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files_below(&path));
+        } else {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// Every `href`, `src` and `srcset` of a page.
+fn addresses(html: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for attribute in [" href=\"", " src=\"", " srcset=\"", " data-index=\""] {
+        found.extend(
+            html.split(attribute)
+                .skip(1)
+                .map(|rest| rest.split('"').next().unwrap_or("").to_owned()),
+        );
+    }
+    found
+}
+
+#[test]
+fn the_site_works_below_any_path_and_holds_no_inline_code() {
+    let book = Book::new(&[
+        (
+            "SUMMARY.md",
+            "[Start](index.md)\n\n- [One](part/one.md)\n- [Two](two.md)\n",
+        ),
+        (
+            "index.md",
+            "# Start\n\n[One](part/one.md), {{#ref fig-dot}}, ![dot](dot.svg)\n",
+        ),
+        (
+            "part/one.md",
+            "# One\n\n{{#figure dot | C.}}\n\n[Two](../two.md#t), [data](../data.csv)\n\n$$x^2$$\n",
+        ),
+        ("two.md", "# Two\n\n## T\n\n[home](index.md)\n"),
+        ("dot.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>"),
+        ("data.csv", "1"),
+    ]);
+    book.must_build();
+    let out = book.out();
+    let mut checked = 0;
+    for file in files_below(&out)
+        .iter()
+        .filter(|path| path.extension().is_some_and(|e| e == "html"))
+    {
+        let html = fs::read_to_string(file).unwrap();
+        assert_eq!(forbidden_inline(&html), None, "{}", file.display());
+        assert!(html.contains("http-equiv=\"Content-Security-Policy\" content=\"default-src"));
+        for address in addresses(&html) {
+            if address.starts_with('#') || address.is_empty() {
+                continue;
+            }
+            assert!(
+                !address.starts_with('/') && !address.contains(':'),
+                "{address}"
+            );
+            let path = file
+                .parent()
+                .unwrap()
+                .join(address.split('#').next().unwrap());
+            // Without assets the style sheet, scripts and icon are empty names: the folder itself.
+            assert!(path.exists(), "{} → {address}", file.display());
+            checked += 1;
+        }
+    }
+    assert!(checked >= 40, "{checked}");
+    assert!(out.join("part/one.html.br").is_file() && out.join("part/one.html.gz").is_file());
+}
+
+#[test]
+fn a_second_build_replaces_the_first() {
+    let book = Book::of_chapter("# One\n\nOld.\n");
+    book.must_build();
+    fs::write(book.out().join("stale.html"), "x").unwrap();
+    book.write("content/one.md", "# One\n\nNew.\n");
+    book.must_build();
+    assert!(!book.out().join("stale.html").exists());
+    assert!(book.article("one.html").contains("New."));
+    assert!(!book.out().with_extension("next").exists());
+}

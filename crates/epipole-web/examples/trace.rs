@@ -1,0 +1,104 @@
+//! Plays scripts of calls on the native side of the bridge and prints what the figures answer.
+//!
+//! Standard input: JSON `[{"figure", "width", "scale", "theme", "calls": [[method, argument, …]]}]`
+//! with the methods of [`Figure`]; `["draw_settled"]` takes its arguments from the script. Standard
+//! output: JSON, for each script what [`answer`] says after each call. A browser plays the same
+//! scripts through WebAssembly and must answer the same.
+//!
+//! With `--time` it plays them without asking for answers, and prints the milliseconds of each.
+
+use epipole_web::Figure;
+use serde::Deserialize;
+use serde_json::Value;
+use std::io::Read;
+use std::time::Instant;
+
+#[derive(Deserialize)]
+struct Script {
+    figure: String,
+    width: f64,
+    scale: f64,
+    theme: String,
+    calls: Vec<Vec<Value>>,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let timed = std::env::args().any(|argument| argument == "--time");
+    let mut input = String::new();
+    std::io::stdin().read_to_string(&mut input)?;
+    let scripts: Vec<Script> = serde_json::from_str(&input)?;
+    if timed {
+        let times = scripts.iter().map(time).collect::<Result<Vec<_>, _>>()?;
+        println!("{}", serde_json::to_string(&times)?);
+    } else {
+        let answers = scripts.iter().map(play).collect::<Result<Vec<_>, _>>()?;
+        println!("{}", serde_json::to_string(&answers)?);
+    }
+    Ok(())
+}
+
+fn play(script: &Script) -> Result<Vec<String>, String> {
+    let mut figure = Figure::new(&script.figure)?;
+    let mut answers = Vec::new();
+    for words in &script.calls {
+        let said = call(&mut figure, script, words)?;
+        answers.push(answer(&figure, script, words, said));
+    }
+    Ok(answers)
+}
+
+fn time(script: &Script) -> Result<f64, String> {
+    let mut figure = Figure::new(&script.figure)?;
+    let start = Instant::now();
+    for words in &script.calls {
+        call(&mut figure, script, words)?;
+    }
+    Ok(start.elapsed().as_secs_f64() * 1e3)
+}
+
+/// The frame after a drawing; what the call said, everything beside the picture and the state
+/// after all else.
+fn answer(figure: &Figure, script: &Script, words: &[Value], said: Option<String>) -> String {
+    if words[0] == "draw_settled" {
+        let (width, height) = (figure.pixel_width(), figure.pixel_height());
+        format!(
+            "{width} × {height}: {}",
+            figure.frame_hash().unwrap_or_default()
+        )
+    } else {
+        let snapshot = figure.snapshot(script.width);
+        said.unwrap_or_default() + &snapshot + &figure.state()
+    }
+}
+
+fn call(figure: &mut Figure, script: &Script, words: &[Value]) -> Result<Option<String>, String> {
+    let text = |index: usize| {
+        let word = words.get(index).and_then(Value::as_str);
+        word.map(str::to_owned)
+            .ok_or(format!("{words:?} lacks a text at {index}"))
+    };
+    let number = |index: usize| {
+        let word = words.get(index).and_then(Value::as_f64);
+        word.ok_or(format!("{words:?} lacks a number at {index}"))
+    };
+    let width = script.width;
+    Ok(match text(0)?.as_str() {
+        "set_number" => figure.set_number(text(1)?, number(2)?),
+        "set_flag" => {
+            let flag = words.get(2).and_then(Value::as_bool);
+            figure.set_flag(text(1)?, flag.ok_or(format!("{words:?} lacks a flag"))?)
+        }
+        "set_text" => figure.set_text(text(1)?, text(2)?),
+        "press" => figure.press(text(1)?),
+        "tick" => figure.tick(number(1)?),
+        "remove" => figure.remove(text(1)?),
+        "reset" => figure.reset(),
+        "drag" => figure.drag(&text(1)?, width, number(3)?, number(4)?),
+        "nudge" => figure.nudge(&text(1)?, width, &text(3)?, number(4)?),
+        "move_to_end" => figure.move_to_end(&text(1)?, width, &text(3)?),
+        "click" => figure.click(width, number(2)?, number(3)?),
+        "draw" => figure.draw(width, script.scale, &script.theme),
+        "draw_settled" => figure.draw_settled(width, script.scale, &script.theme),
+        other => return Err(format!("there is no method {other}")),
+    })
+}

@@ -1,0 +1,308 @@
+//! One figure of a page.
+
+use crate::snapshot::{Listed, Refused, Snapshot, json};
+use epipole_widgets::canvas::Picture;
+use epipole_widgets::contract::{Event, Handle, JobResult, Problem, Value};
+use epipole_widgets::pointing::{self, Direction};
+use epipole_widgets::theme::Theme;
+use epipole_widgets::{Figure as Model, gallery};
+use image::RgbImage;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// All figures, JSON: `[{"name", "title", "help"}]`.
+#[wasm_bindgen]
+pub fn figures() -> String {
+    let listed = |entry: &gallery::Entry| Listed {
+        name: entry.name,
+        title: entry.title,
+        help: entry.help,
+    };
+    json(&gallery::FIGURES.iter().map(listed).collect::<Vec<_>>())
+}
+
+/// A figure in some state, with its last drawn frame.
+///
+/// What goes in is plain arguments, so that the module carries no JSON parser; what comes out is
+/// JSON, which browsers parse faster than they cross the border for each value.
+///
+/// Widths are CSS pixels; places are CSS pixels from the picture's top left corner, of the picture
+/// laid out for the width given. Methods that change the state return a sentence for the reader
+/// where the figure refuses, and nothing where it obeys.
+#[wasm_bindgen]
+pub struct Figure {
+    figure: Model,
+    frame: Frame,
+}
+
+/// Where the last frame lies in memory.
+struct Frame {
+    address: *const u8,
+    width: u32,
+    height: u32,
+    hash: Option<u64>,
+}
+
+impl Frame {
+    const NONE: Self = Self {
+        address: std::ptr::null(),
+        width: 0,
+        height: 0,
+        hash: None,
+    };
+
+    fn of(picture: &Picture) -> Self {
+        Self {
+            address: picture.rgba().as_ptr(),
+            width: picture.width(),
+            height: picture.height(),
+            hash: None,
+        }
+    }
+}
+
+#[wasm_bindgen]
+impl Figure {
+    /// A figure in its default state.
+    ///
+    /// # Errors
+    /// A sentence with the names that exist.
+    #[wasm_bindgen(constructor)]
+    pub fn new(name: &str) -> Result<Figure, String> {
+        let figure = Model::new(name).map_err(|problem| problem.to_string())?;
+        Ok(Self {
+            figure,
+            frame: Frame::NONE,
+        })
+    }
+
+    /// Title.
+    pub fn title(&self) -> String {
+        self.figure.title().to_owned()
+    }
+
+    /// What a reader can do with it.
+    pub fn help(&self) -> String {
+        self.figure.help().to_owned()
+    }
+
+    /// Puts parameters, keys and values in turn, on top of the state. Returns those that could not
+    /// be used, JSON `[{"unknown", "message"}]`.
+    pub fn apply(&mut self, parameters: Vec<String>) -> String {
+        let pairs: Vec<(String, String)> = parameters
+            .chunks_exact(2)
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect();
+        let problems = self.figure.apply(&pairs);
+        json(&problems.iter().map(Refused::from).collect::<Vec<_>>())
+    }
+
+    /// What differs from the default state, JSON `[[key, value]]`.
+    pub fn state(&self) -> String {
+        json(&self.figure.state())
+    }
+
+    /// Sets a slider.
+    pub fn set_number(&mut self, id: String, value: f64) -> Option<String> {
+        let value = Value::Number(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Sets a toggle.
+    pub fn set_flag(&mut self, id: String, value: bool) -> Option<String> {
+        let value = Value::Flag(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Sets a choice, or any control from its text.
+    pub fn set_text(&mut self, id: String, value: String) -> Option<String> {
+        let value = Value::Text(value);
+        self.send(&Event::Set { id, value })
+    }
+
+    /// Presses a button.
+    pub fn press(&mut self, id: String) -> Option<String> {
+        self.send(&Event::Press { id })
+    }
+
+    /// Removes a handle, if the reader may.
+    pub fn remove(&mut self, id: String) -> Option<String> {
+        self.send(&Event::HandleRemoved { id })
+    }
+
+    /// Returns to the default state.
+    pub fn reset(&mut self) -> Option<String> {
+        self.send(&Event::Reset)
+    }
+
+    /// Time passes, seconds.
+    pub fn tick(&mut self, dt_s: f64) -> Option<String> {
+        self.send(&Event::Tick { dt_s })
+    }
+
+    /// True while the figure wants [`Figure::tick`].
+    pub fn is_running(&self) -> bool {
+        self.figure.is_running()
+    }
+
+    /// Everything to show beside the picture, JSON.
+    pub fn snapshot(&self, width: f64) -> String {
+        json(&Snapshot::of(&self.figure, width))
+    }
+
+    /// The handle that a press at a place takes.
+    pub fn handle_at(&self, width: f64, x: f64, y: f64) -> Option<String> {
+        let (handles, layout) = (self.figure.handles(), self.figure.layout(width));
+        pointing::handle_at(&handles, &layout, (x, y)).map(|handle| handle.id.clone())
+    }
+
+    /// Moves a handle to a place.
+    pub fn drag(&mut self, id: &str, width: f64, x: f64, y: f64) -> Option<String> {
+        let layout = self.figure.layout(width);
+        let event = pointing::drag(&self.handle(id)?, &layout, (x, y));
+        self.send(&event)
+    }
+
+    /// Moves a handle by steps of its own towards `left`, `right`, `up` or `down`.
+    pub fn nudge(&mut self, id: &str, width: f64, towards: &str, steps: f64) -> Option<String> {
+        let layout = self.figure.layout(width);
+        let event = pointing::nudge(&self.handle(id)?, &layout, direction(towards)?, steps);
+        self.send(&event)
+    }
+
+    /// Moves a handle as far as it goes.
+    pub fn move_to_end(&mut self, id: &str, width: f64, towards: &str) -> Option<String> {
+        let layout = self.figure.layout(width);
+        let event = pointing::to_the_end(&self.handle(id)?, &layout, direction(towards)?);
+        self.send(&event)
+    }
+
+    /// A click at a place, on no handle.
+    pub fn click(&mut self, width: f64, x: f64, y: f64) -> Option<String> {
+        let event = pointing::click(&self.figure.layout(width), (x, y))?;
+        self.send(&event)
+    }
+
+    /// Puts a photograph of the reader's own, rows of red, green, blue, alpha, into a slot.
+    pub fn take_photo(
+        &mut self,
+        slot: &str,
+        width: u32,
+        height: u32,
+        rgba: &[u8],
+    ) -> Option<String> {
+        let rgb = rgba
+            .chunks_exact(4)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect();
+        let Some(photo) = RgbImage::from_raw(width, height, rgb) else {
+            return Some("the photograph is not complete".to_owned());
+        };
+        let refused = self.figure.take_photo(slot, photo).err();
+        refused.map(|problem| problem.to_string())
+    }
+
+    /// The long computation that the figure waits for: a name that tells it from others.
+    pub fn job_key(&self) -> Option<String> {
+        self.figure.job().map(|job| format!("{:016x}", job.key()))
+    }
+
+    /// What that computation needs: the second argument of [`compute`].
+    pub fn job_request(&self) -> Vec<u8> {
+        self.figure.job().map_or_else(Vec::new, |job| job.request)
+    }
+
+    /// Hands over the result of a computation; one that the figure no longer waits for is dropped.
+    pub fn job_done(&mut self, key: &str, result: Vec<u8>) -> bool {
+        self.end_job(key, Ok(result))
+    }
+
+    /// Tells that a computation has failed, with the sentence that it ended with.
+    pub fn job_failed(&mut self, key: &str, sentence: String) -> bool {
+        self.end_job(key, Err(Problem::Elsewhere { sentence }))
+    }
+
+    /// Does a few milliseconds of work that makes the next frame better; false when done.
+    pub fn refine(&mut self) -> bool {
+        self.figure.refine()
+    }
+
+    /// Draws a frame, `width` CSS pixels wide with `scale` device pixels each.
+    pub fn draw(&mut self, width: f64, scale: f64, theme: &str) -> Option<String> {
+        let theme = theme.parse().unwrap_or(Theme::Light);
+        let drawn = self.figure.draw(width, scale, theme).map(Frame::of);
+        self.keep(drawn.map_err(|problem| problem.to_string()))
+    }
+
+    /// Draws a frame at full quality, however long it takes.
+    pub fn draw_settled(&mut self, width: f64, scale: f64, theme: &str) -> Option<String> {
+        let theme = theme.parse().unwrap_or(Theme::Light);
+        let drawn = self.figure.draw_settled(width, scale, theme);
+        let drawn = drawn.map(|picture| Frame {
+            hash: Some(picture.hash()),
+            ..Frame::of(picture)
+        });
+        self.keep(drawn.map_err(|problem| problem.to_string()))
+    }
+
+    /// Where the last frame begins: rows of opaque red, green, blue, alpha. It stays there until
+    /// the next call of any method.
+    pub fn pixels(&self) -> *const u8 {
+        self.frame.address
+    }
+
+    /// Pixels in a row of the last frame.
+    pub fn pixel_width(&self) -> u32 {
+        self.frame.width
+    }
+
+    /// Rows of the last frame.
+    pub fn pixel_height(&self) -> u32 {
+        self.frame.height
+    }
+
+    /// A fingerprint of the last frame that was drawn at full quality, hexadecimal.
+    pub fn frame_hash(&self) -> Option<String> {
+        self.frame.hash.map(|hash| format!("{hash:016x}"))
+    }
+
+    fn keep(&mut self, drawn: Result<Frame, String>) -> Option<String> {
+        match drawn {
+            Ok(frame) => {
+                self.frame = frame;
+                None
+            }
+            Err(sentence) => {
+                self.frame = Frame::NONE;
+                Some(sentence)
+            }
+        }
+    }
+
+    fn handle(&self, id: &str) -> Option<Handle> {
+        let mut handles = self.figure.handles().into_iter();
+        handles.find(|handle| handle.id == id)
+    }
+}
+
+impl Figure {
+    fn end_job(&mut self, key: &str, result: JobResult) -> bool {
+        u64::from_str_radix(key, 16).is_ok_and(|key| self.figure.job_done(key, result))
+    }
+
+    /// Changes the state by any event: the natural call natively, kept out of the module because
+    /// each event has a method of its own there.
+    pub fn send(&mut self, event: &Event) -> Option<String> {
+        let refused = self.figure.update(event).err();
+        refused.map(|problem| problem.to_string())
+    }
+}
+
+fn direction(name: &str) -> Option<Direction> {
+    match name {
+        "left" => Some(Direction::Left),
+        "right" => Some(Direction::Right),
+        "up" => Some(Direction::Up),
+        "down" => Some(Direction::Down),
+        _ => None,
+    }
+}

@@ -1,0 +1,80 @@
+//! Everything that a page shows beside the picture, as one piece of JSON.
+
+use epipole_widgets::contract::{Control, Handle, Layout, PhotoSlot, Problem, Readout};
+use epipole_widgets::{ChallengeStatus, Figure, pointing};
+use serde::Serialize;
+
+/// A figure's present state, laid out for a width of the page.
+#[derive(Serialize)]
+pub(crate) struct Snapshot {
+    layout: Layout,
+    controls: Vec<Control>,
+    handles: Vec<PlacedHandle>,
+    readouts: Vec<Readout>,
+    challenges: Vec<ChallengeStatus>,
+    description: String,
+    running: bool,
+    photos: &'static [PhotoSlot],
+    /// What to say while the figure waits for a long computation.
+    waiting: Option<&'static str>,
+}
+
+/// A handle and where it is on the page, CSS pixels.
+#[derive(Serialize)]
+struct PlacedHandle {
+    #[serde(flatten)]
+    handle: Handle,
+    place: (f64, f64),
+}
+
+impl Snapshot {
+    pub(crate) fn of(figure: &Figure, width: f64) -> Self {
+        let layout = figure.layout(width);
+        let place = |handle: Handle| PlacedHandle {
+            place: pointing::place_of(&handle, &layout),
+            handle,
+        };
+        Self {
+            controls: figure.controls(),
+            handles: figure.handles().into_iter().map(place).collect(),
+            readouts: figure.readouts(),
+            challenges: figure.challenges(),
+            description: figure.describe(),
+            running: figure.is_running(),
+            photos: figure.photo_slots(),
+            waiting: figure.job().map(|job| job.label),
+            layout,
+        }
+    }
+}
+
+/// A figure's entry in the list of all.
+#[derive(Serialize)]
+pub(crate) struct Listed {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) help: &'static str,
+}
+
+/// A parameter that could not be used.
+#[derive(Serialize)]
+pub(crate) struct Refused {
+    /// True if the figure has no such parameter: in a page's address it may be someone else's.
+    unknown: bool,
+    message: String,
+}
+
+impl Refused {
+    pub(crate) fn from(problem: &Problem) -> Self {
+        Self {
+            unknown: matches!(problem, Problem::UnknownParameter { .. }),
+            message: problem.to_string(),
+        }
+    }
+}
+
+/// JSON of plain data of this crate.
+pub(crate) fn json<T: Serialize>(value: &T) -> String {
+    // Only a map with keys that are no strings, or a failing `Serialize`, could fail; there is none.
+    serde_json::to_string(value).unwrap_or_default()
+}

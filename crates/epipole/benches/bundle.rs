@@ -1,0 +1,73 @@
+//! Bundle adjustment and pose graphs on published problems; silent where the data are absent.
+//!
+//! For one thread set `RAYON_NUM_THREADS=1`.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use epipole::optim::{LmOptions, RobustLoss};
+use epipole::sfm::{BalProblem, PoseGraph, adjust_bal};
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+fn data(name: &str) -> Option<String> {
+    let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
+        PathBuf::from,
+    );
+    let path = root.join(name);
+    let text = std::fs::read_to_string(&path).ok();
+    if text.is_none() {
+        println!("skipped: no data at {}", path.display());
+    }
+    text
+}
+
+fn bundle(c: &mut Criterion) {
+    let mut group = c.benchmark_group("bundle");
+    group.sample_size(10);
+    if let Some(problem) =
+        data("ba/ladybug-problem-49-7776-pre.txt").and_then(|text| BalProblem::parse(&text).ok())
+    {
+        // Until the cost that SciPy, Ceres and others stop at.
+        group.bench_function("ladybug 49 to 13344.3", |b| {
+            b.iter(|| {
+                let mut problem = problem.clone();
+                let stop = &mut |i: &epipole::optim::Iteration| {
+                    if i.cost <= 13344.3 {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                };
+                let options = LmOptions {
+                    max_iterations: 100,
+                    ..LmOptions::default()
+                };
+                black_box(adjust_bal(
+                    &mut problem,
+                    &options,
+                    RobustLoss::Trivial,
+                    stop,
+                ))
+            });
+        });
+    }
+    if let Some(graph) =
+        data("posegraph/INTEL.g2o").and_then(|text| PoseGraph::parse_g2o(&text).ok())
+    {
+        group.bench_function("INTEL pose graph", |b| {
+            b.iter(|| {
+                let mut graph = graph.clone();
+                black_box(
+                    graph.optimize(&LmOptions::default(), RobustLoss::Trivial, &mut |_| {
+                        ControlFlow::Continue(())
+                    }),
+                )
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, bundle);
+criterion_main!(benches);

@@ -1,0 +1,417 @@
+//! Pose graphs as text, in the format of g2o.
+
+use super::pose_graph::{Edge, Graph, PoseGraph};
+use crate::{Error, Result};
+use nalgebra::{
+    Isometry2, Isometry3, Quaternion, SMatrix, Similarity3, Translation3, UnitQuaternion, Vector2,
+};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const WHAT: &str = "the pose graph";
+
+fn malformed(line: usize, why: String) -> Error {
+    Error::Malformed {
+        what: WHAT,
+        line,
+        why,
+    }
+}
+
+/// What a file writes of a pose: its tags and its numbers.
+trait Written<const D: usize>: Sized {
+    const VERTEX: &'static str;
+    const EDGE: &'static str;
+    const NUMBERS: usize;
+    fn read(numbers: &[f64]) -> std::result::Result<Self, &'static str>;
+    fn write(&self, numbers: &mut Vec<f64>);
+}
+
+impl Written<3> for Isometry2<f64> {
+    const VERTEX: &'static str = "VERTEX_SE2";
+    const EDGE: &'static str = "EDGE_SE2";
+    const NUMBERS: usize = 3;
+    fn read(n: &[f64]) -> std::result::Result<Self, &'static str> {
+        Ok(Isometry2::new(Vector2::new(n[0], n[1]), n[2]))
+    }
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(self.translation.vector.iter());
+        numbers.push(self.rotation.angle());
+    }
+}
+
+impl Written<6> for Isometry3<f64> {
+    const VERTEX: &'static str = "VERTEX_SE3:QUAT";
+    const EDGE: &'static str = "EDGE_SE3:QUAT";
+    const NUMBERS: usize = 7;
+    fn read(n: &[f64]) -> std::result::Result<Self, &'static str> {
+        let quaternion = Quaternion::new(n[6], n[3], n[4], n[5]);
+        let rotation = UnitQuaternion::try_new(quaternion, 1e-6)
+            .ok_or("the quaternion is zero, so it is no rotation")?;
+        Ok(Isometry3::from_parts(
+            Translation3::new(n[0], n[1], n[2]),
+            rotation,
+        ))
+    }
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(self.translation.vector.iter());
+        let q = &self.rotation;
+        numbers.extend([q.i, q.j, q.k, q.w]);
+    }
+}
+
+impl Written<7> for Similarity3<f64> {
+    const VERTEX: &'static str = "VERTEX_SIM3:QUAT";
+    const EDGE: &'static str = "EDGE_SIM3:QUAT";
+    const NUMBERS: usize = 8;
+    fn read(n: &[f64]) -> std::result::Result<Self, &'static str> {
+        let isometry = <Isometry3<f64> as Written<6>>::read(&n[..7])?;
+        if n[7] > 0.0 {
+            Ok(Similarity3::from_isometry(isometry, n[7]))
+        } else {
+            Err("the scale is not greater than 0")
+        }
+    }
+    fn write(&self, numbers: &mut Vec<f64>) {
+        Written::<6>::write(&self.isometry, numbers);
+        numbers.push(self.scaling());
+    }
+}
+
+/// The lines of one kind, read into a graph; edges are kept until all vertices are known.
+struct Reader<T, const D: usize> {
+    graph: Graph<T, D>,
+    index: BTreeMap<u64, usize>,
+    edges: Vec<(usize, u64, u64, T, SMatrix<f64, D, D>)>,
+}
+
+impl<T: Written<D>, const D: usize> Reader<T, D> {
+    fn new() -> Self {
+        Self {
+            graph: Graph::default(),
+            index: BTreeMap::new(),
+            edges: Vec::new(),
+        }
+    }
+
+    /// Reads a vertex or an edge; false if the tag is another kind's.
+    fn accept(&mut self, line: usize, tag: &str, words: &[&str]) -> Result<bool> {
+        let triangle = D * (D + 1) / 2;
+        let (num_ids, num_numbers) = if tag == T::VERTEX {
+            (1, T::NUMBERS)
+        } else if tag == T::EDGE {
+            (2, T::NUMBERS + triangle)
+        } else {
+            return Ok(false);
+        };
+        if words.len() != num_ids + num_numbers {
+            return Err(malformed(
+                line,
+                format!(
+                    "{tag} needs {} values, but has {}",
+                    num_ids + num_numbers,
+                    words.len()
+                ),
+            ));
+        }
+        let mut ids = [0; 2];
+        for (id, word) in ids.iter_mut().zip(&words[..num_ids]) {
+            *id = parse_id(line, word)?;
+        }
+        let mut numbers = Vec::with_capacity(num_numbers);
+        for word in &words[num_ids..] {
+            match word.parse::<f64>() {
+                Ok(value) if value.is_finite() => numbers.push(value),
+                _ => {
+                    let why = format!("“{word}” is not a finite number");
+                    return Err(malformed(line, why));
+                }
+            }
+        }
+        let pose = T::read(&numbers[..T::NUMBERS]).map_err(|why| malformed(line, why.into()))?;
+        if num_ids == 1 {
+            if self
+                .index
+                .insert(ids[0], self.graph.vertices.len())
+                .is_some()
+            {
+                return Err(malformed(line, format!("vertex {} is there twice", ids[0])));
+            }
+            self.graph.ids.push(ids[0]);
+            self.graph.vertices.push(pose);
+        } else {
+            let mut information = SMatrix::zeros();
+            let mut upper = numbers[T::NUMBERS..].iter();
+            for i in 0..D {
+                for j in i..D {
+                    let value = upper.next().copied().unwrap_or(0.0);
+                    information[(i, j)] = value;
+                    information[(j, i)] = value;
+                }
+            }
+            if !is_positive_semidefinite(&information) {
+                let why = "the information matrix is not positive semi-definite".into();
+                return Err(malformed(line, why));
+            }
+            if ids[0] == ids[1] {
+                let why = format!("the edge joins vertex {} with itself", ids[0]);
+                return Err(malformed(line, why));
+            }
+            self.edges.push((line, ids[0], ids[1], pose, information));
+        }
+        Ok(true)
+    }
+
+    fn finish(self, fixed: &[(usize, u64)]) -> Result<Graph<T, D>> {
+        let mut graph = self.graph;
+        let find = |line: usize, id: u64| {
+            self.index
+                .get(&id)
+                .copied()
+                .ok_or_else(|| malformed(line, format!("there is no vertex {id}")))
+        };
+        for (line, from, to, pose, information) in self.edges {
+            graph.edges.push(Edge {
+                from: find(line, from)?,
+                to: find(line, to)?,
+                from_from_to: pose,
+                information,
+            });
+        }
+        for &(line, id) in fixed {
+            graph.fixed.push(find(line, id)?);
+        }
+        Ok(graph)
+    }
+}
+
+fn parse_id(line: usize, word: &str) -> Result<u64> {
+    word.parse()
+        .map_err(|_| malformed(line, format!("“{word}” is not the number of a vertex")))
+}
+
+/// Whether all eigenvalues are at least about zero.
+fn is_positive_semidefinite<const D: usize>(matrix: &SMatrix<f64, D, D>) -> bool {
+    let largest = (0..D).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
+    let mut shifted = *matrix;
+    for i in 0..D {
+        shifted[(i, i)] += 1e-9 * largest + f64::MIN_POSITIVE;
+    }
+    crate::optim::is_positive_definite(&shifted)
+}
+
+fn write_graph<T: Written<D>, const D: usize>(graph: &Graph<T, D>) -> String {
+    let mut text = String::new();
+    let mut numbers = Vec::new();
+    // Writing to a string cannot fail.
+    for (id, vertex) in graph.ids.iter().zip(&graph.vertices) {
+        let _ = write!(text, "{} {id}", T::VERTEX);
+        numbers.clear();
+        vertex.write(&mut numbers);
+        for value in &numbers {
+            let _ = write!(text, " {value}");
+        }
+        text.push('\n');
+    }
+    for &vertex in &graph.fixed {
+        let _ = writeln!(text, "FIX {}", graph.ids[vertex]);
+    }
+    for edge in &graph.edges {
+        let (from, to) = (graph.ids[edge.from], graph.ids[edge.to]);
+        let _ = write!(text, "{} {from} {to}", T::EDGE);
+        numbers.clear();
+        edge.from_from_to.write(&mut numbers);
+        for i in 0..D {
+            for j in i..D {
+                numbers.push(edge.information[(i, j)]);
+            }
+        }
+        for value in &numbers {
+            let _ = write!(text, " {value}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+impl PoseGraph {
+    /// Reads g2o's text format: `VERTEX_SE2` and `EDGE_SE2`, or `VERTEX_SE3:QUAT` and
+    /// `EDGE_SE3:QUAT`, or `VERTEX_SIM3:QUAT` and `EDGE_SIM3:QUAT`, and `FIX`.
+    ///
+    /// The similarities are an extension: as SE(3), with the scale after the quaternion and an
+    /// information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
+    /// information matrices are written as their upper triangles, row by row. Empty lines and
+    /// those that start with `#` are skipped.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus
+    /// values, values that are not finite, vertices that are there twice or not at all, and
+    /// information matrices that are not positive semi-definite; [`Error::TooFew`] without
+    /// vertices.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::sfm::PoseGraph;
+    /// // Measured 1 ahead, placed 1.5 ahead, information 4: χ² = 0.5² · 4.
+    /// let graph = PoseGraph::parse_g2o(
+    ///     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0 0\nEDGE_SE2 0 1 1 0 0 4 0 0 4 0 4\n",
+    /// )?;
+    /// assert_eq!(graph.chi2(), 1.0);
+    /// # Ok(()) }
+    /// ```
+    pub fn parse_g2o(text: &str) -> Result<Self> {
+        let mut se2 = Reader::<Isometry2<f64>, 3>::new();
+        let mut se3 = Reader::<Isometry3<f64>, 6>::new();
+        let mut sim3 = Reader::<Similarity3<f64>, 7>::new();
+        let mut fixed = Vec::new();
+        let mut kind = None;
+        for (index, content) in text.lines().enumerate() {
+            let line = index + 1;
+            let words: Vec<&str> = content.split_whitespace().collect();
+            let Some((&tag, words)) = words.split_first() else {
+                continue;
+            };
+            if tag.starts_with('#') {
+                continue;
+            }
+            if tag == "FIX" {
+                for word in words {
+                    fixed.push((line, parse_id(line, word)?));
+                }
+                continue;
+            }
+            let this = if se2.accept(line, tag, words)? {
+                2
+            } else if se3.accept(line, tag, words)? {
+                3
+            } else if sim3.accept(line, tag, words)? {
+                7
+            } else {
+                return Err(malformed(line, format!("the tag “{tag}” is not known")));
+            };
+            if *kind.get_or_insert(this) != this {
+                let why = format!("“{tag}” is of another kind than the lines before");
+                return Err(malformed(line, why));
+            }
+        }
+        let graph = match kind {
+            Some(2) => PoseGraph::Se2(se2.finish(&fixed)?),
+            Some(3) => PoseGraph::Se3(se3.finish(&fixed)?),
+            Some(_) => PoseGraph::Sim3(sim3.finish(&fixed)?),
+            None => {
+                return Err(Error::TooFew {
+                    what: "a pose graph from vertices",
+                    needed: 1,
+                    got: 0,
+                });
+            }
+        };
+        Ok(graph)
+    }
+
+    /// Writes g2o's text format; see [`PoseGraph::parse_g2o`].
+    pub fn to_g2o(&self) -> String {
+        match self {
+            PoseGraph::Se2(graph) => write_graph(graph),
+            PoseGraph::Se3(graph) => write_graph(graph),
+            PoseGraph::Sim3(graph) => write_graph(graph),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SE2: &str =
+        "VERTEX_SE2 5 0 0 0\nVERTEX_SE2 9 1.5 0 0.25\nFIX 5\nEDGE_SE2 5 9 1 0 0 4 0.5 0 3 0 2\n";
+    const SE3: &str = "# comment\n\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 -2\nEDGE_SE3:QUAT 0 1 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        for text in [SE2, SE3] {
+            let graph = PoseGraph::parse_g2o(text).unwrap();
+            let again = PoseGraph::parse_g2o(&graph.to_g2o()).unwrap();
+            assert_eq!(graph.size(), again.size());
+            assert!((graph.chi2() - again.chi2()).abs() < 1e-15);
+        }
+        let PoseGraph::Se2(graph) = PoseGraph::parse_g2o(SE2).unwrap() else {
+            panic!("a planar graph");
+        };
+        assert_eq!((graph.ids, graph.fixed), (vec![5, 9], vec![0]));
+        assert_eq!(graph.edges[0].information[(1, 0)], 0.5);
+        let PoseGraph::Se3(graph) = PoseGraph::parse_g2o(SE3).unwrap() else {
+            panic!("a spatial graph");
+        };
+        assert!(graph.chi2() < 1e-15);
+    }
+
+    #[test]
+    fn similarities_have_their_own_tags() {
+        let mut graph = Graph::<Similarity3<f64>, 7> {
+            ids: vec![0, 1],
+            vertices: vec![Similarity3::identity(); 2],
+            edges: Vec::new(),
+            fixed: vec![],
+        };
+        graph.vertices[1] = Similarity3::from_isometry(Isometry3::translation(1.0, 2.0, 3.0), 2.0);
+        graph.edges.push(Edge {
+            from: 0,
+            to: 1,
+            from_from_to: graph.vertices[1],
+            information: SMatrix::identity(),
+        });
+        let text = PoseGraph::Sim3(graph.clone()).to_g2o();
+        assert_eq!(PoseGraph::parse_g2o(&text).unwrap(), PoseGraph::Sim3(graph));
+        assert!(PoseGraph::parse_g2o("VERTEX_SIM3:QUAT 0 0 0 0 0 0 0 1 -2\n").is_err());
+    }
+
+    #[test]
+    fn malformed_texts_name_the_line() {
+        for (bad, line, why) in [
+            ("VERTEX_SE2 0 0 0\n", 1, "needs 4"),
+            ("VERTEX_SE2 0 0 0 inf\n", 1, "finite"),
+            ("VERTEX_SE2 -1 0 0 0\n", 1, "number of a vertex"),
+            ("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 0 0 0 0\n", 2, "twice"),
+            (
+                "VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n",
+                2,
+                "another kind",
+            ),
+            ("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 0\n", 1, "zero"),
+            ("LANDMARK 1 2\n", 1, "not known"),
+            (
+                "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 7 1 0 0 4 0 0 4 0 4\n",
+                2,
+                "no vertex 7",
+            ),
+            (
+                "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 0 1 0 0 4 0 0 4 0 4\n",
+                2,
+                "itself",
+            ),
+            (
+                "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 4 9 0 4 0 4\n",
+                2,
+                "semi-definite",
+            ),
+            ("VERTEX_SE2 0 0 0 0\nFIX 3\n", 2, "no vertex 3"),
+        ] {
+            match PoseGraph::parse_g2o(bad) {
+                Err(Error::Malformed {
+                    line: got,
+                    why: said,
+                    ..
+                }) => {
+                    assert_eq!(got, line, "{bad:?}");
+                    assert!(said.contains(why), "{said}");
+                }
+                other => panic!("{bad:?} gave {other:?}"),
+            }
+        }
+        assert!(matches!(
+            PoseGraph::parse_g2o("\n"),
+            Err(Error::TooFew { .. })
+        ));
+    }
+}

@@ -1,0 +1,165 @@
+//! The whole way from photographs to a reconstruction.
+
+use super::incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+use super::reconstruction::SfmImage;
+use super::tracks::PairMatches;
+use crate::camera::Intrinsics;
+use crate::feature::{
+    Descriptors, MatchOptions, SiftNormalization, SiftOptions, detect_sift, match_descriptors,
+};
+use crate::imaging::{gray_to_f32, rgb_to_gray};
+use crate::{Error, Result};
+use image::RgbImage;
+
+/// A photograph with a name.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Photo {
+    /// Its name, such as that of its file.
+    pub name: String,
+    /// Its pixels.
+    pub image: RgbImage,
+}
+
+/// How features are found and matched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhotoOptions {
+    /// RootSIFT, up to 8192 features, faint ones too.
+    pub sift: SiftOptions,
+    /// Ratio 0.8, mutual.
+    pub matching: MatchOptions,
+}
+
+impl Default for PhotoOptions {
+    fn default() -> Self {
+        Self {
+            sift: SiftOptions {
+                max_features: 8192,
+                contrast_threshold: 0.02,
+                normalization: SiftNormalization::Root,
+                ..SiftOptions::default()
+            },
+            matching: MatchOptions::default(),
+        }
+    }
+}
+
+/// Keypoints of all photographs and matches between all pairs of them.
+///
+/// * `observer`: hears of every photograph and every pair
+///
+/// Returns `None` in place of matches that the observer did not want to wait for.
+///
+/// # Errors
+/// As [`detect_sift`] and [`match_descriptors`].
+///
+/// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
+pub fn match_photos(
+    photos: &[Photo],
+    options: &PhotoOptions,
+    observer: SfmObserver<'_>,
+) -> Result<(Vec<SfmImage>, Option<Vec<PairMatches>>)> {
+    let mut images = Vec::new();
+    let mut descriptors: Vec<Descriptors> = Vec::new();
+    for (index, photo) in photos.iter().enumerate() {
+        let gray = gray_to_f32(&rgb_to_gray(&photo.image));
+        let features = detect_sift(&gray, &options.sift)?;
+        let (width, height) = photo.image.dimensions();
+        let color = |u: f64, v: f64| {
+            let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
+            photo.image.get_pixel(inside(u, width), inside(v, height)).0
+        };
+        images.push(SfmImage {
+            name: photo.name.clone(),
+            width,
+            height,
+            colors: features.keypoints.iter().map(|k| color(k.u, k.v)).collect(),
+            keypoints: features.keypoints.iter().map(|k| k.point()).collect(),
+        });
+        descriptors.push(features.descriptors);
+        let progress = SfmProgress::Detected {
+            done: index + 1,
+            total: photos.len(),
+        };
+        if observer(&progress).is_break() {
+            return Ok((images, None));
+        }
+    }
+    let total = photos.len() * photos.len().saturating_sub(1) / 2;
+    let mut pairs = Vec::new();
+    for image1 in 0..photos.len() {
+        for image2 in image1 + 1..photos.len() {
+            let matches = match_descriptors(
+                &descriptors[image1],
+                &descriptors[image2],
+                &options.matching,
+            )?;
+            pairs.push(PairMatches {
+                image1,
+                image2,
+                matches: matches
+                    .iter()
+                    .map(|m| (m.index1 as u32, m.index2 as u32))
+                    .collect(),
+            });
+            let progress = SfmProgress::Matched {
+                done: pairs.len(),
+                total,
+            };
+            if observer(&progress).is_break() {
+                return Ok((images, None));
+            }
+        }
+    }
+    Ok((images, Some(pairs)))
+}
+
+/// Cameras and points from photographs: features, matches, and [`reconstruct`].
+///
+/// * `intrinsics`: of each photograph, or one for all
+///
+/// Returns the keypoints and matches, too. A result that was cancelled before all were known has
+/// no components.
+///
+/// # Errors
+/// As [`reconstruct`] and [`match_photos`].
+///
+/// Source: as [`reconstruct`].
+pub fn reconstruct_photos(
+    photos: &[Photo],
+    intrinsics: &[Intrinsics],
+    photo_options: &PhotoOptions,
+    options: &SfmOptions,
+    observer: SfmObserver<'_>,
+) -> Result<(SfmInput, SfmResult)> {
+    if photos.len() < 2 {
+        return Err(Error::TooFew {
+            what: "structure from motion from photographs",
+            needed: 2,
+            got: photos.len(),
+        });
+    }
+    if intrinsics.len() != 1 && intrinsics.len() != photos.len() {
+        return Err(Error::SizeMismatch {
+            what: "the lists of photographs and of their intrinsics",
+            first: photos.len(),
+            second: intrinsics.len(),
+        });
+    }
+    let (images, pairs) = match_photos(photos, photo_options, observer)?;
+    let cancelled = pairs.is_none();
+    let input = SfmInput {
+        images,
+        intrinsics: intrinsics.to_vec(),
+        pairs: pairs.unwrap_or_default(),
+    };
+    if cancelled {
+        let result = SfmResult {
+            unregistered: (0..photos.len()).collect(),
+            cancelled,
+            ..SfmResult::default()
+        };
+        return Ok((input, result));
+    }
+    let result = reconstruct(&input, options, observer)?;
+    Ok((input, result))
+}

@@ -1,0 +1,716 @@
+//! Pose graphs: poses joined by measured relative poses, loops among them.
+
+use crate::optim::{
+    EdgeTerms, GraphProblem, GraphSystem, Iteration, LmOptions, RobustLoss, Termination, minimize,
+};
+use crate::{Error, Result};
+use nalgebra::{
+    Isometry2, Isometry3, Matrix3, Rotation2, SMatrix, SVector, Similarity3, Translation2,
+    Translation3, UnitComplex, UnitQuaternion, Vector2, Vector3,
+};
+use std::ops::ControlFlow;
+
+/// A measured relative pose between two vertices.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge<T, const D: usize> {
+    /// Index of the vertex where the edge starts.
+    pub from: usize,
+    /// Index of the vertex where the edge ends.
+    pub to: usize,
+    /// The pose of `to` in the frame of `from`.
+    pub from_from_to: T,
+    /// The inverse covariance Ω of the error: translation first, then rotation, then log scale.
+    pub information: SMatrix<f64, D, D>,
+}
+
+/// Vertices and edges of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Graph<T, const D: usize> {
+    /// The number that each vertex has in a file.
+    pub ids: Vec<u64>,
+    /// `world_from_vertex` of each vertex.
+    pub vertices: Vec<T>,
+    /// The measurements.
+    pub edges: Vec<Edge<T, D>>,
+    /// Indices of the vertices that stay where they are. Where a connected part of the graph has
+    /// none, its first vertex stays.
+    pub fixed: Vec<usize>,
+}
+
+impl<T, const D: usize> Default for Graph<T, D> {
+    fn default() -> Self {
+        Self {
+            ids: Vec::new(),
+            vertices: Vec::new(),
+            edges: Vec::new(),
+            fixed: Vec::new(),
+        }
+    }
+}
+
+/// A pose that a graph's vertices can be: SE(2), SE(3) or Sim(3), with `D` degrees of freedom.
+pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
+    /// The error of an edge, from the difference `measured⁻¹ · a⁻¹ · b`.
+    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, D>;
+    /// The error with its Jacobians for steps on the right, `pose · exp(δ)`.
+    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<D>;
+    /// `self · exp(delta)`.
+    fn plus(&self, delta: &SVector<f64, D>) -> Self;
+    /// The squared length of the translation.
+    fn translation_sq(&self) -> f64;
+    /// Whether every number is finite.
+    fn is_finite(&self) -> bool;
+}
+
+/// An angle brought to (−π, π].
+fn wrapped(angle_rad: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    let turns = (angle_rad / TAU).round();
+    let angle = angle_rad - turns * TAU;
+    if angle <= -PI { angle + TAU } else { angle }
+}
+
+impl GraphPose<3> for Isometry2<f64> {
+    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 3> {
+        let difference = measured.inv_mul(&a.inv_mul(b));
+        let t = difference.translation.vector;
+        SVector::<f64, 3>::new(t.x, t.y, wrapped(difference.rotation.angle()))
+    }
+
+    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<3> {
+        let b_in_a = a.inv_mul(b);
+        let difference = measured.inv_mul(&b_in_a);
+        let undo = measured.rotation.inverse().to_rotation_matrix();
+        let turn = difference.rotation.to_rotation_matrix();
+        let mut from = SMatrix::<f64, 3, 3>::zeros();
+        let mut to = SMatrix::<f64, 3, 3>::zeros();
+        from.fixed_view_mut::<2, 2>(0, 0).copy_from(&-undo.matrix());
+        // Turning a by ω moves what it sees by −ω × x, where ω × (x, y) = ω (−y, x).
+        let t = b_in_a.translation.vector;
+        let swept: Vector2<f64> = undo * Vector2::new(t.y, -t.x);
+        from[(0, 2)] = swept.x;
+        from[(1, 2)] = swept.y;
+        from[(2, 2)] = -1.0;
+        to.fixed_view_mut::<2, 2>(0, 0).copy_from(turn.matrix());
+        to[(2, 2)] = 1.0;
+        EdgeTerms {
+            residual: Self::error(a, b, measured),
+            from,
+            to,
+        }
+    }
+
+    fn plus(&self, delta: &SVector<f64, 3>) -> Self {
+        let turn = UnitComplex::from_rotation_matrix(&Rotation2::new(delta[2]));
+        let shift = self.rotation * Vector2::new(delta[0], delta[1]);
+        let mut rotation = self.rotation * turn;
+        rotation.renormalize();
+        Isometry2::from_parts(
+            Translation2::from(self.translation.vector + shift),
+            rotation,
+        )
+    }
+
+    fn translation_sq(&self) -> f64 {
+        self.translation.vector.norm_squared()
+    }
+
+    fn is_finite(&self) -> bool {
+        self.translation.vector.iter().all(|x| x.is_finite())
+            && self.rotation.re.is_finite()
+            && self.rotation.im.is_finite()
+    }
+}
+
+/// The vector part of the quaternion that has a nonnegative real part.
+fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
+    let (w, v) = (rotation.w, rotation.imag());
+    if w < 0.0 { (-w, -v) } else { (w, v) }
+}
+
+/// Error and Jacobians for similarities; a rigid transform is one with scale 1.
+#[allow(clippy::type_complexity)]
+fn similarity_terms(
+    a: &Similarity3<f64>,
+    b: &Similarity3<f64>,
+    measured: &Similarity3<f64>,
+) -> (SVector<f64, 7>, SMatrix<f64, 7, 7>, SMatrix<f64, 7, 7>) {
+    let b_in_a = a.inverse() * b;
+    let difference = measured.inverse() * b_in_a;
+    let (w, v) = half_turn(&difference.isometry.rotation);
+    let t = difference.isometry.translation.vector;
+    let mut error = SVector::<f64, 7>::zeros();
+    error.fixed_rows_mut::<3>(0).copy_from(&t);
+    error.fixed_rows_mut::<3>(3).copy_from(&v);
+    error[6] = libm::log(difference.scaling());
+
+    let rotation = |s: &Similarity3<f64>| *s.isometry.rotation.to_rotation_matrix().matrix();
+    // To the right of b: its translation is turned and scaled, its quaternion multiplied.
+    let mut to = SMatrix::<f64, 7, 7>::zeros();
+    to.fixed_view_mut::<3, 3>(0, 0)
+        .copy_from(&(rotation(&difference) * difference.scaling()));
+    to.fixed_view_mut::<3, 3>(3, 3)
+        .copy_from(&((Matrix3::identity() * w + v.cross_matrix()) * 0.5));
+    to[(6, 6)] = 1.0;
+    // To the right of a: the inverse of the step acts on b as a sees it.
+    let undo = rotation(measured).transpose();
+    let scaled_undo = undo / measured.scaling();
+    let seen = b_in_a.isometry.translation.vector;
+    let mut from = SMatrix::<f64, 7, 7>::zeros();
+    from.fixed_view_mut::<3, 3>(0, 0).copy_from(&-scaled_undo);
+    from.fixed_view_mut::<3, 3>(0, 3)
+        .copy_from(&(scaled_undo * seen.cross_matrix()));
+    from.fixed_view_mut::<3, 1>(0, 6)
+        .copy_from(&-(scaled_undo * seen));
+    from.fixed_view_mut::<3, 3>(3, 3)
+        .copy_from(&((v.cross_matrix() - Matrix3::identity() * w) * undo * 0.5));
+    from[(6, 6)] = -1.0;
+    (error, from, to)
+}
+
+fn similarity_plus(pose: &Similarity3<f64>, delta: &SVector<f64, 7>) -> Similarity3<f64> {
+    let shift = pose.isometry.rotation * Vector3::new(delta[0], delta[1], delta[2]);
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(delta[3], delta[4], delta[5]));
+    let mut rotation = pose.isometry.rotation * turn;
+    rotation.renormalize();
+    let translation = pose.isometry.translation.vector + shift * pose.scaling();
+    // Kept away from zero and infinity, where a similarity is none.
+    let scale = (pose.scaling() * libm::exp(delta[6])).clamp(1e-100, 1e100);
+    Similarity3::from_parts(Translation3::from(translation), rotation, scale)
+}
+
+impl GraphPose<6> for Isometry3<f64> {
+    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 6> {
+        let difference = measured.inv_mul(&a.inv_mul(b));
+        let (t, (_, v)) = (
+            difference.translation.vector,
+            half_turn(&difference.rotation),
+        );
+        SVector::<f64, 6>::new(t.x, t.y, t.z, v.x, v.y, v.z)
+    }
+
+    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<6> {
+        let lift = |pose: &Self| Similarity3::from_isometry(*pose, 1.0);
+        let (error, from, to) = similarity_terms(&lift(a), &lift(b), &lift(measured));
+        EdgeTerms {
+            residual: error.fixed_rows::<6>(0).into_owned(),
+            from: from.fixed_view::<6, 6>(0, 0).into_owned(),
+            to: to.fixed_view::<6, 6>(0, 0).into_owned(),
+        }
+    }
+
+    fn plus(&self, delta: &SVector<f64, 6>) -> Self {
+        let mut step = SVector::<f64, 7>::zeros();
+        step.fixed_rows_mut::<6>(0).copy_from(delta);
+        similarity_plus(&Similarity3::from_isometry(*self, 1.0), &step).isometry
+    }
+
+    fn translation_sq(&self) -> f64 {
+        self.translation.vector.norm_squared()
+    }
+
+    fn is_finite(&self) -> bool {
+        self.translation.vector.iter().all(|x| x.is_finite())
+            && self.rotation.coords.iter().all(|x| x.is_finite())
+    }
+}
+
+impl GraphPose<7> for Similarity3<f64> {
+    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 7> {
+        similarity_terms(a, b, measured).0
+    }
+
+    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<7> {
+        let (residual, from, to) = similarity_terms(a, b, measured);
+        EdgeTerms { residual, from, to }
+    }
+
+    fn plus(&self, delta: &SVector<f64, 7>) -> Self {
+        similarity_plus(self, delta)
+    }
+
+    fn translation_sq(&self) -> f64 {
+        self.isometry.translation.vector.norm_squared()
+    }
+
+    fn is_finite(&self) -> bool {
+        self.isometry.is_finite() && self.scaling().is_finite()
+    }
+}
+
+struct Problem<'a, T, const D: usize> {
+    graph: &'a Graph<T, D>,
+    pairs: Vec<(u32, u32)>,
+    held: Vec<bool>,
+    loss: RobustLoss,
+}
+
+impl<T: GraphPose<D>, const D: usize> GraphProblem<D> for Problem<'_, T, D> {
+    type Parameters = Vec<T>;
+
+    fn num_vertices(&self) -> usize {
+        self.graph.vertices.len()
+    }
+    fn edges(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+    fn information(&self, edge: usize) -> &SMatrix<f64, D, D> {
+        &self.graph.edges[edge].information
+    }
+    fn residual(&self, vertices: &Vec<T>, edge: usize) -> SVector<f64, D> {
+        let edge = &self.graph.edges[edge];
+        T::error(&vertices[edge.from], &vertices[edge.to], &edge.from_from_to)
+    }
+    fn linearize(&self, vertices: &Vec<T>, edge: usize) -> EdgeTerms<D> {
+        let edge = &self.graph.edges[edge];
+        T::linearize(&vertices[edge.from], &vertices[edge.to], &edge.from_from_to)
+    }
+    fn step(&self, from: &Vec<T>, step: &[SVector<f64, D>], into: &mut Vec<T>) {
+        for (vertex, new) in into.iter_mut().enumerate() {
+            *new = if self.held[vertex] {
+                from[vertex]
+            } else {
+                from[vertex].plus(&step[vertex])
+            };
+        }
+    }
+    fn parameter_norm(&self, vertices: &Vec<T>) -> f64 {
+        let sum: f64 = vertices.iter().map(|v| 1.0 + v.translation_sq()).sum();
+        sum.sqrt()
+    }
+    fn loss(&self) -> RobustLoss {
+        self.loss
+    }
+    fn is_held(&self, vertex: usize) -> bool {
+        self.held[vertex]
+    }
+}
+
+/// How an optimization of a pose graph went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseGraphReport {
+    /// `Σ eᵀ Ω e` at the start.
+    pub initial_chi2: f64,
+    /// `Σ eᵀ Ω e` at the end. It stays large where measurements contradict each other.
+    pub final_chi2: f64,
+    /// Steps tried.
+    pub iterations: usize,
+    /// Why the loop ended.
+    pub termination: Termination,
+    /// The number of connected parts; each hangs on a vertex of its own.
+    pub num_components: usize,
+}
+
+impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
+    /// `χ² = Σ eᵀ Ω e` over all edges.
+    pub fn chi2(&self) -> f64 {
+        let mut sum = 0.0;
+        for edge in &self.edges {
+            let (a, b) = (&self.vertices[edge.from], &self.vertices[edge.to]);
+            let e = T::error(a, b, &edge.from_from_to);
+            sum += e.dot(&(edge.information * e));
+        }
+        sum
+    }
+
+    /// Moves the vertices to minimize `Σ ρ(eᵀ Ω e)`, in place.
+    ///
+    /// The search starts with almost undamped steps and gives each some patience, whatever the
+    /// options say: damping would hold back the slow bends of long trajectories.
+    ///
+    /// * `loss`: robust to wrong loop closures; its width is in standard deviations
+    /// * `observer`: called once before the first step and after every step; answer
+    ///   [`ControlFlow::Break`] to cancel; the graph is then the best found so far
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there
+    /// or a vertex with itself, [`Error::NotFinite`] for NaN and infinities or a loss of no width.
+    ///
+    /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
+    pub fn optimize(
+        &mut self,
+        options: &LmOptions,
+        loss: RobustLoss,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<PoseGraphReport> {
+        self.check(loss)?;
+        let pairs: Vec<(u32, u32)> = self
+            .edges
+            .iter()
+            .map(|edge| (edge.from as u32, edge.to as u32))
+            .collect();
+        let (held, num_components) = self.held();
+        let mut vertices = self.vertices.clone();
+        let problem = Problem {
+            graph: self,
+            pairs,
+            held,
+            loss,
+        };
+        let initial_chi2 = self.chi2();
+        let mut system = GraphSystem::new(&problem);
+        let options = LmOptions {
+            initial_damping: options.initial_damping.min(1e-12),
+            patience: options.patience.max(3),
+            ..*options
+        };
+        let report = minimize(&mut system, &mut vertices, &options, observer)?;
+        self.vertices = vertices;
+        Ok(PoseGraphReport {
+            initial_chi2,
+            final_chi2: self.chi2(),
+            iterations: report.iterations,
+            termination: report.termination,
+            num_components,
+        })
+    }
+
+    fn check(&self, loss: RobustLoss) -> Result<()> {
+        if !loss.is_valid() {
+            return Err(Error::NotFinite {
+                what: "the inverse of the width of a robust loss",
+            });
+        }
+        if self.edges.is_empty() {
+            return Err(Error::TooFew {
+                what: "the optimization of a pose graph from edges",
+                needed: 1,
+                got: 0,
+            });
+        }
+        let count = self.vertices.len();
+        for edge in &self.edges {
+            if edge.from >= count || edge.to >= count || edge.from == edge.to {
+                return Err(Error::OutOfRange {
+                    what: "an end of an edge",
+                    requirement: "the index of another vertex",
+                    value: edge.to.max(edge.from) as f64,
+                });
+            }
+            if !edge.from_from_to.is_finite() || !edge.information.iter().all(|x| x.is_finite()) {
+                return Err(Error::NotFinite {
+                    what: "a measurement of a pose graph",
+                });
+            }
+        }
+        if let Some(&fixed) = self.fixed.iter().find(|&&vertex| vertex >= count) {
+            return Err(Error::OutOfRange {
+                what: "a fixed vertex",
+                requirement: "the index of an existing one",
+                value: fixed as f64,
+            });
+        }
+        if !self.vertices.iter().all(GraphPose::is_finite) {
+            return Err(Error::NotFinite {
+                what: "a vertex of a pose graph",
+            });
+        }
+        Ok(())
+    }
+
+    /// Which vertices stay, and the number of connected parts.
+    fn held(&self) -> (Vec<bool>, usize) {
+        let mut parts = super::union_find::UnionFind::new(self.vertices.len());
+        for edge in &self.edges {
+            parts.join(edge.from, edge.to);
+        }
+        let mut held = vec![false; self.vertices.len()];
+        let mut anchored = vec![false; self.vertices.len()];
+        for &vertex in &self.fixed {
+            held[vertex] = true;
+            anchored[parts.root(vertex)] = true;
+        }
+        let mut num_components = 0;
+        let mut counted = vec![false; self.vertices.len()];
+        for vertex in 0..self.vertices.len() {
+            let root = parts.root(vertex);
+            if !anchored[root] {
+                held[vertex] = true;
+                anchored[root] = true;
+            }
+            if !counted[root] {
+                counted[root] = true;
+                num_components += 1;
+            }
+        }
+        (held, num_components)
+    }
+}
+
+/// A pose graph of any kind, as a file may hold it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PoseGraph {
+    /// Poses in the plane.
+    Se2(Graph<Isometry2<f64>, 3>),
+    /// Poses in space.
+    Se3(Graph<Isometry3<f64>, 6>),
+    /// Poses in space with a scale each, for trajectories whose scale drifts.
+    Sim3(Graph<Similarity3<f64>, 7>),
+}
+
+impl PoseGraph {
+    /// `χ² = Σ eᵀ Ω e` over all edges.
+    pub fn chi2(&self) -> f64 {
+        match self {
+            PoseGraph::Se2(graph) => graph.chi2(),
+            PoseGraph::Se3(graph) => graph.chi2(),
+            PoseGraph::Sim3(graph) => graph.chi2(),
+        }
+    }
+
+    /// Moves the vertices to minimize `Σ ρ(eᵀ Ω e)`: see [`Graph::optimize`].
+    ///
+    /// # Errors
+    /// As [`Graph::optimize`].
+    pub fn optimize(
+        &mut self,
+        options: &LmOptions,
+        loss: RobustLoss,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<PoseGraphReport> {
+        match self {
+            PoseGraph::Se2(graph) => graph.optimize(options, loss, observer),
+            PoseGraph::Se3(graph) => graph.optimize(options, loss, observer),
+            PoseGraph::Sim3(graph) => graph.optimize(options, loss, observer),
+        }
+    }
+
+    /// Numbers of vertices and edges.
+    pub fn size(&self) -> (usize, usize) {
+        match self {
+            PoseGraph::Se2(graph) => (graph.vertices.len(), graph.edges.len()),
+            PoseGraph::Se3(graph) => (graph.vertices.len(), graph.edges.len()),
+            PoseGraph::Sim3(graph) => (graph.vertices.len(), graph.edges.len()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+    use crate::optim::check_jacobian;
+    use nalgebra::{DMatrix, DVector};
+
+    fn go_on(_: &Iteration) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn random_similarity(random: &mut Random, amount: f64) -> Similarity3<f64> {
+        let mut draw = || Vector3::from_fn(|_, _| amount * random.normal());
+        let (t, r, s) = (draw(), draw(), draw());
+        Similarity3::new(t, r, libm::exp(0.3 * s.x))
+    }
+
+    fn check_pose<T: GraphPose<D>, const D: usize>(a: T, b: T, measured: T) {
+        let terms = T::linearize(&a, &b, &measured);
+        assert!((terms.residual - T::error(&a, &b, &measured)).norm() < 1e-14);
+        let mut analytic = DMatrix::zeros(D, 2 * D);
+        analytic.view_mut((0, 0), (D, D)).copy_from(&terms.from);
+        analytic.view_mut((0, D), (D, D)).copy_from(&terms.to);
+        let residuals = |d: &DVector<f64>| {
+            let da = SVector::<f64, D>::from_column_slice(&d.as_slice()[..D]);
+            let db = SVector::<f64, D>::from_column_slice(&d.as_slice()[D..]);
+            let error = T::error(&a.plus(&da), &b.plus(&db), &measured);
+            DVector::from_column_slice(error.as_slice())
+        };
+        let worst = check_jacobian(&analytic, &residuals, 1e-6);
+        assert!(worst < 1e-7, "D = {D}: {worst}");
+    }
+
+    #[test]
+    fn jacobians_are_those_of_central_differences() {
+        let mut random = Random::new(41);
+        for _ in 0..20 {
+            let mut draw = || random_similarity(&mut random, 0.6);
+            let (a, b, z) = (draw(), draw(), draw());
+            check_pose(a, b, z);
+            check_pose(a.isometry, b.isometry, z.isometry);
+            let flat = |s: &Similarity3<f64>| {
+                let t = s.isometry.translation.vector;
+                Isometry2::new(Vector2::new(t.x, t.y), t.z)
+            };
+            check_pose(flat(&a), flat(&b), flat(&z));
+        }
+    }
+
+    /// A circle of poses, each measured from the one before, and the last from the first.
+    fn circle<T: GraphPose<D>, const D: usize>(
+        count: usize,
+        step: T,
+        times: impl Fn(&T, &T) -> T,
+        identity: T,
+    ) -> Graph<T, D> {
+        let mut graph = Graph {
+            ids: (0..count as u64).collect(),
+            vertices: vec![identity],
+            edges: Vec::new(),
+            fixed: Vec::new(),
+        };
+        for i in 1..count {
+            let next = times(&graph.vertices[i - 1], &step);
+            graph.vertices.push(next);
+        }
+        for i in 0..count {
+            graph.edges.push(Edge {
+                from: i,
+                to: (i + 1) % count,
+                from_from_to: step,
+                information: SMatrix::identity(),
+            });
+        }
+        graph
+    }
+
+    #[test]
+    fn a_loop_that_closes_is_straightened() {
+        let turn = std::f64::consts::TAU / 12.0;
+        let step = Isometry3::new(Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 0.0, turn));
+        let mut graph = circle(12, step, |a, b| a * b, Isometry3::identity());
+        let truth = graph.vertices.clone();
+        let mut random = Random::new(42);
+        for vertex in graph.vertices.iter_mut().skip(1) {
+            *vertex = vertex.plus(&SVector::<f64, 6>::from_fn(|_, _| 0.1 * random.normal()));
+        }
+        let options = LmOptions {
+            cost_tolerance: 0.0,
+            ..LmOptions::default()
+        };
+        let report = graph
+            .optimize(&options, RobustLoss::Trivial, &mut go_on)
+            .unwrap();
+        assert!(
+            report.initial_chi2 > 0.1 && report.final_chi2 < 1e-18,
+            "{report:?}"
+        );
+        assert_eq!(graph.vertices[0], truth[0]);
+        for (got, want) in graph.vertices.iter().zip(&truth) {
+            assert!((got.translation.vector - want.translation.vector).norm() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn drift_of_scale_is_spread_over_the_loop() {
+        // Every step seems 2 % longer than the one before; the loop says it is not.
+        let turn = std::f64::consts::TAU / 30.0;
+        let true_step = Similarity3::new(
+            Vector3::new(1.0, 0.0, 0.0),
+            Vector3::new(0.0, 0.0, turn),
+            1.0,
+        );
+        let drifting = Similarity3::new(
+            Vector3::new(1.0, 0.0, 0.0),
+            Vector3::new(0.0, 0.0, turn),
+            1.02,
+        );
+        let mut graph = circle(30, drifting, |a, b| a * b, Similarity3::identity());
+        let truth: Graph<_, 7> = circle(30, true_step, |a, b| a * b, Similarity3::identity());
+        graph.edges[29].from_from_to = true_step;
+        // The loop closure knows the scale of the last pose in that of the first.
+        graph.edges[29].information *= 1e4;
+        let error_of = |graph: &Graph<Similarity3<f64>, 7>| {
+            let mut sum = 0.0;
+            for (a, b) in graph.vertices.iter().zip(&truth.vertices) {
+                sum += (a.isometry.translation.vector - b.isometry.translation.vector).norm();
+            }
+            sum / 30.0
+        };
+        let before = error_of(&graph);
+        let report = graph
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .unwrap();
+        let after = error_of(&graph);
+        assert!(report.termination.is_converged(), "{report:?}");
+        assert!(after < 0.5 * before, "{before} to {after}");
+    }
+
+    #[test]
+    fn contradictory_loops_still_give_a_report() {
+        let step = Isometry2::new(Vector2::new(1.0, 0.0), 0.0);
+        let mut graph = circle(4, step, |a, b| a * b, Isometry2::identity());
+        // Four steps ahead lead back to the start, says the last edge.
+        let report = graph
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .unwrap();
+        // Each edge bears a quarter of the gap of 4: χ² = 4 · 1².
+        assert!((report.initial_chi2 - 16.0).abs() < 1e-12);
+        assert!((report.final_chi2 - 4.0).abs() < 1e-6, "{report:?}");
+        assert!(report.termination.is_converged());
+    }
+
+    #[test]
+    fn a_robust_loss_survives_a_wrong_loop() {
+        let turn = std::f64::consts::TAU / 12.0;
+        let step = Isometry2::new(Vector2::new(1.0, 0.0), turn);
+        let mut graph = circle(12, step, |a, b| a * b, Isometry2::identity());
+        let truth = graph.vertices.clone();
+        graph.edges.push(Edge {
+            from: 2,
+            to: 9,
+            from_from_to: Isometry2::new(Vector2::new(9.0, 9.0), 1.0),
+            information: SMatrix::identity(),
+        });
+        let loss = RobustLoss::Cauchy { width: 0.1 };
+        graph
+            .optimize(&LmOptions::default(), loss, &mut go_on)
+            .unwrap();
+        for (got, want) in graph.vertices.iter().zip(&truth) {
+            assert!((got.translation.vector - want.translation.vector).norm() < 0.02);
+        }
+    }
+
+    #[test]
+    fn separate_parts_are_counted_and_anchored() {
+        let step = Isometry2::new(Vector2::new(1.0, 0.0), 0.1);
+        let mut graph = circle(5, step, |a, b| a * b, Isometry2::identity());
+        let other = circle(
+            4,
+            step,
+            |a, b| a * b,
+            Isometry2::new(Vector2::new(50.0, 0.0), 0.3),
+        );
+        for edge in &other.edges {
+            graph.edges.push(Edge {
+                from: edge.from + 5,
+                to: edge.to + 5,
+                ..edge.clone()
+            });
+        }
+        graph.vertices.extend(&other.vertices);
+        graph.vertices.push(Isometry2::identity());
+        let report = graph
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .unwrap();
+        assert_eq!(report.num_components, 3);
+        assert_eq!(graph.vertices[5], other.vertices[0]);
+        assert!(report.final_chi2 <= report.initial_chi2);
+    }
+
+    #[test]
+    fn bad_graphs_are_refused() {
+        let step = Isometry2::new(Vector2::new(1.0, 0.0), 0.1);
+        let good = circle(5, step, |a, b| a * b, Isometry2::identity());
+        let attempt = |graph: &Graph<_, 3>| {
+            graph
+                .clone()
+                .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+        };
+        assert!(attempt(&good).is_ok());
+        let mut bad = good.clone();
+        bad.edges[1].to = 9;
+        assert!(matches!(attempt(&bad), Err(Error::OutOfRange { .. })));
+        let mut bad = good.clone();
+        bad.edges[1].information[(0, 0)] = f64::NAN;
+        assert!(matches!(attempt(&bad), Err(Error::NotFinite { .. })));
+        let mut bad = good.clone();
+        bad.edges.clear();
+        assert!(matches!(attempt(&bad), Err(Error::TooFew { .. })));
+    }
+
+    #[test]
+    fn angles_are_wrapped() {
+        assert!((wrapped(7.0) - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
+        assert_eq!(wrapped(std::f64::consts::PI), std::f64::consts::PI);
+        assert_eq!(wrapped(-std::f64::consts::PI), std::f64::consts::PI);
+    }
+}

@@ -1,0 +1,146 @@
+//! What structure from motion finds: cameras, points, and which saw which.
+
+use super::bundle::{Bundle, Observation, RadialDistortion};
+use super::tracks::TrackElement;
+use crate::camera::Camera;
+use nalgebra::{Point2, Point3};
+
+/// A photograph, reduced to its keypoints.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SfmImage {
+    /// A name, such as that of its file.
+    pub name: String,
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+    /// Where its keypoints are, pixels.
+    pub keypoints: Vec<Point2<f64>>,
+    /// Their colors, red, green, blue; empty if not known.
+    pub colors: Vec<[u8; 3]>,
+}
+
+/// A point of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScenePoint {
+    /// Where it is, in the world.
+    pub position: Point3<f64>,
+    /// Mean color of its keypoints; gray if none is known.
+    pub color: [u8; 3],
+    /// Where it was seen: at least two elements, sorted by image.
+    pub track: Vec<TrackElement>,
+    /// Root mean square of its reprojection errors, pixels.
+    pub error_px: f64,
+}
+
+/// Cameras and points that share one frame. Its scale and pose are arbitrary.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Reconstruction {
+    /// The camera of each image, `None` if it could not be registered here.
+    pub cameras: Vec<Option<Camera>>,
+    /// The lens distortion of all cameras.
+    pub distortion: RadialDistortion,
+    /// The points.
+    pub points: Vec<ScenePoint>,
+}
+
+impl Reconstruction {
+    /// The number of images with a camera.
+    pub fn num_registered(&self) -> usize {
+        self.cameras.iter().flatten().count()
+    }
+
+    /// The number of observations of all points.
+    pub fn num_observations(&self) -> usize {
+        self.points.iter().map(|point| point.track.len()).sum()
+    }
+
+    /// The pixel where a camera shows a point, distortion included; `None` if the image is not
+    /// registered or the point is not in front of its camera.
+    pub fn project(&self, image: usize, point: &Point3<f64>) -> Option<Point2<f64>> {
+        let camera = self.cameras.get(image)?.as_ref()?;
+        let p = camera.cam_from_world * point;
+        if p.z <= 0.0 {
+            return None;
+        }
+        let shown = self.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
+        let center = camera.intrinsics.principal_point();
+        let pixel = Point2::new(
+            camera.intrinsics.fu_px() * shown.x + center.x,
+            camera.intrinsics.fv_px() * shown.y + center.y,
+        );
+        (pixel.x.is_finite() && pixel.y.is_finite()).then_some(pixel)
+    }
+
+    /// Mean length of all reprojection errors, pixels; 0 without observations.
+    pub fn mean_reprojection_px(&self, images: &[SfmImage]) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for point in &self.points {
+            for element in &point.track {
+                let seen = images[element.image as usize].keypoints[element.keypoint as usize];
+                if let Some(pixel) = self.project(element.image as usize, &point.position) {
+                    sum += (pixel - seen).norm();
+                    count += 1.0;
+                }
+            }
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+
+    /// The same as a [`Bundle`], with the image of each of its cameras.
+    pub fn to_bundle(&self, images: &[SfmImage]) -> (Bundle, Vec<usize>) {
+        let mut camera_of_image = vec![usize::MAX; self.cameras.len()];
+        let mut image_of_camera = Vec::new();
+        let mut bundle = Bundle {
+            distortion: self.distortion,
+            ..Bundle::default()
+        };
+        for (image, camera) in self.cameras.iter().enumerate() {
+            if let Some(camera) = camera {
+                camera_of_image[image] = bundle.cameras.len();
+                image_of_camera.push(image);
+                bundle.cameras.push(*camera);
+            }
+        }
+        for (index, point) in self.points.iter().enumerate() {
+            bundle.points.push(point.position);
+            for element in &point.track {
+                let image = element.image as usize;
+                bundle.observations.push(Observation {
+                    camera: camera_of_image[image],
+                    point: index,
+                    pixel: images[image].keypoints[element.keypoint as usize],
+                });
+            }
+        }
+        (bundle, image_of_camera)
+    }
+
+    /// Brings [`ScenePoint::color`] and [`ScenePoint::error_px`] up to date.
+    pub(super) fn finish_points(&mut self, images: &[SfmImage]) {
+        let mut points = std::mem::take(&mut self.points);
+        for point in &mut points {
+            let (mut sum, mut color, mut colored) = (0.0, [0.0; 3], 0.0);
+            for element in &point.track {
+                let image = &images[element.image as usize];
+                let keypoint = element.keypoint as usize;
+                if let Some(pixel) = self.project(element.image as usize, &point.position) {
+                    sum += (pixel - image.keypoints[keypoint]).norm_squared();
+                }
+                if let Some(rgb) = image.colors.get(keypoint) {
+                    for (total, value) in color.iter_mut().zip(rgb) {
+                        *total += f64::from(*value);
+                    }
+                    colored += 1.0;
+                }
+            }
+            point.error_px = (sum / point.track.len().max(1) as f64).sqrt();
+            point.color = if colored > 0.0 {
+                color.map(|total| (total / colored).round() as u8)
+            } else {
+                [128; 3]
+            };
+        }
+        self.points = points;
+    }
+}

@@ -1,0 +1,212 @@
+//! Tracks: which keypoints of which photographs show the same point of the scene.
+
+use super::union_find::UnionFind;
+use crate::{Error, Result};
+
+/// A keypoint of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TrackElement {
+    /// Index of the image.
+    pub image: u32,
+    /// Index of the keypoint in that image.
+    pub keypoint: u32,
+}
+
+/// Matches between the keypoints of two images.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PairMatches {
+    /// Index of the first image.
+    pub image1: usize,
+    /// Index of the second image.
+    pub image2: usize,
+    /// Indices of matching keypoints, first image first.
+    pub matches: Vec<(u32, u32)>,
+}
+
+/// Joins matches into tracks: each is a list of keypoints, at most one an image, sorted by image.
+///
+/// * `num_keypoints`: of each image
+/// * `pairs`: matches that have passed a geometric test. Those of pairs with many matches are
+///   trusted first: a match that would give a track two keypoints of one image is left out, so
+///   that a wrong match costs itself and not the two tracks that it touches.
+///
+/// Tracks are sorted by their first element; keypoints without a match are in none.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if a match refers to an image or keypoint that is not there, or to one
+/// image twice.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::sfm::{PairMatches, build_tracks};
+/// let pair = |image1, image2, matches: &[(u32, u32)]| PairMatches { image1, image2, matches: matches.to_vec() };
+/// // Keypoint 0 of image 0 is keypoint 1 of image 1, and that is keypoint 2 of image 2.
+/// let tracks = build_tracks(&[3, 3, 3], &[pair(0, 1, &[(0, 1)]), pair(1, 2, &[(1, 2)])])?;
+/// assert_eq!(tracks.len(), 1);
+/// assert_eq!(tracks[0].len(), 3);
+/// # Ok(()) }
+/// ```
+pub fn build_tracks(
+    num_keypoints: &[usize],
+    pairs: &[PairMatches],
+) -> Result<Vec<Vec<TrackElement>>> {
+    let mut starts = vec![0; num_keypoints.len() + 1];
+    for (i, count) in num_keypoints.iter().enumerate() {
+        starts[i + 1] = starts[i] + count;
+    }
+    let refuse = |value: usize| {
+        Err(Error::OutOfRange {
+            what: "an image or keypoint of a match",
+            requirement: "the index of an existing one, of two different images",
+            value: value as f64,
+        })
+    };
+    for pair in pairs {
+        let (a, b) = (pair.image1, pair.image2);
+        if a >= num_keypoints.len() || b >= num_keypoints.len() || a == b {
+            return refuse(a.max(b));
+        }
+        for &(i, j) in &pair.matches {
+            if i as usize >= num_keypoints[a] || j as usize >= num_keypoints[b] {
+                return refuse(i.max(j) as usize);
+            }
+        }
+    }
+    let mut order: Vec<usize> = (0..pairs.len()).collect();
+    order.sort_by_key(|&p| (std::cmp::Reverse(pairs[p].matches.len()), p));
+
+    let total = starts[num_keypoints.len()];
+    let mut sets = UnionFind::new(total);
+    // The images of each set, sorted, at its root; empty stands for the keypoint alone.
+    let mut images: Vec<Vec<u32>> = vec![Vec::new(); total];
+    for &p in &order {
+        let pair = &pairs[p];
+        for &(i, j) in &pair.matches {
+            let (a, b) = (
+                starts[pair.image1] + i as usize,
+                starts[pair.image2] + j as usize,
+            );
+            let (root_a, root_b) = (sets.root(a), sets.root(b));
+            if root_a == root_b {
+                continue;
+            }
+            let own = |list: &mut Vec<u32>, image: usize| {
+                let mut list = std::mem::take(list);
+                if list.is_empty() {
+                    list.push(image as u32);
+                }
+                list
+            };
+            let of_a = own(&mut images[root_a], pair.image1);
+            let of_b = own(&mut images[root_b], pair.image2);
+            if share_a_member(&of_a, &of_b) {
+                images[root_a] = of_a;
+                images[root_b] = of_b;
+                continue;
+            }
+            sets.join(root_a, root_b);
+            let mut both = of_a;
+            both.extend(of_b);
+            both.sort_unstable();
+            images[sets.root(root_a)] = both;
+        }
+    }
+    let mut track_of_root = vec![usize::MAX; total];
+    let mut tracks: Vec<Vec<TrackElement>> = Vec::new();
+    for (image, count) in num_keypoints.iter().enumerate() {
+        for keypoint in 0..*count {
+            let root = sets.root(starts[image] + keypoint);
+            if images[root].len() < 2 {
+                continue;
+            }
+            if track_of_root[root] == usize::MAX {
+                track_of_root[root] = tracks.len();
+                tracks.push(Vec::new());
+            }
+            tracks[track_of_root[root]].push(TrackElement {
+                image: image as u32,
+                keypoint: keypoint as u32,
+            });
+        }
+    }
+    Ok(tracks)
+}
+
+/// Whether two ascending lists have a member in common.
+fn share_a_member(a: &[u32], b: &[u32]) -> bool {
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() && j < b.len() {
+        match a[i].cmp(&b[j]) {
+            std::cmp::Ordering::Less => i += 1,
+            std::cmp::Ordering::Greater => j += 1,
+            std::cmp::Ordering::Equal => return true,
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    fn pair(image1: usize, image2: usize, matches: &[(u32, u32)]) -> PairMatches {
+        PairMatches {
+            image1,
+            image2,
+            matches: matches.to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_wrong_match_costs_itself_alone() {
+        // Points 0 and 1 are seen in three images; one match of the weakest pair mixes them.
+        let pairs = [
+            pair(0, 1, &[(0, 0), (1, 1), (2, 2)]),
+            pair(1, 2, &[(0, 0), (1, 1), (2, 2)]),
+            pair(0, 2, &[(0, 1)]),
+        ];
+        let tracks = build_tracks(&[3, 3, 3], &pairs).unwrap();
+        assert_eq!(tracks.len(), 3);
+        for (p, track) in tracks.iter().enumerate() {
+            let expected: Vec<_> = (0..3)
+                .map(|image| TrackElement {
+                    image,
+                    keypoint: p as u32,
+                })
+                .collect();
+            assert_eq!(track, &expected);
+        }
+    }
+
+    #[test]
+    fn no_track_has_two_keypoints_of_one_image() {
+        let mut random = Random::new(51);
+        let counts = [40, 40, 40, 40, 40];
+        let mut pairs = Vec::new();
+        for a in 0..5 {
+            for b in a + 1..5 {
+                let matches: Vec<_> = (0..30)
+                    .map(|_| (random.below(40) as u32, random.below(40) as u32))
+                    .collect();
+                pairs.push(pair(a, b, &matches));
+            }
+        }
+        let tracks = build_tracks(&counts, &pairs).unwrap();
+        let mut seen = std::collections::BTreeSet::new();
+        for track in &tracks {
+            assert!(track.len() >= 2);
+            assert!(track.windows(2).all(|pair| pair[0].image < pair[1].image));
+            assert!(track.iter().all(|element| seen.insert(*element)));
+        }
+    }
+
+    #[test]
+    fn bad_indices_are_refused() {
+        assert!(build_tracks(&[3, 3], &[pair(0, 2, &[])]).is_err());
+        assert!(build_tracks(&[3, 3], &[pair(1, 1, &[(0, 1)])]).is_err());
+        assert!(build_tracks(&[3, 3], &[pair(0, 1, &[(0, 3)])]).is_err());
+        assert_eq!(build_tracks(&[3, 3], &[]).unwrap().len(), 0);
+        assert_eq!(build_tracks(&[], &[]).unwrap().len(), 0);
+    }
+}

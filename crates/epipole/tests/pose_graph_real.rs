@@ -1,0 +1,34 @@
+//! A published pose graph.
+
+use epipole::optim::{LmOptions, RobustLoss};
+use epipole::sfm::PoseGraph;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// The optimum that Gauss–Newton reaches from the given start with the first vertex fixed.
+#[test]
+fn intel_reaches_the_known_optimum() {
+    let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
+        PathBuf::from,
+    );
+    let path = root.join("posegraph/INTEL.g2o");
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        println!("skipped: no data at {}", path.display());
+        return;
+    };
+    let mut graph = PoseGraph::parse_g2o(&text).expect("a pose graph");
+    assert_eq!(graph.size(), (1228, 1483));
+    let begin = std::time::Instant::now();
+    let report = graph
+        .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut |i| {
+            println!("{i:?}");
+            ControlFlow::Continue(())
+        })
+        .expect("an optimization");
+    println!("{report:?} in {:?}", begin.elapsed());
+    assert!((report.initial_chi2 / 5.14972e6 - 1.0).abs() < 1e-5);
+    assert!((report.final_chi2 - 215.83).abs() < 0.01);
+    let again = PoseGraph::parse_g2o(&graph.to_g2o()).expect("what was written");
+    assert!((again.chi2() - report.final_chi2).abs() < 1e-6);
+}

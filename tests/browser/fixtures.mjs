@@ -1,0 +1,99 @@
+// What every test gets: a server with pages and elements, and a page whose console is watched.
+
+import { test as base, expect } from "@playwright/test";
+import { join } from "node:path";
+import { figurePage } from "./pages.mjs";
+import { bindings, elements, here, loadBindings } from "./places.mjs";
+import { serve } from "./server.mjs";
+
+/** Every figure of the module: `{name, title, help}`. */
+export const figures = JSON.parse((await loadBindings()).figures());
+
+const test = base.extend({
+  /** Pages and elements of one origin, under the policy of the book. */
+  site: [
+    async ({}, use) => {
+      const server = await serve({
+        mounts: { figures: figurePage, pages: join(here, "pages"), elements, bindings },
+      });
+      await use(server.origin);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+
+  /** Errors that a test expects: `complaints.length = 0` forgives them. */
+  complaints: async ({}, use) => {
+    const complaints = [];
+    await use(complaints);
+    expect(complaints, "errors in the console").toEqual([]);
+  },
+
+  page: async ({ page, complaints }, use) => {
+    listen(page, complaints);
+    await use(page);
+  },
+
+  /** Opens a page with figures: `open(page, ["ransac-race outliers=0.4"], { theme: "dark" })`. */
+  open: async ({ site }, use) => {
+    await use(async (page, names, options = {}) => {
+      const query = new URLSearchParams(names.map((name) => ["figure", name]));
+      for (const [key, value] of Object.entries(options.query ?? {})) query.set(key, value);
+      await page.goto(`${site}/figures?${query}${options.more ?? ""}`);
+      const found = page.locator("epipole-figure");
+      if (options.wait !== false) await ready(found.first());
+      return names.length === 1 ? found.first() : found;
+    });
+  },
+});
+
+/** Collects what a page complains about. */
+export function listen(page, complaints) {
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+}
+
+/** Waits until a figure has drawn its first frame. */
+export async function ready(figure) {
+  await figure.scrollIntoViewIfNeeded();
+  await expect(figure).toHaveAttribute("data-ready", "");
+}
+
+/** State, readouts and description of a figure, as its element tells them. */
+export function told(figure) {
+  return figure.evaluate((element) => {
+    element.flush();
+    const { state, readouts, description } = element;
+    return { state, readouts, description };
+  });
+}
+
+/** Keeps the details of a figure's events in `element.heard`. */
+export function hear(figure, ...types) {
+  return figure.evaluate((element, names) => {
+    element.heard = [];
+    for (const name of names) {
+      element.addEventListener(name, (event) => element.heard.push([name, event.detail]));
+    }
+  }, types);
+}
+
+export function heard(figure) {
+  return figure.evaluate((element) => element.heard);
+}
+
+/** Where a figure's first focusable handle is on the screen. */
+export async function gripOf(figure) {
+  const grip = figure.locator(".grip").first();
+  return { grip, ...(await middle(grip)) };
+}
+
+/** The middle of an element on the screen. */
+export async function middle(locator) {
+  const box = await locator.boundingBox();
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+export { test, expect };

@@ -1,0 +1,44 @@
+// Where the tests find what they test: the site that `make build` has made, in target/book.
+//
+// EPIPOLE_ELEMENTS and EPIPOLE_BINDINGS name other folders: the npm package, say.
+
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+export const here = dirname(fileURLToPath(import.meta.url));
+export const root = resolve(here, "../..");
+const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
+
+/** The whole site, if it is what we test. */
+export const book = process.env.EPIPOLE_ELEMENTS ? undefined : join(target, "book");
+
+/** A folder with the script of the elements and everything that it loads. */
+export const elements = process.env.EPIPOLE_ELEMENTS ?? join(target, "book");
+export const script = book ? "embed/epipole.js" : "index.js";
+
+/** The generated bindings, epipole_web.js. */
+export const bindings = process.env.EPIPOLE_BINDINGS ?? join(target, "book-work/bindgen");
+
+for (const path of [join(elements, script), join(bindings, "epipole_web.js")]) {
+  if (!existsSync(path)) throw new Error(`${path} is missing: run \`make build\` first`);
+}
+
+/** The WebAssembly module that readers download, under `elements`. */
+export const wasm = find(elements, book ? "assets" : "", /^epipole.*\.wasm$/);
+
+/** The script with the elements themselves, under `elements`. */
+export const code = book ? find(elements, "assets", /^index-.*\.js$/) : script;
+
+function find(folder, under, pattern) {
+  const name = readdirSync(join(folder, under)).find((file) => pattern.test(file));
+  if (!name) throw new Error(`${join(folder, under)} holds no ${pattern}`);
+  return under ? `${under}/${name}` : name;
+}
+
+/** The bindings, loaded into this process. */
+export async function loadBindings() {
+  const module = await import(pathToFileURL(join(bindings, "epipole_web.js")).href);
+  await module.default({ module_or_path: readFileSync(join(elements, wasm)) });
+  return module;
+}

@@ -1,0 +1,84 @@
+// Scripts of calls to figures, and how a page plays them. `crates/epipole-web/examples/trace.rs`
+// plays the same natively.
+
+import { execFileSync } from "node:child_process";
+import { root } from "./places.mjs";
+
+/** A script that touches every control and handle of a figure, with a frame now and then. */
+export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
+  const figure = new Figure(name);
+  const calls = [];
+  const script = { figure: name, width, scale, theme, calls };
+  // Park and Miller's generator: any would do, if it is the same in every run.
+  let state = seed;
+  const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
+  const pick = (list) => list[Math.floor(random() * list.length)];
+  const add = (...words) => {
+    calls.push(words);
+    const [method, ...args] = words;
+    if (method !== "draw_settled") figure[method](...args);
+  };
+  add("draw_settled");
+  for (let round = 0; round < rounds; round += 1) {
+    const { controls, handles, layout } = JSON.parse(figure.snapshot(width));
+    for (const control of controls) {
+      const { id, kind } = control;
+      if (kind === "slider") {
+        add("set_number", id, control.min + random() * (control.max - control.min));
+      } else if (kind === "toggle") add("set_flag", id, random() < 0.5);
+      else if (kind === "choice") add("set_text", id, pick(control.options)[0]);
+      else add("press", id);
+      for (let ticks = 0; ticks < 3; ticks += 1) add("tick", random() / 10);
+    }
+    for (const { id } of handles.slice(0, 8)) {
+      add("drag", id, width, random() * layout.width, random() * layout.height);
+      add("nudge", id, width, pick(["left", "right", "up", "down"]), pick([0.2, 1, 5]));
+    }
+    if (handles.length > 0) add("move_to_end", pick(handles).id, width, pick(["left", "right"]));
+    for (let clicks = 0; clicks < 3; clicks += 1) {
+      add("click", width, random() * layout.width, random() * layout.height);
+    }
+    const removable = handles.filter((handle) => handle.removable);
+    if (removable.length > 0) add("remove", pick(removable).id);
+    add("draw_settled");
+  }
+  add("reset");
+  add("draw_settled");
+  figure.free();
+  return script;
+}
+
+/** What the figures answer natively; with `--time`, the milliseconds of each script. */
+export function playNatively(scripts, ...flags) {
+  const profile = flags.includes("--time") ? ["--release"] : [];
+  const run = ["run", "--quiet", "--package", "epipole-web", "--example", "trace", ...profile];
+  const output = execFileSync("cargo", [...run, "--", ...flags], {
+    cwd: root,
+    input: JSON.stringify(scripts),
+    maxBuffer: 1 << 30,
+    stdio: ["pipe", "pipe", "ignore"],
+  });
+  return JSON.parse(output.toString());
+}
+
+/** To be evaluated in a page: what the figures answer there. */
+export async function playInPage({ module, path, scripts, timed = false }) {
+  const { default: load, Figure } = await import(module);
+  await load({ module_or_path: path });
+  return scripts.map((script) => {
+    const figure = new Figure(script.figure);
+    const frame = [script.width, script.scale, script.theme];
+    const call = ([method, ...args]) =>
+      figure[method](...(method.startsWith("draw") ? frame : args)) ?? "";
+    if (timed) {
+      const start = performance.now();
+      for (const words of script.calls) call(words);
+      return performance.now() - start;
+    }
+    return script.calls.map((words) => {
+      const said = call(words);
+      if (words[0] !== "draw_settled") return said + figure.snapshot(script.width) + figure.state();
+      return `${figure.pixel_width()} × ${figure.pixel_height()}: ${figure.frame_hash()}`;
+    });
+  });
+}

@@ -1,0 +1,57 @@
+// A small static server for the tests: pages under a strict policy, the elements for any origin.
+
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { extname, join, normalize } from "node:path";
+
+const TYPES = {
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".mjs": "text/javascript; charset=utf-8",
+  ".css": "text/css; charset=utf-8",
+  ".wasm": "application/wasm",
+  ".png": "image/png",
+  ".webp": "image/webp",
+  ".svg": "image/svg+xml",
+  ".json": "application/json",
+};
+
+/** What the pages of the book allow themselves, and no more. */
+const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
+  "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
+
+/**
+ * Serves folders: `mounts` maps the first part of a path to a folder or to a function that returns
+ * HTML for the rest of the address. `policy: false` is a page of someone else, who has none.
+ */
+export async function serve({ mounts, policy = POLICY, port = 0 }) {
+  const server = createServer(async (request, response) => {
+    const url = new URL(request.url, "http://localhost");
+    const [, first = "", ...rest] = url.pathname.split("/");
+    const mount = mounts[first];
+    const headers = { "Access-Control-Allow-Origin": "*", "Cache-Control": "no-store" };
+    if (policy) headers["Content-Security-Policy"] = policy;
+    try {
+      if (typeof mount === "function") {
+        response.writeHead(200, { ...headers, "Content-Type": TYPES[".html"] });
+        response.end(await mount(url));
+        return;
+      }
+      if (!mount) throw new Error("no such place");
+      const path = normalize(join(mount, decodeURIComponent(rest.join("/"))));
+      if (!path.startsWith(normalize(mount))) throw new Error("outside");
+      const body = await readFile(path);
+      response.writeHead(200, { ...headers, "Content-Type": TYPES[extname(path)] ?? "text/plain" });
+      response.end(body);
+    } catch {
+      response.writeHead(first === "favicon.ico" ? 204 : 404, headers);
+      response.end();
+    }
+  });
+  await new Promise((resolve) => server.listen(port, "127.0.0.1", resolve));
+  return {
+    origin: `http://127.0.0.1:${server.address().port}`,
+    close: () => new Promise((resolve) => server.close(resolve)),
+  };
+}

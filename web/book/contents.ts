@@ -1,0 +1,53 @@
+// The table of contents: show where the reader is.
+
+/** Scrolls the contents, not the page, to the present chapter. */
+export function revealCurrentChapter(): void {
+  const contents = document.getElementById("contents");
+  const current = contents?.querySelector<HTMLElement>(".current");
+  if (!contents || !current) return;
+  const show = () => {
+    const below = current.offsetTop + current.offsetHeight - contents.clientHeight;
+    if (below > 0) contents.scrollTop = Math.min(current.offsetTop - 80, below + 80);
+  };
+  show();
+  contents.addEventListener("toggle", show);
+  // A link to a section of this page closes the sheet.
+  contents.addEventListener("click", (event) => {
+    if (event.target instanceof Element && event.target.closest("a[href^='#']")) closeSheet(contents);
+  });
+}
+
+function closeSheet(contents: HTMLElement): void {
+  if (contents.matches(":popover-open")) contents.hidePopover();
+}
+
+/** Marks the section that is being read. */
+export function followSections(): void {
+  const links = new Map<string, HTMLAnchorElement>();
+  for (const link of document.querySelectorAll<HTMLAnchorElement>(".sections a")) {
+    links.set(decodeURIComponent(link.hash.slice(1)), link);
+  }
+  const headings = [...document.querySelectorAll<HTMLElement>("article h2[id]")].filter((heading) =>
+    links.has(heading.id),
+  );
+  if (headings.length === 0) return;
+  let scheduled = false;
+  const update = () => {
+    scheduled = false;
+    const line = innerHeight / 3;
+    const passed = headings.filter((heading) => heading.getBoundingClientRect().top < line);
+    const current = passed.at(-1)?.id;
+    for (const [id, link] of links) {
+      if (id === current) link.setAttribute("aria-current", "location");
+      else link.removeAttribute("aria-current");
+    }
+  };
+  const schedule = () => {
+    if (scheduled) return;
+    scheduled = true;
+    requestAnimationFrame(update);
+  };
+  addEventListener("scroll", schedule, { passive: true });
+  addEventListener("resize", schedule, { passive: true });
+  update();
+}

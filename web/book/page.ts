@@ -1,0 +1,27 @@
+// What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
+import { followSections, revealCurrentChapter } from "./contents";
+import { makeScrollersReachable } from "./scrollers";
+import { startTheme } from "./theme";
+
+startTheme();
+revealCurrentChapter();
+followSections();
+makeScrollersReachable();
+
+if (document.querySelector(".quiz, .progress")) {
+  void import("./quiz").then((quiz) => quiz.start());
+}
+
+const button = document.querySelector<HTMLButtonElement>(".search-button");
+if (button) {
+  button.hidden = false;
+  const open = () =>
+    void import("./search").then((search) => search.open(button.dataset.index ?? "", button.dataset.root ?? ""));
+  button.addEventListener("click", open);
+  document.addEventListener("keydown", (event) => {
+    if ((event.ctrlKey || event.metaKey) && !event.shiftKey && !event.altKey && event.key.toLowerCase() === "k") {
+      event.preventDefault();
+      open();
+    }
+  });
+}

@@ -1,0 +1,114 @@
+// Quizzes. The page holds questions and folded answers; this checks what the reader says and
+// remembers, in this browser only, what was solved. An answer given to an earlier wording of a
+// question (another data-hash) does not count.
+
+const PREFIX = "epipole-quiz:";
+
+type Solved = Record<string, string>;
+
+function load(quiz: string): Solved {
+  try {
+    const stored: unknown = JSON.parse(localStorage.getItem(PREFIX + quiz) ?? "{}");
+    return typeof stored === "object" && stored !== null ? (stored as Solved) : {};
+  } catch {
+    return {};
+  }
+}
+
+function save(quiz: string, solved: Solved): void {
+  try {
+    localStorage.setItem(PREFIX + quiz, JSON.stringify(solved));
+  } catch {
+    // Not remembered; the page works all the same.
+  }
+}
+
+type Verdict = { right: boolean; say: string };
+
+function checkNumber(input: HTMLInputElement): Verdict | null {
+  const typed = input.value.trim().replace(/\s/g, "").replace("−", "-").replace(",", ".");
+  if (typed === "") return null;
+  const value = Number(typed);
+  if (!Number.isFinite(value)) return { right: false, say: "Please type a number." };
+  const answer = Number(input.dataset.answer);
+  // A reader may type what the page prints: decimals beyond the tolerance are rounding.
+  const tolerance = Number(input.dataset.tolerance) + 1e-9 * Math.max(1, Math.abs(answer));
+  const right = Math.abs(value - answer) <= tolerance;
+  return { right, say: right ? "Right." : value > answer ? "Not yet: too large." : "Not yet: too small." };
+}
+
+function checkChoices(inputs: HTMLInputElement[]): Verdict | null {
+  if (!inputs.some((input) => input.checked)) return null;
+  const right = inputs.every((input) => input.checked === "right" in input.dataset);
+  return { right, say: right ? "Right." : "Not yet. Look again, or open the answer." };
+}
+
+function showReasons(form: HTMLFormElement): void {
+  for (const why of form.querySelectorAll<HTMLElement>(".why")) {
+    const input = why.previousElementSibling?.querySelector("input");
+    why.hidden = !input?.checked;
+  }
+}
+
+function prepare(form: HTMLFormElement, quiz: string): void {
+  const id = form.id;
+  const hash = form.dataset.hash ?? "";
+  const actions = form.querySelector<HTMLElement>(".question-actions");
+  const verdict = form.querySelector<HTMLElement>(".verdict");
+  const solution = form.querySelector<HTMLDetailsElement>(".solution");
+  if (!actions || !verdict) return;
+  actions.hidden = false;
+  if (load(quiz)[id] === hash) {
+    form.dataset.state = "right";
+    verdict.textContent = "You solved this one.";
+  }
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const number = form.querySelector<HTMLInputElement>("input[data-answer]");
+    const choices = [...form.querySelectorAll<HTMLInputElement>(".choice input")];
+    const result = number ? checkNumber(number) : checkChoices(choices);
+    if (!result) {
+      delete form.dataset.state;
+      verdict.textContent = "Choose or type an answer first.";
+      return;
+    }
+    form.dataset.state = result.right ? "right" : "wrong";
+    verdict.textContent = result.say;
+    showReasons(form);
+    if (result.right) {
+      save(quiz, { ...load(quiz), [id]: hash });
+      if (solution) solution.open = true;
+    }
+  });
+}
+
+/** The table on the page about progress. */
+function showProgress(progress: HTMLElement): void {
+  const update = () => {
+    for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
+      const cell = row.querySelector(".solved");
+      if (cell) cell.textContent = String(Object.keys(load(row.dataset.quiz ?? "")).length);
+    }
+  };
+  update();
+  const reset = progress.querySelector<HTMLButtonElement>(".reset-progress");
+  if (!reset) return;
+  reset.hidden = false;
+  reset.addEventListener("click", () => {
+    for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
+      try {
+        localStorage.removeItem(PREFIX + (row.dataset.quiz ?? ""));
+      } catch {
+        // Nothing was stored then.
+      }
+    }
+    update();
+  });
+}
+
+export function start(): void {
+  for (const quiz of document.querySelectorAll<HTMLElement>(".quiz")) {
+    for (const form of quiz.querySelectorAll("form")) prepare(form, quiz.dataset.quiz ?? "");
+  }
+  for (const progress of document.querySelectorAll<HTMLElement>(".progress")) showProgress(progress);
+}

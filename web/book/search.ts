@@ -1,0 +1,173 @@
+// Search over all sections. The index is fetched when the reader first asks for it.
+
+interface Section {
+  /** Path and anchor. */
+  u: string;
+  /** Chapter. */
+  c: string;
+  /** Section. */
+  t: string;
+  /** Words. */
+  w: string;
+}
+
+interface Hit {
+  section: Section;
+  score: number;
+}
+
+const MAX_HITS = 20;
+let sections: Promise<Section[]> | undefined;
+let dialog: HTMLDialogElement | undefined;
+
+const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
+
+/** Sections that hold every word (or a word that starts so), best first. */
+export function find(all: Section[], query: string): Hit[] {
+  const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
+  if (words.length === 0) return [];
+  const hits: Hit[] = [];
+  for (const section of all) {
+    const title = ` ${fold(section.t)}`;
+    const chapter = ` ${fold(section.c)}`;
+    const text = ` ${fold(section.w)}`;
+    let score = 0;
+    for (const word of words) {
+      const inTitle = startsIn(title, word);
+      const inChapter = startsIn(chapter, word);
+      const inText = startsIn(text, word);
+      if (!inTitle && !inChapter && !inText) {
+        score = 0;
+        break;
+      }
+      score += 8 * inTitle + 3 * inChapter + Math.min(inText, 5);
+    }
+    if (score > 0) hits.push({ section, score });
+  }
+  return hits.sort((a, b) => b.score - a.score).slice(0, MAX_HITS);
+}
+
+/** How often a word of the text starts with `word`. */
+function startsIn(text: string, word: string): number {
+  let count = 0;
+  for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
+    if (!/[\p{L}\p{N}]/u.test(text[at - 1] ?? " ")) count += 1;
+  }
+  return count;
+}
+
+/** About 140 letters around the first match, the matches marked. */
+function excerpt(text: string, query: string): HTMLElement {
+  const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
+  const folded = fold(text);
+  const places = words.map((word) => folded.indexOf(word)).filter((place) => place >= 0);
+  const first = places.length > 0 ? Math.min(...places) : 0;
+  const from = first > 60 ? text.indexOf(" ", first - 60) + 1 : 0;
+  const shown = text.slice(from, from + 140);
+  const span = document.createElement("span");
+  span.className = "excerpt";
+  if (from > 0) span.append("… ");
+  let rest = shown;
+  while (rest) {
+    const at = words.map((word) => [fold(rest).indexOf(word), word.length] as const).filter(([place]) => place >= 0);
+    const [place, length] = at.sort((a, b) => a[0] - b[0])[0] ?? [rest.length, 0];
+    span.append(rest.slice(0, place));
+    if (length === 0) break;
+    const mark = document.createElement("mark");
+    mark.textContent = rest.slice(place, place + length);
+    span.append(mark);
+    rest = rest.slice(place + length);
+  }
+  if (from + 140 < text.length) span.append(" …");
+  return span;
+}
+
+function makeDialog(root: string): HTMLDialogElement {
+  const made = document.createElement("dialog");
+  made.className = "search-dialog";
+  made.setAttribute("aria-label", "Search the book");
+  const field = document.createElement("div");
+  field.className = "search-field";
+  const input = document.createElement("input");
+  input.type = "search";
+  input.setAttribute("aria-label", "Search for");
+  input.placeholder = "Search the book";
+  input.autocomplete = "off";
+  const close = document.createElement("button");
+  close.type = "button";
+  close.className = "icon-button";
+  close.setAttribute("aria-label", "Close the search");
+  close.textContent = "✕";
+  field.append(input, close);
+  const status = document.createElement("p");
+  status.className = "search-status";
+  status.setAttribute("role", "status");
+  const list = document.createElement("ol");
+  list.className = "search-results";
+  made.append(field, status, list);
+  document.body.append(made);
+
+  close.addEventListener("click", () => made.close());
+  made.addEventListener("click", (event) => {
+    const target = event.target;
+    if (target === made || (target instanceof Element && target.closest("a"))) made.close();
+  });
+  const update = async () => {
+    const query = input.value;
+    let hits: Hit[] = [];
+    try {
+      hits = find((await sections) ?? [], query);
+    } catch {
+      status.textContent = "The index of the book could not be loaded.";
+      return;
+    }
+    if (query !== input.value) return;
+    const found = hits.length === 0 ? "Nothing found." : `${hits.length} section${hits.length === 1 ? "" : "s"}`;
+    status.textContent = query.trim() === "" ? "" : found;
+    list.replaceChildren(
+      ...hits.map(({ section }) => {
+        const item = document.createElement("li");
+        const link = document.createElement("a");
+        link.href = root + section.u;
+        const where = document.createElement("span");
+        where.className = "where";
+        where.append(section.t);
+        if (section.t !== section.c) {
+          const chapter = document.createElement("small");
+          chapter.textContent = ` · ${section.c}`;
+          where.append(chapter);
+        }
+        link.append(where, excerpt(section.w, query));
+        item.append(link);
+        return item;
+      }),
+    );
+  };
+  input.addEventListener("input", () => void update());
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") list.querySelector<HTMLAnchorElement>("a")?.click();
+    if (event.key === "ArrowDown") {
+      event.preventDefault();
+      list.querySelector<HTMLAnchorElement>("a")?.focus();
+    }
+  });
+  list.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
+    event.preventDefault();
+    const links = [...list.querySelectorAll("a")];
+    const next = links.indexOf(document.activeElement as HTMLAnchorElement) + (event.key === "ArrowDown" ? 1 : -1);
+    (next < 0 ? input : links[Math.min(next, links.length - 1)])?.focus();
+  });
+  return made;
+}
+
+export function open(index: string, root: string): void {
+  sections ??= fetch(index).then((response) => {
+    if (!response.ok) throw new Error(response.statusText);
+    return response.json() as Promise<Section[]>;
+  });
+  sections.catch(() => (sections = undefined));
+  dialog ??= makeDialog(root);
+  if (!dialog.open) dialog.showModal();
+  dialog.querySelector("input")?.select();
+}

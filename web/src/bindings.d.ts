@@ -1,0 +1,57 @@
+/** The bindings that wasm-bindgen generates from `crates/epipole-web`. */
+declare module "epipole-web" {
+  export class Figure {
+    constructor(name: string);
+    title(): string;
+    help(): string;
+    apply(parameters: string[]): string;
+    state(): string;
+    set_number(id: string, value: number): string | undefined;
+    set_flag(id: string, value: boolean): string | undefined;
+    set_text(id: string, value: string): string | undefined;
+    press(id: string): string | undefined;
+    remove(id: string): string | undefined;
+    reset(): string | undefined;
+    tick(dtSeconds: number): string | undefined;
+    is_running(): boolean;
+    snapshot(width: number): string;
+    handle_at(width: number, x: number, y: number): string | undefined;
+    drag(id: string, width: number, x: number, y: number): string | undefined;
+    nudge(id: string, width: number, towards: string, steps: number): string | undefined;
+    move_to_end(id: string, width: number, towards: string): string | undefined;
+    click(width: number, x: number, y: number): string | undefined;
+    take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
+    job_key(): string | undefined;
+    job_request(): Uint8Array;
+    job_done(key: string, result: Uint8Array): boolean;
+    job_failed(key: string, sentence: string): boolean;
+    refine(): boolean;
+    draw(width: number, scale: number, theme: string): string | undefined;
+    draw_settled(width: number, scale: number, theme: string): string | undefined;
+    pixels(): number;
+    pixel_width(): number;
+    pixel_height(): number;
+    frame_hash(): string | undefined;
+  }
+  export function compute(
+    name: string,
+    request: Uint8Array,
+    listener: { progress: (share: number) => void },
+  ): Uint8Array;
+  export function figures(): string;
+  export function take_panic(): string | undefined;
+  export default function load(options: {
+    module_or_path: URL;
+  }): Promise<{ memory: WebAssembly.Memory }>;
+}
+
+/** Where the WebAssembly module is, relative to the script; the bundler puts it in. */
+declare const EPIPOLE_WASM: string;
+
+/** Where the worker's script is, likewise. */
+declare const EPIPOLE_WORKER: string;
+
+declare module "*.css" {
+  const text: string;
+  export default text;
+}

@@ -1,0 +1,133 @@
+/** What a figure says of itself: the plain data of `epipole-widgets`, as it arrives here. */
+
+/** A number that the reader slides. */
+export interface Slider {
+  kind: "slider";
+  unit: string;
+  min: number;
+  max: number;
+  step: number;
+  default: number;
+  digits: number;
+  value: number;
+}
+
+/** Something that is on or off. */
+export interface Toggle {
+  kind: "toggle";
+  default: boolean;
+  value: boolean;
+}
+
+/** One of a few named options. */
+export interface Choice {
+  kind: "choice";
+  /** Permanent name and label of each option. */
+  options: [string, string][];
+  default: string;
+  value: string;
+}
+
+/** Something that happens when pressed. */
+export interface Button {
+  kind: "button";
+  role: "run" | "step" | "restart" | "action";
+  /** True while the animation that it starts is running. */
+  pressed: boolean;
+}
+
+/** A control with its present value. */
+export type Control = {
+  id: string;
+  label: string;
+  /** The value in words, such as "0.30 m". */
+  value_text: string;
+  /** False when it can do nothing now. */
+  enabled: boolean;
+  /** False keeps it out of the page; it is then part of the permalink only. */
+  visible: boolean;
+} & (Slider | Toggle | Choice | Button);
+
+/** A draggable point. */
+export interface Handle {
+  id: string;
+  panel: string;
+  label: string;
+  value_text: string;
+  x: number;
+  y: number;
+  x_range: [number, number];
+  y_range: [number, number];
+  step: [number, number];
+  digits: number;
+  removable: boolean;
+  /** Where it is in the picture, CSS pixels of the layout. */
+  place: [number, number];
+}
+
+/** A number or words beside the picture. */
+export interface Readout {
+  id: string;
+  label: string;
+  value: number | string;
+  unit: string;
+  /** The value as shown, with its unit. */
+  text: string;
+}
+
+/** A goal for the reader. */
+export interface Challenge {
+  id: string;
+  goal: string;
+  hint: string;
+  solved: boolean;
+}
+
+/** A place for a photograph of the reader's own. */
+export interface PhotoSlot {
+  id: string;
+  label: string;
+  /** Larger photographs are made smaller. */
+  max_side_px: number;
+}
+
+/** A part of the picture. */
+export interface Panel {
+  id: string;
+  rect: { x: number; y: number; width: number; height: number };
+  clickable: boolean;
+}
+
+/** Everything that a page shows, for one width of the picture. */
+export interface Snapshot {
+  layout: { width: number; height: number; panels: Panel[] };
+  controls: Control[];
+  handles: Handle[];
+  readouts: Readout[];
+  challenges: Challenge[];
+  description: string;
+  running: boolean;
+  photos: PhotoSlot[];
+  /** What to say while the figure waits for a long computation. */
+  waiting: string | null;
+}
+
+/** What the reader does. */
+export type FigureEvent =
+  | { type: "set"; id: string; value: string | number | boolean }
+  | { type: "press"; id: string }
+  | { type: "handle-removed"; id: string }
+  | { type: "reset" };
+
+/** Where an arrow key points. */
+export type Direction = "left" | "right" | "up" | "down";
+
+/** Parameters in their order, as in a permalink. */
+export type Parameters = [key: string, value: string][];
+
+/** A parameter that could not be used. */
+export interface Refused {
+  /** True if the figure has no such parameter. */
+  unknown: boolean;
+  message: string;
+}

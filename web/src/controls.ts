@@ -1,0 +1,181 @@
+/** Native inputs for a figure's controls. */
+
+import type { Button, Choice, Control, FigureEvent, Slider, Toggle } from "./contract.js";
+import { make, setAttribute, setText } from "./dom.js";
+
+type Send = (event: FigureEvent) => void;
+
+/** One control on the page: its element, and how to bring it up to date. */
+interface Row {
+  element: HTMLElement;
+  update: (control: Control) => void;
+}
+
+/** The controls of one figure, in the figure's order; inputs first, then the buttons in a row. */
+export class Controls {
+  readonly element = make("div", { class: "controls" });
+  readonly #inputs = make("div", { class: "inputs" });
+  readonly #buttons = make("div", { class: "buttons", role: "group", "aria-label": "Actions" });
+  readonly #rows = new Map<string, Row>();
+  readonly #send: Send;
+
+  constructor(send: Send) {
+    this.#send = send;
+    this.element.append(this.#buttons, this.#inputs);
+  }
+
+  update(controls: Control[]): void {
+    for (const control of controls) {
+      if (!control.visible) continue;
+      let row = this.#rows.get(control.id);
+      if (!row) {
+        row = makeRow(control, this.#send);
+        this.#rows.set(control.id, row);
+        (control.kind === "button" ? this.#buttons : this.#inputs).append(row.element);
+      }
+      row.update(control);
+    }
+    this.#buttons.hidden = !this.#buttons.hasChildNodes();
+    this.#inputs.hidden = !this.#inputs.hasChildNodes();
+    this.element.hidden = this.#buttons.hidden && this.#inputs.hidden;
+  }
+}
+
+function makeRow(control: Control, send: Send): Row {
+  switch (control.kind) {
+    case "slider":
+      return sliderRow(control, send);
+    case "toggle":
+      return toggleRow(control, send);
+    case "choice":
+      return control.options.length <= 4 ? radioRow(control, send) : selectRow(control, send);
+    case "button":
+      return buttonRow(control, send);
+  }
+}
+
+/** A disabled control stays where it is and can be found; it only does nothing. */
+function setEnabled(element: Element, control: Control): void {
+  setAttribute(element, "aria-disabled", control.enabled ? undefined : "true");
+}
+
+function sliderRow(control: Control & Slider, send: Send): Row {
+  const id = `control-${control.id}`;
+  const input = make("input", {
+    id,
+    type: "range",
+    min: control.min,
+    max: control.max,
+    step: control.step,
+  });
+  const output = make("output", { for: id });
+  const label = make("label", { for: id }, control.label);
+  const element = make("div", { class: "slider" }, label, output, input);
+  let shown = control;
+  input.addEventListener("input", () => {
+    if (shown.enabled) send({ type: "set", id: control.id, value: input.valueAsNumber });
+    else input.value = shown.value.toFixed(shown.digits);
+  });
+  return {
+    element,
+    update(now) {
+      if (now.kind !== "slider") return;
+      shown = now;
+      const value = now.value.toFixed(now.digits);
+      if (Number(input.value) !== now.value) input.value = value;
+      const share = (now.value - now.min) / (now.max - now.min || 1);
+      input.style.setProperty("--share", `${(100 * share).toFixed(2)}%`);
+      setAttribute(input, "aria-valuetext", now.value_text);
+      setText(output, now.value_text);
+      setEnabled(input, now);
+    },
+  };
+}
+
+function toggleRow(control: Control & Toggle, send: Send): Row {
+  const input = make("input", { type: "checkbox" });
+  const element = make("label", { class: "toggle" }, input, make("span", {}, control.label));
+  let shown = control;
+  input.addEventListener("change", () => {
+    if (shown.enabled) send({ type: "set", id: control.id, value: input.checked });
+    else input.checked = shown.value;
+  });
+  return {
+    element,
+    update(now) {
+      if (now.kind !== "toggle") return;
+      shown = now;
+      input.checked = now.value;
+      setEnabled(input, now);
+    },
+  };
+}
+
+function radioRow(control: Control & Choice, send: Send): Row {
+  const element = make("fieldset", { class: "choice" }, make("legend", {}, control.label));
+  const inputs = new Map<string, HTMLInputElement>();
+  const options = make("div", { class: "options" });
+  let shown = control;
+  for (const [value, label] of control.options) {
+    const input = make("input", { type: "radio", name: `control-${control.id}`, value });
+    input.addEventListener("change", () => {
+      if (shown.enabled) send({ type: "set", id: control.id, value });
+      else check(shown.value);
+    });
+    inputs.set(value, input);
+    options.append(make("label", {}, input, make("span", {}, label)));
+  }
+  element.append(options);
+  const check = (value: string) => {
+    for (const [name, input] of inputs) input.checked = name === value;
+  };
+  return {
+    element,
+    update(now) {
+      if (now.kind !== "choice") return;
+      shown = now;
+      check(now.value);
+      setEnabled(element, now);
+    },
+  };
+}
+
+function selectRow(control: Control & Choice, send: Send): Row {
+  const id = `control-${control.id}`;
+  const options = control.options.map(([value, label]) => make("option", { value }, label));
+  const select = make("select", { id }, ...options);
+  const element = make("div", { class: "select" }, make("label", { for: id }, control.label), select);
+  let shown = control;
+  select.addEventListener("change", () => {
+    if (shown.enabled) send({ type: "set", id: control.id, value: select.value });
+    else select.value = shown.value;
+  });
+  return {
+    element,
+    update(now) {
+      if (now.kind !== "choice") return;
+      shown = now;
+      select.value = now.value;
+      setEnabled(select, now);
+    },
+  };
+}
+
+function buttonRow(control: Control & Button, send: Send): Row {
+  const element = make("button", { type: "button", class: control.role });
+  let shown: Control & Button = control;
+  element.addEventListener("click", () => {
+    if (shown.enabled) send({ type: "press", id: control.id });
+  });
+  return {
+    element,
+    update(now) {
+      if (now.kind !== "button") return;
+      shown = now;
+      // The label says what the next press does, so it is no pressed state on top.
+      setText(element, now.role === "run" && now.pressed ? "Pause" : now.label);
+      setAttribute(element, "data-running", now.pressed);
+      setEnabled(element, now);
+    },
+  };
+}

@@ -1,0 +1,158 @@
+/** The one WebAssembly module of a page: loaded when the first figure wants it. */
+
+import load, { Figure, figures, take_panic } from "epipole-web";
+import type {
+  Direction,
+  FigureEvent,
+  Parameters,
+  Refused,
+  Snapshot,
+} from "./contract.js";
+import type { Photo } from "./photos.js";
+
+let loading: Promise<{ memory: WebAssembly.Memory }> | undefined;
+
+/** Loads the module, or waits for it. A failed load may be tried again. */
+export function loadModule(): Promise<{ memory: WebAssembly.Memory }> {
+  loading ??= load({ module_or_path: new URL(EPIPOLE_WASM, import.meta.url) }).catch((error: unknown) => {
+    loading = undefined;
+    throw error;
+  });
+  return loading;
+}
+
+/** Every figure of the module with its title and what a reader can do with it. */
+export async function listFigures(): Promise<{ name: string; title: string; help: string }[]> {
+  await loadModule();
+  return JSON.parse(figures());
+}
+
+/** What the last panic said. */
+export function panicMessage(): string | undefined {
+  return take_panic();
+}
+
+/** A figure in some state, typed. Whatever a method throws is a panic of the module. */
+export class Engine {
+  readonly #figure: Figure;
+  readonly #memory: WebAssembly.Memory;
+
+  /** Throws a sentence if there is no such figure. */
+  constructor(name: string, memory: WebAssembly.Memory) {
+    this.#figure = new Figure(name);
+    this.#memory = memory;
+  }
+
+  get title(): string {
+    return this.#figure.title();
+  }
+
+  get help(): string {
+    return this.#figure.help();
+  }
+
+  get running(): boolean {
+    return this.#figure.is_running();
+  }
+
+  apply(parameters: Parameters): Refused[] {
+    return JSON.parse(this.#figure.apply(parameters.flat()));
+  }
+
+  state(): Parameters {
+    return JSON.parse(this.#figure.state());
+  }
+
+  snapshot(width: number): Snapshot {
+    return JSON.parse(this.#figure.snapshot(width));
+  }
+
+  update(event: FigureEvent): string | undefined {
+    const figure = this.#figure;
+    switch (event.type) {
+      case "set":
+        if (typeof event.value === "number") return figure.set_number(event.id, event.value);
+        if (typeof event.value === "boolean") return figure.set_flag(event.id, event.value);
+        return figure.set_text(event.id, event.value);
+      case "press":
+        return figure.press(event.id);
+      case "handle-removed":
+        return figure.remove(event.id);
+      case "reset":
+        return figure.reset();
+    }
+  }
+
+  tick(seconds: number): string | undefined {
+    return this.#figure.tick(seconds);
+  }
+
+  handleAt(width: number, x: number, y: number): string | undefined {
+    return this.#figure.handle_at(width, x, y);
+  }
+
+  drag(id: string, width: number, x: number, y: number): string | undefined {
+    return this.#figure.drag(id, width, x, y);
+  }
+
+  nudge(id: string, width: number, towards: Direction, steps: number): string | undefined {
+    return this.#figure.nudge(id, width, towards, steps);
+  }
+
+  moveToEnd(id: string, width: number, towards: Direction): string | undefined {
+    return this.#figure.move_to_end(id, width, towards);
+  }
+
+  click(width: number, x: number, y: number): string | undefined {
+    return this.#figure.click(width, x, y);
+  }
+
+  takePhoto(slot: string, { width, height, rgba }: Photo): string | undefined {
+    return this.#figure.take_photo(slot, width, height, rgba);
+  }
+
+  /** The long computation that the figure waits for. */
+  job(): { key: string; request: Uint8Array } | undefined {
+    const key = this.#figure.job_key();
+    return key === undefined ? undefined : { key, request: this.#figure.job_request() };
+  }
+
+  jobDone(key: string, result: Uint8Array): boolean {
+    return this.#figure.job_done(key, result);
+  }
+
+  jobFailed(key: string, sentence: string): boolean {
+    return this.#figure.job_failed(key, sentence);
+  }
+
+  refine(): boolean {
+    return this.#figure.refine();
+  }
+
+  /** Draws a frame onto a canvas, which takes the frame's size. Returns a sentence on failure. */
+  draw(
+    canvas: HTMLCanvasElement,
+    width: number,
+    scale: number,
+    theme: string,
+    settled = false,
+  ): string | undefined {
+    const figure = this.#figure;
+    const refused = settled
+      ? figure.draw_settled(width, scale, theme)
+      : figure.draw(width, scale, theme);
+    if (refused !== undefined) return refused;
+    const [columns, rows] = [figure.pixel_width(), figure.pixel_height()];
+    // A view of the module's memory: the only copy is the one that the canvas makes.
+    const bytes = new Uint8ClampedArray(
+      this.#memory.buffer as ArrayBuffer,
+      figure.pixels(),
+      columns * rows * 4,
+    );
+    if (canvas.width !== columns) canvas.width = columns;
+    if (canvas.height !== rows) canvas.height = rows;
+    const context = canvas.getContext("2d", { alpha: false, willReadFrequently: true });
+    context?.putImageData(new ImageData(bytes, columns, rows), 0, 0);
+    return undefined;
+  }
+}

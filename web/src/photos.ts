@@ -1,0 +1,73 @@
+/** Photographs of the reader's own: chosen, decoded and made smaller here; they go nowhere else. */
+
+import type { PhotoSlot } from "./contract.js";
+import { make } from "./dom.js";
+
+export interface Photo {
+  width: number;
+  height: number;
+  rgba: Uint8Array;
+}
+
+export class Photos {
+  readonly element = make("div", { class: "photos", hidden: true });
+  readonly #take: (slot: string, photo: Photo) => void;
+  readonly #warn: (sentence: string) => void;
+  #slots = "";
+
+  constructor(take: (slot: string, photo: Photo) => void, warn: (sentence: string) => void) {
+    this.#take = take;
+    this.#warn = warn;
+  }
+
+  update(slots: PhotoSlot[]): void {
+    const ids = slots.map(({ id }) => id).join(" ");
+    if (ids === this.#slots) return;
+    this.#slots = ids;
+    this.element.hidden = slots.length === 0;
+    this.element.replaceChildren(...slots.map((slot) => this.#row(slot)));
+  }
+
+  #row(slot: PhotoSlot): HTMLElement {
+    const input = make("input", { id: `photo-${slot.id}`, type: "file", accept: "image/*" });
+    const note = make("span", { class: "note" }, "Stays on your device.");
+    input.addEventListener("change", () => {
+      const file = input.files?.[0];
+      if (file) void this.#read(slot, file, note);
+      // The same photograph may be chosen again.
+      input.value = "";
+    });
+    return make("div", { class: "photo" }, make("label", { for: input.id }, slot.label), input, note);
+  }
+
+  async #read(slot: PhotoSlot, file: File, note: HTMLElement): Promise<void> {
+    let bitmap: ImageBitmap;
+    try {
+      bitmap = await createImageBitmap(file, { imageOrientation: "from-image" });
+    } catch {
+      this.#warn(`${file.name} is not a photograph that this browser can read.`);
+      return;
+    }
+    const [photo, words] = shrink(bitmap, slot.max_side_px);
+    bitmap.close();
+    note.textContent = `${words} Stays on your device.`;
+    if (photo) this.#take(slot.id, photo);
+  }
+}
+
+/** The pixels of a photograph, no side longer than `most`, and what was done to it. */
+function shrink(bitmap: ImageBitmap, most: number): [Photo | undefined, string] {
+  const scale = Math.min(1, most / Math.max(bitmap.width, bitmap.height));
+  const width = Math.max(1, Math.round(bitmap.width * scale));
+  const height = Math.max(1, Math.round(bitmap.height * scale));
+  const canvas = make("canvas", { width, height });
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  if (!context) return [undefined, ""];
+  context.imageSmoothingQuality = "high";
+  context.drawImage(bitmap, 0, 0, width, height);
+  const { data } = context.getImageData(0, 0, width, height);
+  const now = `${width} × ${height} pixels`;
+  const words =
+    scale < 1 ? `Made smaller, from ${bitmap.width} × ${bitmap.height} to ${now}.` : `${now}.`;
+  return [{ width, height, rgba: new Uint8Array(data.buffer) }, words];
+}

@@ -1,0 +1,34 @@
+/** A figure's parameters as properties of its element. */
+
+import type { Control, Parameters } from "./contract.js";
+
+/** What the properties need of the element. */
+interface Host extends HTMLElement {
+  readonly controlValue: (id: string) => number | boolean | string | undefined;
+  apply: (parameters: Record<string, string | number | boolean>) => void;
+}
+
+/**
+ * Makes each control a property of its element: `figure.outliers = 0.4`. A name that elements have
+ * already keeps its meaning; such a control is reached through `state`. Returns what was set before
+ * the figure was there.
+ */
+export function defineProperties(host: Host, controls: Control[]): Parameters {
+  const early: Parameters = [];
+  for (const { id, kind } of controls) {
+    if (kind === "button") continue;
+    const own = Object.getOwnPropertyDescriptor(host, id);
+    if (own && "value" in own) {
+      early.push([id, String(own.value)]);
+      Reflect.deleteProperty(host, id);
+    }
+    if (id in host) continue;
+    Object.defineProperty(host, id, {
+      configurable: true,
+      enumerable: true,
+      get: () => host.controlValue(id),
+      set: (value: string | number | boolean) => host.apply({ [id]: value }),
+    });
+  }
+  return early;
+}

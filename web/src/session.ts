@@ -1,0 +1,225 @@
+/**
+ * One running figure: when it changes, ticks, draws and refines.
+ *
+ * A frame is drawn only when something has changed, at most once per frame of the display. While the
+ * reader moves something, views draw drafts; when the reader rests, `refine` sharpens them in slices.
+ */
+
+import type { Snapshot } from "./contract.js";
+import { panicMessage, type Engine } from "./module.js";
+import { wantsStillness, type Theme } from "./theme.js";
+
+/** How long the reader must rest before the picture is refined, milliseconds. */
+const REST_MS = 120;
+/** How long refining may take of one frame of the display, milliseconds. */
+const SLICE_MS = 8;
+/** How often a picture that is being refined is shown, milliseconds. */
+const SHOW_MS = 150;
+/** How often a running figure changes for a reader who wants things to stand still, milliseconds. */
+const STILL_MS = 600;
+/** The longest time that one tick passes on, seconds. */
+const TICK_S = 0.1;
+/** Views need some room; in less, the picture is scaled down. CSS pixels. */
+const NARROWEST = 280;
+const WIDEST = 2000;
+
+export interface Hooks {
+  /** A frame was drawn; the snapshot is new if the state or the layout changed. */
+  drawn: (snapshot: Snapshot | undefined) => void;
+  /** The figure refused something, with a sentence. */
+  refused: (sentence: string) => void;
+  /** The module panicked; this session does nothing any more. */
+  broke: (message: string) => void;
+}
+
+export class Session {
+  readonly engine: Engine;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #hooks: Hooks;
+  #width = 0;
+  #theme: Theme = "light";
+  #inSight = false;
+  #ended = false;
+  /** The state or the layout is newer than the snapshot. */
+  #changed = true;
+  /** The picture is older than it should be. */
+  #stale = true;
+  /** The view may have more to refine. */
+  #rough = true;
+  #frame = 0;
+  #rest: ReturnType<typeof setTimeout> | undefined;
+  #lastInput = 0;
+  #lastTick: number | undefined;
+  #lastDraw = 0;
+
+  constructor(engine: Engine, canvas: HTMLCanvasElement, hooks: Hooks) {
+    this.engine = engine;
+    this.#canvas = canvas;
+    this.#hooks = hooks;
+  }
+
+  /** The width that the picture is laid out for, CSS pixels; 0 while there is no room. */
+  get width(): number {
+    return this.#width;
+  }
+
+  /** Does something to the figure and draws what comes of it. */
+  act(work: (engine: Engine) => string | undefined): void {
+    const refused = this.#guard(() => work(this.engine));
+    if (this.#ended) return;
+    if (refused !== undefined) this.#hooks.refused(refused);
+    this.#changed = this.#stale = this.#rough = true;
+    this.#lastInput = performance.now();
+    this.#want();
+  }
+
+  /** Asks the figure something. */
+  ask<T>(work: (engine: Engine) => T): T | undefined {
+    return this.#guard(() => work(this.engine));
+  }
+
+  /** Takes the room that there is. */
+  resize(width: number): void {
+    const next = width < 1 ? 0 : Math.min(Math.max(Math.floor(width), NARROWEST), WIDEST);
+    if (next === this.#width) return;
+    this.#width = next;
+    this.#changed = this.#stale = this.#rough = true;
+    this.#want();
+  }
+
+  /** Takes new colors or a new density of pixels. */
+  recolor(theme: Theme): void {
+    this.#theme = theme;
+    this.#stale = true;
+    this.#want();
+  }
+
+  /** Animation and refinement stop where nobody sees them. */
+  setInSight(inSight: boolean): void {
+    if (inSight === this.#inSight) return;
+    this.#inSight = inSight;
+    this.#lastTick = undefined;
+    if (inSight) this.#want();
+  }
+
+  /** Draws now, without waiting for the display. */
+  flush(): void {
+    if (this.#ended || this.#width === 0) return;
+    if (this.#stale) this.#draw();
+  }
+
+  /** The picture at full quality on a canvas of its own. */
+  portrait(scale: number, theme: Theme = this.#theme): HTMLCanvasElement | undefined {
+    if (this.#width === 0) return undefined;
+    const canvas = document.createElement("canvas");
+    const refused = this.#guard(() => this.engine.draw(canvas, this.#width, scale, theme, true));
+    if (this.#ended) return undefined;
+    if (refused !== undefined) this.#hooks.refused(refused);
+    return refused === undefined ? canvas : undefined;
+  }
+
+  /** Shows the figure as it is to be printed: sharp, dark on light. */
+  prepareForPrint(): void {
+    if (this.#width === 0) return;
+    // Nobody waits for a long computation now.
+    const settled = this.ask((engine) => engine.job()) === undefined;
+    this.#guard(() => this.engine.draw(this.#canvas, this.#width, 2, "light", settled));
+    this.#stale = true;
+  }
+
+  /** Stops for good. */
+  end(): void {
+    this.#ended = true;
+    cancelAnimationFrame(this.#frame);
+    clearTimeout(this.#rest);
+  }
+
+  #want(): void {
+    if (this.#frame || this.#ended || this.#width === 0) return;
+    this.#frame = requestAnimationFrame((now) => {
+      this.#frame = 0;
+      this.#onFrame(now);
+    });
+  }
+
+  #onFrame(now: number): void {
+    const running = this.#inSight && this.ask((engine) => engine.running) === true;
+    if (running) this.#pass(now);
+    else this.#lastTick = undefined;
+    if (this.#ended) return;
+    if (this.#stale) this.#draw();
+    if (running) this.#want();
+    else if (this.#rough && this.#inSight) this.#refineAfterRest(now);
+  }
+
+  /** Lets time pass in a running figure. */
+  #pass(now: number): void {
+    this.#lastTick ??= now;
+    let seconds = (now - this.#lastTick) / 1000;
+    if (wantsStillness() && seconds * 1000 < STILL_MS) return;
+    this.#lastTick = now;
+    seconds = Math.min(seconds, (2 * STILL_MS) / 1000);
+    while (seconds > 0) {
+      const part = Math.min(seconds, TICK_S);
+      seconds -= part;
+      const refused = this.#guard(() => this.engine.tick(part));
+      if (refused !== undefined) this.#hooks.refused(refused);
+    }
+    this.#changed = this.#stale = this.#rough = true;
+  }
+
+  #draw(): void {
+    const width = this.#width;
+    const scale = Math.min(Math.max(devicePixelRatio || 1, 1), 2);
+    const refused = this.#guard(() => this.engine.draw(this.#canvas, width, scale, this.#theme));
+    if (this.#ended) return;
+    this.#stale = false;
+    this.#lastDraw = performance.now();
+    if (refused !== undefined) {
+      this.#hooks.refused(refused);
+      return;
+    }
+    const snapshot = this.#changed ? this.ask((engine) => engine.snapshot(width)) : undefined;
+    this.#changed = false;
+    if (!this.#ended) this.#hooks.drawn(snapshot);
+  }
+
+  #refineAfterRest(now: number): void {
+    clearTimeout(this.#rest);
+    const wait = this.#lastInput + REST_MS - now;
+    if (wait > 0) {
+      this.#rest = setTimeout(() => this.#want(), wait);
+      return;
+    }
+    const start = performance.now();
+    let more = true;
+    let refined = false;
+    while (more && performance.now() - start < SLICE_MS) {
+      more = this.ask((engine) => engine.refine()) === true;
+      refined ||= more;
+    }
+    this.#rough = more;
+    this.#unshown ||= refined;
+    if (this.#unshown && (!more || performance.now() - this.#lastDraw > SHOW_MS)) {
+      this.#unshown = false;
+      this.#stale = true;
+    }
+    if (more || this.#stale) this.#want();
+  }
+
+  /** The view is better than the picture. */
+  #unshown = false;
+
+  #guard<T>(work: () => T): T | undefined {
+    if (this.#ended) return undefined;
+    try {
+      return work();
+    } catch (error) {
+      this.end();
+      const message = panicMessage() ?? String(error);
+      console.error(`epipole-figure: ${message}`);
+      this.#hooks.broke(message);
+      return undefined;
+    }
+  }
+}

@@ -1,0 +1,13 @@
+/** The one style sheet that all figures of a page share. */
+
+import text from "./figure.css" with { type: "text" };
+
+let shared: CSSStyleSheet | undefined;
+
+export function sheet(): CSSStyleSheet {
+  if (!shared) {
+    shared = new CSSStyleSheet();
+    shared.replaceSync(text);
+  }
+  return shared;
+}

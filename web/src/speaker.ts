@@ -1,0 +1,56 @@
+/** What a figure says: one polite live region, and notices that everyone sees. */
+
+import { make } from "./dom.js";
+
+/** How long the figure must rest before it is described, milliseconds. */
+const REST_MS = 300;
+
+export class Speaker {
+  /** The figure's only live region. */
+  readonly region = make("p", { class: "spoken", role: "status", "aria-live": "polite" });
+  /** Problems, to be read by eye; the live region speaks them too. */
+  readonly notice = make("div", { class: "notice", hidden: true });
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #urgent = "";
+  #passing = 0;
+
+  /** Says what the figure shows, once it has rested. */
+  describe(text: string): void {
+    this.#later(text);
+  }
+
+  /** Shows sentences above the controls and says them; passing ones go when the figure moves on. */
+  warn(sentences: string[], passing = false): void {
+    this.#passing = passing ? 2 : 0;
+    const unique = [...new Set(sentences)];
+    this.notice.replaceChildren(...unique.map((sentence) => make("p", {}, sentence)));
+    this.notice.hidden = unique.length === 0;
+    this.#urgent = unique.join(" ");
+    if (unique.length > 0) this.#later("");
+  }
+
+  /** Says something at the next rest, before what the figure shows. */
+  say(sentence: string): void {
+    this.#urgent = `${this.#urgent} ${sentence}`.trim();
+    this.#later("");
+  }
+
+  /** The figure has taken a new state. */
+  moveOn(): void {
+    // The first is the state in which the figure has just refused something.
+    if (this.#passing > 0 && --this.#passing === 0) this.notice.hidden = true;
+  }
+
+  silence(): void {
+    clearTimeout(this.#timer);
+  }
+
+  #later(text: string): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      const words = `${this.#urgent} ${text}`.trim();
+      this.#urgent = "";
+      if (words && this.region.textContent !== words) this.region.textContent = words;
+    }, REST_MS);
+  }
+}

@@ -1,0 +1,53 @@
+/** Which colors a figure takes: those of its reader, then of its page. */
+
+export type Theme = "light" | "dark" | "high-contrast";
+
+const queries = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "(forced-colors: active)"];
+
+/**
+ * The theme for a figure: its `theme` attribute; else high contrast where the reader asks for it;
+ * else what `data-theme` around it says, else its `color-scheme`, else how dark the page behind it is.
+ */
+export function themeOf(element: HTMLElement): Theme {
+  const wish = element.getAttribute("theme");
+  if (wish === "light" || wish === "dark" || wish === "high-contrast") return wish;
+  if (queries.slice(1).some((query) => matchMedia(query).matches)) return "high-contrast";
+
+  const named = element.closest<HTMLElement>("[data-theme]")?.dataset["theme"];
+  if (named === "light" || named === "dark" || named === "high-contrast") return named;
+
+  const schemes = getComputedStyle(element).colorScheme.split(" ");
+  const [light, dark] = [schemes.includes("light"), schemes.includes("dark")];
+  if (light && dark) return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  if (light || dark) return dark ? "dark" : "light";
+  return behindIsDark(element) ? "dark" : "light";
+}
+
+/** Whether the first opaque background around an element is a dark one; a bare page is white. */
+function behindIsDark(element: HTMLElement): boolean {
+  for (let at: HTMLElement | null = element.parentElement; at; at = at.parentElement) {
+    const [red = 0, green = 0, blue = 0, alpha = 1] =
+      getComputedStyle(at).backgroundColor.match(/[\d.]+/g)?.map(Number) ?? [];
+    if (alpha > 0.5) return 0.2126 * red + 0.7152 * green + 0.0722 * blue < 110;
+  }
+  return false;
+}
+
+/** Calls back whenever the answer of `themeOf` may have changed. Returns how to stop. */
+export function watchTheme(changed: () => void): () => void {
+  const lists = queries.map((query) => matchMedia(query));
+  for (const list of lists) list.addEventListener("change", changed);
+  const observer = new MutationObserver(changed);
+  const attributes = { attributes: true, attributeFilter: ["class", "data-theme", "style"] };
+  observer.observe(document.documentElement, attributes);
+  if (document.body) observer.observe(document.body, attributes);
+  return () => {
+    for (const list of lists) list.removeEventListener("change", changed);
+    observer.disconnect();
+  };
+}
+
+/** Whether the reader wants things to stand still. */
+export function wantsStillness(): boolean {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}

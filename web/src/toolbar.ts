@@ -1,0 +1,71 @@
+/** What every figure can do: start over, share its state, save its picture, fill the screen. */
+
+import { icon, make, setText } from "./dom.js";
+
+export interface Deeds {
+  reset: () => void;
+  link: () => string;
+  save: () => void;
+  fullscreen: (() => void) | undefined;
+}
+
+const COPIED_MS = 2000;
+
+export class Toolbar {
+  readonly element = make("div", { class: "toolbar", role: "group", "aria-label": "Figure" });
+  /** The link to read, where it could not be copied. */
+  readonly link = make("div", { class: "link", hidden: true });
+  readonly #deeds: Deeds;
+  readonly #say: (sentence: string) => void;
+
+  constructor(deeds: Deeds, say: (sentence: string) => void) {
+    this.#deeds = deeds;
+    this.#say = say;
+    const reset = this.#button("Reset", deeds.reset, "M15.5 10a5.5 5.5 0 1 1-1.8-4.1", "M14.5 2.5v3.8h-3.8");
+    const copy = this.#button(
+      "Copy link",
+      () => void this.#copy(copy),
+      "M8.3 11.7a3 3 0 0 0 4.3 0l2.6-2.6a3 3 0 0 0-4.3-4.3l-.9.9",
+      "M11.7 8.3a3 3 0 0 0-4.3 0l-2.6 2.6a3 3 0 0 0 4.3 4.3l.9-.9",
+    );
+    copy.title = "Copy a link to this figure in its present state";
+    const save = this.#button("Save image", deeds.save, "M10 3.5v9", "M6.2 9l3.8 3.8L13.8 9", "M4 16.5h12");
+    save.title = "Save the picture as a PNG file";
+    this.element.append(reset, copy, save);
+    if (deeds.fullscreen) {
+      const paths = ["M3.5 7.5v-4h4", "M12.5 3.5h4v4", "M16.5 12.5v4h-4", "M7.5 16.5h-4v-4"];
+      this.element.append(this.#button("Full screen", deeds.fullscreen, ...paths));
+    }
+  }
+
+  #button(label: string, deed: () => void, ...paths: string[]): HTMLButtonElement {
+    const button = make("button", { type: "button", title: label }, icon(...paths), make("span", {}, label));
+    button.addEventListener("click", deed);
+    return button;
+  }
+
+  async #copy(button: HTMLButtonElement): Promise<void> {
+    const link = this.#deeds.link();
+    try {
+      await navigator.clipboard.writeText(link);
+    } catch {
+      this.#show(link);
+      return;
+    }
+    this.link.hidden = true;
+    this.#say("Link copied.");
+    const label = button.querySelector("span");
+    if (!label) return;
+    setText(label, "Copied");
+    setTimeout(() => setText(label, "Copy link"), COPIED_MS);
+  }
+
+  /** Clipboards can be out of reach, in frames for one: then the reader copies by hand. */
+  #show(link: string): void {
+    const input = make("input", { type: "text", readonly: true, value: link });
+    this.link.replaceChildren(make("label", {}, "Link to this state", input));
+    this.link.hidden = false;
+    input.focus();
+    input.select();
+  }
+}

@@ -1,0 +1,31 @@
+/** When a figure nears the reader, and when it is in sight. */
+
+type Seen = (near: boolean) => void;
+
+const listeners = new WeakMap<Element, { near: Seen; seen: Seen }>();
+
+function observer(kind: "near" | "seen", margin: string): IntersectionObserver {
+  return new IntersectionObserver(
+    (entries) => {
+      for (const entry of entries) listeners.get(entry.target)?.[kind](entry.isIntersecting);
+    },
+    { rootMargin: margin },
+  );
+}
+
+let near: IntersectionObserver | undefined;
+let seen: IntersectionObserver | undefined;
+
+/** Watches an element: `near` within one screen of being visible, `seen` when visible itself. */
+export function watchVisibility(element: Element, callbacks: { near: Seen; seen: Seen }): () => void {
+  near ??= observer("near", "100% 0px");
+  seen ??= observer("seen", "0px");
+  listeners.set(element, callbacks);
+  near.observe(element);
+  seen.observe(element);
+  return () => {
+    near?.unobserve(element);
+    seen?.unobserve(element);
+    listeners.delete(element);
+  };
+}
