@@ -1,9 +1,10 @@
 //! E and the relative pose from matches of which many are wrong.
 
+use super::coordinates::{CommonFrame, Coordinates};
 use super::find_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
 use super::refine::{RaysInFrame, refine_pose_in_frame};
-use super::sampson::{self, CommonFrame, Coordinates};
+use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};

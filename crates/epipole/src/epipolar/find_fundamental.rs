@@ -1,10 +1,11 @@
 //! F from matches of which many are wrong.
 
+use super::coordinates::{CommonFrame, Coordinates};
 use super::epipolar_row;
 use super::from_cameras::unit_norm;
 use super::plane_recovery::PlaneRecovery;
 use super::refine::refine_in_frame;
-use super::sampson::{self, CommonFrame, Coordinates};
+use super::sampson;
 use super::seven_point::seven_point_rows;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};

@@ -3,7 +3,7 @@
 use super::four_point::{same_orientation, solve};
 use super::refine::{refine_in_frame, to_frame, to_pixels};
 use super::sums;
-use crate::epipolar::sampson::{CommonFrame, Coordinates};
+use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
 use crate::{Error, Result};

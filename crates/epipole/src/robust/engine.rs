@@ -1,9 +1,8 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
-use std::ops::ControlFlow;
-
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
 use super::sampler::Sampler;
+use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
 use crate::math::random::Random;
 use crate::{Error, Result};
@@ -58,82 +57,6 @@ pub struct Ransac<E: Estimator> {
 struct Candidate<M> {
     model: M,
     support: Support,
-}
-
-/// What one step did.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Step<'a, M> {
-    /// A sample was drawn.
-    Trial(Trial<'a, M>),
-    /// Enough samples were drawn; nothing more will happen.
-    Finished(StopReason),
-}
-
-/// One sample and what came of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trial<'a, M> {
-    /// Counts from 1.
-    pub iteration: usize,
-    /// The data drawn, as indices into the data given.
-    pub sample: &'a [usize],
-    /// How many models the sample gave.
-    pub num_models: usize,
-    /// The best of them, if any.
-    pub model: Option<M>,
-    /// Its score. An upper bound if the model could not win, unless
-    /// [`RansacOptions::score_every_trial`] is set.
-    pub score: f64,
-    /// Its inliers. A lower bound in the same case.
-    pub num_inliers: usize,
-    /// Whether the best model so far came out of this step.
-    pub is_best: bool,
-    /// That model, if local optimization improved it further.
-    pub refined: Option<M>,
-}
-
-/// Runs [`Ransac`] to its end.
-///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
-///
-/// The example of [`LineEstimator`](super::LineEstimator) calls it.
-pub fn ransac<E: Estimator>(
-    estimator: E,
-    options: &RansacOptions,
-) -> Result<RansacReport<E::Model>> {
-    ransac_with(estimator, options, |_| ControlFlow::Continue(()))
-}
-
-/// Runs [`Ransac`] and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use std::ops::ControlFlow;
-/// use epipole::robust::{LineEstimator, RansacOptions, StopReason, ransac_with};
-/// use nalgebra::Point2;
-/// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
-/// let report = ransac_with(LineEstimator::new(&points)?, &RansacOptions::default(), |trial| {
-///     if trial.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (3, StopReason::Cancelled));
-/// # Ok(()) }
-/// ```
-pub fn ransac_with<E: Estimator>(
-    estimator: E,
-    options: &RansacOptions,
-    mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
-) -> Result<RansacReport<E::Model>> {
-    let mut run = Ransac::new(estimator, *options)?;
-    while let Step::Trial(trial) = run.step() {
-        if watch(&trial).is_break() {
-            run.cancel();
-        }
-    }
-    run.finish()
 }
 
 impl<E: Estimator> Ransac<E> {
