@@ -77,7 +77,7 @@ impl AbsolutePoseEstimator {
         &self,
         pose: &Pose,
         inliers: &[usize],
-        max_error_px: f64,
+        loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Pose> {
         let options = LmOptions {
@@ -91,9 +91,7 @@ impl AbsolutePoseEstimator {
             pixels: &self.pixels,
             used: inliers,
             intrinsics: &self.intrinsics,
-            loss: RobustLoss::Truncated {
-                width: max_error_px,
-            },
+            loss,
         };
         refine(&problem, *pose, &options)
     }
@@ -141,11 +139,17 @@ impl Estimator for AbsolutePoseEstimator {
     }
 
     fn refine(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
-        self.refined(pose, inliers, max_error_px, 4)
+        let loss = RobustLoss::Truncated {
+            width: max_error_px,
+        };
+        self.refined(pose, inliers, loss, 4)
     }
 
     fn polish(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
-        self.refined(pose, inliers, max_error_px, 20)
+        let loss = RobustLoss::Cauchy {
+            width: 0.5 * max_error_px,
+        };
+        self.refined(pose, inliers, loss, 25)
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -240,22 +240,19 @@ mod tests {
         ] {
             for num_points in [8, 64, 1024] {
                 let mut random = Random::new(1);
-                for trial in 0..100 {
+                let (mut worst, mut over): (f64, usize) = (0.0, 0);
+                for _ in 0..100 {
                     let (truth, p1, p2) = problem(&mut random, num_points, scale, noise);
                     let f = fundamental_8point(&p1, &p2).unwrap();
                     let off = difference(&f, &truth);
-                    // Eight noisy matches can be near a critical configuration, where no
-                    // estimator has more digits; COLMAP's own draws happen to avoid it.
-                    if num_points > 8 || noise == 0.0 {
-                        assert!(
-                            off < f_tolerance,
-                            "{num_points} {scale} {noise} {trial}: {off}"
-                        );
-                    }
+                    worst = worst.max(off);
+                    over += usize::from(off >= f_tolerance);
                     for (x1, x2) in p1.iter().zip(&p2) {
                         assert!(sampson_sq(&f, x1, x2) < r_tolerance);
                     }
                 }
+                println!("{num_points} {scale} {noise}: worst {worst:e}, over {over}");
+                assert_eq!(over, 0, "{num_points} {scale} {noise}: {worst}");
             }
         }
     }

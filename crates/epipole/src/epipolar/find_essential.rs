@@ -1,9 +1,10 @@
 //! E and the relative pose from matches of which many are wrong.
 
+use super::coordinates::{CommonFrame, Coordinates};
 use super::find_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
 use super::refine::{RaysInFrame, refine_pose_in_frame};
-use super::sampson::{self, CommonFrame, Coordinates};
+use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
@@ -68,7 +69,8 @@ impl EssentialEstimator {
     fn refined(
         &self,
         pose: &RelativePose,
-        max_error_px: f64,
+        coordinates: &Coordinates,
+        loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<RelativePose> {
         let options = LmOptions {
@@ -77,11 +79,8 @@ impl EssentialEstimator {
             step_tolerance: 1e-9,
             ..LmOptions::default()
         };
-        let loss = RobustLoss::Truncated {
-            width: max_error_px * self.frame.scale,
-        };
         let (rotation, direction) =
-            refine_pose_in_frame(&self.in_frame, &self.rays_in_frame, pose, loss, &options)?;
+            refine_pose_in_frame(coordinates, &self.rays_in_frame, pose, loss, &options)?;
         Some(RelativePose::new(rotation, direction, &self.k1, &self.k2))
     }
 }
@@ -124,20 +123,26 @@ impl Estimator for EssentialEstimator {
 
     fn refine(
         &mut self,
-        pose: &RelativePose,
+        model: &RelativePose,
         _: &[usize],
         max_error_px: f64,
     ) -> Option<RelativePose> {
-        self.refined(pose, max_error_px, 4)
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame, loss, 4)
     }
 
     fn polish(
         &mut self,
-        pose: &RelativePose,
-        _: &[usize],
+        model: &RelativePose,
+        inliers: &[usize],
         max_error_px: f64,
     ) -> Option<RelativePose> {
-        self.refined(pose, max_error_px, 20)
+        let loss = RobustLoss::Cauchy {
+            width: 0.5 * max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame.subset(inliers), loss, 25)
     }
 
     fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {

@@ -1,10 +1,11 @@
 //! F from matches of which many are wrong.
 
+use super::coordinates::{CommonFrame, Coordinates};
 use super::epipolar_row;
 use super::from_cameras::unit_norm;
 use super::plane_recovery::PlaneRecovery;
 use super::refine::refine_in_frame;
-use super::sampson::{self, CommonFrame, Coordinates};
+use super::sampson;
 use super::seven_point::seven_point_rows;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
@@ -61,7 +62,8 @@ impl FundamentalEstimator {
     fn refined(
         &self,
         fundamental: &Matrix3<f64>,
-        max_error_px: f64,
+        coordinates: &Coordinates,
+        loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Matrix3<f64>> {
         let options = LmOptions {
@@ -70,11 +72,8 @@ impl FundamentalEstimator {
             step_tolerance: 1e-9,
             ..LmOptions::default()
         };
-        let loss = RobustLoss::Truncated {
-            width: max_error_px * self.frame.scale,
-        };
         let start = self.frame.fundamental_to_frame(fundamental);
-        let refined = refine_in_frame(&self.in_frame, &start, loss, &options)?;
+        let refined = refine_in_frame(coordinates, &start, loss, &options)?;
         unit_norm(&self.frame.fundamental_to_pixels(&refined)).ok()
     }
 }
@@ -172,16 +171,22 @@ impl Estimator for FundamentalEstimator {
         _: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        self.refined(model, max_error_px, 4)
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame, loss, 4)
     }
 
     fn polish(
         &mut self,
         model: &Matrix3<f64>,
-        _: &[usize],
+        inliers: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        self.refined(model, max_error_px, 20)
+        let loss = RobustLoss::Cauchy {
+            width: 0.5 * max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame.subset(inliers), loss, 25)
     }
 
     fn recover(

@@ -3,6 +3,7 @@
 //! Everywhere `x2ᵀ F x1 = 0` for matching pixels `x1` of image 1 and `x2` of image 2, so
 //! `line2 = F x1` is a line of image 2. F and E have unit Frobenius norm.
 
+pub(crate) mod coordinates;
 mod distance;
 mod eight_point;
 mod epipoles;
@@ -15,7 +16,7 @@ mod lines;
 mod normalize;
 mod plane_recovery;
 mod refine;
-pub(crate) mod sampson;
+mod sampson;
 mod seven_point;
 
 pub use distance::{sampson_px, sampson_sq, symmetric_epipolar_px, symmetric_epipolar_sq};

@@ -1,6 +1,7 @@
 //! F when most matches lie on one plane.
 
-use super::sampson::{Coordinates, support};
+use super::coordinates::Coordinates;
+use super::sampson::support;
 use crate::camera::cross_matrix;
 use crate::math::null_space::right_singular_vectors;
 use crate::math::random::Random;

@@ -1,10 +1,12 @@
 //! Nonlinear refinement of F and E: the Sampson error by Levenberg–Marquardt.
 
+use super::coordinates::{CommonFrame, Coordinates};
 use super::from_cameras::unit_norm;
-use super::sampson::{CommonFrame, Coordinates, EntrySums, cost, linearize, tangent_plane};
+use super::sampson::{EntrySums, cost, linearize};
 use super::{RelativePose, enforce_rank2};
 use crate::camera::{Intrinsics, cross_matrix};
 use crate::math::svd3;
+use crate::math::svd3::perpendicular;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::robust::MatchSet;
 use crate::{Error, Result};
@@ -237,6 +239,12 @@ impl RaysInFrame {
 }
 
 type Pose = (Matrix3<f64>, Vector3<f64>);
+
+/// Two unit vectors that span the plane perpendicular to a unit vector.
+fn tangent_plane(direction: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = perpendicular(direction);
+    [first, direction.cross(&first)]
+}
 
 /// The derivatives of E = [t]ₓR with respect to a rotation from the left, `R ← exp([δ]ₓ) R`, and
 /// to steps of t along its tangent plane.

@@ -3,7 +3,7 @@
 use super::four_point::{same_orientation, solve};
 use super::refine::{refine_in_frame, to_frame, to_pixels};
 use super::sums;
-use crate::epipolar::sampson::{CommonFrame, Coordinates};
+use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
 use crate::{Error, Result};
@@ -48,7 +48,8 @@ impl HomographyEstimator {
     fn refined(
         &self,
         homography: &Matrix3<f64>,
-        max_error_px: f64,
+        coordinates: &Coordinates,
+        loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Matrix3<f64>> {
         let options = LmOptions {
@@ -57,11 +58,8 @@ impl HomographyEstimator {
             step_tolerance: 1e-9,
             ..LmOptions::default()
         };
-        let loss = RobustLoss::Truncated {
-            width: max_error_px * self.frame.scale,
-        };
         let start = to_frame(&self.frame, homography);
-        let refined = refine_in_frame(&self.in_frame, &start, loss, &options)?;
+        let refined = refine_in_frame(coordinates, &start, loss, &options)?;
         to_pixels(&self.frame, &refined)
     }
 }
@@ -105,16 +103,22 @@ impl Estimator for HomographyEstimator {
         _: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        self.refined(model, max_error_px, 4)
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame, loss, 4)
     }
 
     fn polish(
         &mut self,
         model: &Matrix3<f64>,
-        _: &[usize],
+        inliers: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        self.refined(model, max_error_px, 20)
+        let loss = RobustLoss::Cauchy {
+            width: 0.5 * max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame.subset(inliers), loss, 25)
     }
 
     fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {

@@ -1,7 +1,7 @@
 //! Nonlinear refinement of H: the transfer error by Levenberg–Marquardt.
 
 use super::sums::{cost, linearize};
-use crate::epipolar::sampson::{CommonFrame, Coordinates};
+use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::epipolar::scaled_loss;
 use crate::math::null_space::null_space;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};

@@ -1,6 +1,6 @@
 //! The transfer error over many matches at once: for scoring and for least squares.
 
-use crate::epipolar::sampson::{Coordinates, LANES, Lanes, entries, sum};
+use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};

@@ -1,9 +1,8 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
-use std::ops::ControlFlow;
-
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
 use super::sampler::Sampler;
+use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
 use crate::math::random::Random;
 use crate::{Error, Result};
@@ -58,82 +57,6 @@ pub struct Ransac<E: Estimator> {
 struct Candidate<M> {
     model: M,
     support: Support,
-}
-
-/// What one step did.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Step<'a, M> {
-    /// A sample was drawn.
-    Trial(Trial<'a, M>),
-    /// Enough samples were drawn; nothing more will happen.
-    Finished(StopReason),
-}
-
-/// One sample and what came of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trial<'a, M> {
-    /// Counts from 1.
-    pub iteration: usize,
-    /// The data drawn, as indices into the data given.
-    pub sample: &'a [usize],
-    /// How many models the sample gave.
-    pub num_models: usize,
-    /// The best of them, if any.
-    pub model: Option<M>,
-    /// Its score. An upper bound if the model could not win, unless
-    /// [`RansacOptions::score_every_trial`] is set.
-    pub score: f64,
-    /// Its inliers. A lower bound in the same case.
-    pub num_inliers: usize,
-    /// Whether the best model so far came out of this step.
-    pub is_best: bool,
-    /// That model, if local optimization improved it further.
-    pub refined: Option<M>,
-}
-
-/// Runs [`Ransac`] to its end.
-///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
-///
-/// The example of [`LineEstimator`](super::LineEstimator) calls it.
-pub fn ransac<E: Estimator>(
-    estimator: E,
-    options: &RansacOptions,
-) -> Result<RansacReport<E::Model>> {
-    ransac_with(estimator, options, |_| ControlFlow::Continue(()))
-}
-
-/// Runs [`Ransac`] and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use std::ops::ControlFlow;
-/// use epipole::robust::{LineEstimator, RansacOptions, StopReason, ransac_with};
-/// use nalgebra::Point2;
-/// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
-/// let report = ransac_with(LineEstimator::new(&points)?, &RansacOptions::default(), |trial| {
-///     if trial.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (3, StopReason::Cancelled));
-/// # Ok(()) }
-/// ```
-pub fn ransac_with<E: Estimator>(
-    estimator: E,
-    options: &RansacOptions,
-    mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
-) -> Result<RansacReport<E::Model>> {
-    let mut run = Ransac::new(estimator, *options)?;
-    while let Step::Trial(trial) = run.step() {
-        if watch(&trial).is_break() {
-            run.cancel();
-        }
-    }
-    run.finish()
 }
 
 impl<E: Estimator> Ransac<E> {
@@ -279,7 +202,8 @@ impl<E: Estimator> Ransac<E> {
             return Err(no_consensus);
         };
         if self.options.local_optimization {
-            self.improve(&mut best, true);
+            self.improve(&mut best);
+            self.polish(&mut best);
         }
         let max_error_px = self.options.max_error_px;
         self.estimator
@@ -323,7 +247,7 @@ impl<E: Estimator> Ransac<E> {
             if let Some(model) = recovered {
                 changed |= self.replace_if_better(&mut candidate, model);
             }
-            changed |= self.improve(&mut candidate, false);
+            changed |= self.improve(&mut candidate);
         }
         let known = self
             .best
@@ -339,28 +263,19 @@ impl<E: Estimator> Ransac<E> {
     }
 
     /// Alternates between finding the inliers and fitting to them while that helps.
-    fn improve(&mut self, candidate: &mut Candidate<E::Model>, last: bool) -> bool {
+    ///
+    /// A model straight from a sample is rough: the first fit looks twice as far, and counts only
+    /// together with a second one at the right distance.
+    fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
         let max_error_px = self.options.max_error_px;
-        let rounds = if last {
-            self.options.inner_iterations.max(1)
-        } else {
-            self.options.inner_iterations
-        };
-        let mut changed = false;
-        for _ in 0..rounds {
-            self.estimator
-                .inliers(&candidate.model, max_error_px, &mut self.inliers);
-            if self.inliers.len() < self.estimator.sample_size() {
+        let wide = self
+            .fitted(&candidate.model.clone(), 2.0 * max_error_px)
+            .and_then(|model| self.fitted(&model, max_error_px));
+        let mut changed = wide.is_some_and(|model| self.replace_if_better(candidate, model));
+        for _ in 1..self.options.inner_iterations {
+            let Some(model) = self.fitted(&candidate.model.clone(), max_error_px) else {
                 break;
-            }
-            let fitted = if last {
-                self.estimator
-                    .polish(&candidate.model, &self.inliers, max_error_px)
-            } else {
-                self.estimator
-                    .refine(&candidate.model, &self.inliers, max_error_px)
             };
-            let Some(model) = fitted else { break };
             let before = candidate.support.cost;
             if !self.replace_if_better(candidate, model) {
                 break;
@@ -372,6 +287,37 @@ impl<E: Estimator> Ransac<E> {
             }
         }
         changed
+    }
+
+    /// A model refined from its inliers, if there are enough.
+    fn fitted(&mut self, model: &E::Model, max_error_px: f64) -> Option<E::Model> {
+        self.estimator
+            .inliers(model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return None;
+        }
+        self.estimator.refine(model, &self.inliers, max_error_px)
+    }
+
+    /// The last refinement. Its result may weigh errors differently from the score, so it is kept
+    /// unless it loses inliers: one in twenty at most.
+    fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&candidate.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let polished = self
+            .estimator
+            .polish(&candidate.model, &self.inliers, max_error_px);
+        if let Some(model) = polished {
+            let support = self.support(&model, f64::INFINITY);
+            if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
+                *candidate = Candidate { model, support };
+                self.refinements += 1;
+            }
+        }
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {

@@ -82,14 +82,16 @@ pub trait Estimator {
         max_error_px: f64,
     ) -> Option<Self::Model>;
 
-    /// The last refinement, which may take longer than [`refine`](Estimator::refine).
+    /// The last refinement, of the best model, which may take longer, allocate, and weigh errors
+    /// in another way than the score; `None` if [`refine`](Estimator::refine) did all there is to do.
     fn polish(
         &mut self,
         model: &Self::Model,
         inliers: &[usize],
         max_error_px: f64,
     ) -> Option<Self::Model> {
-        self.refine(model, inliers, max_error_px)
+        let _ = (model, inliers, max_error_px);
+        None
     }
 
     /// A model that replaces one whose sample or inliers are degenerate, if it can be found.

@@ -1,6 +1,7 @@
 //! Two views, whatever they show: a scene with depth, a plane, or a turn of the camera.
 
 mod choice;
+mod motion;
 mod rotation;
 
 pub use choice::{

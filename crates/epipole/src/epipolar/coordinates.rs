@@ -1,0 +1,143 @@
+//! Coordinates of many matches, laid out for loops over lanes.
+//!
+//! Loops run over eight matches at a time, which compilers turn into vector instructions;
+//! sums are kept per lane, so the order of additions is fixed.
+
+use crate::robust::MatchSet;
+use nalgebra::Matrix3;
+
+pub(crate) const LANES: usize = 8;
+pub(crate) type Lanes = [f64; LANES];
+
+/// Four coordinates of many matches, one list each.
+#[derive(Debug, Clone)]
+pub(crate) struct Coordinates {
+    lists: [Vec<f64>; 4],
+}
+
+impl Coordinates {
+    pub(crate) fn pixels(matches: &MatchSet) -> Self {
+        Self {
+            lists: matches.coordinates().map(<[f64]>::to_vec),
+        }
+    }
+
+    /// The same after moving each image's origin and scaling both alike.
+    pub(crate) fn mapped(&self, frame: &CommonFrame) -> Self {
+        let [c1, c2] = frame.centers;
+        let offsets = [c1[0], c1[1], c2[0], c2[1]];
+        let mut lists = self.lists.clone();
+        for (list, offset) in lists.iter_mut().zip(offsets) {
+            for x in list.iter_mut() {
+                *x = (*x - offset) * frame.scale;
+            }
+        }
+        Self { lists }
+    }
+
+    /// Some of the matches.
+    pub(crate) fn subset(&self, indices: &[usize]) -> Self {
+        let lists =
+            [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect());
+        Self { lists }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.lists[0].len()
+    }
+
+    #[inline(always)]
+    pub(crate) fn at(&self, index: usize) -> [f64; 4] {
+        [0, 1, 2, 3].map(|k| self.lists[k][index])
+    }
+
+    /// Matches `start..start + 8`; beyond the end zeros, and the number of real ones.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, start: usize) -> ([Lanes; 4], usize) {
+        let count = (self.len() - start).min(LANES);
+        let mut lanes = [[0.0; LANES]; 4];
+        if count == LANES {
+            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
+                lane.copy_from_slice(&list[start..start + LANES]);
+            }
+        } else {
+            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
+                lane[..count].copy_from_slice(&list[start..]);
+            }
+        }
+        (lanes, count)
+    }
+}
+
+/// A frame for both images: origins at the centroids, one scale for both, so that a distance d
+/// becomes `scale · d` in either.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CommonFrame {
+    pub(crate) centers: [[f64; 2]; 2],
+    pub(crate) scale: f64,
+}
+
+impl CommonFrame {
+    pub(crate) fn new(matches: &MatchSet) -> Self {
+        let share = 1.0 / matches.len().max(1) as f64;
+        let means = matches
+            .coordinates()
+            .map(|list| list.iter().map(|x| x * share).sum::<f64>());
+        let mut spread = 0.0;
+        for (list, mean) in matches.coordinates().iter().zip(means) {
+            for x in *list {
+                spread += (x - mean) * (x - mean) * share;
+            }
+        }
+        // Four coordinates with mean square 1 each.
+        let scale = (4.0 / spread).sqrt();
+        Self {
+            centers: [[means[0], means[1]], [means[2], means[3]]],
+            scale: if scale.is_finite() { scale } else { 1.0 },
+        }
+    }
+
+    /// T⁻¹ of an image: from the frame back to pixels.
+    pub(crate) fn frame_to_pixels(self, image: usize) -> Matrix3<f64> {
+        let [cu, cv] = self.centers[image];
+        let size = 1.0 / self.scale;
+        Matrix3::new(size, 0.0, cu, 0.0, size, cv, 0.0, 0.0, 1.0)
+    }
+
+    /// T of an image.
+    pub(crate) fn pixels_to_frame(self, image: usize) -> Matrix3<f64> {
+        let [cu, cv] = self.centers[image];
+        let s = self.scale;
+        Matrix3::new(s, 0.0, -s * cu, 0.0, s, -s * cv, 0.0, 0.0, 1.0)
+    }
+
+    pub(crate) fn fundamental_to_frame(self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        self.frame_to_pixels(1).transpose() * f * self.frame_to_pixels(0)
+    }
+
+    pub(crate) fn fundamental_to_pixels(self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)
+    }
+}
+
+/// Entries of F, row by row.
+#[inline(always)]
+pub(crate) fn entries(f: &Matrix3<f64>) -> [f64; 9] {
+    [
+        f[(0, 0)],
+        f[(0, 1)],
+        f[(0, 2)],
+        f[(1, 0)],
+        f[(1, 1)],
+        f[(1, 2)],
+        f[(2, 0)],
+        f[(2, 1)],
+        f[(2, 2)],
+    ]
+}
+
+#[inline(always)]
+pub(crate) fn sum(lanes: &Lanes) -> f64 {
+    ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
+        + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]))
+}

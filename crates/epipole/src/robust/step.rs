@@ -1,0 +1,34 @@
+//! What a step of the loop says about itself.
+
+use super::StopReason;
+
+/// What one step did.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step<'a, M> {
+    /// A sample was drawn.
+    Trial(Trial<'a, M>),
+    /// Enough samples were drawn; nothing more will happen.
+    Finished(StopReason),
+}
+
+/// One sample and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial<'a, M> {
+    /// Counts from 1.
+    pub iteration: usize,
+    /// The data drawn, as indices into the data given.
+    pub sample: &'a [usize],
+    /// How many models the sample gave.
+    pub num_models: usize,
+    /// The best of them, if any.
+    pub model: Option<M>,
+    /// Its score. An upper bound if the model could not win, unless
+    /// [`RansacOptions::score_every_trial`] is set.
+    pub score: f64,
+    /// Its inliers. A lower bound in the same case.
+    pub num_inliers: usize,
+    /// Whether the best model so far came out of this step.
+    pub is_best: bool,
+    /// That model, if local optimization improved it further.
+    pub refined: Option<M>,
+}

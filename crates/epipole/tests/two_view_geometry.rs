@@ -1,0 +1,662 @@
+//! Robust estimation of F, E, H and poses on scenes with known truth.
+
+use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::epipolar::{
+    RelativePose, decompose_essential, essential_from_fundamental, essential_from_motion,
+    fundamental_from_cameras, sampson_px, select_pose,
+};
+use epipole::homography::{homography_from_motion, transfer, transfer_error_px};
+use epipole::math::random::Random;
+use epipole::robust::{RansacOptions, StopReason, find_similarity};
+use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
+use epipole::{
+    Error, estimate_relative_pose, estimate_two_view, find_absolute_pose, find_fundamental,
+    find_homography,
+};
+use nalgebra::{Matrix3, Point2, Point3, UnitQuaternion, Vector3};
+use proptest::prelude::*;
+
+/// Where the points of a scene are.
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Volume,
+    Plane,
+    /// This share on a plane, the rest off it.
+    Mostly(f64),
+}
+
+struct Scene {
+    cam1: Camera,
+    cam2: Camera,
+    points: Vec<Point3<f64>>,
+    p1: Vec<Point2<f64>>,
+    p2: Vec<Point2<f64>>,
+    /// Which matches are true.
+    truth: Vec<bool>,
+}
+
+impl Scene {
+    fn motion(&self) -> RigidTransform {
+        relative_motion(&self.cam1.cam_from_world, &self.cam2.cam_from_world)
+    }
+}
+
+fn intrinsics(focal_px: f64) -> Intrinsics {
+    Intrinsics::centered(focal_px, 640, 480).unwrap()
+}
+
+/// A random pair of cameras that look at the scene around the origin from 4 to 6 units away.
+fn cameras(random: &mut Random) -> (Camera, Camera) {
+    let mut camera = |focal_px: f64| {
+        let mut near = |size: f64| random.uniform(-size, size);
+        let center = Point3::new(near(1.5), near(1.0), -5.0 + near(1.0));
+        let target = Point3::new(near(0.3), near(0.3), 0.0);
+        let up = Vector3::new(near(0.3), -1.0, 0.0);
+        Camera {
+            intrinsics: intrinsics(focal_px),
+            cam_from_world: look_at(&center, &target, &up).unwrap(),
+        }
+    };
+    (camera(600.0), camera(650.0))
+}
+
+fn scene(
+    random: &mut Random,
+    (cam1, cam2): (Camera, Camera),
+    shape: Shape,
+    num_matches: usize,
+    share_true: f64,
+    noise_px: f64,
+) -> Scene {
+    let mut found = Scene {
+        cam1,
+        cam2,
+        points: Vec::new(),
+        p1: Vec::new(),
+        p2: Vec::new(),
+        truth: Vec::new(),
+    };
+    let num_true = (share_true * num_matches as f64).round() as usize;
+    while found.p1.len() < num_matches {
+        let on_plane = match shape {
+            Shape::Volume => false,
+            Shape::Plane => true,
+            Shape::Mostly(share) => (found.p1.len() as f64) < share * num_true as f64,
+        };
+        let (x, y) = (random.uniform(-1.6, 1.6), random.uniform(-1.2, 1.2));
+        let z = if on_plane {
+            0.3 * x - 0.2 * y
+        } else {
+            random.uniform(-1.5, 1.5)
+        };
+        let point = Point3::new(x, y, z);
+        let (Ok(a), Ok(b)) = (cam1.project(&point), cam2.project(&point)) else {
+            continue;
+        };
+        let is_true = found.p1.len() < num_true;
+        let mut noisy = |p: Point2<f64>| {
+            Point2::new(
+                p.x + noise_px * random.normal(),
+                p.y + noise_px * random.normal(),
+            )
+        };
+        let (a, mut b) = (noisy(a), noisy(b));
+        if !is_true {
+            b = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+        }
+        found.points.push(point);
+        found.p1.push(a);
+        found.p2.push(b);
+        found.truth.push(is_true);
+    }
+    found
+}
+
+fn rotation_error(a: &RigidTransform, b: &RigidTransform) -> f64 {
+    a.rotation.angle_to(&b.rotation)
+}
+
+fn direction_error(a: &RigidTransform, b: &RigidTransform) -> f64 {
+    (a.translation.vector.normalize() - b.translation.vector.normalize()).norm()
+}
+
+fn options(seed: u64) -> RansacOptions {
+    RansacOptions {
+        seed,
+        ..RansacOptions::default()
+    }
+}
+
+fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
+    let (a, b) = (a / a.norm(), b / b.norm());
+    (a - b).norm().min((a + b).norm())
+}
+
+/// COLMAP's two_view_geometry_test, calibrated and uncalibrated: a hundred seeds, 50 exact
+/// matches, rotation and direction within 1e-6.
+#[test]
+fn a_hundred_exact_pairs() {
+    for seed in 0..100 {
+        let mut random = Random::new(seed);
+        let pair = cameras(&mut random);
+        let s = scene(&mut random, pair, Shape::Volume, 50, 1.0, 0.0);
+        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let truth = s.motion();
+        let report = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let motion = report.model.cam2_from_cam1();
+        assert!(rotation_error(&motion, &truth) < 1e-6, "{seed}");
+        assert!(direction_error(&motion, &truth) < 1e-6, "{seed}");
+        assert_eq!(report.num_inliers, 50);
+
+        let f = find_fundamental(&s.p1, &s.p2, &options(seed))
+            .unwrap()
+            .model;
+        let e = essential_from_fundamental(&f, k1, k2).unwrap();
+        let chosen = select_pose(&decompose_essential(&e).unwrap(), &s.p1, &s.p2, k1, k2).unwrap();
+        assert!(
+            rotation_error(&chosen.cam2_from_cam1, &truth) < 1e-6,
+            "{seed}"
+        );
+        assert!(
+            direction_error(&chosen.cam2_from_cam1, &truth) < 1e-6,
+            "{seed}"
+        );
+        assert_eq!(chosen.num_in_front, 50);
+    }
+}
+
+/// The same source: planar and panoramic pairs are recognized, with noise and outliers.
+#[test]
+fn configurations_are_recognized() {
+    for seed in 0..30 {
+        let mut random = Random::new(seed);
+        let pair = cameras(&mut random);
+        let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
+        let two_view = |s: &Scene| {
+            let options = TwoViewOptions {
+                ransac: RansacOptions {
+                    max_error_px: 2.0,
+                    ..options(seed)
+                },
+                ..TwoViewOptions::default()
+            };
+            (
+                estimate_two_view_calibrated(&s.p1, &s.p2, &k1, &k2, &options).unwrap(),
+                estimate_two_view(&s.p1, &s.p2, &options).unwrap(),
+            )
+        };
+        let general = scene(&mut random, pair, Shape::Volume, 200, 0.7, 0.3);
+        let (calibrated, uncalibrated) = two_view(&general);
+        assert_eq!(calibrated.configuration, Configuration::General, "{seed}");
+        assert_eq!(uncalibrated.configuration, Configuration::General, "{seed}");
+        let motion = calibrated.cam2_from_cam1.unwrap();
+        assert!(rotation_error(&motion, &general.motion()) < 0.01);
+        assert!(direction_error(&motion, &general.motion()) < 0.1);
+
+        let plane = scene(&mut random, pair, Shape::Plane, 200, 0.7, 0.3);
+        let (calibrated, uncalibrated) = two_view(&plane);
+        assert_eq!(calibrated.configuration, Configuration::Planar, "{seed}");
+        assert_eq!(uncalibrated.configuration, Configuration::Planar, "{seed}");
+
+        let mut turned = pair;
+        let center = turned.0.center_in_world();
+        turned.1.cam_from_world.translation.vector =
+            -(turned.1.cam_from_world.rotation * center.coords);
+        let turn = scene(&mut random, turned, Shape::Volume, 200, 0.7, 0.3);
+        let (calibrated, _) = two_view(&turn);
+        assert_eq!(calibrated.configuration, Configuration::Panoramic, "{seed}");
+        let motion = calibrated.cam2_from_cam1.unwrap();
+        assert_eq!(motion.translation.vector, Vector3::zeros());
+        assert!(rotation_error(&motion, &turn.motion()) < 0.005);
+    }
+}
+
+/// OpenCV's test of its USAC framework: every returned inlier is within 1.001 × the threshold of
+/// the model, and more than 80 % of the true inliers are found.
+fn check_grid(
+    name: &str,
+    s: &Scene,
+    inliers: &[bool],
+    max_error_px: f64,
+    error_px: impl Fn(usize) -> f64,
+) {
+    let mut true_found = 0;
+    for (i, &inlier) in inliers.iter().enumerate() {
+        if inlier {
+            assert!(error_px(i) < 1.001 * max_error_px, "{name}");
+            true_found += usize::from(s.truth[i]);
+        }
+    }
+    let num_true = s.truth.iter().filter(|&&t| t).count();
+    assert!(
+        true_found as f64 > 0.8 * num_true as f64,
+        "{name}: {true_found} of {num_true}"
+    );
+}
+
+#[test]
+fn grid_of_outlier_shares() {
+    let mut random = Random::new(11);
+    for (num_matches, max_error_px) in [(1500, 2.0), (3000, 1.5)] {
+        let options = RansacOptions {
+            max_error_px,
+            confidence: 0.99,
+            max_iterations: 300_000,
+            ..RansacOptions::default()
+        };
+        let mut make = |shape, share_true| {
+            let pair = cameras(&mut random);
+            scene(&mut random, pair, shape, num_matches, share_true, 0.5)
+        };
+        for share_true in [0.25, 0.45, 0.65, 0.85] {
+            let s = make(Shape::Volume, share_true);
+            let report = find_fundamental(&s.p1, &s.p2, &options).unwrap();
+            check_grid(
+                &format!("F {share_true}"),
+                &s,
+                &report.inliers,
+                max_error_px,
+                |i| sampson_px(&report.model, &s.p1[i], &s.p2[i]),
+            );
+        }
+        for share_true in [0.35, 0.6, 0.85] {
+            let s = make(Shape::Volume, share_true);
+            let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+            let report = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options).unwrap();
+            check_grid(
+                &format!("E {share_true}"),
+                &s,
+                &report.inliers,
+                max_error_px,
+                |i| sampson_px(&report.model.fundamental, &s.p1[i], &s.p2[i]),
+            );
+        }
+        for share_true in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let s = make(Shape::Plane, share_true);
+            // Noise of both images adds up in the distance in image 2, two-dimensional.
+            let max_error_px = 2.5;
+            let options = RansacOptions {
+                max_error_px,
+                ..options
+            };
+            let report = find_homography(&s.p1, &s.p2, &options).unwrap();
+            check_grid(
+                &format!("H {share_true}"),
+                &s,
+                &report.inliers,
+                max_error_px,
+                |i| transfer_error_px(&report.model, &s.p1[i], &s.p2[i]),
+            );
+            let s = make(Shape::Volume, share_true);
+            let k2 = s.cam2.intrinsics;
+            let report = find_absolute_pose(&s.points, &s.p2, &k2, &options).unwrap();
+            let camera = Camera {
+                intrinsics: k2,
+                cam_from_world: report.model,
+            };
+            check_grid(
+                &format!("P3P {share_true}"),
+                &s,
+                &report.inliers,
+                max_error_px,
+                |i| (camera.project(&s.points[i]).unwrap() - s.p2[i]).norm(),
+            );
+        }
+    }
+}
+
+/// F stays right when 90 or 95 % of the true matches lie on one plane.
+#[test]
+fn a_dominant_plane_does_not_mislead() {
+    for share_on_plane in [0.5, 0.9, 0.95] {
+        for share_true in [1.0, 0.8] {
+            let mut wrong = Vec::new();
+            for seed in 0..25 {
+                let mut random = Random::new(seed);
+                let pair = cameras(&mut random);
+                let shape = Shape::Mostly(share_on_plane);
+                let s = scene(&mut random, pair, shape, 300, share_true, 0.3);
+                let report = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+                let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
+                // Points anywhere in space, not only those that were matched.
+                let mut errors: Vec<f64> = (0..200)
+                    .filter_map(|_| {
+                        let mut near = |size: f64| random.uniform(-size, size);
+                        let x = Point3::new(near(1.6), near(1.2), near(1.5));
+                        let (a, b) = (s.cam1.project(&x).ok()?, s.cam2.project(&x).ok()?);
+                        assert!(sampson_px(&truth, &a, &b) < 1e-6);
+                        Some(sampson_px(&report.model, &a, &b))
+                    })
+                    .collect();
+                errors.sort_by(f64::total_cmp);
+                if errors[errors.len() / 2] > 1.0 {
+                    wrong.push((seed, errors[errors.len() / 2]));
+                }
+            }
+            println!("{share_on_plane} on the plane, {share_true} true: wrong {wrong:?}");
+            assert!(wrong.is_empty(), "{share_on_plane} {share_true}: {wrong:?}");
+        }
+    }
+}
+
+#[test]
+fn forward_motion() {
+    for seed in 0..20 {
+        let mut random = Random::new(seed);
+        let up = Vector3::new(0.0, -1.0, 0.0);
+        let camera = |z: f64| Camera {
+            intrinsics: intrinsics(600.0),
+            cam_from_world: look_at(&Point3::new(0.0, 0.0, z), &Point3::new(0.0, 0.0, 9.0), &up)
+                .unwrap(),
+        };
+        let pair = (camera(-5.0), camera(-4.0));
+        let s = scene(&mut random, pair, Shape::Volume, 300, 0.7, 0.3);
+        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let pose = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let motion = pose.model.cam2_from_cam1();
+        assert!(rotation_error(&motion, &s.motion()) < 0.01, "{seed}");
+        assert!(direction_error(&motion, &s.motion()) < 0.1, "{seed}");
+        let f = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        assert!(f.num_inliers > 180);
+    }
+}
+
+/// No baseline at all, or one far below the noise: some answer within the budget, nothing worse,
+/// and the choice of model says that the camera only turned.
+#[test]
+fn no_motion_and_almost_none() {
+    for baseline in [0.0, 1e-9, 1e-4] {
+        for noise_px in [0.0, 0.3] {
+            let mut random = Random::new(3);
+            let camera = |x: f64, yaw: f64| Camera {
+                intrinsics: intrinsics(600.0),
+                cam_from_world: RigidTransform::new(
+                    Vector3::new(-x, 0.0, 5.0),
+                    Vector3::new(0.0, yaw, 0.0),
+                ),
+            };
+            for yaw in [0.0, 0.1] {
+                let mut pair = (camera(0.0, 0.0), camera(baseline, 0.0));
+                pair.1.cam_from_world =
+                    RigidTransform::rotation(Vector3::new(0.0, yaw, 0.0)) * pair.1.cam_from_world;
+                let s = scene(&mut random, pair, Shape::Volume, 150, 0.8, noise_px);
+                let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+                for report in [find_fundamental(&s.p1, &s.p2, &options(1))] {
+                    match report {
+                        Ok(report) => assert!(report.model.iter().all(|x| x.is_finite())),
+                        Err(error) => assert!(!error.to_string().is_empty()),
+                    }
+                }
+                if let Ok(report) = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(1)) {
+                    let RelativePose {
+                        rotation,
+                        direction,
+                        ..
+                    } = report.model;
+                    assert!(
+                        rotation
+                            .iter()
+                            .chain(direction.iter())
+                            .all(|x| x.is_finite())
+                    );
+                    assert!(report.iterations <= RansacOptions::default().max_iterations);
+                }
+                let choice = TwoViewOptions::default();
+                let report = estimate_two_view_calibrated(&s.p1, &s.p2, k1, k2, &choice).unwrap();
+                assert_eq!(report.configuration, Configuration::Panoramic);
+            }
+        }
+    }
+}
+
+#[test]
+fn duplicates_count_once() {
+    let mut random = Random::new(7);
+    let pair = cameras(&mut random);
+    let s = scene(&mut random, pair, Shape::Volume, 100, 0.6, 0.2);
+    let (mut p1, mut p2) = (s.p1.clone(), s.p2.clone());
+    // Each wrong match fifty times over.
+    for i in (0..100).filter(|&i| !s.truth[i]) {
+        for _ in 0..50 {
+            p1.push(s.p1[i]);
+            p2.push(s.p2[i]);
+        }
+    }
+    let once = find_fundamental(&s.p1, &s.p2, &options(1)).unwrap();
+    let often = find_fundamental(&p1, &p2, &options(1)).unwrap();
+    assert_eq!(once.model, often.model);
+    assert_eq!(once.num_inliers, often.num_unique_inliers);
+    assert_eq!(once.inliers, often.inliers[..100]);
+
+    // Seven different matches in many copies are seven matches.
+    let few: Vec<_> = s.p1[..6].iter().cycle().take(60).copied().collect();
+    assert!(matches!(
+        find_fundamental(&few, &few, &options(1)),
+        Err(Error::TooFew { got: 6, .. })
+    ));
+}
+
+type Points = Vec<Point2<f64>>;
+
+/// Every estimator on one pair of lists: no panic, no endless loop, nothing that is not a number.
+fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
+    let k = intrinsics(600.0);
+    let budget = RansacOptions {
+        max_iterations: 500,
+        ..RansacOptions::default()
+    };
+    let points: Vec<_> = p1.iter().map(|p| Point3::new(p.x, p.y, 900.0)).collect();
+    let finite = |m: &[f64]| assert!(m.iter().all(|x| x.is_finite()), "{m:?}");
+    let mut errors = Vec::new();
+    let mut note = |result: Result<Vec<f64>, Error>| match result {
+        Ok(values) => {
+            finite(&values);
+            errors.push(None);
+        }
+        Err(error) => errors.push(Some(error)),
+    };
+    note(find_fundamental(p1, p2, &budget).map(|r| {
+        assert!(r.iterations <= 500);
+        r.model.as_slice().to_vec()
+    }));
+    note(find_homography(p1, p2, &budget).map(|r| r.model.as_slice().to_vec()));
+    note(
+        estimate_relative_pose(p1, p2, &k, &k, &budget)
+            .map(|r| r.model.rotation.as_slice().to_vec()),
+    );
+    note(find_similarity(p1, p2, &budget).map(|r| r.model.matrix().as_slice().to_vec()));
+    note(
+        find_absolute_pose(&points, p2, &k, &budget)
+            .map(|r| r.model.translation.vector.as_slice().to_vec()),
+    );
+    let choice = TwoViewOptions {
+        ransac: budget,
+        ..TwoViewOptions::default()
+    };
+    note(estimate_two_view(p1, p2, &choice).map(|_| Vec::new()));
+    note(estimate_two_view_calibrated(p1, p2, &k, &k, &choice).map(|_| Vec::new()));
+    errors
+}
+
+#[test]
+fn bad_input_is_an_error_for_everyone() {
+    let mut random = Random::new(9);
+    let cloud = |random: &mut Random, n: usize| -> Points {
+        (0..n)
+            .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
+            .collect()
+    };
+    let (a, b) = (cloud(&mut random, 40), cloud(&mut random, 40));
+    let same = vec![Point2::new(5.0, 5.0); 40];
+    let mut bad = a.clone();
+    bad[17].y = f64::NAN;
+    let mut infinite = a.clone();
+    infinite[3].x = f64::INFINITY;
+    for (p1, p2) in [
+        (&vec![], &vec![]),
+        (&a[..1].to_vec(), &b[..1].to_vec()),
+        (&same, &same),
+        (&bad, &b),
+        (&b, &bad),
+        (&infinite, &b),
+        (&a, &b[..30].to_vec()),
+    ] {
+        for error in try_everything(p1, p2) {
+            let sentence = error.expect("bad input must be refused").to_string();
+            assert!(sentence.len() > 10);
+        }
+    }
+    // Lines: F, E and H are open, a similarity is not.
+    let line: Points = (0..40)
+        .map(|i| Point2::new(f64::from(i) * 7.0, 2.0 * f64::from(i)))
+        .collect();
+    let errors = try_everything(&line, &line);
+    for (i, name) in ["F", "H", "E"].iter().enumerate() {
+        assert!(errors[i].is_some(), "{name}");
+    }
+    assert!(errors[3].is_none());
+    // One image on a line only.
+    let errors = try_everything(&line, &a);
+    assert!(errors[0].is_some() && errors[2].is_some());
+}
+
+/// Matches that have nothing to do with each other: the report says so.
+#[test]
+fn nothing_but_outliers() {
+    let mut random = Random::new(13);
+    let mut cloud = || -> Points {
+        (0..300)
+            .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
+            .collect()
+    };
+    let (a, b) = (cloud(), cloud());
+    let options = RansacOptions {
+        max_iterations: 2000,
+        ..RansacOptions::default()
+    };
+    let report = find_fundamental(&a, &b, &options).unwrap();
+    assert!(report.num_inliers < 30);
+    assert_eq!(report.stop, StopReason::Exhausted);
+    assert!(report.required_iterations > 100_000);
+    let report = find_homography(&a, &b, &options).unwrap();
+    assert!(report.num_inliers < 15);
+    let choice = TwoViewOptions {
+        ransac: options,
+        min_num_inliers: 30,
+        ..TwoViewOptions::default()
+    };
+    let report = estimate_two_view(&a, &b, &choice).unwrap();
+    assert_eq!(report.configuration, Configuration::Degenerate);
+}
+
+#[test]
+fn equal_seeds_give_equal_bits() {
+    let mut random = Random::new(17);
+    let pair = cameras(&mut random);
+    let s = scene(&mut random, pair, Shape::Volume, 200, 0.6, 0.5);
+    let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+    let mut different = 0;
+    for seed in 0..5 {
+        let one = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        assert_eq!(one, find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap());
+        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        assert_eq!(
+            e,
+            estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap()
+        );
+        let other = find_fundamental(&s.p1, &s.p2, &options(seed + 100)).unwrap();
+        different += usize::from(other.model != one.model);
+    }
+    assert!(different > 0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Moving the world changes nothing; scaling the image scales F; swapping the views transposes
+    /// it; the order of the matches does not matter.
+    #[test]
+    fn invariances(
+        seed in 0_u64..1000,
+        factor in 0.2_f64..5.0,
+        turn in prop::array::uniform3(-3.0_f64..3.0),
+        shift in prop::array::uniform3(-50.0_f64..50.0),
+    ) {
+        let mut random = Random::new(seed);
+        let pair = cameras(&mut random);
+        let s = scene(&mut random, pair, Shape::Volume, 40, 1.0, 0.0);
+        let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
+
+        let motion = RigidTransform::new(Vector3::from(shift), Vector3::from(turn));
+        let moved = |c: &Camera| Camera {
+            cam_from_world: c.cam_from_world * motion.inverse(),
+            ..*c
+        };
+        let again = fundamental_from_cameras(&moved(&s.cam1), &moved(&s.cam2)).unwrap();
+        prop_assert!(same_up_to_sign(&truth, &again) < 1e-9);
+
+        let find = |p1: &Points, p2: &Points| find_fundamental(p1, p2, &options(seed)).unwrap();
+        let f = find(&s.p1, &s.p2);
+        let fits = |f: &Matrix3<f64>, p1: &Points, p2: &Points| {
+            p1.iter().zip(p2).map(|(a, b)| sampson_px(f, a, b)).fold(0.0, f64::max)
+        };
+        prop_assert!(fits(&f.model, &s.p1, &s.p2) < 1e-5);
+
+        let swapped = find(&s.p2, &s.p1);
+        prop_assert!(fits(&swapped.model.transpose(), &s.p1, &s.p2) < 1e-5);
+
+        let scaled = |p: &Points| -> Points { p.iter().map(|q| q * factor).collect() };
+        let large = find_fundamental(
+            &scaled(&s.p1),
+            &scaled(&s.p2),
+            &RansacOptions { max_error_px: factor, ..options(seed) },
+        ).unwrap();
+        prop_assert_eq!(large.num_inliers, 40);
+        let undo = Matrix3::from_diagonal(&Vector3::new(factor, factor, 1.0));
+        prop_assert!(fits(&(undo * large.model * undo), &s.p1, &s.p2) < 1e-5);
+
+        let reversed = |p: &Points| -> Points { p.iter().rev().copied().collect() };
+        let back = find(&reversed(&s.p1), &reversed(&s.p2));
+        prop_assert_eq!(back.num_inliers, 40);
+        prop_assert!(fits(&back.model, &s.p1, &s.p2) < 1e-5);
+    }
+
+    /// A homography found forwards is the inverse of the one found backwards.
+    #[test]
+    fn homographies_invert(seed in 0_u64..1000) {
+        let mut random = Random::new(seed);
+        let rotation = Vector3::from_fn(|_, _| random.uniform(-0.3, 0.3));
+        let t = Vector3::from_fn(|_, _| random.uniform(-0.3, 0.3));
+        let motion = RigidTransform::from_parts(
+            t.into(),
+            UnitQuaternion::from_scaled_axis(rotation),
+        );
+        let k = intrinsics(600.0);
+        let h = homography_from_motion(&motion, &-Vector3::z(), 1.0, &k, &k);
+        let p1: Points = (0..30)
+            .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
+            .collect();
+        let p2: Points = p1.iter().map(|p| transfer(&h, p).unwrap()).collect();
+        let there = find_homography(&p1, &p2, &options(seed)).unwrap().model;
+        let back = find_homography(&p2, &p1, &options(seed)).unwrap().model;
+        prop_assert!(same_up_to_sign(&there, &h) < 1e-7);
+        prop_assert!(same_up_to_sign(&(there * back), &Matrix3::identity()) < 1e-6);
+    }
+}
+
+/// E of a known motion survives decomposition, whatever the pose.
+#[test]
+fn essential_round_trip() {
+    let mut random = Random::new(19);
+    for _ in 0..100 {
+        let mut vector = || Vector3::from_fn(|_, _| random.normal());
+        let motion = RigidTransform::new(vector(), vector());
+        let e = essential_from_motion(&motion).unwrap();
+        let best = decompose_essential(&e)
+            .unwrap()
+            .iter()
+            .map(|m| rotation_error(m, &motion) + direction_error(m, &motion))
+            .fold(f64::INFINITY, f64::min);
+        assert!(best < 1e-7, "{best}");
+    }
+}
