@@ -15,10 +15,8 @@
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
-//! | [`stereo`] | dense disparity by block matching and semi-global matching, depth |
-//! | [`stereo`] | rectification, dense disparity, depth |
+//! | [`stereo`] | rectification, dense disparity, depth, point clouds |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
-//! | [`stereo`] | rectification, dense disparity by block matching and semi-global matching, depth, point clouds |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
 //! # Conventions

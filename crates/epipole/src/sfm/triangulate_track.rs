@@ -140,7 +140,7 @@ pub(super) fn triangulate_track(
     };
     propose(&|_| true);
     // Up to about 30 pairs: those of the first eight, spread over a long track.
-    let stride = sights.len().div_ceil(8);
+    let stride = sights.len().div_ceil(8).max(1);
     for i in (0..sights.len()).step_by(stride) {
         for j in (i + stride..sights.len()).step_by(stride) {
             propose(&|k| k == i || k == j);

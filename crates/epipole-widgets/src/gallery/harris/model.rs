@@ -235,11 +235,12 @@ impl Model for Harris {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) && id != THRESHOLD.id {
-                    if id == SOURCE.id {
-                        self.answer = None;
-                        self.place_probe_by_default();
-                    }
+                let changed = self.settings.set(id, value)? == Some(true);
+                if changed && id == SOURCE.id {
+                    self.answer = None;
+                    self.place_probe_by_default();
+                }
+                if changed && id != THRESHOLD.id {
                     self.ask();
                 }
             }
