@@ -316,16 +316,20 @@ impl<'a> Renderer<'a> {
                     };
                     let content = self.events(events, text, true);
                     self.page.words.push(' ');
-                    // A formula alone does not name a column for every screen reader; its LaTeX does.
-                    let label = if content.starts_with("<math") {
-                        format!(" aria-label=\"{}\"", escape(&words))
+                    // Not every tool reads a formula as a name; its LaTeX is words.
+                    let name = if content.starts_with("<math") {
+                        let words = escape(&words);
+                        format!(
+                            "<span class=\"visually-hidden\">{words}</span>\
+                             <span aria-hidden=\"true\">{content}</span>"
+                        )
                     } else {
-                        String::new()
+                        content.clone()
                     };
                     html.push_str(&match (in_head, column == 0 && names_rows) {
                         (true, true) => "<td></td>".to_owned(),
-                        (true, false) => format!("<th scope=\"col\"{class}{label}>{content}</th>"),
-                        (false, true) => format!("<th scope=\"row\"{class}{label}>{content}</th>"),
+                        (true, false) => format!("<th scope=\"col\"{class}>{name}</th>"),
+                        (false, true) => format!("<th scope=\"row\"{class}>{name}</th>"),
                         (false, false) => format!("<td{class}>{content}</td>"),
                     });
                     column += 1;
