@@ -1,5 +1,7 @@
 //! Small books in temporary folders: what comes out, and what each mistake says.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
 use epipole_book::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::html::forbidden_inline;
 use epipole_book::site::{Options, Outcome, build};
