@@ -218,24 +218,21 @@ fn figure(
         .map(|(key, value)| format!(" {}=\"{}\"", escape(key), escape(value)))
         .collect();
     // The first figure of a page may be in sight at once; the others can wait.
-    let loading = if renderer.page.figures.len() == 1 {
-        "eager"
-    } else {
-        "lazy"
+    let loading = match renderer.page.figures.len() {
+        1 => "fetchpriority=\"high\"",
+        _ => "loading=\"lazy\"",
     };
     let html = format!(
         "<figure class=\"epipole\" id=\"{id}\">\n\
          <epipole-figure name=\"{name}\"{attributes}>\
-         <picture>{sources}<img src=\"{src}\" alt=\"{alt}\" width=\"{width}\" height=\"{height}\" \
-         loading=\"{loading}\" decoding=\"async\"></picture></epipole-figure>\n\
+         <picture>{sources}<img src=\"{src}\" alt=\"{alt}\" {loading} decoding=\"async\">\
+         </picture></epipole-figure>\n\
          <figcaption><a class=\"figure-number\" href=\"#{id}\">Figure {number}</a> {caption}</figcaption>\n\
          </figure>\n",
         id = escape(&id),
         alt = escape(&description),
         sources = posters.sources,
         src = posters.src,
-        width = posters.size.0,
-        height = posters.size.1,
     );
     Ok(Insert::Block { html })
 }

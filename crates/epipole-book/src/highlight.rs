@@ -67,8 +67,8 @@ fn token(rest: &str, first: char, language: &Language) -> (usize, Option<&'stati
     if rest.starts_with(language.comment) {
         return (rest.find('\n').unwrap_or(rest.len()), Some("comment"));
     }
-    if rest.starts_with("\"\"\"") {
-        let end = rest[3..].find("\"\"\"").map_or(rest.len(), |end| end + 6);
+    if let Some(inside) = rest.strip_prefix("\"\"\"") {
+        let end = inside.find("\"\"\"").map_or(rest.len(), |end| end + 6);
         return (end, Some("string"));
     }
     if first == '"' || (first == '\'' && language.single_quotes) {

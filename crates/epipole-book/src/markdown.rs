@@ -12,7 +12,9 @@ use crate::page::{Heading, Page};
 use crate::problems::Place;
 use crate::shared::Shared;
 use crate::source::Source;
-use pulldown_cmark::{BlockQuoteKind, CodeBlockKind, CowStr, Event, Parser, Tag, TagEnd};
+use pulldown_cmark::{
+    Alignment, BlockQuoteKind, CodeBlockKind, CowStr, Event, Parser, Tag, TagEnd,
+};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -149,13 +151,10 @@ impl<'a> Renderer<'a> {
                     let html = self.events(&events[at + 1..next - 1], text, false);
                     out.push(Event::Html(callout(*kind, &html).into()));
                 }
-                Event::Start(Tag::Table(_)) => {
-                    out.push(Event::Html("<div class=\"table\">".into()));
-                    out.push(event.clone());
-                }
-                Event::End(TagEnd::Table) => {
-                    out.push(event.clone());
-                    out.push(Event::Html("</div>\n".into()));
+                Event::Start(Tag::Table(alignments)) => {
+                    next = end_of(events, at);
+                    let html = self.table(&events[at + 1..next - 1], alignments, text);
+                    out.push(Event::Html(html.into()));
                 }
                 Event::Start(Tag::Link {
                     link_type,
@@ -282,6 +281,65 @@ impl<'a> Renderer<'a> {
             "<h{level} id=\"{id}\">{html} <a class=\"anchor\" href=\"#{id}\" \
              aria-label=\"Link to the section {title}\">#</a></h{level}>\n"
         )
+    }
+
+    /// A table in a box that can scroll. If the corner cell is empty, the first column names the rows.
+    fn table(&mut self, inner: &[Located], alignments: &[Alignment], text: &Text) -> String {
+        let mut html = String::from("<div class=\"table\"><table>\n");
+        let (mut in_head, mut names_rows, mut column) = (false, false, 0);
+        let mut at = 0;
+        while at < inner.len() {
+            let mut next = at + 1;
+            match &inner[at].0 {
+                Event::Start(Tag::TableHead) => {
+                    (in_head, column) = (true, 0);
+                    html.push_str("<thead><tr>");
+                }
+                Event::End(TagEnd::TableHead) => {
+                    in_head = false;
+                    html.push_str("</tr></thead>\n<tbody>\n");
+                }
+                Event::Start(Tag::TableRow) => {
+                    column = 0;
+                    html.push_str("<tr>");
+                }
+                Event::End(TagEnd::TableRow) => html.push_str("</tr>\n"),
+                Event::Start(Tag::TableCell) => {
+                    next = end_of(inner, at);
+                    let events = &inner[at + 1..next - 1];
+                    let words = plain(events, text);
+                    names_rows |= in_head && column == 0 && words.is_empty();
+                    let class = match alignments.get(column) {
+                        Some(Alignment::Right) => " class=\"right\"",
+                        Some(Alignment::Center) => " class=\"center\"",
+                        _ => "",
+                    };
+                    let content = self.events(events, text, true);
+                    self.page.words.push(' ');
+                    // Not every tool reads a formula as a name; its LaTeX is words.
+                    let name = if content.starts_with("<math") {
+                        let words = escape(&words);
+                        format!(
+                            "<span class=\"visually-hidden\">{words}</span>\
+                             <span aria-hidden=\"true\">{content}</span>"
+                        )
+                    } else {
+                        content.clone()
+                    };
+                    html.push_str(&match (in_head, column == 0 && names_rows) {
+                        (true, true) => "<td></td>".to_owned(),
+                        (true, false) => format!("<th scope=\"col\"{class}>{name}</th>"),
+                        (false, true) => format!("<th scope=\"row\"{class}>{name}</th>"),
+                        (false, false) => format!("<td{class}>{content}</td>"),
+                    });
+                    column += 1;
+                }
+                _ => {}
+            }
+            at = next;
+        }
+        html.push_str("</tbody>\n</table></div>\n");
+        html
     }
 
     fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {

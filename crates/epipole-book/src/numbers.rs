@@ -46,7 +46,7 @@ impl Arguments<'_> {
     /// A parameter that counts something.
     fn count(&self, name: &str) -> Result<usize, String> {
         let value = self.get(name);
-        if value >= 0.0 && value < 1e9 && value == value.trunc() {
+        if (0.0..1e9).contains(&value) && value == value.trunc() {
             Ok(value as usize)
         } else {
             Err(format!("{name}={value} is not a count"))

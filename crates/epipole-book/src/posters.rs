@@ -21,12 +21,10 @@ const DARK: &str = "(prefers-color-scheme: dark)";
 /// The posters of a figure for wide and narrow pages, light and dark, as HTML.
 #[derive(Default)]
 pub(crate) struct Posters {
-    /// `<source>`s for all but wide and light.
+    /// A `<source>` for each. They carry the sizes, since those differ.
     pub(crate) sources: String,
     /// Wide and light.
     pub(crate) src: String,
-    /// Of `src`, CSS pixels.
-    pub(crate) size: (u32, u32),
 }
 
 /// Draws the posters, or takes them from `folder`, and adds them to the site.
@@ -57,25 +55,29 @@ pub(crate) fn draw(
             .add_asset(&format!("figures/{name}-{suffix}"), "webp", bytes);
         format!("{root}{path}")
     };
-    let source = |encoded: &Encoded, suffix: &str, media: &str| {
+    let source = |encoded: &Encoded, path: &str, media: &str| {
         let (width, height) = encoded.size;
         format!(
-            "<source srcset=\"{}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">",
-            add(encoded, suffix)
+            "<source srcset=\"{path}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
         )
     };
     let [[narrow_light, narrow_dark], [light, dark]] = &drawn[..] else {
         return Err("a poster is missing".to_owned());
     };
+    let src = add(light, "light");
     let sources = [
-        source(narrow_dark, "narrow-dark", &format!("{NARROW} and {DARK}")),
-        source(narrow_light, "narrow-light", NARROW),
-        source(dark, "dark", DARK),
+        source(
+            narrow_dark,
+            &add(narrow_dark, "narrow-dark"),
+            &format!("{NARROW} and {DARK}"),
+        ),
+        source(narrow_light, &add(narrow_light, "narrow-light"), NARROW),
+        source(dark, &add(dark, "dark"), DARK),
+        source(light, &src, "all"),
     ];
     Ok(Posters {
         sources: sources.concat(),
-        src: add(light, "light"),
-        size: light.size,
+        src,
     })
 }
 

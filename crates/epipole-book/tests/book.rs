@@ -1,5 +1,7 @@
 //! Small books in temporary folders: what comes out, and what each mistake says.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
 use epipole_book::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::html::forbidden_inline;
 use epipole_book::site::{Options, Outcome, build};
@@ -192,9 +194,15 @@ fn figures_have_posters_numbers_and_permanent_names() {
         "{one}"
     );
     assert!(
-        one.contains("alt=\"A &quot;dot&quot; of size 4.\" width=\"760\" height=\"10\""),
+        one.contains("alt=\"A &quot;dot&quot; of size 4.\" loading=\"lazy\""),
         "{one}"
     );
+    for sized in [
+        "media=\"all\" width=\"760\" height=\"10\"><img src=",
+        "media=\"(max-width: 38rem)\" width=\"340\" height=\"10\">",
+    ] {
+        assert!(one.contains(sized), "{sized}: {one}");
+    }
     assert!(one.contains("Figure 0.2</a> A <em>second</em>"), "{one}");
     assert!(!one.contains("<p><figure"), "{one}");
     let two = book.article("part/two.html");
@@ -388,6 +396,18 @@ fn notes_and_footnotes_go_to_the_margin() {
         article.contains("<sup class=\"note-number\">2</sup> two <code>c</code></small>"),
         "{article}"
     );
+}
+
+#[test]
+fn tables_name_their_rows_and_columns_without_inline_styles() {
+    let book = Book::of_chapter("# One\n\n| | $x$ | b |\n|---|---:|---|\n| c | 1 | *2* |\n");
+    book.must_build();
+    let article = book.article("one.html");
+    assert!(article.contains(
+        "<td></td><th scope=\"col\" class=\"right\"><span class=\"visually-hidden\">x</span>"
+    ));
+    let row = "<tr><th scope=\"row\">c</th><td class=\"right\">1</td><td><em>2</em></td></tr>";
+    assert!(article.contains(row), "{article}");
 }
 
 #[test]
