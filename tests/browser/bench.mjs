@@ -21,6 +21,13 @@ const server = await serve({
 const browser = await chromium.launch(launchOptions);
 const rows = [];
 
+/** Seconds of processor time that the browser has used: a busy machine does not change it much. */
+const system = await browser.newBrowserCDPSession();
+async function cpuSeconds() {
+  const { processInfo } = await system.send("SystemInfo.getProcessInfo");
+  return processInfo.filter(({ type }) => type !== "browser").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+}
+
 const quantile = (times, share) =>
   [...times].sort((a, b) => a - b)[Math.min(times.length - 1, Math.floor(share * times.length))];
 const ms = (time) => `${time.toFixed(1)} ms`;
@@ -32,19 +39,22 @@ for (const { name } of figures) {
   await page.goto(`${server.origin}/figures?figure=${name}`);
   await page.locator("epipole-figure[data-ready]").waitFor();
   const sliders = await page.locator("epipole-figure input[type=range]").count();
-  const times = { slider: [], drag: [] };
-  for (let index = 0; index < sliders; index += 1) {
-    times.slider.push(...(await page.evaluate(slide, { index, moves: Math.ceil(MOVES / sliders) })));
-  }
-  if ((await page.locator("epipole-figure .grip").count()) > 0) {
-    times.drag.push(...(await page.evaluate(drag, { moves: MOVES })));
-  }
-  for (const [kind, list] of Object.entries(times)) {
-    if (list.length === 0) continue;
-    const pixels = await page
-      .locator("epipole-figure canvas")
-      .evaluate((canvas) => `${canvas.width} × ${canvas.height}`);
-    rows.push([`${name}: ${kind} → frame, ${pixels}`, `p50 ${ms(quantile(list, 0.5))}`, `p95 ${ms(quantile(list, 0.95))}`]);
+  const pixels = await page
+    .locator("epipole-figure canvas")
+    .evaluate((canvas) => `${canvas.width} × ${canvas.height}`);
+  const grips = await page.locator("epipole-figure .grip").count();
+  const kinds = {
+    slider: Array.from({ length: sliders }, (_, index) => [slide, { index, moves: Math.ceil(MOVES / sliders) }]),
+    drag: grips > 0 ? [[drag, { moves: MOVES }]] : [],
+  };
+  for (const [kind, runs] of Object.entries(kinds)) {
+    const before = await cpuSeconds();
+    const times = [];
+    for (const [run, given] of runs) times.push(...(await page.evaluate(run, given)));
+    const cpu = (1000 * ((await cpuSeconds()) - before)) / times.length;
+    if (times.length === 0) continue;
+    const [p50, p95] = [quantile(times, 0.5), quantile(times, 0.95)];
+    rows.push([`${name}: ${kind} → frame, ${pixels}`, `p50 ${ms(p50)}`, `p95 ${ms(p95)}`, `processor ${ms(cpu)}`]);
   }
   await context.close();
 }
@@ -84,13 +94,13 @@ for (const { name } of figures) {
   });
   const [ours, theirs] = [quantile(native, 0.5), quantile(there, 0.5)];
   rows.push(["RANSAC runs: native, WebAssembly", ms(ours), ms(theirs)]);
-  rows.push(["RANSAC runs: WebAssembly / native", `${(theirs / ours).toFixed(2)} ×`, ""]);
+  rows.push(["RANSAC runs: WebAssembly / native", `${(theirs / ours).toFixed(2)} ×`]);
 }
 
 await browser.close();
 await server.close();
-const widths = [0, 1, 2].map((column) => Math.max(...rows.map((row) => row[column].length)));
-for (const row of rows) console.log(row.map((cell, column) => cell.padEnd(widths[column])).join("  "));
+const widths = [0, 1, 2].map((column) => Math.max(...rows.map((row) => (row[column] ?? "").length)));
+for (const row of rows) console.log(row.map((cell, column) => cell.padEnd(widths[column] ?? 0)).join("  ").trimEnd());
 
 /** In the page: moves one slider through its range and times each move until its frame is drawn. */
 async function slide({ index, moves }) {

@@ -4,7 +4,7 @@
 
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { fileURLToPath } from "node:url";
 
 export const here = dirname(fileURLToPath(import.meta.url));
 export const root = resolve(here, "../..");
@@ -38,7 +38,9 @@ function find(folder, under, pattern) {
 
 /** The bindings, loaded into this process. */
 export async function loadBindings() {
-  const module = await import(pathToFileURL(join(bindings, "epipole_web.js")).href);
+  // By its text: Node takes a file of that name for an older kind of script.
+  const glue = readFileSync(join(bindings, "epipole_web.js"));
+  const module = await import(`data:text/javascript;base64,${glue.toString("base64")}`);
   await module.default({ module_or_path: readFileSync(join(elements, wasm)) });
   return module;
 }

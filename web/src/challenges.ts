@@ -9,7 +9,7 @@ interface Item {
 }
 
 export class Challenges {
-  readonly element = make("section", { class: "challenges", "aria-label": "Challenges" });
+  readonly element = make("div", { class: "challenges", role: "group", "aria-label": "Challenges" });
   readonly #list = make("ol");
   readonly #title = make("p", { class: "heading" });
   readonly #items = new Map<string, Item>();

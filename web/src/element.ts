@@ -1,76 +1,55 @@
-/** `<epipole-figure name="…">`: a figure on a page. */
+/**
+ * `<epipole-figure name="…">`: a figure on a page.
+ *
+ * One class, long because it is the whole public surface: what a page can set, call and hear.
+ */
 
+import { changedParameters, parametersOf, wholeState } from "./attributes.js";
 import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
-import { Challenges } from "./challenges.js";
-import { Controls } from "./controls.js";
 import { make, setAttribute } from "./dom.js";
-import { Jobs } from "./jobs.js";
 import { Engine, loadModule } from "./module.js";
 import { linkTo, parametersIn } from "./permalink.js";
-import { Photos } from "./photos.js";
-import { Picture } from "./picture.js";
 import { defineProperties } from "./properties.js";
-import { Readouts } from "./readouts.js";
 import { Session } from "./session.js";
-import { Speaker } from "./speaker.js";
-import { sheet } from "./sheet.js";
+import { Shell } from "./shell.js";
 import { themeOf, watchTheme } from "./theme.js";
-import { Toolbar } from "./toolbar.js";
 import { watchVisibility } from "./visibility.js";
-
-/** Attributes that are no parameters: ours, and those that any element may have. */
-const NOT_PARAMETERS =
-  /^(name|theme|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
 
 export class EpipoleFigure extends HTMLElement {
   static readonly observedAttributes = ["name", "theme"];
 
-  readonly #speaker = new Speaker();
-  readonly #readouts = new Readouts();
-  readonly #challenges = new Challenges();
-  readonly #controls = new Controls((event) => this.#session?.act((engine) => engine.update(event)));
-  readonly #picture = new Picture({
-    handleAt: (x, y) => this.#session?.ask((engine) => engine.handleAt(this.#width, x, y)),
-    drag: (id, x, y) => this.#session?.act((engine) => engine.drag(id, this.#width, x, y)),
-    nudge: (id, towards, steps) =>
-      this.#session?.act((engine) => engine.nudge(id, this.#width, towards, steps)),
-    moveToEnd: (id, towards) =>
-      this.#session?.act((engine) => engine.moveToEnd(id, this.#width, towards)),
-    remove: (id) => this.#session?.act((engine) => engine.update({ type: "handle-removed", id })),
-    click: (x, y) => {
-      this.#session?.act((engine) => engine.click(this.#width, x, y));
-      // A point that a click has made can be dragged on at once.
-      this.#session?.flush();
+  readonly #shell = new Shell(this, {
+    send: (event) => this.#session?.act((engine) => engine.update(event)),
+    hand: {
+      handleAt: (x, y) => this.#session?.ask((engine) => engine.handleAt(this.#width, x, y)),
+      drag: (id, x, y) => this.#session?.act((engine) => engine.drag(id, this.#width, x, y)),
+      nudge: (id, towards, steps) =>
+        this.#session?.act((engine) => engine.nudge(id, this.#width, towards, steps)),
+      moveToEnd: (id, towards) =>
+        this.#session?.act((engine) => engine.moveToEnd(id, this.#width, towards)),
+      remove: (id) => this.#session?.act((engine) => engine.update({ type: "handle-removed", id })),
+      click: (x, y) => {
+        this.#session?.act((engine) => engine.click(this.#width, x, y));
+        // A point that a click has made can be dragged on at once.
+        this.#session?.flush();
+      },
     },
-  });
-  readonly #toolbar = new Toolbar(
-    {
+    deeds: {
       reset: () => this.reset(),
       link: () => this.permalink,
       save: () => void this.#save(),
       fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
     },
-    (sentence) => this.#speaker.say(sentence),
-  );
-  readonly #jobs = new Jobs({
-    next: () => {
-      const name = this.getAttribute("name") ?? "";
-      const job = this.#session?.ask((engine) => engine.job());
-      return job && { name, ...job };
+    jobs: {
+      next: () => {
+        const job = this.#session?.ask((engine) => engine.job());
+        return job && { name: this.getAttribute("name") ?? "", ...job };
+      },
+      done: (key, result) => this.#endJob((engine) => engine.jobDone(key, result)),
+      failed: (key, sentence) => this.#endJob((engine) => engine.jobFailed(key, sentence)),
     },
-    done: (key, result) => this.#endJob((engine) => engine.jobDone(key, result)),
-    failed: (key, sentence) => this.#endJob((engine) => engine.jobFailed(key, sentence)),
+    takePhoto: (slot, photo) => this.#session?.act((engine) => engine.takePhoto(slot, photo)),
   });
-  readonly #photos = new Photos(
-    (slot, photo) => this.#session?.act((engine) => engine.takePhoto(slot, photo)),
-    (sentence) => this.#speaker.warn([sentence], true),
-  );
-  readonly #help = make("p", { id: "help", class: "help" });
-  readonly #title = make("p", { id: "title", class: "title" });
-  readonly #description = make("p", { class: "description" });
-  readonly #panel = make("div", { class: "panel", hidden: true });
-  readonly #root: HTMLElement;
-
   #session: Session | undefined;
   #snapshot: Snapshot | undefined;
   #state: Parameters = [];
@@ -79,46 +58,10 @@ export class EpipoleFigure extends HTMLElement {
   #opening = 0;
   #stop: (() => void)[] = [];
 
-  constructor() {
-    super();
-    const head = make("div", { class: "head" }, this.#title, this.#toolbar.element);
-    this.#panel.append(
-      this.#readouts.element,
-      this.#controls.element,
-      this.#photos.element,
-      this.#challenges.element,
-    );
-    this.#root = make(
-      "div",
-      { class: "root", "aria-labelledby": "title", "aria-describedby": "help" },
-      head,
-      this.#picture.element,
-      this.#jobs.element,
-      this.#speaker.notice,
-      this.#toolbar.link,
-      this.#panel,
-      this.#description,
-      this.#help,
-      this.#speaker.region,
-      make("slot", { name: "caption" }),
-    );
-    // Its room is kept from the start, so that nothing moves when the figure is there.
-    this.#toolbar.element.classList.add("later");
-    const shadow = this.attachShadow({ mode: "open" });
-    shadow.adoptedStyleSheets = [sheet()];
-    shadow.append(this.#root);
-    // Keys that move something here must not turn the page around.
-    this.#root.addEventListener("keydown", (event) => {
-      if (/^(Arrow|Page|Home|End)/.test(event.key) && event.target !== this.#root) {
-        event.stopPropagation();
-      }
-    });
-  }
-
   connectedCallback(): void {
-    setAttribute(this.#root, "role", this.closest("figure") ? "group" : "figure");
-    const resized = new ResizeObserver(() => this.#session?.resize(this.#picture.element.clientWidth));
-    resized.observe(this.#picture.element);
+    this.#shell.role = this.closest("figure") ? "group" : "figure";
+    const resized = new ResizeObserver(() => this.#session?.resize(this.#shell.picture.element.clientWidth));
+    resized.observe(this.#shell.picture.element);
     const attributes = new MutationObserver((records) => this.#onAttributes(records));
     attributes.observe(this, { attributes: true });
     const density = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
@@ -143,17 +86,17 @@ export class EpipoleFigure extends HTMLElement {
       }),
     ];
     this.#recolor();
-    this.#session?.resize(this.#picture.element.clientWidth);
-    if (this.#snapshot) this.#jobs.follow(this.#snapshot.waiting);
+    this.#session?.resize(this.#shell.picture.element.clientWidth);
+    if (this.#snapshot) this.#shell.jobs.follow(this.#snapshot.waiting);
     if (this.#isLinked()) void this.#open(true);
   }
 
   disconnectedCallback(): void {
     for (const stop of this.#stop) stop();
     this.#stop = [];
-    this.#speaker.silence();
+    this.#shell.speaker.silence();
     this.#session?.setInSight(false);
-    this.#jobs.end();
+    this.#shell.jobs.end();
   }
 
   attributeChangedCallback(name: string, before: string | null): void {
@@ -184,7 +127,8 @@ export class EpipoleFigure extends HTMLElement {
   get permalink(): string {
     const known = new Set(this.#snapshot?.controls.map(({ id }) => id));
     for (const { id } of this.#snapshot?.handles ?? []) known.add(id);
-    return linkTo(this, this.#fullState(), (key) => known.has(key));
+    const state = this.#session?.ask((engine) => engine.state()) ?? this.#state;
+    return linkTo(this, wholeState(this, state, this.#snapshot), (key) => known.has(key));
   }
 
   /** The present value of a control. */
@@ -211,7 +155,7 @@ export class EpipoleFigure extends HTMLElement {
 
   /** Back to the state that the page's author has set. */
   reset(): void {
-    this.#speaker.warn([]);
+    this.#shell.speaker.warn([]);
     if (!this.#session) {
       void this.#open(false);
       return;
@@ -219,11 +163,11 @@ export class EpipoleFigure extends HTMLElement {
     let problems: Refused[] = [];
     this.#session.act((engine) => {
       const refused = engine.update({ type: "reset" });
-      problems = engine.apply(this.#attributes());
+      problems = engine.apply(parametersOf(this));
       return refused;
     });
     this.#warn(problems);
-    this.#speaker.say("Reset.");
+    this.#shell.speaker.say("Reset.");
   }
 
   /** Shows the present state at once, without waiting for the display. */
@@ -237,7 +181,7 @@ export class EpipoleFigure extends HTMLElement {
 
   #recolor(): void {
     const theme = themeOf(this);
-    setAttribute(this.#root, "data-theme", theme);
+    this.#shell.theme = theme;
     this.#session?.recolor(theme);
   }
 
@@ -261,7 +205,7 @@ export class EpipoleFigure extends HTMLElement {
     if (attempt !== this.#opening) return;
     this.#session?.end();
     this.#session = undefined;
-    this.#jobs.end();
+    this.#shell.jobs.end();
     let engine: Engine;
     try {
       engine = new Engine(name, memory);
@@ -271,7 +215,7 @@ export class EpipoleFigure extends HTMLElement {
     }
     this.#ready = false;
     setAttribute(this, "data-failed", false);
-    const problems = engine.apply(this.#attributes());
+    const problems = engine.apply(parametersOf(this));
     const { own, loose } = parametersIn(withAddress ? location.search : "", this);
     problems.push(...engine.apply(own));
     // Without a key, what the figure does not know is someone else's.
@@ -281,22 +225,21 @@ export class EpipoleFigure extends HTMLElement {
 
     const upgraded = defineProperties(this, engine.snapshot(760).controls);
     problems.push(...engine.apply(upgraded));
-    this.#title.textContent = engine.title;
-    this.#help.textContent = engine.help;
-    this.#session = new Session(engine, this.#picture.canvas, {
+    this.#shell.introduce(engine.title, engine.help);
+    this.#session = new Session(engine, this.#shell.picture.canvas, {
       drawn: (snapshot) => this.#drawn(snapshot, linked),
-      refused: (sentence) => this.#speaker.warn([`${capitalize(sentence)}.`], true),
+      refused: (sentence) => this.#shell.speaker.warn([`${capitalize(sentence)}.`], true),
       broke: (message) => {
         this.#session = undefined;
-        this.#jobs.end();
+        this.#shell.jobs.end();
         this.#fail("This figure has stopped: a mistake of ours. Reset starts it again.", !this.#ready);
         this.#emit("epipole-error", { message });
       },
     });
     this.#recolor();
-    this.#speaker.warn([]);
+    this.#shell.speaker.warn([]);
     this.#warn(problems);
-    this.#session.resize(this.#picture.element.clientWidth);
+    this.#session.resize(this.#shell.picture.element.clientWidth);
     const box = this.getBoundingClientRect();
     this.#session.setInSight(box.bottom >= 0 && box.top <= innerHeight);
   }
@@ -305,13 +248,7 @@ export class EpipoleFigure extends HTMLElement {
     if (snapshot) {
       const before = this.#snapshot;
       this.#snapshot = snapshot;
-      this.#controls.update(snapshot.controls);
-      this.#readouts.update(snapshot.readouts);
-      this.#picture.update(snapshot);
-      this.#photos.update(snapshot.photos);
-      this.#jobs.follow(snapshot.waiting);
-      this.#description.textContent = snapshot.description;
-      const solved = this.#challenges.update(snapshot.challenges);
+      const solved = this.#shell.update(snapshot);
       if (this.#ready) this.#tell(before, snapshot, solved);
     }
     if (!this.#ready) this.#becomeReady(linked);
@@ -324,12 +261,9 @@ export class EpipoleFigure extends HTMLElement {
     });
   }
 
-  /** The first frame is there: the poster goes, everything else comes. */
   #becomeReady(linked: boolean): void {
     this.#ready = true;
-    this.#picture.reveal();
-    this.#panel.hidden = false;
-    this.#toolbar.element.classList.remove("later");
+    this.#shell.reveal();
     this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
     setAttribute(this, "data-ready", true);
     if (linked && !location.hash) this.scrollIntoView({ block: "start" });
@@ -341,8 +275,8 @@ export class EpipoleFigure extends HTMLElement {
   }
 
   #tell(before: Snapshot | undefined, now: Snapshot, solved: Challenge[]): void {
-    this.#speaker.moveOn();
-    if (before?.description !== now.description) this.#speaker.describe(now.description);
+    this.#shell.speaker.moveOn();
+    if (before?.description !== now.description) this.#shell.speaker.describe(now.description);
     const state = this.#session?.ask((engine) => engine.state()) ?? [];
     if (JSON.stringify(state) !== JSON.stringify(this.#state)) {
       this.#state = state;
@@ -351,7 +285,7 @@ export class EpipoleFigure extends HTMLElement {
     const text = (snapshot?: Snapshot) => snapshot?.readouts.map((readout) => readout.text).join("|");
     if (text(before) !== text(now)) this.#emit("epipole-readout", this.readouts);
     for (const { id, goal } of solved) {
-      this.#speaker.say(`Solved: ${goal}`);
+      this.#shell.speaker.say(`Solved: ${goal}`);
       this.#emit("epipole-challenge", { id, goal });
     }
   }
@@ -364,11 +298,11 @@ export class EpipoleFigure extends HTMLElement {
   #fail(sentence: string, again: boolean): void {
     this.#opening = 0;
     setAttribute(this, "data-failed", true);
-    this.#speaker.warn([sentence]);
+    this.#shell.speaker.warn([sentence]);
     if (again) {
       const retry = make("button", { type: "button" }, "Try again");
       retry.addEventListener("click", () => this.reset());
-      this.#speaker.notice.append(retry);
+      this.#shell.speaker.notice.append(retry);
     }
   }
 
@@ -376,51 +310,19 @@ export class EpipoleFigure extends HTMLElement {
     if (problems.length === 0) return;
     const sentences = problems.map(({ message }) => capitalize(message));
     for (const sentence of sentences) console.warn(`epipole-figure: ${sentence}`);
-    this.#speaker.warn(sentences.map((sentence) => `${sentence}.`));
-  }
-
-  #attributes(): Parameters {
-    return [...this.attributes]
-      .filter(({ name }) => !NOT_PARAMETERS.test(name))
-      .map(({ name, value }) => [name, value]);
+    this.#shell.speaker.warn(sentences.map((sentence) => `${sentence}.`));
   }
 
   #onAttributes(records: MutationRecord[]): void {
-    const names = records.map(({ attributeName }) => attributeName ?? "");
-    const changed = new Set(names.filter((name) => name && !NOT_PARAMETERS.test(name)));
-    if (changed.size === 0 || !this.#session) return;
-    const parameters: Record<string, string> = {};
-    for (const name of changed) {
-      const control = this.#snapshot?.controls.find(({ id }) => id === name);
-      const fallback = control && "default" in control ? String(control.default) : undefined;
-      const value = this.getAttribute(name) ?? fallback;
-      if (value !== undefined) parameters[name] = value;
-    }
-    this.#speaker.warn([]);
+    const parameters = changedParameters(this, records, this.#snapshot);
+    if (!this.#session || Object.keys(parameters).length === 0) return;
+    this.#shell.speaker.warn([]);
     this.apply(parameters);
-  }
-
-  /** The state, with what the attributes say and the reader has set back to the default. */
-  #fullState(): Parameters {
-    const state = this.#session?.ask((engine) => engine.state()) ?? this.#state;
-    const named = new Set(state.map(([key]) => key));
-    const more: Parameters = [];
-    for (const [key] of this.#attributes()) {
-      if (named.has(key)) continue;
-      const control = this.#snapshot?.controls.find(({ id }) => id === key);
-      const handle = this.#snapshot?.handles.find(({ id }) => id === key);
-      if (control?.kind === "slider") more.push([key, control.value.toFixed(control.digits)]);
-      else if (control && "value" in control) more.push([key, String(control.value)]);
-      else if (handle) {
-        more.push([key, `${handle.x.toFixed(handle.digits)},${handle.y.toFixed(handle.digits)}`]);
-      }
-    }
-    return [...more, ...state];
   }
 
   async #save(): Promise<void> {
     // A picture that waits for a computation is not the one that the reader wants to keep.
-    while (this.#snapshot?.waiting && this.#session && this.#jobs.busy) {
+    while (this.#snapshot?.waiting && this.#session && this.#shell.jobs.busy) {
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
     this.#session?.portrait(2)?.toBlob((blob) => {
@@ -436,7 +338,7 @@ export class EpipoleFigure extends HTMLElement {
 
   async #toggleFullscreen(): Promise<void> {
     if (document.fullscreenElement) await document.exitFullscreen();
-    else await this.requestFullscreen().catch(() => this.#speaker.say("Full screen is not allowed here."));
+    else await this.requestFullscreen().catch(() => this.#shell.speaker.say("Full screen is not allowed here."));
   }
 }
 

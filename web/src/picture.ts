@@ -117,7 +117,8 @@ export class Picture {
       });
       grip.addEventListener("keydown", (event) => this.#onGripKey(event, id));
       this.#grips.set(id, grip);
-      this.#marks.append(grip);
+      // Handles before crosshairs, whenever they come: the order of Tab.
+      this.#marks.insertBefore(grip, this.#marks.querySelector(".crosshair"));
     }
     const sideways = handle.x_range[0] < handle.x_range[1];
     const [low, high] = sideways ? handle.x_range : handle.y_range;

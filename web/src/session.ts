@@ -138,7 +138,8 @@ export class Session {
     if (this.#frame || this.#ended || this.#width === 0) return;
     this.#frame = requestAnimationFrame((now) => {
       this.#frame = 0;
-      this.#onFrame(now);
+      // The room may have gone since the frame was asked for.
+      if (this.#width > 0) this.#onFrame(now);
     });
   }
 

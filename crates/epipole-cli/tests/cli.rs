@@ -1,6 +1,8 @@
 //! The contract of the command line: one JSON object on standard output, sentences on standard
 //! error, exit statuses, nothing half-written.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -306,3 +306,87 @@ fn direction(name: &str) -> Option<Direction> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value as Json;
+
+    fn race() -> Figure {
+        Figure::new("ransac-race").unwrap()
+    }
+
+    fn snapshot(figure: &Figure) -> Json {
+        serde_json::from_str(&figure.snapshot(760.0)).unwrap()
+    }
+
+    #[test]
+    fn unknown_figures_are_refused_with_those_that_exist() {
+        let sentence = Figure::new("nothing").err().unwrap();
+        assert!(sentence.contains("ransac-race"), "{sentence}");
+        let listed: Vec<Json> = serde_json::from_str(&figures()).unwrap();
+        assert_eq!(listed.len(), gallery::FIGURES.len());
+    }
+
+    #[test]
+    fn parameters_go_in_pairs_and_the_bad_come_back() {
+        let mut figure = race();
+        let words = ["outliers", "0.2", "seed", "many", "size", "3"];
+        let refused = figure.apply(words.map(str::to_owned).to_vec());
+        let refused: Vec<Json> = serde_json::from_str(&refused).unwrap();
+        let unknown: Vec<bool> = refused
+            .iter()
+            .map(|one| one["unknown"] == Json::Bool(true))
+            .collect();
+        assert_eq!(unknown.iter().filter(|&&unknown| unknown).count(), 1);
+        assert_eq!(refused.len(), 2);
+        assert_eq!(figure.state(), r#"[["outliers","0.20"]]"#);
+        assert_eq!(figure.reset(), None);
+        assert_eq!(figure.state(), "[]");
+    }
+
+    #[test]
+    fn a_handle_is_where_the_snapshot_says_and_goes_where_it_is_dragged() {
+        let mut figure = race();
+        let before = snapshot(&figure);
+        let handle = &before["handles"][0];
+        let place = |handle: &Json| {
+            let at = |index: usize| handle["place"][index].as_f64().unwrap();
+            (at(0), at(1))
+        };
+        let (x, y) = place(handle);
+        let id = handle["id"].as_str().unwrap();
+        assert!(figure.handle_at(760.0, x, y).is_some());
+        assert_eq!(figure.drag(id, 760.0, x + 20.0, y - 10.0), None);
+        let (moved_x, moved_y) = place(&snapshot(&figure)["handles"][0]);
+        // The handle's place has two digits, which is a fraction of a pixel.
+        assert!((moved_x - x - 20.0).abs() < 0.5 && (moved_y - y + 10.0).abs() < 0.5);
+        assert_eq!(figure.nudge("no such handle", 760.0, "left", 1.0), None);
+        assert_eq!(figure.nudge(id, 760.0, "sideways", 1.0), None);
+    }
+
+    #[test]
+    fn a_frame_has_the_pixels_of_its_size_and_a_size_without_pixels_has_none() {
+        let mut figure = race();
+        assert_eq!(figure.draw_settled(300.0, 2.0, "dark"), None);
+        assert_eq!(figure.pixel_width(), 600);
+        assert!(figure.pixel_height() > 100 && !figure.pixels().is_null());
+        assert_eq!(figure.frame_hash().unwrap().len(), 16);
+        let refused = figure.draw(0.0, 1.0, "light");
+        assert!(refused.unwrap().contains("cannot be drawn"));
+        assert!(figure.pixels().is_null());
+    }
+
+    #[test]
+    fn photographs_that_do_not_fit_are_refused_in_words() {
+        let mut figure = race();
+        let incomplete = figure.take_photo("photo", 10, 10, &[0; 12]);
+        assert_eq!(
+            incomplete.as_deref(),
+            Some("the photograph is not complete")
+        );
+        assert!(figure.take_photo("photo", 1, 1, &[0; 4]).is_some());
+        assert_eq!(figure.job_key(), None);
+        assert!(!figure.job_done("12ab", Vec::new()));
+    }
+}

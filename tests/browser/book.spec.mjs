@@ -1,0 +1,83 @@
+// Every page of the book, as it is served: under a sub-path, under its own strict policy.
+
+import AxeBuilder from "@axe-core/playwright";
+import { readdirSync } from "node:fs";
+import { expect, listen, ready, test as base } from "./fixtures.mjs";
+import { book } from "./places.mjs";
+import { serve } from "./server.mjs";
+
+const pages = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
+
+const test = base.extend({
+  library: [
+    async ({}, use) => {
+      const server = await serve({ mounts: { course: book } });
+      await use(`${server.origin}/course`);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+});
+
+/** Brings every figure of a page to life. */
+async function wake(page) {
+  const figures = page.locator("epipole-figure");
+  for (let index = 0; index < (await figures.count()); index += 1) await ready(figures.nth(index));
+  return figures;
+}
+
+for (const name of pages) {
+  test.describe(name, () => {
+    test("its figures come to life, and the console is silent", async ({ page, library }) => {
+      await page.goto(`${library}/${name}`);
+      await expect(page.locator("h1")).toHaveCount(1);
+      const figures = await wake(page);
+      for (const notice of await figures.locator(".notice").all()) await expect(notice).toBeHidden();
+      await page.waitForLoadState("networkidle");
+    });
+
+    test("without script it has everything to read and to see", async ({ browser, library }) => {
+      const context = await browser.newContext({ javaScriptEnabled: false });
+      const page = await context.newPage();
+      await page.goto(`${library}/${name}`);
+      await expect(page.locator("h1")).toBeVisible();
+      for (const figure of await page.locator("figure.epipole").all()) {
+        await figure.scrollIntoViewIfNeeded();
+        await expect(figure.locator("figcaption")).toBeVisible();
+        const poster = figure.locator("img");
+        await expect(poster).toBeVisible();
+        expect((await poster.getAttribute("alt")).length).toBeGreaterThan(20);
+        await expect.poll(() => poster.evaluate((image) => image.naturalWidth)).toBeGreaterThan(0);
+      }
+      await context.close();
+    });
+
+    for (const colorScheme of ["light", "dark"]) {
+      test(`axe finds nothing wrong, ${colorScheme}`, async ({ browser, library, complaints }) => {
+        const context = await browser.newContext({ colorScheme, viewport: { width: 1000, height: 900 } });
+        const page = await context.newPage();
+        listen(page, complaints);
+        await page.goto(`${library}/${name}`);
+        await wake(page);
+        const { violations } = await new AxeBuilder({ page }).analyze();
+        expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);
+        await context.close();
+      });
+    }
+
+    test("a phone 360 px wide needs no sideways scroll", async ({ browser, library, complaints }) => {
+      const context = await browser.newContext({
+        viewport: { width: 360, height: 740 },
+        deviceScaleFactor: 2,
+        hasTouch: true,
+        isMobile: true,
+      });
+      const page = await context.newPage();
+      listen(page, complaints);
+      await page.goto(`${library}/${name}`);
+      await wake(page);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+      await context.close();
+    });
+  });
+}

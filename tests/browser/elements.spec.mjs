@@ -1,0 +1,229 @@
+// What elements do that only some figures show, and what readers ask of their browsers.
+
+import { expect, figures, gripOf, hear, heard, ready, test, told } from "./fixtures.mjs";
+import { loadBindings } from "./places.mjs";
+
+const { Figure } = await loadBindings();
+const snapshots = figures.map(({ name }) => [name, JSON.parse(new Figure(name).snapshot(760))]);
+/** The first figure of a kind. */
+const first = (kind) => snapshots.find(([, snapshot]) => kind(snapshot))?.[0];
+
+const running = first(({ controls }) => controls.some(({ role }) => role === "run"));
+const removable = first(({ handles }) => handles.some((handle) => handle.removable));
+const clickable = first(({ layout }) => layout.panels.some((panel) => panel.clickable));
+const crowded = first(({ handles }) => handles.length > 12);
+const patient = first(({ waiting }) => waiting !== null);
+const own = first(({ photos }) => photos.length > 0);
+const { name } = figures[0];
+
+test("there is a figure of every kind", () => {
+  for (const found of [running, removable, clickable, crowded, patient, own]) expect(found).toBeTruthy();
+});
+
+test("Run animates, Pause pauses, and out of sight everything stands still", async ({ page, open }) => {
+  const figure = await open(page, [`${running} outliers=0.8`]);
+  await hear(figure, "epipole-readout");
+  const run = figure.locator("button.run");
+  await run.click();
+  await expect(run).toHaveText("Pause");
+  await expect.poll(async () => (await heard(figure)).length).toBeGreaterThan(2);
+  await page.evaluate(() => {
+    document.body.style.paddingBottom = "5000px";
+    scrollTo(0, 4000);
+  });
+  await expect(figure).not.toBeInViewport();
+  await page.waitForTimeout(300);
+  const count = (await heard(figure)).length;
+  await page.waitForTimeout(700);
+  expect((await heard(figure)).length).toBe(count);
+  await page.evaluate(() => scrollTo(0, 0));
+  await expect.poll(async () => (await heard(figure)).length).toBeGreaterThan(count);
+  await run.click();
+  await expect(run).not.toHaveText("Pause");
+});
+
+test("a reader who wants no motion gets few steps instead of many frames", async ({ page, open }) => {
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  const figure = await open(page, [`${running} outliers=0.8`]);
+  await figure.evaluate((element) => {
+    element.frames = [];
+    const canvas = element.shadowRoot.querySelector("canvas");
+    const real = CanvasRenderingContext2D.prototype.putImageData;
+    CanvasRenderingContext2D.prototype.putImageData = function (...args) {
+      if (this.canvas === canvas) element.frames.push(performance.now());
+      return real.apply(this, args);
+    };
+  });
+  await figure.locator("button.run").click();
+  await expect.poll(() => figure.evaluate((element) => element.frames.length)).toBeGreaterThan(4);
+  const frames = await figure.evaluate((element) => element.frames);
+  // The first shows the pressed button; after it, at most two frames a second.
+  const gaps = frames.slice(2).map((time, index) => time - frames[index + 1]);
+  expect(Math.min(...gaps)).toBeGreaterThan(500);
+});
+
+test("Delete removes a point, and the keys stay in the figure", async ({ page, open }) => {
+  const figure = await open(page, [removable]);
+  const { grip } = await gripOf(figure);
+  await grip.focus();
+  const id = await grip.getAttribute("data-handle");
+  await page.keyboard.press("Delete");
+  await expect(figure.locator(`[data-handle="${id}"]`)).toHaveCount(0);
+  const focused = await figure.evaluate((element) => element.shadowRoot.activeElement?.className);
+  expect(focused).toMatch(/grip|crosshair/);
+});
+
+test("keys and mouse add what a click adds", async ({ page, open }) => {
+  const figure = await open(page, [clickable]);
+  await hear(figure, "epipole-change");
+  const crosshair = figure.locator(".crosshair").first();
+  await crosshair.focus();
+  for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "ArrowUp", "ArrowUp"]) await page.keyboard.press(key);
+  await page.keyboard.press("Enter");
+  await expect.poll(async () => (await heard(figure)).length).toBeGreaterThan(0);
+  await figure.getByRole("button", { name: "Reset" }).click();
+  expect((await told(figure)).state).toEqual({});
+
+  // The same place by mouse; and the new point can be dragged on at once.
+  await figure.locator("canvas").scrollIntoViewIfNeeded();
+  const box = await crosshair.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  const clicked = await told(figure);
+  expect(clicked.state).not.toEqual({});
+  await page.mouse.move(x + 25, y + 15, { steps: 3 });
+  await page.mouse.up();
+  expect((await told(figure)).state).not.toEqual(clicked.state);
+});
+
+test("many points share one focus stop and a list", async ({ page, open }) => {
+  const figure = await open(page, [crowded]);
+  await expect(figure.locator(".grip")).toHaveCount(1);
+  const list = figure.getByLabel("Point for the arrow keys");
+  const options = await list.locator("option").evaluateAll((all) => all.map(({ value }) => value));
+  expect(options.length).toBeGreaterThan(12);
+  await list.focus();
+  await expect(list).toBeVisible();
+  await list.selectOption(options[5]);
+  await page.keyboard.press("Tab");
+  const focused = await figure.evaluate((element) => element.shadowRoot.activeElement.dataset.handle);
+  expect(focused).toBe(options[5]);
+});
+
+test("colors follow the page as it changes, and the reader's wish for contrast", async ({ page, open }) => {
+  const figure = await open(page, [name], { query: { theme: "light" } });
+  const root = figure.locator(".root");
+  const corner = () =>
+    figure.locator("canvas").evaluate((canvas) => canvas.getContext("2d").getImageData(1, 1, 1, 1).data[0]);
+  expect(await corner()).toBeGreaterThan(200);
+  await page.evaluate(() => (document.documentElement.dataset.theme = "dark"));
+  await expect(root).toHaveAttribute("data-theme", "dark");
+  await expect.poll(corner).toBeLessThan(60);
+  await page.evaluate(() => delete document.documentElement.dataset.theme);
+  await expect(root).toHaveAttribute("data-theme", "light");
+  await page.emulateMedia({ colorScheme: "dark" });
+  await expect(root).toHaveAttribute("data-theme", "dark");
+  await page.emulateMedia({ contrast: "more" });
+  await expect(root).toHaveAttribute("data-theme", "high-contrast");
+  await expect.poll(corner).toBe(0);
+});
+
+test("print shows picture, words and caption, and nothing to press", async ({ page, open }) => {
+  const figure = await open(page, [name]);
+  const { description } = await told(figure);
+  await page.emulateMedia({ media: "print" });
+  await expect(figure.locator("canvas")).toBeVisible();
+  await expect(figure.locator(".description")).toHaveText(description);
+  await expect(figure.locator(".description")).toBeVisible();
+  await expect(page.getByText(`Caption of ${name}.`)).toBeVisible();
+  for (const hidden of [".head", ".controls", ".challenges"]) {
+    await expect(figure.locator(hidden)).toBeHidden();
+  }
+});
+
+test("a long computation runs in a worker, tells its progress, and can be stopped", async ({ page, open }) => {
+  // The worker's script is kept waiting, so that there is time to look.
+  let release;
+  const released = new Promise((resolve) => (release = resolve));
+  await page.route(/worker[^/]*\.js$/, async (route) => {
+    await released;
+    await route.continue();
+  });
+  const figure = await open(page, [patient]);
+  const job = figure.locator(".job");
+  await expect(job).toBeVisible();
+  await expect(job.locator("progress")).toBeVisible();
+  const waiting = await told(figure);
+  await job.getByRole("button", { name: "Stop" }).click();
+  await expect(job).toContainText("stopped");
+  release();
+  await job.getByRole("button", { name: "Go on" }).click();
+  await expect(job).toBeHidden();
+  await expect.poll(async () => (await told(figure)).readouts).not.toEqual(waiting.readouts);
+  expect(page.workers().length).toBe(1);
+});
+
+test("where workers are forbidden, the computation comes all the same", async ({ page, open, complaints }) => {
+  await page.addInitScript(() => {
+    window.Worker = class {
+      constructor() {
+        throw new DOMException("not here", "SecurityError");
+      }
+    };
+  });
+  const figure = await open(page, [patient]);
+  await expect(figure.locator(".job")).toBeHidden();
+  const native = new Figure(patient);
+  native.draw_settled(760, 1, "light");
+  const { readouts } = JSON.parse(native.snapshot(760));
+  await expect
+    .poll(async () => (await told(figure)).readouts)
+    .toEqual(Object.fromEntries(readouts.map(({ id, value }) => [id, value])));
+  expect(complaints).toEqual([]);
+});
+
+test("a photograph of one's own is taken, made smaller, and goes nowhere", async ({ page, open }) => {
+  const figure = await open(page, [own]);
+  const sent = [];
+  page.on("request", (request) => request.method() !== "GET" && sent.push(request.url()));
+  const url = await page.evaluate(() => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [3000, 2000];
+    const context = canvas.getContext("2d");
+    context.fillStyle = "#dddddd";
+    context.fillRect(0, 0, 3000, 2000);
+    context.fillStyle = "#224466";
+    context.fillRect(700, 500, 900, 800);
+    return canvas.toDataURL("image/png");
+  });
+  const before = await told(figure);
+  await figure.locator("input[type=file]").first().setInputFiles({
+    name: "kitchen.png",
+    mimeType: "image/png",
+    buffer: Buffer.from(url.split(",")[1], "base64"),
+  });
+  await expect(figure.locator(".photo .note").first()).toContainText("Made smaller, from 3000 × 2000");
+  await expect(figure.locator(".photo .note").first()).toContainText("Stays on your device");
+  await expect.poll(async () => (await told(figure)).readouts).not.toEqual(before.readouts);
+  expect(sent).toEqual([]);
+
+  await figure.locator("input[type=file]").first().setInputFiles({
+    name: "letter.txt",
+    mimeType: "text/plain",
+    buffer: Buffer.from("no picture"),
+  });
+  await expect(figure.locator(".notice")).toContainText("letter.txt is not a photograph");
+});
+
+test("parameters are properties of every element", async ({ page, open }) => {
+  for (const [figureName, { controls }] of snapshots) {
+    const figure = await open(page, [figureName]);
+    const slider = controls.find(({ kind, visible }) => kind === "slider" && visible);
+    const value = slider.value === slider.max ? slider.min : slider.max;
+    await figure.evaluate((element, [id, wanted]) => (element[id] = wanted), [slider.id, value]);
+    await figure.evaluate((element) => element.flush());
+    expect(await figure.evaluate((element, id) => element[id], slider.id)).toBe(value);
+    expect(Object.keys((await told(figure)).state)).toContain(slider.id);
+  }
+});

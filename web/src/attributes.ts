@@ -1,0 +1,56 @@
+/** Which attributes of an element are parameters of its figure, and what they say. */
+
+import type { Parameters, Snapshot } from "./contract.js";
+
+/** Attributes that are no parameters: ours, and those that any element may have. */
+const NOT_PARAMETERS =
+  /^(name|theme|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
+
+/** The parameters that the page's author has set. */
+export function parametersOf(element: Element): Parameters {
+  return [...element.attributes]
+    .filter(({ name }) => !NOT_PARAMETERS.test(name))
+    .map(({ name, value }) => [name, value]);
+}
+
+/** What changed attributes ask for; one that is gone asks for the default. */
+export function changedParameters(
+  element: Element,
+  records: MutationRecord[],
+  snapshot: Snapshot | undefined,
+): Record<string, string> {
+  const parameters: Record<string, string> = {};
+  for (const { attributeName: name } of records) {
+    if (!name || NOT_PARAMETERS.test(name)) continue;
+    const control = snapshot?.controls.find(({ id }) => id === name);
+    const fallback = control && "default" in control ? String(control.default) : undefined;
+    const value = element.getAttribute(name) ?? fallback;
+    if (value !== undefined) parameters[name] = value;
+  }
+  return parameters;
+}
+
+/**
+ * A state that holds on top of the attributes: what differs from the defaults, and what the
+ * attributes say and the reader has set back to the default.
+ */
+export function wholeState(
+  element: Element,
+  state: Parameters,
+  snapshot: Snapshot | undefined,
+): Parameters {
+  const named = new Set(state.map(([key]) => key));
+  const back: Parameters = [];
+  for (const [key] of parametersOf(element)) {
+    const control = snapshot?.controls.find(({ id }) => id === key);
+    const handle = snapshot?.handles.find(({ id }) => id === key);
+    if (named.has(key)) continue;
+    if (control?.kind === "slider") back.push([key, control.value.toFixed(control.digits)]);
+    else if (control && "value" in control) back.push([key, String(control.value)]);
+    else if (handle) {
+      const { x, y, digits } = handle;
+      back.push([key, `${x.toFixed(digits)},${y.toFixed(digits)}`]);
+    }
+  }
+  return [...back, ...state];
+}
