@@ -37,7 +37,7 @@ pub(super) fn histogram(
     let square = Samples::new(layer, center, radius);
     square.for_each_row(
         &mut scratch,
-        |dy, _| {
+        |dy| {
             // −half < x cos + y sin < half and −half < y cos − x sin < half, solved for x.
             let (mut low, mut high) = (-radius, radius);
             for (slope, offset) in [(cos, dy * sin), (-sin, dy * cos)] {
@@ -52,7 +52,7 @@ pub(super) fn histogram(
             (low, high)
         },
         |samples| {
-            samples.gradients(falloff, 1.0);
+            samples.gradients(falloff);
             samples.bins(cos, sin, angle_rad);
             samples.scatter(&mut sums);
         },
@@ -143,7 +143,7 @@ impl<'a> Samples<'a> {
     pub(super) fn for_each_row(
         &self,
         scratch: &mut Scratch,
-        interval: impl Fn(f32, &Self) -> (f32, f32),
+        interval: impl Fn(f32) -> (f32, f32),
         mut visit: impl FnMut(&mut Scratch),
     ) {
         let (cx, cy) = self.center;
@@ -151,7 +151,7 @@ impl<'a> Samples<'a> {
         let last = ((cy + self.radius).floor().min(self.height as f32 - 2.0)) as usize;
         for y in first..=last {
             let dy = y as f32 - cy;
-            let (low, high) = interval(dy, self);
+            let (low, high) = interval(dy);
             let from = (cx + low).ceil().max(1.0) as usize;
             let to = (cx + high).floor().min(self.width as f32 - 2.0);
             if low > high || to < from as f32 {
@@ -192,7 +192,7 @@ impl Scratch {
     }
 
     /// Direction and weighted magnitude of each gradient.
-    pub(super) fn gradients(&mut self, falloff: f32, _scale: f32) {
+    pub(super) fn gradients(&mut self, falloff: f32) {
         let dy_sq = self.dy * self.dy;
         polar(
             &self.du,

@@ -28,12 +28,12 @@ pub(super) fn directions(
     let rows = Samples::new(layer, center, radius);
     rows.for_each_row(
         &mut scratch,
-        |dy, _| {
+        |dy| {
             let half = (radius * radius - dy * dy).max(0.0).sqrt();
             (-half, half)
         },
         |samples| {
-            samples.gradients(falloff, 1.0);
+            samples.gradients(falloff);
             for k in 0..samples.len() {
                 let bin = samples.angle[k] * (NUM_BINS as f32 / TAU) + 0.5 * NUM_BINS as f32;
                 let low = (bin as usize).min(NUM_BINS - 1);

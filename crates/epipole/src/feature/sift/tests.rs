@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::imaging::fixture;
+use std::f32::consts::{FRAC_PI_2, PI};
 
 fn blobs(width: u32, height: u32) -> GrayImage32 {
     let mut random = crate::math::random::Random::new(5);
@@ -89,9 +90,9 @@ fn a_blob_is_found_at_its_center_and_size() {
 fn the_angle_points_up_the_gradient() {
     // A ramp under a blob: v grows downwards, so brighter below means +π/2.
     for (gu, gv, want) in [
-        (0.0f32, 1.0f32, 1.5708f32),
+        (0.0f32, 1.0f32, FRAC_PI_2),
         (1.0, 0.0, 0.0),
-        (-1.0, 1.0, 2.3562),
+        (-1.0, 1.0, 0.75 * PI),
     ] {
         let image = GrayImage32::from_fn(64, 64, |u, v| {
             let (x, y) = (u as f32 - 32.0, v as f32 - 32.0);
@@ -230,7 +231,7 @@ fn more_layers_than_the_window_holds() {
 
 #[test]
 fn keypoints_equal_those_of_opencv_where_both_find_them() {
-    let image = fixture::gray32("sift_image.npy");
+    let image = crate::imaging::gray_to_f32(&fixture::gray8("sift_image.npy"));
     let expected = fixture::floats("sift_keypoints.npy");
     let ours = detect_sift(&image, &SiftOptions::default())
         .unwrap()
