@@ -15,7 +15,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let image = decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image;
     let (keypoints, bytes, length) = if kind == "orb" {
         let options = OrbOptions {
-            max_features: if max_features == 0 { 1000 } else { max_features },
+            max_features: if max_features == 0 {
+                1000
+            } else {
+                max_features
+            },
             ..OrbOptions::default()
         };
         let features = detect_orb(&image, &options)?;
@@ -35,7 +39,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     for (k, descriptor) in keypoints.iter().zip(bytes.chunks_exact(length)) {
-        write!(out, "{} {} {} {} {}", k.u, k.v, k.scale_px, k.angle_rad, k.response)?;
+        write!(
+            out,
+            "{} {} {} {} {}",
+            k.u, k.v, k.scale_px, k.angle_rad, k.response
+        )?;
         for value in descriptor {
             write!(out, " {value}")?;
         }

@@ -27,7 +27,9 @@ pub enum SiftNormalization {
     Root,
 }
 
-/// How [`detect_sift`] works. The defaults are Lowe's, as OpenCV takes them.
+/// How [`detect_sift`] works. The defaults are Lowe's, as OpenCV takes them, but for the blur that
+/// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
+/// and fewer of the features are too small to be seen from further away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiftOptions {
     /// At most so many features, the strongest; 0 means no limit.
@@ -61,7 +63,7 @@ impl Default for SiftOptions {
             max_features: 0,
             layers_per_octave: 3,
             sigma_px: 1.6,
-            input_blur_px: 0.5,
+            input_blur_px: 0.3,
             upsample: true,
             contrast_threshold: 0.04,
             edge_threshold: 10.0,
