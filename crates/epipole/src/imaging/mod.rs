@@ -48,3 +48,11 @@ pub use resize::resize;
 pub use sample::{sample_bicubic, sample_bilinear};
 pub use separable::separable_filter;
 pub use warp::{Interpolation, WarpOptions, warp_affine, warp_perspective};
+
+/// The rows of an image in at most `count` ranges.
+#[cfg(feature = "parallel")]
+pub(crate) fn bands(height: usize, count: usize) -> Vec<std::ops::Range<usize>> {
+    let each = height.div_ceil(count).max(1);
+    let from = (0..height).step_by(each);
+    from.map(|k| k..(k + each).min(height)).collect()
+}
