@@ -33,7 +33,8 @@ pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, py
 pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
 pub use gaussian::{gaussian_blur, gaussian_kernel};
 pub use gradient::{
-    DerivativeFilter, Gradient, centered_difference, derivative, gaussian_derivative, scharr, sobel,
+    DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
+    gaussian_derivative, scharr, sobel,
 };
 pub(crate) use gray::require_finite;
 pub use gray::{

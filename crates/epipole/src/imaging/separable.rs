@@ -57,32 +57,31 @@ pub(crate) fn filter<const N: usize>(
     kernels: [(&[f32], &[f32]); N],
     border: Border,
 ) -> [GrayImage32; N] {
+    let mut outputs = std::array::from_fn(|_| GrayImage32::default());
+    filter_into(image, kernels, border, outputs.each_mut());
+    outputs
+}
+
+/// [`filter`] into images whose memory is used again.
+pub(crate) fn filter_into<const N: usize>(
+    image: &GrayImage32,
+    kernels: [(&[f32], &[f32]); N],
+    border: Border,
+    mut targets: [&mut GrayImage32; N],
+) {
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let outputs = in_bands([const { Vec::new() }; N], width, height, |rows, sink| {
+    let memory = targets
+        .each_mut()
+        .map(|target| std::mem::take(*target).into_raw());
+    let outputs = in_bands(memory, width, height, |rows, sink| {
         let mut filter = RowFilter::new(image, kernels, border);
         for y in rows {
             sink(&mut |out| filter.row(y, out));
         }
     });
-    outputs.map(|values| from_vec(image.width(), image.height(), values))
-}
-
-/// The image under one kernel along both axes, into an image whose memory is used again.
-pub(crate) fn filter_into(
-    image: &GrayImage32,
-    kernel: &[f32],
-    border: Border,
-    target: &mut GrayImage32,
-) {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let memory = [std::mem::take(target).into_raw()];
-    let [values] = in_bands(memory, width, height, |rows, sink| {
-        let mut filter = RowFilter::new(image, [(kernel, kernel)], border);
-        for y in rows {
-            sink(&mut |out| filter.row(y, out));
-        }
-    });
-    *target = from_vec(image.width(), image.height(), values);
+    for (target, values) in targets.into_iter().zip(outputs) {
+        *target = from_vec(image.width(), image.height(), values);
+    }
 }
 
 /// Takes a closure that fills the next row of each image.
@@ -329,6 +328,36 @@ fn weigh(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
     }
 }
 
+/// Fills `out` by blocks of `L` pixels, the last of which may overlap the one before it: each
+/// pixel's sum is the same wherever its block begins. Gives `false` if there are fewer pixels.
+//
+// No closures in these: a closure is a function of its own, compiled for the baseline only.
+macro_rules! in_blocks {
+    ($block:ident, $taps:expr, $weights:expr, $r:expr, $out:expr) => {{
+        let n = $out.len();
+        if n >= LANES {
+            let mut x = 0;
+            while x < n {
+                let from = x.min(n - LANES);
+                $out[from..from + LANES]
+                    .copy_from_slice(&$block::<LANES>($taps, $weights, $r, from));
+                x += LANES;
+            }
+        } else if n >= FEW {
+            let mut x = 0;
+            while x < n {
+                let from = x.min(n - FEW);
+                $out[from..from + FEW].copy_from_slice(&$block::<FEW>($taps, $weights, $r, from));
+                x += FEW;
+            }
+        } else {
+            for x in 0..n {
+                $out[x] = $block::<1>($taps, $weights, $r, x)[0];
+            }
+        }
+    }};
+}
+
 dispatched! {
     fn weigh_even<const R: usize>(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
         even_body(taps, weights, R, out);
@@ -351,96 +380,78 @@ dispatched! {
 }
 dispatched! {
     fn weigh_any(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        let (blocks, rest) = out.as_chunks_mut::<LANES>();
-        let done = blocks.len() * LANES;
-        for (k, block) in blocks.iter_mut().enumerate() {
-            let mut sums = [0.0; LANES];
-            for (tap, w) in taps.iter().zip(weights) {
-                let tap = lanes(tap, k * LANES);
-                for i in 0..LANES {
-                    sums[i] += w * tap[i];
-                }
-            }
-            *block = sums;
-        }
-        for (k, out) in rest.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for (tap, w) in taps.iter().zip(weights) {
-                sum += w * tap[done + k];
-            }
-            *out = sum;
-        }
+        in_blocks!(any_block, taps, weights, 0, out);
     }
 }
 
 /// Pixels whose sums are kept in registers at once.
 const LANES: usize = 32;
+/// The same for rows too short for that.
+const FEW: usize = 8;
 
 #[inline(always)]
-fn lanes(slice: &[f32], from: usize) -> &[f32; LANES] {
-    slice[from..from + LANES]
+fn lanes<const L: usize>(slice: &[f32], from: usize) -> &[f32; L] {
+    slice[from..from + L]
         .try_into()
         .expect("the slice has this length")
 }
 
-// No closures in these: a closure is a function of its own, compiled for the baseline only.
-
 #[inline(always)]
 fn even_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    let (taps, weights) = (&taps[..2 * r + 1], &weights[..2 * r + 1]);
-    let (blocks, rest) = out.as_chunks_mut::<LANES>();
-    let done = blocks.len() * LANES;
-    for (k, block) in blocks.iter_mut().enumerate() {
-        let x = k * LANES;
-        let center = lanes(taps[r], x);
-        let mut sums = [0.0; LANES];
-        for i in 0..LANES {
-            sums[i] = weights[r] * center[i];
-        }
-        for j in 1..=r {
-            let (a, b) = (lanes(taps[r - j], x), lanes(taps[r + j], x));
-            let w = weights[r + j];
-            for i in 0..LANES {
-                sums[i] += w * (a[i] + b[i]);
-            }
-        }
-        *block = sums;
-    }
-    for (k, out) in rest.iter_mut().enumerate() {
-        let x = done + k;
-        let mut sum = weights[r] * taps[r][x];
-        for j in 1..=r {
-            sum += weights[r + j] * (taps[r - j][x] + taps[r + j][x]);
-        }
-        *out = sum;
-    }
+    in_blocks!(
+        even_block,
+        &taps[..2 * r + 1],
+        &weights[..2 * r + 1],
+        r,
+        out
+    );
 }
 
 #[inline(always)]
 fn odd_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    let (taps, weights) = (&taps[..2 * r + 1], &weights[..2 * r + 1]);
-    let (blocks, rest) = out.as_chunks_mut::<LANES>();
-    let done = blocks.len() * LANES;
-    for (k, block) in blocks.iter_mut().enumerate() {
-        let x = k * LANES;
-        let mut sums = [0.0; LANES];
-        for j in 1..=r {
-            let (a, b) = (lanes(taps[r - j], x), lanes(taps[r + j], x));
-            let w = weights[r + j];
-            for i in 0..LANES {
-                sums[i] += w * (b[i] - a[i]);
-            }
-        }
-        *block = sums;
+    in_blocks!(odd_block, &taps[..2 * r + 1], &weights[..2 * r + 1], r, out);
+}
+
+#[inline(always)]
+fn even_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
+    let center = lanes::<L>(taps[r], x);
+    let mut sums = [0.0; L];
+    for i in 0..L {
+        sums[i] = weights[r] * center[i];
     }
-    for (k, out) in rest.iter_mut().enumerate() {
-        let x = done + k;
-        let mut sum = 0.0;
-        for j in 1..=r {
-            sum += weights[r + j] * (taps[r + j][x] - taps[r - j][x]);
+    for j in 1..=r {
+        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
+        let w = weights[r + j];
+        for i in 0..L {
+            sums[i] += w * (a[i] + b[i]);
         }
-        *out = sum;
     }
+    sums
+}
+
+#[inline(always)]
+fn odd_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
+    let mut sums = [0.0; L];
+    for j in 1..=r {
+        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
+        let w = weights[r + j];
+        for i in 0..L {
+            sums[i] += w * (b[i] - a[i]);
+        }
+    }
+    sums
+}
+
+#[inline(always)]
+fn any_block<const L: usize>(taps: &[&[f32]], weights: &[f32], _: usize, x: usize) -> [f32; L] {
+    let mut sums = [0.0; L];
+    for (tap, w) in taps.iter().zip(weights) {
+        let tap = lanes::<L>(tap, x);
+        for i in 0..L {
+            sums[i] += w * tap[i];
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

@@ -171,7 +171,7 @@ impl Octave {
 fn blurred(image: &GrayImage32, sigma: f64, target: &mut GrayImage32) {
     let radius = (4.0 * sigma).ceil() as usize;
     let kernel = gaussian_kernel(sigma, 2 * radius + 1).expect("the blur is positive and small");
-    filter_into(image, &kernel, Border::Reflect101, target);
+    filter_into(image, [(&kernel, &kernel)], Border::Reflect101, [target]);
 }
 
 /// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.
