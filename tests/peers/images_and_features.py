@@ -100,10 +100,10 @@ save("rgb", rgb)
 save("rgb_gray", cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY))
 
 # ---------------------------------------------------------------- corners
-board = np.kron(np.indices((6, 8)).sum(0) % 2, np.ones((12, 12)))
+board = np.kron(np.indices((5, 6)).sum(0) % 2, np.ones((12, 12)))
 corners = cv2.GaussianBlur(np.clip(0.15 + 0.7 * board + 0.05 * rng.normal(size=board.shape), 0, 1), (0, 0), 1.0)
 shear = np.array([[0.95, 0.12, 2.3], [-0.08, 1.02, 6.4]])
-corners = cv2.warpAffine(corners.astype(np.float32), shear, (104, 88), borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
+corners = cv2.warpAffine(corners.astype(np.float32), shear, (80, 76), borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
 save("corners", corners)
 save("harris_3_3", cv2.cornerHarris(corners, 3, 3, 0.04))
 save("harris_2_3", cv2.cornerHarris(corners, 2, 3, 0.04))
@@ -126,10 +126,36 @@ for _ in range(45):
     x, y, size, height = rng.uniform(0, 150), rng.uniform(0, 120), rng.uniform(1.5, 7), rng.uniform(-0.5, 0.5)
     blobs += height * np.exp(-((u - x) ** 2 + (v - y) ** 2 + 0.5 * (u - x) * (v - y)) / (2 * size * size))
 blobs = np.round(255 * (blobs - blobs.min()) / (blobs.max() - blobs.min())).astype(np.uint8)
-save("sift_image", blobs.astype(np.float32) / np.float32(255))
+save("sift_image", blobs)
 sift = cv2.SIFT_create(enable_precise_upscale=True)
 keypoints = sift.detect(blobs, None)
 # OpenCV's size is the diameter, twice the blur.
 save("sift_keypoints", np.array([[k.pt[0], k.pt[1], k.size / 2] for k in keypoints], np.float32))
+
+# ---------------------------------------------------------------- FAST and tracking
+fast = np.round(255 * texture(96, 80, 7, 1.0)).astype(np.uint8)
+fast = cv2.GaussianBlur(fast, (3, 3), 0.6)
+save("fast_image", fast)
+found = cv2.FastFeatureDetector_create(threshold=15, nonmaxSuppression=True).detect(fast)
+save("fast_corners", np.array([k.pt for k in found], np.float32))
+found = cv2.FastFeatureDetector_create(threshold=15, nonmaxSuppression=False).detect(fast)
+save("fast_all", np.array([k.pt for k in found], np.float32))
+
+big = 0.5 * texture(160, 130, 8, 2.0) + 0.5 * texture(160, 130, 9, 4.0)
+motion = np.array([[1.01, 0.02, 3.4], [-0.015, 0.99, -2.2]])
+one = np.round(255 * big).astype(np.uint8)
+# The second picture is sampled by a cubic spline, which is exact for smooth images.
+v, u = np.mgrid[0:130, 0:160].astype(np.float64)
+inverse = np.linalg.inv(np.vstack([motion, [0, 0, 1]]))
+at = [inverse[1, 0] * u + inverse[1, 1] * v + inverse[1, 2], inverse[0, 0] * u + inverse[0, 1] * v + inverse[0, 2]]
+two = ndimage.map_coordinates(one.astype(np.float64), at, order=3, mode="mirror")
+two = np.clip(np.round(two), 0, 255).astype(np.uint8)
+save("track_1", one)
+save("track_2", two)
+start = cv2.goodFeaturesToTrack(one, 40, 0.05, 9)[:, 0]
+start = start[(np.abs(start - [80, 65]) < [60, 45]).all(1)].astype(np.float32)
+truth = start @ motion[:, :2].T + motion[:, 2]
+found, _, _ = cv2.calcOpticalFlowPyrLK(one, two, start[:, None], None, winSize=(21, 21), maxLevel=3)
+save("track_points", np.hstack([start, truth, found[:, 0]]).astype(np.float32))
 total = sum(os.path.getsize(os.path.join(OUT, f)) for f in os.listdir(OUT))
 print(len(os.listdir(OUT)), "files,", total, "bytes")

@@ -10,11 +10,13 @@ mod good_features;
 mod keypoint;
 mod matching;
 mod nms;
+mod orb;
 mod parallel;
 mod patch;
 mod refine;
 mod sift;
 mod structure_tensor;
+mod track;
 
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
@@ -25,9 +27,11 @@ pub use matching::{
     match_descriptors_with_progress, match_hamming, nearest_two, nearest_two_hamming,
 };
 pub use nms::non_maximum_suppression;
+pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
 pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };
+pub use track::{Track, TrackOptions, track_lucas_kanade};

@@ -1,9 +1,8 @@
 //! The structure tensor: how the gradient is spread around each pixel.
 
-use crate::imaging::separable::{Ring, filter_along_row, in_bands, pad_row};
-use crate::imaging::{
-    Border, DerivativeFilter, Gradient, GrayImage32, derivative, gaussian_kernel,
-};
+use crate::imaging::separable::{Ring, RowFilter, Sink, filter_along_row, in_bands};
+use crate::imaging::simd::dispatched;
+use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
 use crate::{Error, Result};
 use std::ops::Range;
 
@@ -141,21 +140,9 @@ pub(crate) fn with_tensor<const N: usize>(
         }
     };
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut outputs: [Vec<f32>; N] = std::array::from_fn(|_| vec![0.0; width * height]);
-    if width > 0 && height > 0 {
-        let gradient = derivative(image, options.derivative, options.border);
-        in_bands(&mut outputs, width, |rows, band| {
-            tensor_rows(
-                &gradient,
-                scale * scale,
-                &kernel,
-                options.border,
-                rows,
-                band,
-                &finish,
-            );
-        });
-    }
+    let outputs = in_bands([const { Vec::new() }; N], width, height, |rows, sink| {
+        tensor_rows(image, options, scale * scale, &kernel, rows, sink, &finish);
+    });
     Ok(outputs.map(|values| {
         GrayImage32::from_raw(image.width(), image.height(), values)
             .expect("one value was computed for each pixel")
@@ -191,23 +178,27 @@ fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
 }
 
 fn tensor_rows<const N: usize>(
-    gradient: &Gradient,
+    image: &GrayImage32,
+    options: &StructureTensorOptions,
     scale_sq: f32,
     kernel: &[f32],
-    border: Border,
     rows: Range<usize>,
-    mut band: [&mut [f32]; N],
+    sink: Sink<N>,
     finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
 ) {
-    let (width, height) = (gradient.du.width() as usize, gradient.du.height() as usize);
-    let border = match border {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let border = match options.border {
         Border::Constant(_) => Border::Constant(0.0),
         other => other,
     };
     let radius = kernel.len() / 2;
+    let (along, across) = options.derivative.kernels();
+    let kernels = [(along, across), (across, along)];
+    let mut gradient = RowFilter::new(image, kernels, options.border);
     let mut rings: [Ring; 3] = std::array::from_fn(|_| Ring::new(kernel.len(), width));
-    let mut sums: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; width]);
-    let (mut product, mut padded) = (vec![0.0; width], Vec::new());
+    let row = || vec![0.0f32; width];
+    let mut sums = [row(), row(), row()];
+    let (mut du, mut dv, mut product, mut edge) = (row(), row(), row(), Vec::new());
     for y in rows.clone() {
         let newest = (y + radius) as isize;
         let first = if y == rows.start {
@@ -217,26 +208,28 @@ fn tensor_rows<const N: usize>(
         };
         for row in first..=newest {
             let source = border.index(row, height);
-            for (k, ring) in rings.iter_mut().enumerate() {
-                let row = source.map(|m| {
-                    let du = &gradient.du.as_raw()[m * width..(m + 1) * width];
-                    let dv = &gradient.dv.as_raw()[m * width..(m + 1) * width];
-                    let (a, b) = [(du, du), (du, dv), (dv, dv)][k];
-                    for ((product, a), b) in product.iter_mut().zip(a).zip(b) {
-                        *product = a * b * scale_sq;
-                    }
-                    product.as_slice()
-                });
-                pad_row(row, width, radius, border, &mut padded);
-                filter_along_row(&padded, kernel, ring.push());
+            if let Some(m) = source {
+                gradient.row(m, [&mut du, &mut dv]);
+            }
+            let factors = [(&du, &du), (&du, &dv), (&dv, &dv)];
+            for (ring, (a, b)) in rings.iter_mut().zip(factors) {
+                multiply(a, b, scale_sq, &mut product);
+                let row = source.map(|_| product.as_slice());
+                filter_along_row(row, kernel, border, &mut edge, ring.push());
             }
         }
         for (ring, sums) in rings.iter().zip(&mut sums) {
             ring.combine(kernel, sums);
         }
-        let from = (y - rows.start) * width;
-        let out = band.each_mut().map(|image| &mut image[from..from + width]);
-        finish([&sums[0], &sums[1], &sums[2]], out);
+        sink(&mut |out| finish([&sums[0], &sums[1], &sums[2]], out));
+    }
+}
+
+dispatched! {
+    fn multiply(a: &[f32], b: &[f32], scale: f32, out: &mut [f32]) {
+        for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
+            *out = a * b * scale;
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::approx::atan2;
 use super::gaussian::derivative_kernels;
 use super::gray::from_vec;
-use super::separable::filter;
+use super::separable::{filter, filter_into};
 use super::simd::dispatched;
 use super::{Border, GrayImage32};
 use crate::Result;
@@ -126,6 +126,29 @@ pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -
     let (along, across) = kind.kernels();
     let [du, dv] = filter(image, [(along, across), (across, along)], border);
     Gradient { du, dv }
+}
+
+/// [`derivative`] into a gradient whose memory is used again, for frame after frame of a video.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::imaging::{Border, DerivativeFilter, derivative, derivative_into, gray_from_values};
+/// let ramp = gray_from_values(3, 1, vec![0.0, 1.0, 2.0])?;
+/// let mut gradient = derivative(&ramp, DerivativeFilter::Sobel3, Border::Replicate);
+/// let other = gray_from_values(2, 1, vec![0.0, 1.0])?;
+/// derivative_into(&other, DerivativeFilter::Sobel3, Border::Replicate, &mut gradient);
+/// assert_eq!(gradient.du.as_raw(), &[4.0, 4.0]);
+/// # Ok(()) }
+/// ```
+pub fn derivative_into(
+    image: &GrayImage32,
+    kind: DerivativeFilter,
+    border: Border,
+    gradient: &mut Gradient,
+) {
+    let (along, across) = kind.kernels();
+    let targets = [&mut gradient.du, &mut gradient.dv];
+    filter_into(image, [(along, across), (across, along)], border, targets);
 }
 
 /// The gradient by centered differences, `Iᵤ = (I(u+1, v) − I(u−1, v)) / 2`, likewise along v.

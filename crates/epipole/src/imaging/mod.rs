@@ -33,7 +33,8 @@ pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, py
 pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
 pub use gaussian::{gaussian_blur, gaussian_kernel};
 pub use gradient::{
-    DerivativeFilter, Gradient, centered_difference, derivative, gaussian_derivative, scharr, sobel,
+    DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
+    gaussian_derivative, scharr, sobel,
 };
 pub(crate) use gray::require_finite;
 pub use gray::{
@@ -48,3 +49,11 @@ pub use resize::resize;
 pub use sample::{sample_bicubic, sample_bilinear};
 pub use separable::separable_filter;
 pub use warp::{Interpolation, WarpOptions, warp_affine, warp_perspective};
+
+/// The rows of an image in at most `count` ranges.
+#[cfg(feature = "parallel")]
+pub(crate) fn bands(height: usize, count: usize) -> Vec<std::ops::Range<usize>> {
+    let each = height.div_ceil(count).max(1);
+    let from = (0..height).step_by(each);
+    from.map(|k| k..(k + each).min(height)).collect()
+}

@@ -1,7 +1,7 @@
 //! Gaussian and Laplacian pyramids.
 
 use super::gray::from_vec;
-use super::separable::{Ring, filter_along_row, pad_row};
+use super::separable::{Ring, filter_along_row};
 use super::{Border, GrayImage32};
 
 /// Weights 1 4 6 4 1 of sixteen.
@@ -24,7 +24,7 @@ pub fn pyramid_down(image: &GrayImage32, border: Border) -> GrayImage32 {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let (half_width, half_height) = (width.div_ceil(2), height.div_ceil(2));
     let mut values = Vec::with_capacity(half_width * half_height);
-    let (mut padded, mut row) = (Vec::new(), vec![0.0; width]);
+    let (mut edge, mut row) = (Vec::new(), vec![0.0; width]);
     let mut ring = Ring::new(5, width);
     for y in 0..half_height {
         let newest = 2 * y as isize + 2;
@@ -32,8 +32,7 @@ pub fn pyramid_down(image: &GrayImage32, border: Border) -> GrayImage32 {
         for j in first..=newest {
             let source = border.index(j, height);
             let source = source.map(|m| &image.as_raw()[m * width..(m + 1) * width]);
-            pad_row(source, width, 2, border, &mut padded);
-            filter_along_row(&padded, &BINOMIAL, ring.push());
+            filter_along_row(source, &BINOMIAL, border, &mut edge, ring.push());
         }
         ring.combine(&BINOMIAL, &mut row);
         values.extend(row.iter().step_by(2));

@@ -57,136 +57,196 @@ pub(crate) fn filter<const N: usize>(
     kernels: [(&[f32], &[f32]); N],
     border: Border,
 ) -> [GrayImage32; N] {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut outputs = [const { Vec::new() }; N];
-    for output in &mut outputs {
-        *output = vec![0.0f32; width * height];
-    }
-    if width > 0 && height > 0 {
-        in_bands(&mut outputs, width, |rows, band| {
-            filter_rows(image, &kernels, border, rows, band);
-        });
-    }
-    outputs.map(|values| from_vec(image.width(), image.height(), values))
+    let mut outputs = std::array::from_fn(|_| GrayImage32::default());
+    filter_into(image, kernels, border, outputs.each_mut());
+    outputs
 }
 
-/// The image under one kernel along both axes, into an image whose memory is used again.
-pub(crate) fn filter_into(
+/// [`filter`] into images whose memory is used again.
+pub(crate) fn filter_into<const N: usize>(
     image: &GrayImage32,
-    kernel: &[f32],
+    kernels: [(&[f32], &[f32]); N],
     border: Border,
-    target: &mut GrayImage32,
+    mut targets: [&mut GrayImage32; N],
 ) {
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut outputs = [std::mem::take(target).into_raw()];
-    outputs[0].resize(width * height, 0.0);
-    if width > 0 && height > 0 {
-        in_bands(&mut outputs, width, |rows, band| {
-            filter_rows(image, &[(kernel, kernel)], border, rows, band);
-        });
+    let memory = targets
+        .each_mut()
+        .map(|target| std::mem::take(*target).into_raw());
+    let outputs = in_bands(memory, width, height, |rows, sink| {
+        let mut filter = RowFilter::new(image, kernels, border);
+        for y in rows {
+            sink(&mut |out| filter.row(y, out));
+        }
+    });
+    for (target, values) in targets.into_iter().zip(outputs) {
+        *target = from_vec(image.width(), image.height(), values);
     }
-    let [values] = outputs;
-    *target = from_vec(image.width(), image.height(), values);
 }
 
-/// Splits equally large images into bands of rows and works on the bands, in parallel where the
-/// feature allows. The work on a band must not depend on where bands begin.
-pub(crate) fn in_bands<const N: usize, T: Send>(
-    images: &mut [Vec<T>; N],
+/// Takes a closure that fills the next row of each image.
+pub(crate) type Sink<'a, const N: usize> = &'a mut dyn FnMut(&mut dyn FnMut([&mut [f32]; N]));
+
+/// Makes equally large images row by row: `work` gets a range of rows and a sink that it calls for
+/// each of them in turn. Ranges are shared between threads where the feature allows; a row must
+/// not depend on where its range begins. Vectors that are large enough are used again.
+pub(crate) fn in_bands<const N: usize>(
+    mut images: [Vec<f32>; N],
     width: usize,
-    work: impl Fn(Range<usize>, [&mut [T]; N]) + Sync,
-) {
-    let height = images[0].len() / width;
+    height: usize,
+    work: impl Fn(Range<usize>, Sink<N>) + Sync,
+) -> [Vec<f32>; N] {
+    let size = width * height;
+    if size == 0 {
+        return [const { Vec::new() }; N];
+    }
+    // Below about a quarter of a megapixel threads cost more than they give.
     #[cfg(feature = "parallel")]
-    {
-        // Below about a quarter of a megapixel the threads cost more than they give.
-        let threads = rayon::current_num_threads().min(width * height / (1 << 17));
-        if threads > 1 {
-            let rows_each = height.div_ceil(threads);
-            let mut rest = images.each_mut().map(|image| image.as_mut_slice());
-            rayon::scope(|scope| {
-                for from in (0..height).step_by(rows_each) {
-                    let to = (from + rows_each).min(height);
-                    let mut band: [&mut [T]; N] = std::array::from_fn(|_| <&mut [T]>::default());
-                    for (piece, rest) in band.iter_mut().zip(&mut rest) {
-                        let (head, tail) = std::mem::take(rest).split_at_mut((to - from) * width);
-                        *piece = head;
-                        *rest = tail;
-                    }
-                    let work = &work;
-                    scope.spawn(move |_| work(from..to, band));
-                }
-            });
-            return;
+    let threads = rayon::current_num_threads().min(size / (1 << 17));
+    #[cfg(not(feature = "parallel"))]
+    let threads = 1;
+    let used_again = images.iter().all(|image| image.len() >= size);
+    if threads <= 1 && !used_again {
+        // New memory is written once, not first filled with zeros.
+        let mut rows = vec![0.0; N * width];
+        for image in &mut images {
+            image.clear();
+            image.reserve_exact(size);
+        }
+        work(0..height, &mut |fill| {
+            let mut pieces = rows.chunks_exact_mut(width);
+            fill(std::array::from_fn(|_| pieces.next().unwrap_or_default()));
+            for (image, row) in images.iter_mut().zip(rows.chunks_exact(width)) {
+                image.extend_from_slice(row);
+            }
+        });
+        return images;
+    }
+    for image in &mut images {
+        image.resize(size, 0.0);
+    }
+    let band = |rows: Range<usize>, mut pieces: [&mut [f32]; N]| {
+        work(rows, &mut |fill| {
+            fill(pieces.each_mut().map(|piece| {
+                let (row, rest) = std::mem::take(piece).split_at_mut(width);
+                *piece = rest;
+                row
+            }));
+        });
+    };
+    let mut rest = images.each_mut().map(|image| image.as_mut_slice());
+    #[cfg(feature = "parallel")]
+    if threads > 1 {
+        rayon::scope(|scope| {
+            for rows in crate::imaging::bands(height, threads) {
+                let pieces = rest.each_mut().map(|rest| {
+                    let (head, tail) =
+                        std::mem::take(rest).split_at_mut((rows.end - rows.start) * width);
+                    *rest = tail;
+                    head
+                });
+                let band = &band;
+                scope.spawn(move |_| band(rows, pieces));
+            }
+        });
+        return images;
+    }
+    band(0..height, rest.each_mut().map(std::mem::take));
+    images
+}
+
+/// Rows of an image under several separable kernels. Asked for rows in order it filters each
+/// source row along u once.
+pub(crate) struct RowFilter<'a, const N: usize> {
+    image: &'a GrayImage32,
+    kernels: [(&'a [f32], &'a [f32]); N],
+    border: Border,
+    rings: [Ring; N],
+    last: Option<usize>,
+    edge: Vec<f32>,
+}
+
+impl<'a, const N: usize> RowFilter<'a, N> {
+    pub(crate) fn new(
+        image: &'a GrayImage32,
+        kernels: [(&'a [f32], &'a [f32]); N],
+        border: Border,
+    ) -> Self {
+        let width = image.width() as usize;
+        Self {
+            image,
+            kernels,
+            border,
+            rings: kernels.map(|(_, kernel_v)| Ring::new(kernel_v.len(), width)),
+            last: None,
+            edge: Vec::new(),
         }
     }
-    work(
-        0..height,
-        images.each_mut().map(|image| image.as_mut_slice()),
-    );
-}
 
-fn filter_rows<const N: usize>(
-    image: &GrayImage32,
-    kernels: &[(&[f32], &[f32]); N],
-    border: Border,
-    rows: Range<usize>,
-    band: [&mut [f32]; N],
-) {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut padded = Vec::new();
-    let mut rings = kernels.map(|(_, kernel_v)| Ring::new(kernel_v.len(), width));
-    for y in rows.clone() {
-        for (k, (kernel_u, kernel_v)) in kernels.iter().enumerate() {
+    /// Row `y` under each kernel.
+    pub(crate) fn row(&mut self, y: usize, out: [&mut [f32]; N]) {
+        let (width, height) = (self.image.width() as usize, self.image.height() as usize);
+        let follows = y > 0 && self.last == Some(y - 1);
+        self.last = Some(y);
+        for (k, out) in out.into_iter().enumerate() {
+            let (kernel_u, kernel_v) = self.kernels[k];
             let radius = (kernel_v.len() / 2) as isize;
             let newest = y as isize + radius;
-            let first = if y == rows.start {
-                newest - 2 * radius
-            } else {
-                newest
-            };
+            let first = if follows { newest } else { newest - 2 * radius };
             for row in first..=newest {
-                let source = border
+                let source = self
+                    .border
                     .index(row, height)
-                    .map(|m| &image.as_raw()[m * width..(m + 1) * width]);
-                pad_row(source, width, kernel_u.len() / 2, border, &mut padded);
-                filter_along_row(&padded, kernel_u, rings[k].push());
+                    .map(|m| &self.image.as_raw()[m * width..(m + 1) * width]);
+                let target = self.rings[k].push();
+                filter_along_row(source, kernel_u, self.border, &mut self.edge, target);
             }
-            let from = (y - rows.start) * width;
-            rings[k].combine(kernel_v, &mut band[k][from..from + width]);
+            self.rings[k].combine(kernel_v, out);
         }
     }
 }
 
-/// A row with `radius` border pixels on both sides; `None` is a row outside the image.
-pub(crate) fn pad_row(
+/// Correlates a row with a kernel, `None` being a row outside the image: `out[x] = Σ kernel[k]
+/// row[x + k − r]`. The inside is read in place; `edge` holds the ends with their border.
+pub(crate) fn filter_along_row(
     row: Option<&[f32]>,
-    width: usize,
-    radius: usize,
+    kernel: &[f32],
     border: Border,
-    padded: &mut Vec<f32>,
+    edge: &mut Vec<f32>,
+    out: &mut [f32],
 ) {
-    padded.clear();
+    let (width, radius) = (out.len(), kernel.len() / 2);
+    let run = |padded: &[f32], out: &mut [f32]| {
+        let n = out.len();
+        with_slices(
+            kernel.len(),
+            |k| &padded[k..k + n],
+            |taps| weigh(taps, kernel, out),
+        );
+    };
     let Some(row) = row else {
-        padded.resize(width + 2 * radius, border.constant());
+        edge.clear();
+        edge.resize(width + 2 * radius, border.constant());
+        run(edge, out);
         return;
     };
-    let beyond = |x: isize| border.index(x, width).map_or(border.constant(), |x| row[x]);
-    padded.extend((0..radius).map(|x| beyond(x as isize - radius as isize)));
-    padded.extend_from_slice(row);
-    padded.extend((0..radius).map(|x| beyond((width + x) as isize)));
-}
-
-/// Correlates a padded row with a kernel: `out[x] = Σ kernel[k] padded[x + k]`.
-pub(crate) fn filter_along_row(padded: &[f32], kernel: &[f32], out: &mut [f32]) {
-    let width = out.len();
-    with_slices(
-        kernel.len(),
-        |k| &padded[k..k + width],
-        |taps| {
-            weigh(taps, kernel, out);
-        },
-    );
+    let at = |x: isize| border.index(x, width).map_or(border.constant(), |x| row[x]);
+    let r = radius as isize;
+    if width <= 4 * radius {
+        edge.clear();
+        edge.extend((-r..width as isize + r).map(at));
+        run(edge, out);
+        return;
+    }
+    if radius > 0 {
+        edge.clear();
+        edge.extend((-r..2 * r).map(at));
+        run(edge, &mut out[..radius]);
+        edge.clear();
+        edge.extend((width as isize - 2 * r..width as isize + r).map(at));
+        run(edge, &mut out[width - radius..]);
+    }
+    run(row, &mut out[radius..width - radius]);
 }
 
 /// The last rows of a stream, as many as the kernel along v is long.
@@ -268,6 +328,36 @@ fn weigh(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
     }
 }
 
+/// Fills `out` by blocks of `L` pixels, the last of which may overlap the one before it: each
+/// pixel's sum is the same wherever its block begins. Gives `false` if there are fewer pixels.
+//
+// No closures in these: a closure is a function of its own, compiled for the baseline only.
+macro_rules! in_blocks {
+    ($block:ident, $taps:expr, $weights:expr, $r:expr, $out:expr) => {{
+        let n = $out.len();
+        if n >= LANES {
+            let mut x = 0;
+            while x < n {
+                let from = x.min(n - LANES);
+                $out[from..from + LANES]
+                    .copy_from_slice(&$block::<LANES>($taps, $weights, $r, from));
+                x += LANES;
+            }
+        } else if n >= FEW {
+            let mut x = 0;
+            while x < n {
+                let from = x.min(n - FEW);
+                $out[from..from + FEW].copy_from_slice(&$block::<FEW>($taps, $weights, $r, from));
+                x += FEW;
+            }
+        } else {
+            for x in 0..n {
+                $out[x] = $block::<1>($taps, $weights, $r, x)[0];
+            }
+        }
+    }};
+}
+
 dispatched! {
     fn weigh_even<const R: usize>(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
         even_body(taps, weights, R, out);
@@ -290,104 +380,78 @@ dispatched! {
 }
 dispatched! {
     fn weigh_any(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        in_blocks(out, |x, block| {
-            *block = [0.0; LANES];
-            for (tap, w) in taps.iter().zip(weights) {
-                let tap = lanes(tap, x);
-                for i in 0..LANES {
-                    block[i] += w * tap[i];
-                }
-            }
-        }, |x| {
-            let mut sum = 0.0;
-            for (tap, w) in taps.iter().zip(weights) {
-                sum += w * tap[x];
-            }
-            sum
-        });
+        in_blocks!(any_block, taps, weights, 0, out);
     }
 }
 
 /// Pixels whose sums are kept in registers at once.
 const LANES: usize = 32;
+/// The same for rows too short for that.
+const FEW: usize = 8;
 
 #[inline(always)]
-fn lanes(slice: &[f32], from: usize) -> &[f32; LANES] {
-    slice[from..from + LANES]
+fn lanes<const L: usize>(slice: &[f32], from: usize) -> &[f32; L] {
+    slice[from..from + L]
         .try_into()
         .expect("the slice has this length")
 }
 
-/// Fills `out` by blocks, and what is left pixel by pixel with the same operations.
-#[inline(always)]
-fn in_blocks(
-    out: &mut [f32],
-    block: impl Fn(usize, &mut [f32; LANES]),
-    single: impl Fn(usize) -> f32,
-) {
-    let (blocks, rest) = out.as_chunks_mut::<LANES>();
-    let done = blocks.len() * LANES;
-    for (k, out) in blocks.iter_mut().enumerate() {
-        let mut values = [0.0; LANES];
-        block(k * LANES, &mut values);
-        *out = values;
-    }
-    for (k, out) in rest.iter_mut().enumerate() {
-        *out = single(done + k);
-    }
-}
-
 #[inline(always)]
 fn even_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    let (taps, weights) = (&taps[..2 * r + 1], &weights[..2 * r + 1]);
-    in_blocks(
-        out,
-        |x, block| {
-            let center = lanes(taps[r], x);
-            for i in 0..LANES {
-                block[i] = weights[r] * center[i];
-            }
-            for j in 1..=r {
-                let (a, b) = (lanes(taps[r - j], x), lanes(taps[r + j], x));
-                let w = weights[r + j];
-                for i in 0..LANES {
-                    block[i] += w * (a[i] + b[i]);
-                }
-            }
-        },
-        |x| {
-            let mut sum = weights[r] * taps[r][x];
-            for j in 1..=r {
-                sum += weights[r + j] * (taps[r - j][x] + taps[r + j][x]);
-            }
-            sum
-        },
+    in_blocks!(
+        even_block,
+        &taps[..2 * r + 1],
+        &weights[..2 * r + 1],
+        r,
+        out
     );
 }
 
 #[inline(always)]
 fn odd_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    let (taps, weights) = (&taps[..2 * r + 1], &weights[..2 * r + 1]);
-    in_blocks(
-        out,
-        |x, block| {
-            *block = [0.0; LANES];
-            for j in 1..=r {
-                let (a, b) = (lanes(taps[r - j], x), lanes(taps[r + j], x));
-                let w = weights[r + j];
-                for i in 0..LANES {
-                    block[i] += w * (b[i] - a[i]);
-                }
-            }
-        },
-        |x| {
-            let mut sum = 0.0;
-            for j in 1..=r {
-                sum += weights[r + j] * (taps[r + j][x] - taps[r - j][x]);
-            }
-            sum
-        },
-    );
+    in_blocks!(odd_block, &taps[..2 * r + 1], &weights[..2 * r + 1], r, out);
+}
+
+#[inline(always)]
+fn even_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
+    let center = lanes::<L>(taps[r], x);
+    let mut sums = [0.0; L];
+    for i in 0..L {
+        sums[i] = weights[r] * center[i];
+    }
+    for j in 1..=r {
+        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
+        let w = weights[r + j];
+        for i in 0..L {
+            sums[i] += w * (a[i] + b[i]);
+        }
+    }
+    sums
+}
+
+#[inline(always)]
+fn odd_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
+    let mut sums = [0.0; L];
+    for j in 1..=r {
+        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
+        let w = weights[r + j];
+        for i in 0..L {
+            sums[i] += w * (b[i] - a[i]);
+        }
+    }
+    sums
+}
+
+#[inline(always)]
+fn any_block<const L: usize>(taps: &[&[f32]], weights: &[f32], _: usize, x: usize) -> [f32; L] {
+    let mut sums = [0.0; L];
+    for (tap, w) in taps.iter().zip(weights) {
+        let tap = lanes::<L>(tap, x);
+        for i in 0..L {
+            sums[i] += w * tap[i];
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

@@ -10,6 +10,9 @@ use std::f32::consts::TAU;
 const CELLS: usize = 4;
 /// Directions in a cell.
 const BINS: usize = 8;
+/// Numbers in a row of cells with its margin, and in all rows.
+const STRIDE: usize = (CELLS + 2) * BINS;
+const NUM_SUMS: usize = (CELLS + 2) * STRIDE;
 /// A cell's side in units of the keypoint's blur.
 const CELL_SIGMAS: f32 = 3.0;
 
@@ -24,39 +27,33 @@ pub(super) fn histogram(
     center: (f32, f32),
     sigma: f32,
     angle_rad: f32,
+    scratch: &mut Samples,
 ) -> [f32; 128] {
     // One cell of margin all around takes what is shared outwards.
-    let mut sums = [0.0f32; (CELLS + 2) * (CELLS + 2) * BINS];
+    let mut sums = [0.0f32; NUM_SUMS];
     let cell = CELL_SIGMAS * sigma;
     let (cos, sin) = (libm::cosf(angle_rad) / cell, libm::sinf(angle_rad) / cell);
     // Half the side of the square that can contribute, in cells.
     let half = 0.5 * (CELLS as f32 + 1.0);
     let radius = half * cell * std::f32::consts::SQRT_2;
     let falloff = -0.5 / (0.5 * CELLS as f32 * cell * 0.5 * CELLS as f32 * cell);
-    let mut scratch = Scratch::default();
-    let square = Samples::new(layer, center, radius);
-    square.for_each_row(
-        &mut scratch,
-        |dy, _| {
-            // −half < x cos + y sin < half and −half < y cos − x sin < half, solved for x.
-            let (mut low, mut high) = (-radius, radius);
-            for (slope, offset) in [(cos, dy * sin), (-sin, dy * cos)] {
-                if slope.abs() > 1e-6 {
-                    let (a, b) = ((-half - offset) / slope, (half - offset) / slope);
-                    low = low.max(a.min(b));
-                    high = high.min(a.max(b));
-                } else if offset.abs() >= half {
-                    return (1.0, 0.0);
-                }
+    scratch.gather(layer, center, radius, |dy| {
+        // −half < x cos + y sin < half and −half < y cos − x sin < half, solved for x.
+        let (mut low, mut high) = (-radius, radius);
+        for (slope, offset) in [(cos, dy * sin), (-sin, dy * cos)] {
+            if slope.abs() > 1e-6 {
+                let (a, b) = ((-half - offset) / slope, (half - offset) / slope);
+                low = low.max(a.min(b));
+                high = high.min(a.max(b));
+            } else if offset.abs() >= half {
+                return (1.0, 0.0);
             }
-            (low, high)
-        },
-        |samples| {
-            samples.gradients(falloff, 1.0);
-            samples.bins(cos, sin, angle_rad);
-            samples.scatter(&mut sums);
-        },
-    );
+        }
+        (low, high)
+    });
+    scratch.polar(falloff);
+    scratch.place(cos, sin, angle_rad);
+    scratch.scatter(&mut sums);
     let mut out = [0.0; 128];
     for (k, value) in out.iter_mut().enumerate() {
         let (row, column, bin) = (k / 32, k / 8 % 4, k % 8);
@@ -101,184 +98,168 @@ fn lanes_sum(values: &[f32; 128], f: impl Fn(f32) -> f32) -> f32 {
     lanes.iter().sum()
 }
 
-/// The samples of a layer within reach of a place, row by row.
-pub(super) struct Samples<'a> {
-    values: &'a [f32],
-    width: usize,
-    height: usize,
-    center: (f32, f32),
-    radius: f32,
-}
-
-/// One row of samples: gradients and what is made of them.
+/// The samples of a layer around a place: gradients and what is made of them. Lists are filled
+/// first and worked on as a whole, so that the loops run in vectors.
 #[derive(Default)]
-pub(super) struct Scratch {
+pub(super) struct Samples {
+    /// Twice the derivatives.
     du: Vec<f32>,
     dv: Vec<f32>,
-    /// Offset from the place along u; that along v is `dy`.
+    /// Offsets from the place.
     dx: Vec<f32>,
-    dy: f32,
+    dy: Vec<f32>,
     /// Magnitude times falloff.
     pub(super) weight: Vec<f32>,
     /// Direction in [−π, π].
     pub(super) angle: Vec<f32>,
-    column: Vec<f32>,
-    row: Vec<f32>,
-    bin: Vec<f32>,
+    /// Where the first of the cells that share a sample begins among the sums, and how much of it
+    /// goes one further along u and v.
+    cell: Vec<u32>,
+    right: Vec<f32>,
+    down: Vec<f32>,
+    /// The first of the two directions, and how much goes to the next.
+    bin: Vec<u32>,
+    ahead: Vec<f32>,
 }
 
-impl<'a> Samples<'a> {
-    pub(super) fn new(layer: &'a GrayImage32, center: (f32, f32), radius: f32) -> Self {
-        Self {
-            values: layer.as_raw(),
-            width: layer.width() as usize,
-            height: layer.height() as usize,
-            center,
-            radius,
-        }
-    }
-
-    /// Visits each row; `interval` gives the range of offsets along u for an offset along v.
-    /// Samples on the layer's edge have no gradient and are left out.
-    pub(super) fn for_each_row(
-        &self,
-        scratch: &mut Scratch,
-        interval: impl Fn(f32, &Self) -> (f32, f32),
-        mut visit: impl FnMut(&mut Scratch),
+impl Samples {
+    /// Takes the samples of each row whose offset along u lies in the interval for the row's
+    /// offset along v. Those on the layer's edge have no gradient and are left out.
+    pub(super) fn gather(
+        &mut self,
+        layer: &GrayImage32,
+        (cx, cy): (f32, f32),
+        radius: f32,
+        interval: impl Fn(f32) -> (f32, f32),
     ) {
-        let (cx, cy) = self.center;
-        let first = ((cy - self.radius).ceil().max(1.0)) as usize;
-        let last = ((cy + self.radius).floor().min(self.height as f32 - 2.0)) as usize;
+        let (values, width) = (layer.as_raw(), layer.width() as usize);
+        for list in [&mut self.du, &mut self.dv, &mut self.dx, &mut self.dy] {
+            list.clear();
+        }
+        let first = ((cy - radius).ceil().max(1.0)) as usize;
+        let last = ((cy + radius).floor().min(layer.height() as f32 - 2.0)) as usize;
         for y in first..=last {
             let dy = y as f32 - cy;
-            let (low, high) = interval(dy, self);
+            let (low, high) = interval(dy);
             let from = (cx + low).ceil().max(1.0) as usize;
-            let to = (cx + high).floor().min(self.width as f32 - 2.0);
+            let to = (cx + high).floor().min(width as f32 - 2.0);
             if low > high || to < from as f32 {
                 continue;
             }
             let n = to as usize - from + 1;
-            let at = y * self.width + from;
-            for list in [
-                &mut scratch.du,
-                &mut scratch.dv,
-                &mut scratch.dx,
-                &mut scratch.weight,
-                &mut scratch.angle,
-                &mut scratch.column,
-                &mut scratch.row,
-                &mut scratch.bin,
-            ] {
-                list.resize(n, 0.0);
-            }
-            scratch.dy = dy;
-            let left = &self.values[at - 1..at - 1 + n];
-            let right = &self.values[at + 1..at + 1 + n];
-            let above = &self.values[at - self.width..at - self.width + n];
-            let below = &self.values[at + self.width..at + self.width + n];
-            differences(left, right, &mut scratch.du);
-            differences(above, below, &mut scratch.dv);
-            for (k, dx) in scratch.dx.iter_mut().enumerate() {
-                *dx = (from + k) as f32 - cx;
-            }
-            visit(scratch);
+            let at = y * width + from;
+            let row = |start: usize| &values[start..start + n];
+            let difference = |(a, b): (&f32, &f32)| b - a;
+            self.du
+                .extend(row(at - 1).iter().zip(row(at + 1)).map(difference));
+            self.dv
+                .extend(row(at - width).iter().zip(row(at + width)).map(difference));
+            self.dx
+                .extend((0..n as u16).map(|k| f32::from(k) + (from as f32 - cx)));
+            self.dy.resize(self.dx.len(), dy);
         }
-    }
-}
-
-impl Scratch {
-    pub(super) fn len(&self) -> usize {
-        self.dx.len()
     }
 
     /// Direction and weighted magnitude of each gradient.
-    pub(super) fn gradients(&mut self, falloff: f32, _scale: f32) {
-        let dy_sq = self.dy * self.dy;
-        polar(
-            &self.du,
-            &self.dv,
-            &self.dx,
-            dy_sq,
-            falloff,
-            &mut self.weight,
-            &mut self.angle,
-        );
+    pub(super) fn polar(&mut self, falloff: f32) {
+        let n = self.dx.len();
+        self.weight.resize(n, 0.0);
+        self.angle.resize(n, 0.0);
+        let gradients = [&self.du[..], &self.dv, &self.dx, &self.dy];
+        polar(gradients, falloff, &mut self.weight, &mut self.angle);
     }
 
-    /// Where each sample falls in the descriptor: cells from −1 to 4, directions from 0 to 8.
-    fn bins(&mut self, cos: f32, sin: f32, angle_rad: f32) {
-        rotate(&self.dx, self.dy, cos, sin, &mut self.column, &mut self.row);
-        turn(&self.angle, angle_rad, &mut self.bin);
+    /// Cells and directions that share each sample.
+    fn place(&mut self, cos: f32, sin: f32, angle_rad: f32) {
+        let n = self.dx.len();
+        for list in [&mut self.right, &mut self.down, &mut self.ahead] {
+            list.resize(n, 0.0);
+        }
+        self.cell.resize(n, 0);
+        self.bin.resize(n, 0);
+        let shares = [&mut self.right[..], &mut self.down];
+        place(&self.dx, &self.dy, cos, sin, &mut self.cell, shares);
+        turn(&self.angle, angle_rad, &mut self.bin, &mut self.ahead);
     }
 
-    fn scatter(&self, sums: &mut [f32; (CELLS + 2) * (CELLS + 2) * BINS]) {
-        const STRIDE: usize = (CELLS + 2) * BINS;
-        for k in 0..self.len() {
-            let (column, row, bin) = (self.column[k], self.row[k], self.bin[k]);
-            // Offset by one cell, all are in 0..5; rounding may reach the ends.
-            let (c, r, b) = (column as usize, row as usize, bin as usize);
-            let (c, r, b) = (c.min(CELLS), r.min(CELLS), b & (BINS - 1));
-            let (fc, fr, fb) = (column - c as f32, row - r as f32, bin - bin as usize as f32);
-            let weight = self.weight[k];
-            let (w1, b1) = (weight * fr, (b + 1) & (BINS - 1));
-            let w0 = weight - w1;
-            let at = r * STRIDE + c * BINS;
-            for (from, w) in [(at, w0), (at + STRIDE, w1)] {
-                let right = w * fc;
-                let left = w - right;
-                let cells = &mut sums[from..from + 2 * BINS];
-                let (ahead_l, ahead_r) = (left * fb, right * fb);
-                cells[b] += left - ahead_l;
-                cells[b1] += ahead_l;
-                cells[BINS + b] += right - ahead_r;
-                cells[BINS + b1] += ahead_r;
+    fn scatter(&self, sums: &mut [f32; NUM_SUMS]) {
+        let n = self.dx.len();
+        let (weight, cell, bin) = (&self.weight[..n], &self.cell[..n], &self.bin[..n]);
+        let (right, down, ahead) = (&self.right[..n], &self.down[..n], &self.ahead[..n]);
+        for k in 0..n {
+            let (b, next) = (bin[k] as usize & 7, (bin[k] as usize + 1) & 7);
+            let lower = weight[k] * down[k];
+            let upper = weight[k] - lower;
+            let from = cell[k] as usize;
+            let (top, bottom) = sums[from..from + STRIDE + 2 * BINS].split_at_mut(STRIDE);
+            for (cells, share) in [(top, upper), (bottom, lower)] {
+                let cells: &mut [f32; 2 * BINS] =
+                    (&mut cells[..2 * BINS]).try_into().expect("two cells");
+                let r = share * right[k];
+                let l = share - r;
+                let (la, ra) = (l * ahead[k], r * ahead[k]);
+                cells[b] += l - la;
+                cells[next] += la;
+                cells[BINS + b] += r - ra;
+                cells[BINS + next] += ra;
             }
         }
     }
 }
 
-dispatched! {
-    fn differences(from: &[f32], to: &[f32], out: &mut [f32]) {
-        for ((out, a), b) in out.iter_mut().zip(to).zip(from) {
-            *out = a - b;
-        }
-    }
+/// The whole number below x and what is left, for x in [0, 8]. A whole x may come as x − 1 and 1,
+/// which shares a sample in the same way. Adding 1.5 · 2²³ rounds without a call.
+#[inline(always)]
+fn whole_and_rest(x: f32) -> (u32, f32) {
+    const ROUND: f32 = 12_582_912.0;
+    let shifted = (x - 0.5) + ROUND;
+    let whole = shifted - ROUND;
+    let whole = if whole > 0.0 { whole } else { 0.0 };
+    ((whole + ROUND).to_bits() - ROUND.to_bits(), x - whole)
 }
+
 dispatched! {
-    fn polar(
-        du: &[f32], dv: &[f32], dx: &[f32], dy_sq: f32, falloff: f32,
-        weight: &mut [f32], angle: &mut [f32],
-    ) {
+    fn polar(gradients: [&[f32]; 4], falloff: f32, weight: &mut [f32], angle: &mut [f32]) {
         let n = weight.len();
-        let (du, dv, dx, angle) = (&du[..n], &dv[..n], &dx[..n], &mut angle[..n]);
+        let [du, dv, dx, dy] = gradients;
+        let (du, dv, dx, dy) = (&du[..n], &dv[..n], &dx[..n], &dy[..n]);
+        let angle = &mut angle[..n];
         for k in 0..n {
             let magnitude = (du[k] * du[k] + dv[k] * dv[k]).sqrt();
-            weight[k] = magnitude * exp_negative(falloff * (dx[k] * dx[k] + dy_sq));
+            weight[k] = magnitude * exp_negative(falloff * (dx[k] * dx[k] + dy[k] * dy[k]));
             angle[k] = atan2(dv[k], du[k]);
         }
     }
 }
 dispatched! {
-    fn rotate(dx: &[f32], dy: f32, cos: f32, sin: f32, column: &mut [f32], row: &mut [f32]) {
+    fn place(
+        dx: &[f32], dy: &[f32], cos: f32, sin: f32, cell: &mut [u32], shares: [&mut [f32]; 2],
+    ) {
         let n = dx.len();
-        let (column, row) = (&mut column[..n], &mut row[..n]);
+        let [right, down] = shares;
+        let (dy, cell) = (&dy[..n], &mut cell[..n]);
+        let (right, down) = (&mut right[..n], &mut down[..n]);
         // The middle of the four cells is between the second and the third, one cell of margin.
         let middle = 0.5 * (CELLS as f32 - 1.0) + 1.0;
-        let (across, down) = (dy * sin + middle, dy * cos + middle);
         for k in 0..n {
-            column[k] = dx[k] * cos + across;
-            row[k] = down - dx[k] * sin;
+            let (column, fc) = whole_and_rest(dx[k] * cos + (dy[k] * sin + middle));
+            let (row, fr) = whole_and_rest((dy[k] * cos + middle) - dx[k] * sin);
+            // Rounding at the square's edge may reach one cell too far.
+            let (column, row) = (column.min(CELLS as u32), row.min(CELLS as u32));
+            cell[k] = row * STRIDE as u32 + column * BINS as u32;
+            right[k] = fc;
+            down[k] = fr;
         }
     }
 }
 dispatched! {
-    fn turn(angle: &[f32], from: f32, bin: &mut [f32]) {
+    fn turn(angle: &[f32], from: f32, bin: &mut [u32], ahead: &mut [f32]) {
         let n = angle.len();
-        let bin = &mut bin[..n];
+        let (bin, ahead) = (&mut bin[..n], &mut ahead[..n]);
         for k in 0..n {
-            let mut turned = (angle[k] - from) * (BINS as f32 / TAU);
-            turned = if turned < 0.0 { turned + BINS as f32 } else { turned };
-            bin[k] = if turned >= BINS as f32 { turned - BINS as f32 } else { turned };
+            let turned = (angle[k] - from) * (BINS as f32 / TAU);
+            let turned = if turned < 0.0 { turned + BINS as f32 } else { turned };
+            (bin[k], ahead[k]) = whole_and_rest(turned);
         }
     }
 }

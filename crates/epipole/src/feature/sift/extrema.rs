@@ -217,7 +217,8 @@ fn locate(
             x: (x as f64 + offset.x) as f32,
             y: (y as f64 + offset.y) as f32,
             sigma: octave.sigma_at(layer as f64 + offset.z) as f32,
-            layer,
+            // Within one layer of the middle one, so among those in memory.
+            layer: (layer as f64 + offset.z.round()) as usize,
             response,
         });
     }

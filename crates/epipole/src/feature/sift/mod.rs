@@ -27,7 +27,9 @@ pub enum SiftNormalization {
     Root,
 }
 
-/// How [`detect_sift`] works. The defaults are Lowe's, as OpenCV takes them.
+/// How [`detect_sift`] works. The defaults are Lowe's, as OpenCV takes them, but for the blur that
+/// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
+/// and fewer of the features are too small to be seen from further away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiftOptions {
     /// At most so many features, the strongest; 0 means no limit.
@@ -61,7 +63,7 @@ impl Default for SiftOptions {
             max_features: 0,
             layers_per_octave: 3,
             sigma_px: 1.6,
-            input_blur_px: 0.5,
+            input_blur_px: 0.3,
             upsample: true,
             contrast_threshold: 0.04,
             edge_threshold: 10.0,
@@ -146,8 +148,9 @@ pub fn detect_sift_with_progress(
     // Each octave has a quarter of the pixels of the one before it.
     let (mut done, mut share) = (0.0, 0.75 / options.layers_per_octave as f64);
     let mut next = OctaveGrid::first(image, options);
+    let mut memory = Default::default();
     while let Some(grid) = next {
-        let mut octave = Octave::new(grid, options);
+        let mut octave = Octave::new(grid, memory, options);
         next = None;
         for layer in 1..=options.layers_per_octave {
             octave.advance_to(layer);
@@ -163,6 +166,7 @@ pub fn detect_sift_with_progress(
             tell(done)?;
         }
         share /= 4.0;
+        memory = octave.into_memory();
     }
     Ok(collect(found, options.max_features))
 }
@@ -175,10 +179,11 @@ fn describe(
 ) -> Vec<(Keypoint, [u8; 128])> {
     let layer = octave.layer(extremum.layer);
     let (center, sigma) = ((extremum.x, extremum.y), extremum.sigma);
+    let mut scratch = descriptor::Samples::default();
     let angles = if options.upright {
         vec![0.0]
     } else {
-        orientation::directions(layer, center, sigma, options)
+        orientation::directions(layer, center, sigma, options, &mut scratch)
     };
     let grid = octave.grid();
     angles
@@ -192,7 +197,7 @@ fn describe(
                 response: extremum.response,
                 octave: grid.octave,
             };
-            let sums = descriptor::histogram(layer, center, sigma, angle_rad);
+            let sums = descriptor::histogram(layer, center, sigma, angle_rad, &mut scratch);
             (keypoint, descriptor::normalize(sums, options.normalization))
         })
         .collect()

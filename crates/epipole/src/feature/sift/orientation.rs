@@ -1,7 +1,7 @@
 //! Directions of a keypoint: peaks of the histogram of gradients around it.
 
 use super::SiftOptions;
-use super::descriptor::{Samples, Scratch};
+use super::descriptor::Samples;
 use crate::imaging::GrayImage32;
 use std::f32::consts::{PI, TAU};
 
@@ -19,30 +19,24 @@ pub(super) fn directions(
     center: (f32, f32),
     sigma: f32,
     options: &SiftOptions,
+    scratch: &mut Samples,
 ) -> Vec<f32> {
     let mut histogram = [0.0f32; NUM_BINS + 1];
     let spread = 1.5 * sigma;
     let radius = 3.0 * spread;
-    let mut scratch = Scratch::default();
     let falloff = -0.5 / (spread * spread);
-    let rows = Samples::new(layer, center, radius);
-    rows.for_each_row(
-        &mut scratch,
-        |dy, _| {
-            let half = (radius * radius - dy * dy).max(0.0).sqrt();
-            (-half, half)
-        },
-        |samples| {
-            samples.gradients(falloff, 1.0);
-            for k in 0..samples.len() {
-                let bin = samples.angle[k] * (NUM_BINS as f32 / TAU) + 0.5 * NUM_BINS as f32;
-                let low = (bin as usize).min(NUM_BINS - 1);
-                let share = (bin - low as f32) * samples.weight[k];
-                histogram[low] += samples.weight[k] - share;
-                histogram[low + 1] += share;
-            }
-        },
-    );
+    scratch.gather(layer, center, radius, |dy| {
+        let half = (radius * radius - dy * dy).max(0.0).sqrt();
+        (-half, half)
+    });
+    scratch.polar(falloff);
+    for (angle, weight) in scratch.angle.iter().zip(&scratch.weight) {
+        let bin = angle * (NUM_BINS as f32 / TAU) + 0.5 * NUM_BINS as f32;
+        let low = (bin as usize).min(NUM_BINS - 1);
+        let share = (bin - low as f32) * weight;
+        histogram[low] += weight - share;
+        histogram[low + 1] += share;
+    }
     // Bin 36 is bin 0 again: both lie at an angle of ±π.
     histogram[0] += histogram[NUM_BINS];
     let h = |k: usize| histogram[k % NUM_BINS];

@@ -78,13 +78,17 @@ pub(super) struct Octave {
 }
 
 impl Octave {
-    pub(super) fn new(mut grid: OctaveGrid, options: &SiftOptions) -> Self {
+    /// An octave whose layers take the memory of the octave before it.
+    pub(super) fn new(
+        mut grid: OctaveGrid,
+        mut layers: [GrayImage32; 4],
+        options: &SiftOptions,
+    ) -> Self {
         let n = options.layers_per_octave;
         let sigma = |k: usize| options.sigma_px * libm::exp2(k as f64 / n as f64);
         let increments = (1..n + 3)
             .map(|k| (sigma(k) * sigma(k) - sigma(k - 1) * sigma(k - 1)).sqrt())
             .collect();
-        let mut layers: [GrayImage32; 4] = Default::default();
         layers[0] = std::mem::take(&mut grid.base);
         Self {
             grid,
@@ -94,6 +98,10 @@ impl Octave {
             layers,
             newest: 0,
         }
+    }
+
+    pub(super) fn into_memory(self) -> [GrayImage32; 4] {
+        self.layers
     }
 
     pub(super) fn grid(&self) -> &OctaveGrid {
@@ -128,19 +136,24 @@ impl Octave {
     }
 
     /// The next octave, from the layer with twice the first one's blur.
-    pub(super) fn next_grid(&mut self) -> Option<OctaveGrid> {
+    pub(super) fn next_grid(&self) -> Option<OctaveGrid> {
         let n = self.layers_per_octave;
         // With more layers than the window holds it is made now and once more later.
+        let mut further = GrayImage32::default();
+        for k in self.newest..n {
+            let mut target = GrayImage32::default();
+            let from = if k == self.newest {
+                self.layer(k)
+            } else {
+                &further
+            };
+            blurred(from, self.increments[k], &mut target);
+            further = target;
+        }
         let source = if n <= self.newest {
-            self.layer(n).clone()
+            self.layer(n)
         } else {
-            let mut image = self.layer(self.newest).clone();
-            for k in self.newest..n {
-                let mut target = GrayImage32::default();
-                blurred(&image, self.increments[k], &mut target);
-                image = target;
-            }
-            image
+            &further
         };
         let shift = |size: u32| if size % 2 == 1 { 0.0 } else { 0.5 };
         OctaveGrid {
@@ -148,7 +161,7 @@ impl Octave {
             origin_u: self.grid.origin_u + shift(source.width()) * self.grid.step,
             origin_v: self.grid.origin_v + shift(source.height()) * self.grid.step,
             octave: self.grid.octave + 1,
-            base: halved(&source),
+            base: halved(source),
         }
         .large_enough()
     }
@@ -158,7 +171,7 @@ impl Octave {
 fn blurred(image: &GrayImage32, sigma: f64, target: &mut GrayImage32) {
     let radius = (4.0 * sigma).ceil() as usize;
     let kernel = gaussian_kernel(sigma, 2 * radius + 1).expect("the blur is positive and small");
-    filter_into(image, &kernel, Border::Reflect101, target);
+    filter_into(image, [(&kernel, &kernel)], Border::Reflect101, [target]);
 }
 
 /// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.

@@ -1,0 +1,53 @@
+//! Prints the features of an image, one a line: `u v scale_px angle_rad response`, then the
+//! descriptor's numbers. For scripts that compare detectors.
+//!
+//! Usage: `features_dump IMAGE [sift|rootsift|orb] [MAX_FEATURES]`
+
+use epipole::feature::{OrbOptions, SiftNormalization, SiftOptions, detect_orb, detect_sift};
+use epipole::imaging::{DecodeOptions, decode_gray};
+use std::io::Write;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let path = arguments.first().ok_or("which image?")?;
+    let kind = arguments.get(1).map_or("sift", String::as_str);
+    let max_features = arguments.get(2).map_or(Ok(0), |n| n.parse())?;
+    let image = decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image;
+    let (keypoints, bytes, length) = if kind == "orb" {
+        let options = OrbOptions {
+            max_features: if max_features == 0 {
+                1000
+            } else {
+                max_features
+            },
+            ..OrbOptions::default()
+        };
+        let features = detect_orb(&image, &options)?;
+        (features.keypoints, features.descriptors.to_bytes(), 32)
+    } else {
+        let options = SiftOptions {
+            max_features,
+            normalization: match kind {
+                "rootsift" => SiftNormalization::Root,
+                _ => SiftNormalization::L2,
+            },
+            ..SiftOptions::default()
+        };
+        let features = detect_sift(&image, &options)?;
+        let bytes = features.descriptors.as_bytes().unwrap_or_default().to_vec();
+        (features.keypoints, bytes, 128)
+    };
+    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    for (k, descriptor) in keypoints.iter().zip(bytes.chunks_exact(length)) {
+        write!(
+            out,
+            "{} {} {} {} {}",
+            k.u, k.v, k.scale_px, k.angle_rad, k.response
+        )?;
+        for value in descriptor {
+            write!(out, " {value}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}

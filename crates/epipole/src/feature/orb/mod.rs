@@ -1,0 +1,323 @@
+//! A binary descriptor for live video: oriented FAST corners in a pyramid, 256 comparisons.
+
+mod fast;
+mod pattern;
+
+use super::keypoint::Keypoint;
+use super::nms::strongest_first;
+use super::{BinaryDescriptors, parallel};
+use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
+use crate::{Error, Result};
+use image::GrayImage;
+use pattern::{Pattern, RADIUS};
+
+/// Pixels along a level's edge without corners: the descriptor's disc must fit.
+const MARGIN: u32 = RADIUS as u32 + 2;
+
+/// How [`detect_orb`] works.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrbOptions {
+    /// At most so many features over all levels, ≥ 1.
+    pub max_features: usize,
+    /// Size of one level over that of the next, above 1 and at most 2.
+    pub scale_factor: f64,
+    /// Levels of the pyramid, 1 to 16.
+    pub num_levels: usize,
+    /// How much brighter or darker nine neighbors in a row must be, for gray values in [0, 1].
+    pub fast_threshold: f32,
+    /// Take every direction to be 0: for cameras held upright.
+    pub upright: bool,
+}
+
+impl Default for OrbOptions {
+    /// 1000 features, 8 levels a factor 1.2 apart, threshold 20 of 255.
+    fn default() -> Self {
+        Self {
+            max_features: 1000,
+            scale_factor: 1.2,
+            num_levels: 8,
+            fast_threshold: 20.0 / 255.0,
+            upright: false,
+        }
+    }
+}
+
+/// Keypoints and their descriptors of bits; entry k of one belongs to entry k of the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BinaryFeatures {
+    /// Where.
+    pub keypoints: Vec<Keypoint>,
+    /// What it looks like there.
+    pub descriptors: BinaryDescriptors,
+}
+
+/// The oriented FAST corners of an image, strongest first, each with 256 comparisons of blurred
+/// gray values around it.
+///
+/// Corners are found at several sizes of the image, ranked by Harris' measure, located between
+/// pixels by a parabola through their scores. The direction points from the corner to the
+/// brightness centroid of the disc around it. `scale_px` is the size of the level relative to the
+/// image, `octave` its number. An image smaller than 35×35 pixels has no features.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range.
+///
+/// Source: Rublee, Rabaud, Konolige & Bradski 2011, "ORB: an efficient alternative to SIFT or
+/// SURF"; Rosten & Drummond 2006 for FAST; Calonder et al. 2010 for the comparisons.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{OrbOptions, detect_orb};
+/// use epipole::imaging::GrayImage32;
+/// let inside = |x: u32| (30..60).contains(&x);
+/// let square = GrayImage32::from_fn(90, 90, |u, v| {
+///     image::Luma([if inside(u) && inside(v) { 1.0 } else { 0.0 }])
+/// });
+/// let features = detect_orb(&square, &OrbOptions { num_levels: 1, ..OrbOptions::default() })?;
+/// assert_eq!(features.keypoints.len(), 4);
+/// # Ok(()) }
+/// ```
+pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<BinaryFeatures> {
+    check(options)?;
+    require_finite(image)?;
+    let levels: Vec<usize> = (0..options.num_levels).collect();
+    let pattern = Pattern::new();
+    // Each level gets a share in proportion to its side.
+    let shrink = 1.0 / options.scale_factor;
+    let total: f64 = levels.iter().map(|&k| power(shrink, k)).sum();
+    let described = parallel::map(&levels, |&k| {
+        let share = options.max_features as f64 * power(shrink, k) / total;
+        let quota = (share.ceil() as usize).min(options.max_features);
+        describe_level(image, options, &pattern, k, quota)
+    });
+    let mut features: Vec<(Keypoint, [u64; 4])> = Vec::new();
+    for level in described {
+        features.extend(level?);
+    }
+    features.sort_by(|a, b| super::nms::stronger(&a.0, &b.0));
+    features.truncate(options.max_features);
+    let (keypoints, bits) = features.into_iter().unzip();
+    Ok(BinaryFeatures {
+        keypoints,
+        descriptors: BinaryDescriptors { bits },
+    })
+}
+
+fn power(base: f64, exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |product, _| product * base)
+}
+
+fn describe_level(
+    image: &GrayImage32,
+    options: &OrbOptions,
+    pattern: &Pattern,
+    level: usize,
+    quota: usize,
+) -> Result<Vec<(Keypoint, [u64; 4])>> {
+    let scale = power(options.scale_factor, level);
+    let side = |size: u32| (f64::from(size) / scale).round() as u32;
+    let (width, height) = (side(image.width()), side(image.height()));
+    if width.min(height) <= 2 * MARGIN {
+        return Ok(Vec::new());
+    }
+    let pixels = if level == 0 {
+        gray_to_u8(image)
+    } else {
+        gray_to_u8(&resize(image, width, height)?)
+    };
+    let threshold = (options.fast_threshold * 255.0).round() as u8;
+    let mut corners = fast::corners(&pixels, threshold, MARGIN as usize);
+    strongest_first(&mut corners);
+    corners.truncate(quota);
+    let blurred = gaussian_blur_u8(&pixels, Some(7), 2.0, Border::Reflect101)?;
+    let (step_u, step_v) = (
+        f64::from(image.width()) / f64::from(width),
+        f64::from(image.height()) / f64::from(height),
+    );
+    Ok(corners
+        .into_iter()
+        .map(|corner| {
+            let (x, y) = (corner.u.round() as usize, corner.v.round() as usize);
+            let angle_rad = if options.upright {
+                0.0
+            } else {
+                direction(&pixels, x, y)
+            };
+            let bits = pattern.compare(&blurred, x, y, angle_rad);
+            let keypoint = Keypoint {
+                u: (corner.u + 0.5) * step_u - 0.5,
+                v: (corner.v + 0.5) * step_v - 0.5,
+                scale_px: scale as f32,
+                angle_rad,
+                response: corner.response,
+                octave: level as i32,
+            };
+            (keypoint, bits)
+        })
+        .collect())
+}
+
+/// The direction from a pixel to the brightness centroid of the disc around it.
+fn direction(image: &GrayImage, x: usize, y: usize) -> f32 {
+    let width = image.width() as usize;
+    let r = RADIUS as isize;
+    let (mut along_u, mut along_v) = (0i32, 0i32);
+    for dy in -r..=r {
+        let half = ((r * r - dy * dy) as f64).sqrt() as usize;
+        let from = (y as isize + dy) as usize * width + x - half;
+        let row = &image.as_raw()[from..=from + 2 * half];
+        let (mut sum, mut moment) = (0i32, 0i32);
+        for (k, &value) in row.iter().enumerate() {
+            sum += i32::from(value);
+            moment += (k as i32 - half as i32) * i32::from(value);
+        }
+        along_u += moment;
+        along_v += dy as i32 * sum;
+    }
+    libm::atan2(f64::from(along_v), f64::from(along_u)) as f32
+}
+
+fn check(options: &OrbOptions) -> Result<()> {
+    let ranges = [
+        (
+            "the number of features",
+            "at least 1",
+            options.max_features as f64,
+            options.max_features >= 1,
+        ),
+        (
+            "the scale factor between levels",
+            "greater than 1 and at most 2",
+            options.scale_factor,
+            options.scale_factor > 1.0 && options.scale_factor <= 2.0,
+        ),
+        (
+            "the number of levels",
+            "between 1 and 16",
+            options.num_levels as f64,
+            (1..=16).contains(&options.num_levels),
+        ),
+        (
+            "the FAST threshold",
+            "between 0 and 1",
+            f64::from(options.fast_threshold),
+            (0.0..=1.0).contains(&options.fast_threshold),
+        ),
+    ];
+    for (what, requirement, value, fine) in ranges {
+        if !fine {
+            return Err(Error::OutOfRange {
+                what,
+                requirement,
+                value,
+            });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feature::{MatchOptions, match_hamming};
+    use crate::imaging::{Interpolation, WarpOptions, warp_affine};
+    use crate::math::random::Random;
+    use nalgebra::Matrix2x3;
+
+    fn scene(width: u32, height: u32) -> GrayImage32 {
+        let mut random = Random::new(3);
+        let mut image = GrayImage32::from_pixel(width, height, image::Luma([0.5]));
+        for _ in 0..120 {
+            let (x, y) = (
+                random.below(width as usize) as u32,
+                random.below(height as usize) as u32,
+            );
+            let (w, h) = (random.below(40) as u32 + 5, random.below(40) as u32 + 5);
+            let gray = random.unit() as f32;
+            for v in y..(y + h).min(height) {
+                for u in x..(x + w).min(width) {
+                    image.put_pixel(u, v, image::Luma([gray]));
+                }
+            }
+        }
+        crate::imaging::gaussian_blur(&image, 0.7, Border::Reflect101).unwrap()
+    }
+
+    #[test]
+    fn a_turned_and_scaled_scene_is_matched() {
+        let image = scene(320, 240);
+        let (cos, sin) = (libm::cos(0.6) * 0.8, libm::sin(0.6) * 0.8);
+        let map = Matrix2x3::new(cos, -sin, 120.0, sin, cos, -30.0);
+        let options = WarpOptions {
+            interpolation: Interpolation::Bicubic,
+            ..WarpOptions::new(320, 240)
+        };
+        let other = warp_affine(&image, &map, &options).unwrap();
+        let a = detect_orb(&image, &OrbOptions::default()).unwrap();
+        let b = detect_orb(&other, &OrbOptions::default()).unwrap();
+        let matches =
+            match_hamming(&a.descriptors, &b.descriptors, &MatchOptions::default()).unwrap();
+        let right = matches.iter().filter(|m| {
+            let (p, q) = (a.keypoints[m.index1], b.keypoints[m.index2]);
+            let u = cos * p.u - sin * p.v + 120.0;
+            let v = sin * p.u + cos * p.v - 30.0;
+            (u - q.u).abs() < 3.0 && (v - q.v).abs() < 3.0
+        });
+        let right = right.count();
+        assert!(
+            right > 60 && right * 10 > matches.len() * 8,
+            "{right} of {}",
+            matches.len()
+        );
+    }
+
+    #[test]
+    fn half_a_turn_turns_the_keypoints() {
+        let image = scene(201, 151);
+        let a = detect_orb(&image, &OrbOptions::default()).unwrap();
+        let b = detect_orb(&image::imageops::rotate180(&image), &OrbOptions::default()).unwrap();
+        let near = a.keypoints.iter().filter(|p| {
+            b.keypoints
+                .iter()
+                .any(|q| (200.0 - p.u - q.u).abs() < 0.02 && (150.0 - p.v - q.v).abs() < 0.02)
+        });
+        assert!(near.count() * 100 >= a.keypoints.len() * 98);
+    }
+
+    #[test]
+    fn limits_order_and_nothing_to_find() {
+        let image = scene(320, 240);
+        let few = detect_orb(
+            &image,
+            &OrbOptions {
+                max_features: 37,
+                ..OrbOptions::default()
+            },
+        );
+        let few = few.unwrap();
+        assert_eq!((few.keypoints.len(), few.descriptors.len()), (37, 37));
+        assert!(few.keypoints.is_sorted_by(|a, b| a.response >= b.response));
+        for (w, h) in [(0, 0), (1, 50), (50, 1), (34, 34), (90, 60)] {
+            let flat = GrayImage32::from_pixel(w, h, image::Luma([0.5]));
+            let none = detect_orb(&flat, &OrbOptions::default()).unwrap();
+            assert!(none.keypoints.is_empty() && none.descriptors.is_empty());
+        }
+    }
+
+    #[test]
+    fn bad_pixels_and_options_are_refused() {
+        let bad = |change: fn(&mut OrbOptions)| {
+            let mut options = OrbOptions::default();
+            change(&mut options);
+            assert!(detect_orb(&GrayImage32::new(50, 50), &options).is_err());
+        };
+        bad(|o| o.max_features = 0);
+        bad(|o| o.scale_factor = 1.0);
+        bad(|o| o.scale_factor = f64::NAN);
+        bad(|o| o.num_levels = 0);
+        bad(|o| o.num_levels = 99);
+        bad(|o| o.fast_threshold = -0.1);
+        let nan = GrayImage32::from_pixel(60, 60, image::Luma([f32::NAN]));
+        assert!(detect_orb(&nan, &OrbOptions::default()).is_err());
+    }
+}
