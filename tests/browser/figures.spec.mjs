@@ -122,7 +122,13 @@ for (const { name, title, help } of figures) {
       await slider.focus();
       for (let presses = 0; presses < 6; presses += 1) await page.keyboard.press("ArrowRight");
       const { description } = await told(figure);
-      await expect(live).toContainText(description);
+      // The last key may still be on its way when we ask.
+      const says = () =>
+        figure.evaluate((element) => {
+          const { textContent } = element.shadowRoot.querySelector("[aria-live]");
+          return textContent !== "" && textContent.includes(element.description);
+        });
+      await expect.poll(says, { message: description }).toBe(true);
     });
 
     test("a permalink restores the state", async ({ page, open, context, complaints }) => {
