@@ -54,6 +54,8 @@ export class EpipoleFigure extends HTMLElement {
   #snapshot: Snapshot | undefined;
   #state: Parameters = [];
   #ready = false;
+  /** Somebody has done something; what comes by itself while the page loads is not announced. */
+  #touched = false;
   #near = false;
   #opening = 0;
   #stop: (() => void)[] = [];
@@ -85,6 +87,9 @@ export class EpipoleFigure extends HTMLElement {
         seen: (inSight) => this.#session?.setInSight(inSight),
       }),
     ];
+    for (const type of ["pointerdown", "keydown", "input"]) {
+      this.addEventListener(type, () => (this.#touched = true), { once: true, capture: true });
+    }
     this.#recolor();
     this.#session?.resize(this.#shell.picture.element.clientWidth);
     if (this.#snapshot) this.#shell.jobs.follow(this.#snapshot.waiting);
@@ -141,6 +146,7 @@ export class EpipoleFigure extends HTMLElement {
   apply(parameters: Record<string, string | number | boolean>): void {
     const pairs: Parameters = Object.entries(parameters).map(([key, value]) => [key, String(value)]);
     let problems: Refused[] = [];
+    this.#touched = true;
     this.#session?.act((engine) => {
       problems = engine.apply(pairs);
       return undefined;
@@ -150,6 +156,7 @@ export class EpipoleFigure extends HTMLElement {
 
   /** Presses a button of the figure. */
   press(id: string): void {
+    this.#touched = true;
     this.#session?.act((engine) => engine.update({ type: "press", id }));
   }
 
@@ -276,7 +283,7 @@ export class EpipoleFigure extends HTMLElement {
 
   #tell(before: Snapshot | undefined, now: Snapshot, solved: Challenge[]): void {
     this.#shell.speaker.moveOn();
-    if (before?.description !== now.description) this.#shell.speaker.describe(now.description);
+    if (this.#touched && before?.description !== now.description) this.#shell.speaker.describe(now.description);
     const state = this.#session?.ask((engine) => engine.state()) ?? [];
     if (JSON.stringify(state) !== JSON.stringify(this.#state)) {
       this.#state = state;
