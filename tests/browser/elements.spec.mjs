@@ -150,7 +150,7 @@ test("a long computation runs in a worker, tells its progress, and can be stoppe
     await released;
     await route.continue();
   });
-  const figure = await open(page, [patient]);
+  const figure = await open(page, [patient], { settle: false });
   const job = figure.locator(".job");
   await expect(job).toBeVisible();
   await expect(job.locator("progress")).toBeVisible();

@@ -141,6 +141,7 @@ for (const { name, title, help } of figures) {
       await grip.focus();
       await page.keyboard.press("ArrowLeft");
       await page.keyboard.press("ArrowDown");
+      await expect(figure.locator("[aria-busy]")).toHaveCount(0);
       const before = await told(figure);
       expect(Object.keys(before.state).length).toBeGreaterThan(0);
       const link = await figure.evaluate((element) => element.permalink);
@@ -151,7 +152,7 @@ for (const { name, title, help } of figures) {
       await other.goto(link);
       const again = other.locator("epipole-figure");
       await ready(again);
-      expect(await told(again)).toEqual(before);
+      await expect.poll(() => told(again)).toEqual(before);
       await expect(again.locator(".notice")).toBeHidden();
     });
 
@@ -163,7 +164,7 @@ for (const { name, title, help } of figures) {
       await page.keyboard.press("ArrowLeft");
       expect(await told(figure)).not.toEqual(before);
       await figure.getByRole("button", { name: "Reset" }).click();
-      expect(await told(figure)).toEqual(before);
+      await expect.poll(() => told(figure)).toEqual(before);
     });
 
     test("the picture is saved as a PNG at twice its size", async ({ page, open }) => {
@@ -282,11 +283,14 @@ for (const { name, title, help } of figures) {
       const both = await open(page, [name, name]);
       await ready(both.nth(1));
       await ready(both.nth(0));
+      const idle = () => expect(both.locator("[aria-busy]")).toHaveCount(0);
+      await idle();
       const untouched = await told(both.nth(1));
       const slider = both.nth(0).locator("input[type=range]").first();
       await slider.focus();
       await page.keyboard.press("ArrowLeft");
       expect((await told(both.nth(0))).state).not.toEqual({});
+      await idle();
       expect(await told(both.nth(1))).toEqual(untouched);
       const link = await both.nth(0).evaluate((element) => element.permalink);
       expect(link).toMatch(/[?&]fig-1\./);
@@ -294,8 +298,8 @@ for (const { name, title, help } of figures) {
       await page.goto(link);
       await ready(both.nth(0));
       await ready(both.nth(1));
-      expect(await told(both.nth(0))).toEqual(first);
-      expect(await told(both.nth(1))).toEqual(untouched);
+      await expect.poll(() => told(both.nth(0))).toEqual(first);
+      await expect.poll(() => told(both.nth(1))).toEqual(untouched);
     });
   });
 }

@@ -41,7 +41,11 @@ const test = base.extend({
       for (const [key, value] of Object.entries(options.query ?? {})) query.set(key, value);
       await page.goto(`${site}/figures?${query}${options.more ?? ""}`);
       const found = page.locator("epipole-figure");
-      if (options.wait !== false) await ready(found.first());
+      if (options.wait !== false) {
+        await ready(found.first());
+        // Some figures compute for a while after their first frame.
+        if (options.settle !== false) await expect(found.first().locator("[aria-busy]")).toHaveCount(0);
+      }
       return names.length === 1 ? found.first() : found;
     });
   },

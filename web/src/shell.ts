@@ -96,6 +96,7 @@ export class Shell {
     this.picture.update(snapshot);
     this.#photos.update(snapshot.photos);
     this.jobs.follow(snapshot.waiting);
+    setAttribute(this.#root, "aria-busy", snapshot.waiting === null ? undefined : "true");
     setText(this.#description, snapshot.description);
     return this.#challenges.update(snapshot.challenges);
   }
