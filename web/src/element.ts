@@ -57,6 +57,8 @@ export class EpipoleFigure extends HTMLElement {
   /** Somebody has done something; what comes by itself while the page loads is not announced. */
   #touched = false;
   #near = false;
+  /** Somebody has pointed at the figure or gone into it. */
+  #interested = false;
   #opening = 0;
   #stop: (() => void)[] = [];
 
@@ -72,7 +74,20 @@ export class EpipoleFigure extends HTMLElement {
     density.addEventListener("change", recolor);
     addEventListener("beforeprint", before);
     addEventListener("afterprint", after);
+    const interest = () => {
+      this.#interested = true;
+      // At once, so that the very touch that shows interest already takes hold of something.
+      this.#session?.flush();
+    };
+    for (const type of ["pointerenter", "touchstart", "focusin"]) {
+      this.addEventListener(type, interest, { passive: true });
+    }
     this.#stop = [
+      () => {
+        for (const type of ["pointerenter", "touchstart", "focusin"]) {
+          this.removeEventListener(type, interest);
+        }
+      },
       () => resized.disconnect(),
       () => attributes.disconnect(),
       () => density.removeEventListener("change", recolor),
@@ -234,7 +249,7 @@ export class EpipoleFigure extends HTMLElement {
     problems.push(...engine.apply(upgraded));
     this.#shell.introduce(engine.title, engine.help);
     this.#session = new Session(engine, this.#shell.picture.canvas, {
-      drawn: (snapshot) => this.#drawn(snapshot, linked),
+      drawn: (snapshot, painted) => this.#drawn(snapshot, painted, linked),
       refused: (sentence) => this.#shell.speaker.warn([`${capitalize(sentence)}.`], true),
       broke: (message) => {
         this.#session = undefined;
@@ -243,6 +258,9 @@ export class EpipoleFigure extends HTMLElement {
         this.#emit("epipole-error", { message });
       },
     });
+    // The poster is this very picture; photographs are rendered once somebody takes an interest.
+    const isShown = withAddress && !linked && problems.length === 0 && this.querySelector("img");
+    if (isShown && !this.#interested) this.#session.hold();
     this.#recolor();
     this.#shell.speaker.warn([]);
     this.#warn(problems);
@@ -251,7 +269,8 @@ export class EpipoleFigure extends HTMLElement {
     this.#session.setInSight(box.bottom >= 0 && box.top <= innerHeight);
   }
 
-  #drawn(snapshot: Snapshot | undefined, linked: boolean): void {
+  #drawn(snapshot: Snapshot | undefined, painted: boolean, linked: boolean): void {
+    if (painted) this.#shell.picture.reveal();
     if (snapshot) {
       const before = this.#snapshot;
       this.#snapshot = snapshot;

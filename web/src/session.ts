@@ -24,8 +24,11 @@ const NARROWEST = 280;
 const WIDEST = 2000;
 
 export interface Hooks {
-  /** A frame was drawn; the snapshot is new if the state or the layout changed. */
-  drawn: (snapshot: Snapshot | undefined) => void;
+  /**
+   * A frame was drawn, or would have been were the picture not held back; the snapshot is new if the
+   * state or the layout changed.
+   */
+  drawn: (snapshot: Snapshot | undefined, painted: boolean) => void;
   /** The figure refused something, with a sentence. */
   refused: (sentence: string) => void;
   /** The module panicked; this session does nothing any more. */
@@ -40,6 +43,8 @@ export class Session {
   #theme: Theme = "light";
   #inSight = false;
   #ended = false;
+  /** The poster already shows this state, so nothing is drawn yet. */
+  #held = false;
   /** The state or the layout is newer than the snapshot. */
   #changed = true;
   /** The picture is older than it should be. */
@@ -63,11 +68,25 @@ export class Session {
     return this.#width;
   }
 
+  /** Draws nothing before `release` or the first change: the poster shows the same picture. */
+  hold(): void {
+    this.#held = true;
+  }
+
+  /** Draws from now on. */
+  release(): void {
+    if (!this.#held) return;
+    this.#held = false;
+    this.#stale = true;
+    this.#want();
+  }
+
   /** Does something to the figure and draws what comes of it. */
   act(work: (engine: Engine) => string | undefined): void {
     const refused = this.#guard(() => work(this.engine));
     if (this.#ended) return;
     if (refused !== undefined) this.#hooks.refused(refused);
+    this.#held = false;
     this.#changed = this.#stale = this.#rough = true;
     this.#lastInput = performance.now();
     this.#want();
@@ -105,6 +124,7 @@ export class Session {
   /** Draws now, without waiting for the display. */
   flush(): void {
     if (this.#ended || this.#width === 0) return;
+    this.release();
     if (this.#stale) this.#draw();
   }
 
@@ -150,7 +170,7 @@ export class Session {
     if (this.#ended) return;
     if (this.#stale) this.#draw();
     if (running) this.#want();
-    else if (this.#rough && this.#inSight) this.#refineAfterRest(now);
+    else if (this.#rough && this.#inSight && !this.#held) this.#refineAfterRest(now);
   }
 
   /** Lets time pass in a running figure. */
@@ -171,6 +191,11 @@ export class Session {
 
   #draw(): void {
     const width = this.#width;
+    if (this.#held) {
+      this.#stale = false;
+      this.#tell(false);
+      return;
+    }
     const scale = Math.min(Math.max(devicePixelRatio || 1, 1), 2);
     const refused = this.#guard(() => this.engine.draw(this.#canvas, width, scale, this.#theme));
     if (this.#ended) return;
@@ -180,9 +205,14 @@ export class Session {
       this.#hooks.refused(refused);
       return;
     }
+    this.#tell(true);
+  }
+
+  #tell(painted: boolean): void {
+    const width = this.#width;
     const snapshot = this.#changed ? this.ask((engine) => engine.snapshot(width)) : undefined;
     this.#changed = false;
-    if (!this.#ended) this.#hooks.drawn(snapshot);
+    if (!this.#ended) this.#hooks.drawn(snapshot, painted);
   }
 
   #refineAfterRest(now: number): void {

@@ -101,9 +101,8 @@ export class Shell {
     return this.#challenges.update(snapshot.challenges);
   }
 
-  /** The first frame is there: the poster goes, everything else comes. */
+  /** The figure can be operated: everything beside the picture comes. */
   reveal(): void {
-    this.picture.reveal();
     this.#panel.hidden = false;
     this.#toolbar.element.classList.remove("later");
   }

@@ -6,7 +6,9 @@ mod figure;
 mod fit;
 mod matching;
 mod posegraph;
+mod rectify;
 mod sfm;
+mod stereo;
 mod two_view;
 
 use crate::context::Context;
@@ -21,6 +23,8 @@ pub(crate) enum Command {
     Match(matching::Arguments),
     Fit(fit::Arguments),
     TwoView(two_view::Arguments),
+    Rectify(rectify::Arguments),
+    Stereo(stereo::Arguments),
     Sfm(sfm::Arguments),
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
@@ -34,6 +38,8 @@ impl Command {
             Self::Match(arguments) => matching::run(&arguments, context),
             Self::Fit(arguments) => fit::run(&arguments, context),
             Self::TwoView(arguments) => two_view::run(&arguments, context),
+            Self::Rectify(arguments) => rectify::run(&arguments, context),
+            Self::Stereo(arguments) => stereo::run(&arguments, context),
             Self::Sfm(arguments) => sfm::run(&arguments, context),
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),

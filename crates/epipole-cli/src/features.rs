@@ -7,9 +7,9 @@ use crate::progress::Progress;
 use clap::{Args, ValueEnum};
 use epipole::feature::{
     BinaryDescriptors, CornerMeasure, Descriptors, GoodFeaturesOptions, Keypoint, Match,
-    MatchOptions, RefineOptions, SiftNormalization, SiftOptions, describe_patches,
-    detect_sift_with_progress, good_features_to_track, match_descriptors, match_hamming,
-    refine_corners,
+    MatchOptions, OrbOptions, RefineOptions, SiftNormalization, SiftOptions, describe_patches,
+    detect_orb, detect_sift_with_progress, good_features_to_track, match_descriptors,
+    match_hamming, refine_corners,
 };
 
 /// The kinds of feature.
@@ -19,6 +19,8 @@ pub(crate) enum Kind {
     Sift,
     /// The same with the Hellinger kernel; usually matches better.
     Rootsift,
+    /// Oriented FAST corners with 256 comparisons: fast.
+    Orb,
     /// Harris corners with normalized patches: for pictures taken from nearly the same place.
     Harris,
 }
@@ -42,7 +44,6 @@ pub(crate) struct Detected {
 
 enum AnyDescriptors {
     Vectors(Descriptors),
-    #[allow(dead_code, reason = "made by the binary detector")]
     Bits(BinaryDescriptors),
 }
 
@@ -73,6 +74,24 @@ impl FeatureArguments {
                 Ok(Detected {
                     keypoints: found.keypoints,
                     descriptors,
+                })
+            }
+            Kind::Orb => {
+                let default = OrbOptions::default();
+                let max_features = match self.max_features {
+                    0 => default.max_features,
+                    limit => limit,
+                };
+                let found = detect_orb(
+                    &gray,
+                    &OrbOptions {
+                        max_features,
+                        ..default
+                    },
+                )?;
+                Ok(Detected {
+                    keypoints: found.keypoints,
+                    descriptors: AnyDescriptors::Bits(found.descriptors),
                 })
             }
             Kind::Harris => {

@@ -1,0 +1,168 @@
+//! `epipole rectify`: two photographs turned so that matches share a row.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::features::{FeatureArguments, MatchArguments};
+use crate::matrices::{CameraArguments, intrinsics, positive, row_major};
+use crate::photo::Photo;
+use crate::report::Report;
+use crate::robust::RobustArguments;
+use crate::{files, picture};
+use clap::Args;
+use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole::epipolar::{estimate_relative_pose, find_fundamental};
+use epipole::stereo::{
+    PixelMap, RectifyOptions, StereoCamera, rectify_calibrated, rectify_uncalibrated,
+};
+use nalgebra::{Matrix3, Matrix4, Point2, Translation3, UnitQuaternion};
+use std::path::PathBuf;
+
+/// Rectify two photographs, with or without known cameras.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
+    Writes left.png and right.png. Without --k or --focal-px the shapes are free up to a\n\
+    projective map, and no Q is given."
+)]
+pub(crate) struct Arguments {
+    /// The left photograph.
+    first: PathBuf,
+    /// The right photograph, of the same size.
+    second: PathBuf,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Intrinsics of the second camera; those of the first if not given.
+    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
+    k2: Option<Intrinsics>,
+    /// Distance of the two cameras; the unit of Q.
+    #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
+    baseline_m: f64,
+    #[command(flatten)]
+    features: FeatureArguments,
+    #[command(flatten)]
+    matching: MatchArguments,
+    #[command(flatten)]
+    robust: RobustArguments,
+    /// The folder for the rectified photographs.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+}
+
+/// How to rectify, whichever way it was found.
+struct Found {
+    homographies: [Matrix3<f64>; 2],
+    maps: [PixelMap; 2],
+    q: Option<Matrix4<f64>>,
+    num_inliers: usize,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let photos = [
+        Photo::read(&arguments.first)?,
+        Photo::read(&arguments.second)?,
+    ];
+    let sizes = photos.each_ref().map(|photo| photo.color.dimensions());
+    if sizes[0] != sizes[1] {
+        let message = format!(
+            "the two photographs must have the same size, but one is {} × {} and the other {} × {}",
+            sizes[0].0, sizes[0].1, sizes[1].0, sizes[1].1
+        );
+        return Err(Failure::new("size-mismatch", message));
+    }
+    let found1 = arguments.features.detect(&photos[0], context)?;
+    let found2 = arguments.features.detect(&photos[1], context)?;
+    let matches = arguments.matching.run(&found1, &found2)?;
+    let pixels1: Vec<Point2<f64>> = matches
+        .iter()
+        .map(|m| found1.keypoints[m.index1].point())
+        .collect();
+    let pixels2: Vec<Point2<f64>> = matches
+        .iter()
+        .map(|m| found2.keypoints[m.index2].point())
+        .collect();
+    let found = rectify(arguments, context, &photos, &pixels1, &pixels2)?;
+
+    files::make_folder(&arguments.output)?;
+    let mut written = Vec::new();
+    for ((name, photo), map) in ["left.png", "right.png"]
+        .iter()
+        .zip(&photos)
+        .zip(&found.maps)
+    {
+        let path = arguments.output.join(name);
+        files::write(&path, &picture::png(&map.warp_rgb(&photo.color))?)?;
+        written.push(path.display().to_string());
+    }
+    let q = found.q.map(|q| q.transpose().as_slice().to_vec());
+    Ok(Report::default()
+        .row(
+            "matches that agree",
+            format!("{} of {}", found.num_inliers, matches.len()),
+        )
+        .row("written", written.join(", "))
+        .field("homography1", row_major(&found.homographies[0]))
+        .field("homography2", row_major(&found.homographies[1]))
+        .field("q", q)
+        .field("num_inliers", found.num_inliers)
+        .field("files", written))
+}
+
+fn rectify(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+) -> Result<Found, Failure> {
+    let (width, height) = photos[0].color.dimensions();
+    let options = arguments.robust.options(context);
+    if let Some(k1) = arguments.camera.given(&photos[0])? {
+        let k2 = arguments.k2.unwrap_or(k1);
+        let report = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)?;
+        let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
+        let translation = Translation3::from(report.model.direction * arguments.baseline_m);
+        let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
+        let camera = |intrinsics| StereoCamera {
+            intrinsics,
+            distortion: Distortion::default(),
+        };
+        let rectification = rectify_calibrated(
+            &[camera(k1), camera(k2)],
+            &cam2_from_cam1,
+            width,
+            height,
+            &RectifyOptions::default(),
+        )?;
+        return Ok(Found {
+            homographies: rectification.homographies,
+            maps: [rectification.map(0)?, rectification.map(1)?],
+            q: Some(rectification.q),
+            num_inliers: report.num_inliers,
+        });
+    }
+    let report = find_fundamental(pixels1, pixels2, &options)?;
+    let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+        let kept = pixels
+            .iter()
+            .zip(&report.inliers)
+            .filter(|(_, is_inlier)| **is_inlier);
+        kept.map(|(pixel, _)| *pixel).collect()
+    };
+    let rectification = rectify_uncalibrated(
+        &report.model,
+        &inliers(pixels1),
+        &inliers(pixels2),
+        width,
+        height,
+    )?;
+    let map = |h: &Matrix3<f64>| PixelMap::from_homography(width, height, h);
+    Ok(Found {
+        maps: [
+            map(&rectification.homographies[0])?,
+            map(&rectification.homographies[1])?,
+        ],
+        homographies: rectification.homographies,
+        q: None,
+        num_inliers: report.num_inliers,
+    })
+}

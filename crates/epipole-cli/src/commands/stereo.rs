@@ -1,0 +1,149 @@
+//! `epipole stereo`: dense disparity of a rectified pair.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::interrupt;
+use crate::matrices::positive;
+use crate::photo::Photo;
+use crate::progress::Progress;
+use crate::report::Report;
+use clap::{Args, ValueEnum};
+use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, fill_gaps, point_cloud, q_from_rig};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// Semi-global matching: better.
+    Sgm,
+    /// Block matching: faster.
+    Bm,
+}
+
+/// Compute the disparities of a rectified pair.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole stereo left.png right.png --max-disparity 64 -o disparity.pfm\n\n\
+    A .pfm file holds pixels, NaN where there is no value; a .png file holds 256 times the\n\
+    disparity in 16 bits, 0 where there is none."
+)]
+pub(crate) struct Arguments {
+    /// The left picture of a rectified pair.
+    left: PathBuf,
+    /// The right one.
+    right: PathBuf,
+    /// The largest disparity looked for, pixels.
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4095))]
+    max_disparity: u32,
+    /// How to match.
+    #[arg(long, value_enum, default_value = "sgm")]
+    method: Method,
+    /// Give every pixel a value, from its surroundings if need be.
+    #[arg(long)]
+    fill: bool,
+    /// The file for the disparities, .pfm or .png.
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Also write the points as a colored cloud; needs --focal-px and --baseline-m.
+    #[arg(long, value_name = "CLOUD.ply", requires_all = ["focal_px", "baseline_m"])]
+    ply: Option<PathBuf>,
+    /// Focal length, pixels.
+    #[arg(long, value_name = "F", value_parser = positive)]
+    focal_px: Option<f64>,
+    /// Distance of the two cameras, meters.
+    #[arg(long, value_name = "B", value_parser = positive)]
+    baseline_m: Option<f64>,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let extension = arguments
+        .output
+        .extension()
+        .and_then(|extension| extension.to_str());
+    let as_png = match extension.map(str::to_lowercase).as_deref() {
+        Some("pfm") => false,
+        Some("png") => true,
+        _ => {
+            let failure = Failure::new("usage", "the disparities must be a .pfm or .png file");
+            return Err(failure.about(&arguments.output));
+        }
+    };
+    let photos = [
+        Photo::read(&arguments.left)?,
+        Photo::read(&arguments.right)?,
+    ];
+    let [left, right] = photos.each_ref().map(Photo::gray_u8);
+    let progress = Progress::new(context, "stereo");
+    let mut watch = |share: f32| {
+        progress.set(f64::from(share));
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let num_disparities = arguments.max_disparity + 1;
+    let mut disparity = match arguments.method {
+        Method::Sgm => {
+            let matcher = StereoSgm {
+                num_disparities,
+                ..StereoSgm::default()
+            };
+            matcher.compute_with(&left, &right, &mut watch)?
+        }
+        Method::Bm => {
+            let matcher = StereoBm {
+                num_disparities,
+                ..StereoBm::default()
+            };
+            matcher.compute_with(&left, &right, &mut watch)?
+        }
+    };
+    drop(progress);
+    if arguments.fill {
+        disparity = fill_gaps(&disparity, &left)?;
+    }
+    let bytes = if as_png {
+        disparity.to_png16()?
+    } else {
+        disparity.to_pfm()
+    };
+    files::write(&arguments.output, &bytes)?;
+    if let (Some(path), Some(focal_px), Some(baseline_m)) =
+        (&arguments.ply, arguments.focal_px, arguments.baseline_m)
+    {
+        let center = |side: u32| (f64::from(side) - 1.0) / 2.0;
+        let q = q_from_rig(
+            focal_px,
+            baseline_m,
+            center(left.width()),
+            center(left.height()),
+        )?;
+        let cloud = point_cloud(&disparity, &q, Some(&photos[0].color))?;
+        files::write(path, &cloud.to_ply())?;
+    }
+    Ok(report(&disparity, arguments))
+}
+
+fn report(disparity: &DisparityImage, arguments: &Arguments) -> Report {
+    let range = disparity.range_px();
+    let (width, height) = (disparity.width(), disparity.height());
+    let words = range.map_or_else(
+        || "no pixel has a value".to_owned(),
+        |(min, max)| format!("{min:.2} to {max:.2} px"),
+    );
+    Report::default()
+        .field("width", width)
+        .field("height", height)
+        .field("density", disparity.density())
+        .field("min_disparity_px", range.map(|(min, _)| min))
+        .field("max_disparity_px", range.map(|(_, max)| max))
+        .row("size", format!("{width} × {height}"))
+        .row(
+            "pixels with a value",
+            format!("{:.1} %", 100.0 * disparity.density()),
+        )
+        .row("disparities", words)
+        .row("written", arguments.output.display())
+}
