@@ -1,5 +1,7 @@
 //! What every figure of the gallery promises, whatever it shows.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 mod common;
 
 use common::{assert_sound, random_event};

@@ -1,6 +1,8 @@
 //! Thousands of random event sequences for every figure: whatever a reader or a page does, nothing
 //! breaks, every number is a number, and a link to the state restores it.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 mod common;
 
 use common::{assert_sound, copy_of, random_event};

@@ -4,6 +4,8 @@
 //! After a change on purpose, `EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden` writes
 //! them anew.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use epipole_widgets::Figure;
 use epipole_widgets::theme::Theme;
 use image::{Rgb, RgbImage};

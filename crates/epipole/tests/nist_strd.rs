@@ -1,6 +1,8 @@
 //! The nonlinear regression problems of NIST's Statistical Reference Datasets, from both of their
 //! starts: the far one and the near one. Certified values: <https://www.itl.nist.gov/div898/strd/>.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use epipole::optim::{DenseProblem, LmOptions, check_jacobian, minimize_dense};
 use libm::{atan, exp, log, pow};
 use nalgebra::{DMatrix, DVector};

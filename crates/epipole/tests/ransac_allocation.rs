@@ -1,5 +1,10 @@
 //! The RANSAC loop takes no memory: everything is allocated before the first step.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::type_complexity,
+    reason = "a test may fail"
+)]
 // A counting allocator is the only way to see allocations, and its trait is unsafe.
 #![allow(unsafe_code)]
 

@@ -1,5 +1,7 @@
 //! Real matches with known truth, against what OpenCV's MAGSAC reaches on the same data.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use std::path::{Path, PathBuf};
 
 use epipole::camera::Intrinsics;

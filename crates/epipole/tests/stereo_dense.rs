@@ -1,5 +1,11 @@
 //! Dense stereo where the truth is known exactly, on bad input, and on real photographs.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::type_complexity,
+    reason = "a test may fail"
+)]
+
 use epipole::Error;
 use epipole::math::random::Random;
 use epipole::stereo::{

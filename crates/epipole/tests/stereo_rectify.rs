@@ -1,6 +1,8 @@
 //! Rectification of real rigs: positions that OpenCV measured in real photographs
 //! (`tests/peers/stereo_fixtures.py`) pushed through our maps.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};

@@ -1,5 +1,7 @@
 //! Robust estimation of F, E, H and poses on scenes with known truth.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     RelativePose, decompose_essential, essential_from_fundamental, essential_from_motion,

@@ -38,6 +38,7 @@ impl Default for PhotoOptions {
             sift: SiftOptions {
                 max_features: 6000,
                 contrast_threshold: 0.02,
+                input_blur_px: 0.5,
                 normalization: SiftNormalization::Root,
                 ..SiftOptions::default()
             },
