@@ -227,3 +227,21 @@ test("parameters are properties of every element", async ({ page, open }) => {
     expect(Object.keys((await told(figure)).state)).toContain(slider.id);
   }
 });
+
+test("the poster stays until somebody takes an interest", async ({ page, open }) => {
+  const figure = await open(page, [figures[0].name], { wait: false });
+  await expect(figure).toHaveAttribute("data-ready", "");
+  const canvas = figure.locator("canvas");
+  await expect(canvas).toBeHidden();
+  await expect(figure.locator("img").first()).toBeVisible();
+  await figure.hover();
+  await expect(canvas).toBeVisible();
+  await expect(figure.locator("img").first()).toBeHidden();
+});
+
+test("the keyboard brings the picture as well as the mouse", async ({ page, open }) => {
+  const figure = await open(page, [figures[0].name], { wait: false });
+  await expect(figure).toHaveAttribute("data-ready", "");
+  await figure.locator("input[type=range]").first().focus();
+  await expect(figure.locator("canvas")).toBeVisible();
+});

@@ -63,6 +63,8 @@ export function listen(page, complaints) {
 export async function ready(figure) {
   await figure.scrollIntoViewIfNeeded();
   await expect(figure).toHaveAttribute("data-ready", "");
+  // A figure whose poster shows its state draws when somebody takes an interest.
+  await figure.dispatchEvent("pointerenter");
 }
 
 /** State, readouts and description of a figure, as its element tells them. */

@@ -11,7 +11,7 @@ for program in "$@"; do
         echo "missing: $program; $remedy" >&2
         exit 1
     fi
-    if [ "$program" = node ] && ! node -e 'process.exit(+process.versions.node.split(".")[0] < 20)'; then
+    if [ "$program" = node ] && ! node -e 'process.exit(parseInt(process.versions.node, 10) < 20 ? 1 : 0)'; then
         echo "Node.js $(node --version) is too old; install 20 or newer from https://nodejs.org" >&2
         exit 1
     fi

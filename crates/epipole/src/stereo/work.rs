@@ -90,6 +90,10 @@ pub(super) fn in_two(
 }
 
 /// Rows of a picture, shared out.
+#[cfg_attr(
+    not(feature = "parallel"),
+    allow(dead_code, reason = "one thread does not cut its work into strips")
+)]
 pub(super) struct Strips {
     pub(super) width: usize,
     pub(super) height: usize,
