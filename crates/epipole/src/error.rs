@@ -83,10 +83,7 @@ pub enum Error {
         limit: u64,
     },
     /// The caller asked to stop.
-    #[error("the work was cancelled")]
-    Cancelled,
-    /// The caller's progress callback asked to stop.
-    #[error("the computation was canceled")]
+    #[error("the work was canceled")]
     Canceled,
     /// A text that breaks the rules of its format.
     #[error("{what} is malformed in line {line}: {why}")]

@@ -454,12 +454,12 @@ fn work_can_be_watched_and_stopped() {
                 }
             };
             let stopped = matcher.compute_with(&left, &right, &mut stop);
-            assert_eq!(stopped, Err(Error::Cancelled));
+            assert_eq!(stopped, Err(Error::Canceled));
             assert_eq!(calls, stop_at + 1);
         }
     }
     let stopped = StereoBm::default().compute_with(&left, &right, &mut |_| ControlFlow::Break(()));
-    assert_eq!(stopped, Err(Error::Cancelled));
+    assert_eq!(stopped, Err(Error::Canceled));
 }
 
 /// The same bits with threads and without, on every processor: these fingerprints are checked in

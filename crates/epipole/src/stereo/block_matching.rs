@@ -117,7 +117,7 @@ impl StereoBm {
     /// As [`StereoBm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoBm::compute`], and [`Error::Cancelled`].
+    /// As [`StereoBm::compute`], and [`Error::Canceled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,

@@ -140,7 +140,7 @@ impl StereoSgm {
     /// As [`StereoSgm::compute`], telling `progress` the share done, and stopping when it says so.
     ///
     /// # Errors
-    /// As [`StereoSgm::compute`], and [`Error::Cancelled`].
+    /// As [`StereoSgm::compute`], and [`Error::Canceled`].
     pub fn compute_with(
         &self,
         left: &GrayImage,

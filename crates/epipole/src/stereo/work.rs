@@ -19,7 +19,7 @@ impl Reporter<'_> {
     /// Before step `done` of `all`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if it is time to stop.
+    /// [`Error::Canceled`] if it is time to stop.
     #[inline(never)]
     pub(super) fn report(&mut self, done: usize, all: usize) -> Result<()> {
         if let (Some(callback), true) = (&mut self.callback, done.is_multiple_of(8)) {
@@ -30,7 +30,7 @@ impl Reporter<'_> {
             }
         }
         if self.canceled.load(Ordering::Relaxed) {
-            Err(Error::Cancelled)
+            Err(Error::Canceled)
         } else {
             Ok(())
         }

@@ -29,7 +29,7 @@ pub(super) fn search(
         });
     }
     if !progress(0.0) {
-        return Err(Error::Cancelled);
+        return Err(Error::Canceled);
     }
     if first.is_empty() || second.is_empty() {
         return Ok(Found {
@@ -96,7 +96,7 @@ fn gather<D: Distance>(
             }
         }
         if !progress(group.end as f32 / num_rows as f32) {
-            return Err(Error::Cancelled);
+            return Err(Error::Canceled);
         }
     }
     Ok(Found {

@@ -126,7 +126,7 @@ pub fn match_descriptors(
 ///   go on
 ///
 /// # Errors
-/// As [`match_descriptors`], and [`Error::Cancelled`] if `progress` said so.
+/// As [`match_descriptors`], and [`Error::Canceled`] if `progress` said so.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -134,7 +134,7 @@ pub fn match_descriptors(
 /// let list = Descriptors::from_bytes(1, vec![1, 2])?;
 /// let options = MatchOptions::default();
 /// let stopped = match_descriptors_with_progress(&list, &list, &options, &mut |_| false);
-/// assert_eq!(stopped, Err(epipole::Error::Cancelled));
+/// assert_eq!(stopped, Err(epipole::Error::Canceled));
 /// # Ok(()) }
 /// ```
 pub fn match_descriptors_with_progress(

@@ -123,13 +123,13 @@ pub fn detect_sift(image: &GrayImage32, options: &SiftOptions) -> Result<Feature
 ///   returns whether to go on
 ///
 /// # Errors
-/// As [`detect_sift`], and [`Error::Cancelled`] if `progress` said so.
+/// As [`detect_sift`], and [`Error::Canceled`] if `progress` said so.
 ///
 /// ```
 /// use epipole::feature::{SiftOptions, detect_sift_with_progress};
 /// let image = epipole::imaging::GrayImage32::new(64, 64);
 /// let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |_| false);
-/// assert_eq!(stopped, Err(epipole::Error::Cancelled));
+/// assert_eq!(stopped, Err(epipole::Error::Canceled));
 /// ```
 pub fn detect_sift_with_progress(
     image: &GrayImage32,
@@ -140,7 +140,7 @@ pub fn detect_sift_with_progress(
     require_finite(image)?;
     let mut tell = |share: f64| match progress(share.min(1.0) as f32) {
         true => Ok(()),
-        false => Err(Error::Cancelled),
+        false => Err(Error::Canceled),
     };
     tell(0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();

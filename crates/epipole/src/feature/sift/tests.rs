@@ -213,7 +213,7 @@ fn progress_rises_and_can_stop_the_work() {
         calls += 1;
         calls < 3
     });
-    assert_eq!((stopped, calls), (Err(Error::Cancelled), 3));
+    assert_eq!((stopped, calls), (Err(Error::Canceled), 3));
 }
 
 #[test]
