@@ -1,6 +1,6 @@
 //! Things in a room: a shape, where it stands, and what is painted on it.
 
-use super::light::{LightMap, Proxy};
+use super::light::Proxy;
 use super::shape::{Contact, Ray, Shape};
 use super::texture::Texture;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -76,8 +76,6 @@ pub(crate) struct Body {
     pub(crate) center: Vector3<f64>,
     /// One per chart of the shape.
     pub(crate) paints: Vec<Paint>,
-    /// One per chart, filled in by [`super::light::bake`].
-    pub(crate) lights: Vec<LightMap>,
     /// Simple stand-ins that darken their surroundings.
     pub(crate) proxies: Vec<Proxy>,
     /// Whether it can shade itself: hollow things do, convex ones need no test.
@@ -94,7 +92,6 @@ impl Body {
             local_from_world: Matrix3::identity(),
             center: Vector3::from(center),
             paints,
-            lights: Vec::new(),
             proxies: Vec::new(),
             hollow: false,
         }

@@ -1,7 +1,7 @@
 //! Light: a window, the glow of the room, and maps of both on every surface.
 //!
 //! Nothing in a scene moves its light, so shadows and the shade near contacts are computed once,
-//! when the scene is built, and a pixel only looks them up.
+//! for the first photograph, and a pixel only looks them up.
 
 use super::body::Body;
 use super::noise::split;
@@ -237,7 +237,7 @@ pub(crate) struct Shade<'a> {
 }
 
 impl<'a> Shade<'a> {
-    pub(crate) fn new(bodies: &'a [Body], lighting: &'a Lighting) -> Self {
+    pub(crate) fn new(bodies: &[&'a Body], lighting: &'a Lighting) -> Self {
         let transparent =
             |body: &Body| body.is_room() || body.paints.iter().any(|paint| paint.glow > 0.0);
         Self {
@@ -250,7 +250,7 @@ impl<'a> Shade<'a> {
                 .filter(|(_, body)| !transparent(body))
                 .map(|(index, body)| {
                     let (center, radius) = body.bounding_sphere();
-                    (index, body, center, radius)
+                    (index, *body, center, radius)
                 })
                 .collect(),
             proxies: bodies
@@ -460,21 +460,13 @@ impl Decal {
     }
 }
 
-/// Computes the light maps of all bodies.
-pub(crate) fn bake(bodies: &mut [Body], lighting: &Lighting) {
-    let maps: Vec<Vec<LightMap>> = {
-        let shade = Shade::new(bodies, lighting);
-        bodies
-            .iter()
-            .enumerate()
-            .map(|(index, body)| {
-                (0..body.paints.len())
-                    .map(|chart| shade.chart(index, body, chart))
-                    .collect()
-            })
+/// The light maps of all bodies: one per body and chart.
+pub(crate) fn bake(bodies: &[&Body], lighting: &Lighting) -> Vec<Vec<LightMap>> {
+    let shade = Shade::new(bodies, lighting);
+    let charts = |(index, body): (usize, &&Body)| {
+        (0..body.paints.len())
+            .map(|chart| shade.chart(index, body, chart))
             .collect()
     };
-    for (body, lights) in bodies.iter_mut().zip(maps) {
-        body.lights = lights;
-    }
+    bodies.iter().enumerate().map(charts).collect()
 }

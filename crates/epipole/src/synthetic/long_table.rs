@@ -1,10 +1,9 @@
 //! The long table: a hall with one thing that can be moved, for measuring depth.
 
 use super::body::{Body, Paint};
-use super::light::{self, Lighting, Proxy, Shade};
+use super::light::{Lighting, Proxy};
 use super::paint;
 use super::scene::{Fixed, Movable, Scene};
-use super::shading::Film;
 use super::shape::{BACK, BOTTOM, Cuboid, Shape, TOP};
 use super::wares::{PICTURE_DEPTH_M, PLASTER_M, Wares, placed};
 use crate::camera::{Camera, Intrinsics, RigidTransform};
@@ -51,8 +50,8 @@ impl Scene {
     /// along the table, metres. The table's top is y = 0.25, from z = 0.35 to 11.35, its metres
     /// numbered; the wall behind is z = 12.
     ///
-    /// Only the first call of each kind of thing computes textures and light; moving the thing is
-    /// free, its shade moves along.
+    /// Only the first photograph of each kind of thing computes textures and light; moving the
+    /// thing is free, its shade moves along.
     ///
     /// # Errors
     /// [`Error::NotFinite`] or [`Error::OutOfRange`] for a place that is not on the table.
@@ -176,46 +175,30 @@ fn build_hall() -> Fixed {
     let mut bodies = table();
     bodies.extend(hall());
     bodies.extend(props());
-    let lighting = lighting();
-    light::bake(&mut bodies, &lighting);
-    Fixed {
-        bodies,
-        lighting,
-        film: Film::new(),
-    }
+    Fixed::new(bodies, lighting())
 }
 
 /// The thing at the origin of the plane y = 0, lit as on the table.
 fn build_movable(kind: MovableKind) -> Movable {
     let wares = Wares::shared();
-    let lighting = lighting();
-    let mut bodies = match kind {
+    let bodies = match kind {
         MovableKind::Mug => wares.mug([0.0; 3], -0.5, 1.7),
         MovableKind::Ball => vec![wares.ball([0.0; 3], 0.11)],
     };
-    let num_parts = bodies.len();
     let slab = Body::new(
         "the table",
         Shape::Cuboid(Cuboid::solid(TABLE_WIDTH, 0.04, 4.0)),
         [0.0, 0.02, 0.0],
         &Paint::new(&wares.plaster).lit(1, 1),
     );
-    let decal = Shade::new(&bodies, &lighting).decal(96, 1.1, &slab);
-    bodies.push(slab.boxed());
-    light::bake(&mut bodies, &lighting);
-    bodies.truncate(num_parts);
-    Movable {
-        bodies,
-        decal,
-        ground: TABLE_TOP,
-    }
+    Movable::new(bodies, slab.boxed(), TABLE_TOP)
 }
 
 /// The table with its numbered metres; its top comes first.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let name = "the table";
-    let wood = Arc::new(paint::measured_boards(&wares.noise, TABLE_WIDTH as f32));
+    let wood = Arc::new(paint::measured_boards(wares.noise, TABLE_WIDTH as f32));
     let edge = Paint::new(&wood).repeated(0.4, 0.04).lit(4, 4);
     let length = TABLE_FAR_Z - TABLE_NEAR_Z;
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
@@ -254,7 +237,7 @@ fn table() -> Vec<Body> {
         );
     }
     for metres in 1..=11 {
-        let plate = Paint::new(&Arc::new(paint::number(&wares.noise, metres)))
+        let plate = Paint::new(&Arc::new(paint::number(wares.noise, metres)))
             .glossy(0.6)
             .lit(2, 2);
         for side in [-1.0, 1.0] {

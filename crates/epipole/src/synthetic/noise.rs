@@ -1,9 +1,13 @@
 //! Smooth pseudo-random functions of the plane, from which every painted surface is made.
 
 use crate::math::random::Random;
+use std::sync::LazyLock;
 
 /// Side of the lattice; the noise repeats with this period.
 const SIDE: usize = 256;
+
+/// The noise from which both scenes are painted.
+pub(crate) static NOISE: LazyLock<Noise> = LazyLock::new(|| Noise::new(1859));
 
 /// Value noise: random numbers on an integer lattice, smoothly interpolated.
 #[derive(Debug)]

@@ -5,8 +5,9 @@
 //! more rays. A pixel depends on its neighbors' rays alone, never on how the work was divided.
 
 use super::body::Body;
+use super::light::{Decal, LightMap, Lighting};
 use super::scene::Scene;
-use super::shading::{self, Look};
+use super::shading::{self, Film, Look};
 use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use crate::{Error, Result};
@@ -64,6 +65,7 @@ impl Photograph {
 /// A body as one camera sees it.
 struct Seen<'a> {
     body: &'a Body,
+    lights: &'a [LightMap],
     origin: Vector3<f64>,
     local_from_cam: Matrix3<f64>,
     /// Pixels that may show it: columns and rows, both ends included.
@@ -86,8 +88,10 @@ struct Sample {
 }
 
 struct View<'a> {
-    scene: &'a Scene,
     seen: Vec<Seen<'a>>,
+    lighting: &'a Lighting,
+    /// Shade of the movable thing, where its foot is, and the number of the body it falls on.
+    shade: Option<(&'a Decal, Vector3<f64>, usize)>,
     center: Vector3<f64>,
     world_from_cam: Matrix3<f64>,
     principal: Point2<f64>,
@@ -223,11 +227,13 @@ impl<'a> View<'a> {
         let world_from_cam = cam_from_world.matrix().transpose();
         let mut seen: Vec<Seen> = scene
             .placed()
+            .zip(scene.lights())
             .enumerate()
-            .map(|(number, (body, shift))| {
+            .map(|(number, ((body, shift), lights))| {
                 let (columns, rows, nearest) = outline(camera, body, &shift);
                 Seen {
                     body,
+                    lights,
                     origin: body.local_from_world * (center - body.center - shift),
                     local_from_cam: body.local_from_world * world_from_cam,
                     columns,
@@ -240,7 +246,8 @@ impl<'a> View<'a> {
         // From front to back; the order of bodies decides between equals.
         seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
         Self {
-            scene,
+            lighting: &scene.fixed.lighting,
+            shade: scene.shade(),
             seen,
             center,
             world_from_cam,
@@ -324,10 +331,10 @@ impl<'a> View<'a> {
         let place = seen.body.shape.place(&local, nearest.part);
         let direction_in_world = turn(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
-        let decal = match &self.scene.movable {
-            Some((movable, shift)) if movable.ground == seen.number => movable
-                .decal
-                .sample(x_in_world.x - shift.x, x_in_world.z - shift.z),
+        let decal = match &self.shade {
+            Some((decal, foot, ground)) if *ground == seen.number => {
+                decal.sample(x_in_world.x - foot.x, x_in_world.z - foot.z)
+            }
             _ => None,
         };
         let look = Look {
@@ -337,7 +344,7 @@ impl<'a> View<'a> {
             decal,
             smooth: self.sampling == Sampling::Full,
         };
-        let color = shading::color(seen.body, &place, &self.scene.fixed.lighting, &look);
+        let color = shading::color(seen.body, seen.lights, &place, self.lighting, &look);
         Sample {
             key: (seen.number as u32) << 8 | place.chart as u32,
             depth_m: nearest.along as f32,
@@ -369,7 +376,7 @@ impl<'a> View<'a> {
                 ));
             }
         }
-        let film = &self.scene.fixed.film;
+        let film = Film::shared();
         let middle = (
             (self.width as f32 - 1.0) / 2.0,
             (self.height as f32 - 1.0) / 2.0,

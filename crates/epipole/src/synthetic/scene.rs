@@ -1,13 +1,12 @@
 //! A scene: its bodies and light, exact rays through it, and exact correspondences.
 
 use super::body::Body;
-use super::light::{Decal, Lighting};
-use super::shading::Film;
+use super::light::{self, Decal, LightMap, Lighting, Shade};
 use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A contact closer than this part of a ray is the place it started from.
 const NEAR: f64 = 1e-9;
@@ -62,22 +61,72 @@ pub enum Transfer {
 pub(super) struct Fixed {
     pub(super) bodies: Vec<Body>,
     pub(super) lighting: Lighting,
-    pub(super) film: Film,
+    lights: OnceLock<Vec<Vec<LightMap>>>,
+}
+
+impl Fixed {
+    pub(super) fn new(bodies: Vec<Body>, lighting: Lighting) -> Self {
+        Self {
+            bodies,
+            lighting,
+            lights: OnceLock::new(),
+        }
+    }
+
+    /// Light on every body and chart.
+    fn lights(&self) -> &[Vec<LightMap>] {
+        self.lights.get_or_init(|| {
+            let bodies: Vec<&Body> = self.bodies.iter().collect();
+            light::bake(&bodies, &self.lighting)
+        })
+    }
 }
 
 /// One thing that moves: its bodies around the origin and the shade it throws.
 #[derive(Debug)]
 pub(super) struct Movable {
     pub(super) bodies: Vec<Body>,
-    pub(super) decal: Decal,
-    /// The bodies of the scene on which the shade falls.
+    /// What it stands on while its light is computed: the plane y = 0.
+    pub(super) slab: Body,
+    /// The body of the scene on which the shade falls.
     pub(super) ground: usize,
+    look: OnceLock<Look>,
+}
+
+/// Light on every body and chart of a movable thing, and its shade.
+#[derive(Debug)]
+struct Look {
+    lights: Vec<Vec<LightMap>>,
+    decal: Decal,
+}
+
+impl Movable {
+    pub(super) fn new(bodies: Vec<Body>, slab: Body, ground: usize) -> Self {
+        Self {
+            bodies,
+            slab,
+            ground,
+            look: OnceLock::new(),
+        }
+    }
+
+    fn look(&self, lighting: &Lighting) -> &Look {
+        self.look.get_or_init(|| {
+            let mut bodies: Vec<&Body> = self.bodies.iter().collect();
+            let decal = Shade::new(&bodies, lighting).decal(96, 1.1, &self.slab);
+            bodies.push(&self.slab);
+            let mut lights = light::bake(&bodies, lighting);
+            lights.truncate(self.bodies.len());
+            Look { lights, decal }
+        })
+    }
 }
 
 /// A furnished room that can be photographed from anywhere inside.
 ///
-/// Everything static is computed once: painted textures with all their smaller sizes, and maps
-/// of light with soft shadows. A clone shares them, and costs next to nothing.
+/// Everything static is computed once, for the first photograph: painted textures with all their
+/// smaller sizes, and maps of light with soft shadows. A clone shares them, and costs next to
+/// nothing; rays and transfers need only the shapes.
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(super) fixed: Arc<Fixed>,
@@ -96,6 +145,22 @@ impl Scene {
             .iter()
             .map(|body| (body, Vector3::zeros()))
             .chain(moved)
+    }
+
+    /// Light on the charts of every body, in the order of [`Scene::placed`].
+    pub(super) fn lights(&self) -> impl Iterator<Item = &[LightMap]> {
+        let moved = self
+            .movable
+            .iter()
+            .flat_map(|(movable, _)| &movable.look(&self.fixed.lighting).lights);
+        self.fixed.lights().iter().chain(moved).map(Vec::as_slice)
+    }
+
+    /// The shade of the movable thing, where its foot is, and the body on which the shade falls.
+    pub(super) fn shade(&self) -> Option<(&Decal, Vector3<f64>, usize)> {
+        let (movable, shift) = self.movable.as_ref()?;
+        let look = movable.look(&self.fixed.lighting);
+        Some((&look.decal, *shift, movable.ground))
     }
 
     /// The first surface that the ray `origin + a direction`, `a > 0`, meets; `None` if the
@@ -212,8 +277,8 @@ impl Scene {
     pub(super) fn bytes(&self) -> usize {
         let mut seen = Vec::new();
         let mut bytes = 0;
-        for (body, _) in self.placed() {
-            bytes += body.lights.iter().map(|light| light.bytes()).sum::<usize>();
+        for ((body, _), lights) in self.placed().zip(self.lights()) {
+            bytes += lights.iter().map(|light| light.bytes()).sum::<usize>();
             for paint in &body.paints {
                 let address = Arc::as_ptr(&paint.texture);
                 if !seen.contains(&address) {

@@ -1,9 +1,10 @@
 //! The color of a place on a body: paint times light, plus reflections on glossy things.
 
 use super::body::Body;
-use super::light::Lighting;
+use super::light::{LightMap, Lighting};
 use super::shape::Place;
 use nalgebra::Vector3;
+use std::sync::LazyLock;
 
 /// log₂ of a positive number, within 0.09: linear between powers of two.
 fn log2(x: f32) -> f32 {
@@ -34,7 +35,13 @@ pub(crate) fn single(v: &Vector3<f64>) -> [f32; 3] {
 
 /// Linear red, green and blue.
 #[inline]
-pub(crate) fn color(body: &Body, place: &Place, lighting: &Lighting, look: &Look) -> [f32; 3] {
+pub(crate) fn color(
+    body: &Body,
+    lights: &[LightMap],
+    place: &Place,
+    lighting: &Lighting,
+    look: &Look,
+) -> [f32; 3] {
     let paint = &body.paints[place.chart];
     let normal = single(&body.normal_in_world(&place.normal));
     let direction = look.direction_in_world;
@@ -64,7 +71,7 @@ pub(crate) fn color(body: &Body, place: &Place, lighting: &Lighting, look: &Look
         }
         return color;
     }
-    let mut light = body.lights[place.chart].sample(s, t);
+    let mut light = lights[place.chart].sample(s, t);
     if let Some([window, soft]) = look.decal {
         let ambient = lighting.ambient(normal);
         for i in 0..3 {
@@ -137,7 +144,13 @@ impl Film {
     const SIZE: usize = 8192;
     const MOST: f32 = 2.5;
 
-    pub(crate) fn new() -> Self {
+    /// The film of every photograph.
+    pub(crate) fn shared() -> &'static Self {
+        static FILM: LazyLock<Film> = LazyLock::new(Film::new);
+        &FILM
+    }
+
+    fn new() -> Self {
         let curve = (0..Self::SIZE)
             .map(|i| {
                 let light = (i as f64 + 0.5) * f64::from(Self::MOST) / Self::SIZE as f64;

@@ -1,10 +1,9 @@
 //! The still life of the book: a table by a window, and the room around it.
 
 use super::body::{Body, Paint};
-use super::light::{self, Lighting, Proxy};
+use super::light::{Lighting, Proxy};
 use super::paint;
 use super::scene::{Fixed, Scene};
-use super::shading::Film;
 use super::shape::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, Shape, TOP};
 use super::wares::{
     GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
@@ -29,7 +28,7 @@ impl Scene {
     /// from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05; every camera inside of it
     /// (and outside of the things) gets a photograph without holes.
     ///
-    /// The first call paints the textures and computes the light; later ones share them.
+    /// The first photograph paints the textures and computes the light; later ones share them.
     ///
     /// ```
     /// use epipole::synthetic::Scene;
@@ -92,14 +91,8 @@ fn build() -> Scene {
     let mut bodies = room();
     bodies.extend(table());
     bodies.extend(things());
-    let lighting = lighting();
-    light::bake(&mut bodies, &lighting);
     Scene {
-        fixed: Arc::new(Fixed {
-            bodies,
-            lighting,
-            film: Film::new(),
-        }),
+        fixed: Arc::new(Fixed::new(bodies, lighting())),
         movable: None,
     }
 }
@@ -163,7 +156,7 @@ fn table() -> Vec<Body> {
     let (width, depth, thick) = (1.9, 1.16, 0.036);
     let z = -0.06;
     let top = Arc::new(paint::boards(
-        &wares.noise,
+        wares.noise,
         [512, 512],
         [width as f32, depth as f32],
         8.0,
@@ -221,7 +214,7 @@ fn things() -> Vec<Body> {
     let (cloth_width, cloth_depth, cloth_m) = (0.70, 0.50, 0.0016);
     let cloth_at = [0.13, -cloth_m / 2.0, -0.13];
     let cloth = Arc::new(paint::block_print(
-        &wares.noise,
+        wares.noise,
         (cloth_width / cloth_depth) as f32,
     ));
     let print = Paint::new(&cloth);

@@ -1,6 +1,11 @@
 //! Painted surfaces: textures with smaller copies of themselves for distant views.
+//!
+//! A texture is painted when it is first looked at, so that a scene of which only the geometry is
+//! asked costs nothing.
 
 use super::noise::split;
+use std::fmt;
+use std::sync::LazyLock;
 
 /// One size of a texture.
 #[derive(Debug)]
@@ -14,15 +19,16 @@ struct Level {
 ///
 /// A texel holds red, green, blue and gloss. Colors are stored as 255 √linear, which is close to
 /// how the eye divides brightness and decodes with one multiplication.
-#[derive(Debug)]
 pub(crate) struct Texture {
-    levels: Vec<Level>,
+    width: u32,
+    height: u32,
+    levels: LazyLock<Vec<Level>, Box<dyn FnOnce() -> Vec<Level> + Send>>,
     /// Whether the left edge continues at the right one, as on a mug.
     wraps: bool,
 }
 
 impl Texture {
-    /// Paints every texel: `paint(s, t)` with s to the right and t down, both in (0, 1), returns
+    /// Will paint every texel: `paint(s, t)` with s to the right and t down, both in (0, 1), returns
     /// linear red, green, blue and gloss, each in [0, 1].
     ///
     /// Width and height are powers of two, so that every level is an exact half of the last.
@@ -30,36 +36,27 @@ impl Texture {
         width: u32,
         height: u32,
         wraps: bool,
-        mut paint: impl FnMut(f32, f32) -> [f32; 4],
+        paint: impl Fn(f32, f32) -> [f32; 4] + Send + 'static,
     ) -> Self {
         debug_assert!(width.is_power_of_two() && height.is_power_of_two());
-        let (step_s, step_t) = (1.0 / width as f32, 1.0 / height as f32);
-        let mut texels = Vec::with_capacity((width * height) as usize);
-        for y in 0..height {
-            for x in 0..width {
-                let color = paint((x as f32 + 0.5) * step_s, (y as f32 + 0.5) * step_t);
-                texels.push(encode(color));
-            }
+        Self {
+            width,
+            height,
+            levels: LazyLock::new(Box::new(move || painted(width, height, paint))),
+            wraps,
         }
-        let mut levels = vec![Level {
-            width: width as i32,
-            height: height as i32,
-            texels,
-        }];
-        while let Some(smaller) = halved(&levels[levels.len() - 1]) {
-            levels.push(smaller);
-        }
-        Self { levels, wraps }
     }
 
     /// One color everywhere.
     pub(crate) fn plain(color: [f32; 3], gloss: f32) -> Self {
-        Self::paint(1, 1, true, |_, _| [color[0], color[1], color[2], gloss])
+        Self::paint(1, 1, true, move |_, _| {
+            [color[0], color[1], color[2], gloss]
+        })
     }
 
     /// Texels across and down at full size.
     pub(crate) fn size(&self) -> [f32; 2] {
-        [self.levels[0].width as f32, self.levels[0].height as f32]
+        [self.width as f32, self.height as f32]
     }
 
     /// Bytes of all levels.
@@ -73,21 +70,22 @@ impl Texture {
     /// With `smooth` two levels are mixed, otherwise the nearer one is taken.
     #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32, lod: f32, smooth: bool) -> [f32; 4] {
-        let last = self.levels.len() - 1;
+        let levels = &*self.levels;
+        let last = levels.len() - 1;
         let lod = lod.clamp(0.0, last as f32);
         let mut color = if smooth {
             let below = lod as usize;
             let above = (below + 1).min(last);
             let part = lod - below as f32;
-            let a = self.bilinear(&self.levels[below], s, t);
-            let b = self.bilinear(&self.levels[above], s, t);
+            let a = self.bilinear(&levels[below], s, t);
+            let b = self.bilinear(&levels[above], s, t);
             let mut color = a;
             for i in 0..4 {
                 color[i] += (b[i] - a[i]) * part;
             }
             color
         } else {
-            self.bilinear(&self.levels[(lod + 0.5) as usize], s, t)
+            self.bilinear(&levels[(lod + 0.5) as usize], s, t)
         };
         for channel in &mut color {
             *channel = *channel * *channel * (1.0 / (65_280.0 * 65_280.0));
@@ -140,6 +138,33 @@ impl Texture {
     }
 }
 
+impl fmt::Debug for Texture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Texture({} × {})", self.width, self.height)
+    }
+}
+
+/// Every texel, and the halved copies down to a single one.
+fn painted(width: u32, height: u32, paint: impl Fn(f32, f32) -> [f32; 4]) -> Vec<Level> {
+    let (step_s, step_t) = (1.0 / width as f32, 1.0 / height as f32);
+    let mut texels = Vec::with_capacity((width * height) as usize);
+    for y in 0..height {
+        for x in 0..width {
+            let color = paint((x as f32 + 0.5) * step_s, (y as f32 + 0.5) * step_t);
+            texels.push(encode(color));
+        }
+    }
+    let mut levels = vec![Level {
+        width: width as i32,
+        height: height as i32,
+        texels,
+    }];
+    while let Some(smaller) = halved(&levels[levels.len() - 1]) {
+        levels.push(smaller);
+    }
+    levels
+}
+
 fn encode(color: [f32; 4]) -> [u8; 4] {
     // The cast saturates, so too bright a color becomes the brightest there is.
     color.map(|channel| (channel.max(0.0).sqrt() * 255.0 + 0.5) as u8)
@@ -182,7 +207,7 @@ mod tests {
 
     fn noisy() -> Texture {
         let noise = super::super::noise::Noise::new(3);
-        Texture::paint(64, 32, true, |s, t| {
+        Texture::paint(64, 32, true, move |s, t| {
             let value = 0.5 + 0.4 * noise.value(s * 40.0, t * 40.0);
             [value, 0.5 * value, 0.25, 1.0]
         })

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Paint};
 use super::light::Proxy;
-use super::noise::Noise;
+use super::noise::{NOISE, Noise};
 use super::paint;
 use super::shape::{Cuboid, FRONT, Lathe, Profile, RIGHT, Ring, Shape, TOP};
 use super::texture::Texture;
@@ -23,7 +23,7 @@ pub(super) struct Edition {
 
 /// Textures that both scenes use, painted once.
 pub(super) struct Wares {
-    pub(super) noise: Noise,
+    pub(super) noise: &'static Noise,
     pub(super) plaster: Arc<Texture>,
     pub(super) floor: Arc<Texture>,
     window: Arc<Texture>,
@@ -58,10 +58,10 @@ impl Wares {
     }
 
     fn paint() -> Self {
-        let noise = Noise::new(1859);
+        let noise: &'static Noise = &NOISE;
         let edition = |cloth: [f32; 3], label: [f32; 3], title: &str, aspect: f32, cover| Edition {
             spine: Arc::new(paint::book_spine(
-                &noise,
+                noise,
                 cloth,
                 label,
                 title,
@@ -76,7 +76,7 @@ impl Wares {
         let ochre = [0.46, 0.27, 0.06];
         let green = [0.04, 0.14, 0.085];
         let black = [0.03, 0.028, 0.03];
-        let cover = Arc::new(paint::book_cover(&noise, green, "SIGHT"));
+        let cover = Arc::new(paint::book_cover(noise, green, "SIGHT"));
         let editions = vec![
             edition(red, black, "MULTIPLE VIEWS", 6.2, None),
             edition(ochre, navy, "LIGHT AND LENSES", 7.2, None),
@@ -86,47 +86,37 @@ impl Wares {
         let mug_profile = Lathe::new(mug_profile());
         let jug_profile = Lathe::new(jug_profile());
         Self {
-            plaster: Arc::new(paint::plaster(&noise)),
-            floor: Arc::new(paint::floor(&noise)),
-            window: Arc::new(paint::window(&noise)),
-            landscape: Arc::new(paint::landscape(
-                &noise,
-                LANDSCAPE_M.map(|side| side as f32),
-            )),
-            geometric: Arc::new(paint::geometric(
-                &noise,
-                GEOMETRIC_M.map(|side| side as f32),
-            )),
+            plaster: Arc::new(paint::plaster(noise)),
+            floor: Arc::new(paint::floor(noise)),
+            window: Arc::new(paint::window(noise)),
+            landscape: Arc::new(paint::landscape(noise, LANDSCAPE_M.map(|side| side as f32))),
+            geometric: Arc::new(paint::geometric(noise, GEOMETRIC_M.map(|side| side as f32))),
             star_chart: Arc::new(paint::star_chart(
-                &noise,
+                noise,
                 STAR_CHART_M.map(|side| side as f32),
             )),
             editions,
-            linen: Arc::new(paint::linen(&noise)),
-            pages: Arc::new(paint::pages(&noise)),
+            linen: Arc::new(paint::linen(noise)),
+            pages: Arc::new(paint::pages(noise)),
             mug: Arc::new(paint::mug(
-                &noise,
-                |t| mug_profile.profile_at(t),
+                noise,
+                move |t| mug_profile.profile_at(t),
                 MUG_HEIGHT_M,
                 MUG_COFFEE_M,
             )),
             jug: Arc::new(paint::jug(
-                &noise,
-                |t| jug_profile.profile_at(t),
+                noise,
+                move |t| jug_profile.profile_at(t),
                 JUG_HEIGHT_M,
             )),
             orange: Arc::new(paint::citrus(
-                &noise,
+                noise,
                 [0.80, 0.25, 0.012],
                 [0.83, 0.36, 0.03],
             )),
-            lemon: Arc::new(paint::citrus(
-                &noise,
-                [0.80, 0.55, 0.03],
-                [0.83, 0.66, 0.12],
-            )),
-            apple: Arc::new(paint::apple(&noise)),
-            tin: Arc::new(paint::tin(&noise, [0.16, 0.025, 0.03], "TEA")),
+            lemon: Arc::new(paint::citrus(noise, [0.80, 0.55, 0.03], [0.83, 0.66, 0.12])),
+            apple: Arc::new(paint::apple(noise)),
+            tin: Arc::new(paint::tin(noise, [0.16, 0.025, 0.03], "TEA")),
             plain: Arc::new(Texture::plain([1.0; 3], 1.0)),
             noise,
         }

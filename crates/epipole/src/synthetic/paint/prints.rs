@@ -13,13 +13,13 @@ fn inside(d: f32, soft: f32) -> f32 {
 /// Woven cotton with a block print: a field of flowers in two inks within a double border.
 ///
 /// `aspect` is width over height.
-pub(crate) fn block_print(noise: &Noise, aspect: f32) -> Texture {
+pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
     let (ground, indigo, rust) = (
         [0.66, 0.60, 0.47],
         [0.045, 0.085, 0.24],
         [0.50, 0.115, 0.05],
     );
-    Texture::paint(512, 256, false, |s, t| {
+    Texture::paint(512, 256, false, move |s, t| {
         // In units of the height.
         let (x, y) = (s * aspect, t);
         let rim = x.min(aspect - x).min(y.min(1.0 - y));
@@ -118,7 +118,7 @@ fn frame(
 }
 
 /// A framed landscape: hills behind hills, a lake and a low sun.
-pub(crate) fn landscape(noise: &Noise, size: [f32; 2]) -> Texture {
+pub(crate) fn landscape(noise: &'static Noise, size: [f32; 2]) -> Texture {
     const SIDE: u32 = 256;
     // The skyline of each ridge, one number a column.
     let skylines: [Vec<f32>; 5] = std::array::from_fn(|ridge| {
@@ -131,7 +131,7 @@ pub(crate) fn landscape(noise: &Noise, size: [f32; 2]) -> Texture {
         });
         skyline.collect()
     });
-    Texture::paint(SIDE, SIDE, false, |s, t| {
+    Texture::paint(SIDE, SIDE, false, move |s, t| {
         let (x, y) = (s * size[0], t * size[1]);
         if let Some(color) = frame(noise, x, y, size, [0.028, 0.05], [0.20, 0.105, 0.045]) {
             return with_gloss(color, 0.5);
@@ -168,7 +168,7 @@ pub(crate) fn landscape(noise: &Noise, size: [f32; 2]) -> Texture {
 }
 
 /// A framed composition of tilted, colored rectangles and discs.
-pub(crate) fn geometric(noise: &Noise, size: [f32; 2]) -> Texture {
+pub(crate) fn geometric(noise: &'static Noise, size: [f32; 2]) -> Texture {
     const COLORS: [[f32; 3]; 7] = [
         [0.62, 0.10, 0.055],
         [0.72, 0.42, 0.06],
@@ -178,7 +178,7 @@ pub(crate) fn geometric(noise: &Noise, size: [f32; 2]) -> Texture {
         [0.035, 0.032, 0.036],
         [0.52, 0.26, 0.15],
     ];
-    Texture::paint(256, 256, false, |s, t| {
+    Texture::paint(256, 256, false, move |s, t| {
         let (x, y) = (s * size[0], t * size[1]);
         if let Some(color) = frame(noise, x, y, size, [0.018, 0.035], [0.035, 0.032, 0.030]) {
             return with_gloss(color, 0.5);
@@ -207,10 +207,10 @@ pub(crate) fn geometric(noise: &Noise, size: [f32; 2]) -> Texture {
 }
 
 /// A framed chart of the sky: circles, spokes, stars and a title.
-pub(crate) fn star_chart(noise: &Noise, size: [f32; 2]) -> Texture {
+pub(crate) fn star_chart(noise: &'static Noise, size: [f32; 2]) -> Texture {
     let title = Line::new("PARALLAX");
     let small = Line::new("SIX MONTHS . TWO VIEWS");
-    Texture::paint(256, 256, false, |s, t| {
+    Texture::paint(256, 256, false, move |s, t| {
         let (x, y) = (s * size[0], t * size[1]);
         if let Some(color) = frame(noise, x, y, size, [0.022, 0.012], [0.34, 0.22, 0.09]) {
             return with_gloss(color, 0.5);

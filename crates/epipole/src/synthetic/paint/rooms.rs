@@ -25,13 +25,13 @@ fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3
 
 /// A table top of `num_boards` boards along s, with joints, scratches and ring marks.
 pub(crate) fn boards(
-    noise: &Noise,
+    noise: &'static Noise,
     size: [u32; 2],
     extent_m: [f32; 2],
     num_boards: f32,
 ) -> Texture {
     let (light, dark) = ([0.46, 0.262, 0.128], [0.20, 0.098, 0.042]);
-    Texture::paint(size[0], size[1], false, |s, t| {
+    Texture::paint(size[0], size[1], false, move |s, t| {
         let (x, y) = (s * extent_m[0], t * extent_m[1]);
         let (board, within) = split(t * num_boards);
         let mut color = oak(noise, x, y, board as f32, light, dark);
@@ -74,9 +74,9 @@ fn oak_tile(
 }
 
 /// Floor boards along t, seven to a tile.
-pub(crate) fn floor(noise: &Noise) -> Texture {
+pub(crate) fn floor(noise: &'static Noise) -> Texture {
     let (light, dark) = ([0.25, 0.15, 0.085], [0.115, 0.062, 0.032]);
-    Texture::paint(256, 256, true, |s, t| {
+    Texture::paint(256, 256, true, move |s, t| {
         let (board, within) = split(s * 7.0);
         let color = oak_tile(noise, [s, t], board + 20, light, dark);
         let joint = within.min(1.0 - within);
@@ -85,10 +85,10 @@ pub(crate) fn floor(noise: &Noise) -> Texture {
 }
 
 /// The top of the long table: one metre along t with marks every decimetre, to be repeated.
-pub(crate) fn measured_boards(noise: &Noise, width_m: f32) -> Texture {
+pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
     let (light, dark) = ([0.44, 0.262, 0.132], [0.22, 0.112, 0.05]);
     let (pale, ebony) = ([0.60, 0.48, 0.32], [0.045, 0.033, 0.027]);
-    Texture::paint(1024, 512, true, |s, t| {
+    Texture::paint(1024, 512, true, move |s, t| {
         let (board, within) = split(s * 9.0);
         let joint_m = within.min(1.0 - within) * width_m / 9.0;
         let mut color = oak_tile(noise, [s, t], board, light, dark);
@@ -112,9 +112,9 @@ pub(crate) fn measured_boards(noise: &Noise, width_m: f32) -> Texture {
 }
 
 /// A brass plate with a number of one or two digits.
-pub(crate) fn number(noise: &Noise, metres: u32) -> Texture {
+pub(crate) fn number(noise: &'static Noise, metres: u32) -> Texture {
     let line = Line::new(&metres.to_string());
-    Texture::paint(64, 64, false, |s, t| {
+    Texture::paint(64, 64, false, move |s, t| {
         let rim = s.min(1.0 - s).min(t.min(1.0 - t));
         let brushed = 1.0 + 0.12 * noise.value(s * 6.0, t * 90.0 + metres as f32);
         let brass = dim([0.62, 0.44, 0.17], brushed);
@@ -127,13 +127,13 @@ pub(crate) fn number(noise: &Noise, metres: u32) -> Texture {
 
 /// Lime-washed plaster, to be repeated: clouds, trowel strokes in raking light, flecks of an
 /// older coat and spatter.
-pub(crate) fn plaster(noise: &Noise) -> Texture {
+pub(crate) fn plaster(noise: &'static Noise) -> Texture {
     let (pale, deep, under) = (
         [0.40, 0.44, 0.39],
         [0.245, 0.305, 0.295],
         [0.50, 0.41, 0.30],
     );
-    Texture::paint(512, 512, true, |s, t| {
+    Texture::paint(512, 512, true, move |s, t| {
         let cloud = noise.octaves_tile(s, t, [4, 4], 4);
         let mut color = blend(pale, deep, step(-0.5, 0.5, cloud));
         // Relief: the difference of a height between two near places, as raking light shows it.
@@ -158,8 +158,8 @@ pub(crate) fn plaster(noise: &Noise) -> Texture {
 }
 
 /// A bright window of six panes, with a hint of a garden behind.
-pub(crate) fn window(noise: &Noise) -> Texture {
-    Texture::paint(128, 128, false, |s, t| {
+pub(crate) fn window(noise: &'static Noise) -> Texture {
+    Texture::paint(128, 128, false, move |s, t| {
         let (_, across) = split(s * 2.0);
         let (_, down) = split(t * 3.0);
         let bar = across.min(1.0 - across).min(down.min(1.0 - down) * 0.8);

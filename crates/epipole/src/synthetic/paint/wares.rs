@@ -13,8 +13,8 @@ fn around(noise: &Noise, s: f32, t: f32, cells: u16) -> f32 {
 
 /// A cream mug with a printed cobalt band; its profile gives radius and height at t.
 pub(crate) fn mug(
-    noise: &Noise,
-    profile: impl Fn(f64) -> Vector2<f64>,
+    noise: &'static Noise,
+    profile: impl Fn(f64) -> Vector2<f64> + Send + 'static,
     height_m: f64,
     floor_m: f64,
 ) -> Texture {
@@ -26,7 +26,7 @@ pub(crate) fn mug(
             if height > best.1 { (t, height) } else { best }
         })
         .0 as f32;
-    Texture::paint(512, 256, true, |s, t| {
+    Texture::paint(512, 256, true, move |s, t| {
         let at = profile(f64::from(t));
         let h = (at.y / height_m) as f32;
         let glaze = around(noise, s, t, 32) * 0.035 + around(noise, s, t, 128) * 0.025;
@@ -80,9 +80,13 @@ pub(crate) fn mug(
 }
 
 /// A tall jug in celadon with a dark combed band and a cream neck.
-pub(crate) fn jug(noise: &Noise, profile: impl Fn(f64) -> Vector2<f64>, height_m: f64) -> Texture {
+pub(crate) fn jug(
+    noise: &'static Noise,
+    profile: impl Fn(f64) -> Vector2<f64> + Send + 'static,
+    height_m: f64,
+) -> Texture {
     let (celadon, deep, cream) = ([0.16, 0.36, 0.34], [0.035, 0.10, 0.12], [0.62, 0.58, 0.45]);
-    Texture::paint(512, 256, true, |s, t| {
+    Texture::paint(512, 256, true, move |s, t| {
         let at = profile(f64::from(t));
         let h = (at.y / height_m) as f32;
         let run = noise.octaves_tile(s, t, [16, 8], 3);
@@ -123,8 +127,8 @@ pub(crate) fn jug(noise: &Noise, profile: impl Fn(f64) -> Vector2<f64>, height_m
 }
 
 /// Bookcloth, gray, to be tinted.
-pub(crate) fn linen(noise: &Noise) -> Texture {
-    Texture::paint(128, 128, true, |s, t| {
+pub(crate) fn linen(noise: &'static Noise) -> Texture {
+    Texture::paint(128, 128, true, move |s, t| {
         let weave = noise.tile(s, t, [128, 32]) + noise.tile(s + 0.5, t, [32, 128]);
         let worn = noise.octaves_tile(s, t, [8, 8], 3);
         let value = 0.62 * (1.0 + 0.20 * weave + 0.30 * worn);
@@ -133,8 +137,8 @@ pub(crate) fn linen(noise: &Noise) -> Texture {
 }
 
 /// The edges of a book's leaves, lines along s.
-pub(crate) fn pages(noise: &Noise) -> Texture {
-    Texture::paint(64, 128, true, |s, t| {
+pub(crate) fn pages(noise: &'static Noise) -> Texture {
+    Texture::paint(64, 128, true, move |s, t| {
         let leaf = noise.tile(s, t, [4, 128]) + 0.5 * noise.tile(s, t, [16, 64]);
         let stain = noise.octaves_tile(s, t, [4, 8], 3);
         let color = dim([0.66, 0.58, 0.43], 1.0 + 0.28 * leaf + 0.25 * stain);
@@ -146,7 +150,7 @@ pub(crate) fn pages(noise: &Noise) -> Texture {
 ///
 /// `aspect` is length over thickness; the title runs along it.
 pub(crate) fn book_spine(
-    noise: &Noise,
+    noise: &'static Noise,
     cloth: [f32; 3],
     label: [f32; 3],
     title: &str,
@@ -155,7 +159,7 @@ pub(crate) fn book_spine(
 ) -> Texture {
     let line = Line::new(title);
     let gold = [0.78, 0.56, 0.20];
-    Texture::paint(512, 64, false, |s, t| {
+    Texture::paint(512, 64, false, move |s, t| {
         let (x, y) = (s * aspect, t);
         let weave = noise.value(x * 70.0, y * 24.0 + seed) + noise.value(x * 24.0, y * 70.0 + seed);
         let worn = noise.octaves(x * 1.7 + seed, y * 2.0, 4);
@@ -198,10 +202,10 @@ pub(crate) fn book_spine(
 }
 
 /// The front of a cover: cloth, a gilt frame, a medallion and rubbed corners.
-pub(crate) fn book_cover(noise: &Noise, cloth: [f32; 3], title: &str) -> Texture {
+pub(crate) fn book_cover(noise: &'static Noise, cloth: [f32; 3], title: &str) -> Texture {
     let line = Line::new(title);
     let gold = [0.72, 0.52, 0.20];
-    Texture::paint(256, 256, false, |s, t| {
+    Texture::paint(256, 256, false, move |s, t| {
         let weave = noise.value(s * 200.0, t * 50.0) + noise.value(s * 50.0, t * 150.0);
         let worn = noise.octaves(s * 5.0, t * 4.0, 4);
         let mut color = dim(cloth, 1.0 + 0.13 * weave + 0.35 * worn);
@@ -240,8 +244,8 @@ pub(crate) fn book_cover(noise: &Noise, cloth: [f32; 3], title: &str) -> Texture
 }
 
 /// Peel with pores, a navel at one end and a stalk's scar at the other; gray parts are tinted.
-pub(crate) fn citrus(noise: &Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
-    Texture::paint(256, 128, true, |s, t| {
+pub(crate) fn citrus(noise: &'static Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
+    Texture::paint(256, 128, true, move |s, t| {
         let cloud = noise.octaves_tile(s, t, [8, 4], 3);
         let pore = noise.tile(s, t, [128, 64]);
         let relief = pore - noise.tile(s + 0.003, t + 0.004, [128, 64]);
@@ -256,8 +260,8 @@ pub(crate) fn citrus(noise: &Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
 }
 
 /// An apple's skin: red stripes over yellow, pale dots, green near the stalk.
-pub(crate) fn apple(noise: &Noise) -> Texture {
-    Texture::paint(256, 128, true, |s, t| {
+pub(crate) fn apple(noise: &'static Noise) -> Texture {
+    Texture::paint(256, 128, true, move |s, t| {
         let blush = noise.octaves_tile(s, t, [4, 2], 3) + 0.22;
         let stripe = noise.tile(s, t, [64, 4]) + 0.6 * noise.tile(s, t, [128, 8]);
         let red = step(-0.45, 0.35, blush + 0.35 * stripe);
@@ -272,11 +276,11 @@ pub(crate) fn apple(noise: &Noise) -> Texture {
 }
 
 /// A printed tea tin: a label with letters on a patterned ground.
-pub(crate) fn tin(noise: &Noise, ground: [f32; 3], word: &str) -> Texture {
+pub(crate) fn tin(noise: &'static Noise, ground: [f32; 3], word: &str) -> Texture {
     let line = Line::new(word);
     let fine = Line::new("GATHERED BY HAND");
     let gold = [0.76, 0.55, 0.22];
-    Texture::paint(128, 256, false, |s, t| {
+    Texture::paint(128, 256, false, move |s, t| {
         let (x, y) = (s, t * 1.5);
         let rim = x.min(1.0 - x).min(y.min(1.5 - y));
         let (_, fx) = split((x + y) * 9.0);
