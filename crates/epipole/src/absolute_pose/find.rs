@@ -145,11 +145,9 @@ impl Estimator for AbsolutePoseEstimator {
         self.refined(pose, inliers, loss, 4)
     }
 
-    fn polish(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
-        let loss = RobustLoss::Cauchy {
-            width: 0.5 * max_error_px,
-        };
-        self.refined(pose, inliers, loss, 25)
+    fn polish(&mut self, pose: &Pose, near: &[usize], width_px: f64) -> Option<Pose> {
+        let loss = RobustLoss::Cauchy { width: width_px };
+        self.refined(pose, near, loss, 25)
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -136,13 +136,13 @@ impl Estimator for EssentialEstimator {
     fn polish(
         &mut self,
         model: &RelativePose,
-        inliers: &[usize],
-        max_error_px: f64,
+        near: &[usize],
+        width_px: f64,
     ) -> Option<RelativePose> {
         let loss = RobustLoss::Cauchy {
-            width: 0.5 * max_error_px * self.frame.scale,
+            width: width_px * self.frame.scale,
         };
-        self.refined(model, &self.in_frame.subset(inliers), loss, 25)
+        self.refined(model, &self.in_frame.subset(near), loss, 25)
     }
 
     fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {

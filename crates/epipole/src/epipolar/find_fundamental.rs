@@ -180,13 +180,13 @@ impl Estimator for FundamentalEstimator {
     fn polish(
         &mut self,
         model: &Matrix3<f64>,
-        inliers: &[usize],
-        max_error_px: f64,
+        near: &[usize],
+        width_px: f64,
     ) -> Option<Matrix3<f64>> {
         let loss = RobustLoss::Cauchy {
-            width: 0.5 * max_error_px * self.frame.scale,
+            width: width_px * self.frame.scale,
         };
-        self.refined(model, &self.in_frame.subset(inliers), loss, 25)
+        self.refined(model, &self.in_frame.subset(near), loss, 25)
     }
 
     fn recover(

@@ -1,6 +1,7 @@
 //! The Sampson error over many matches at once: for scoring and for least squares.
 
 use super::coordinates::{Coordinates, LANES, Lanes, entries, sum};
+use crate::math::simd::dispatched;
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -23,88 +24,94 @@ fn relative_errors(f: &[f64; 9], lanes: &[Lanes; 4], per_threshold_sq: f64) -> L
     errors
 }
 
-/// The support of F among the matches; stops once the cost exceeds the limit.
-pub(crate) fn support(
-    coordinates: &Coordinates,
-    fundamental: &Matrix3<f64>,
-    max_error: f64,
-    cost_limit: f64,
-) -> Support {
-    let f = entries(fundamental);
-    let per_threshold_sq = 1.0 / (max_error * max_error);
-    let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
-    let mut start = 0;
-    while start < coordinates.len() {
-        // The limit is looked at every 32 matches.
-        for _ in 0..4 {
-            if start >= coordinates.len() {
+dispatched! {
+    /// The support of F among the matches; stops once the cost exceeds the limit.
+    pub(crate) fn support(
+        coordinates: &Coordinates,
+        fundamental: &Matrix3<f64>,
+        max_error: f64,
+        cost_limit: f64,
+    ) -> Support {
+        let f = entries(fundamental);
+        let per_threshold_sq = 1.0 / (max_error * max_error);
+        let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
+        let mut start = 0;
+        while start < coordinates.len() {
+            // The limit is looked at every 32 matches.
+            for _ in 0..4 {
+                if start >= coordinates.len() {
+                    break;
+                }
+                let (lanes, count) = coordinates.lanes(start);
+                let errors = relative_errors(&f, &lanes, per_threshold_sq);
+                if count == LANES {
+                    for l in 0..LANES {
+                        // Not a number counts as an outlier.
+                        let fits = errors[l] < 1.0;
+                        cost[l] += if fits { errors[l] } else { 1.0 };
+                        inliers[l] += if fits { 1.0 } else { 0.0 };
+                    }
+                } else {
+                    for l in 0..count {
+                        let fits = errors[l] < 1.0;
+                        cost[l] += if fits { errors[l] } else { 1.0 };
+                        inliers[l] += if fits { 1.0 } else { 0.0 };
+                    }
+                }
+                start += LANES;
+            }
+            if sum(&cost) > cost_limit {
                 break;
             }
+        }
+        Support {
+            cost: sum(&cost),
+            num_inliers: sum(&inliers) as usize,
+        }
+    }
+}
+
+dispatched! {
+    /// Fills `inliers` with the matches within the threshold.
+    pub(crate) fn inliers(
+        coordinates: &Coordinates,
+        fundamental: &Matrix3<f64>,
+        max_error: f64,
+        inliers: &mut Vec<usize>,
+    ) {
+        let f = entries(fundamental);
+        let per_threshold_sq = 1.0 / (max_error * max_error);
+        inliers.clear();
+        for start in (0..coordinates.len()).step_by(LANES) {
             let (lanes, count) = coordinates.lanes(start);
             let errors = relative_errors(&f, &lanes, per_threshold_sq);
-            if count == LANES {
-                for l in 0..LANES {
-                    // Not a number counts as an outlier.
-                    let fits = errors[l] < 1.0;
-                    cost[l] += if fits { errors[l] } else { 1.0 };
-                    inliers[l] += if fits { 1.0 } else { 0.0 };
+            for (l, error) in errors[..count].iter().enumerate() {
+                if *error < 1.0 {
+                    inliers.push(start + l);
                 }
-            } else {
-                for l in 0..count {
-                    let fits = errors[l] < 1.0;
-                    cost[l] += if fits { errors[l] } else { 1.0 };
-                    inliers[l] += if fits { 1.0 } else { 0.0 };
-                }
-            }
-            start += LANES;
-        }
-        if sum(&cost) > cost_limit {
-            break;
-        }
-    }
-    Support {
-        cost: sum(&cost),
-        num_inliers: sum(&inliers) as usize,
-    }
-}
-
-/// Fills `inliers` with the matches within the threshold.
-pub(crate) fn inliers(
-    coordinates: &Coordinates,
-    fundamental: &Matrix3<f64>,
-    max_error: f64,
-    inliers: &mut Vec<usize>,
-) {
-    let f = entries(fundamental);
-    let per_threshold_sq = 1.0 / (max_error * max_error);
-    inliers.clear();
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let (lanes, count) = coordinates.lanes(start);
-        let errors = relative_errors(&f, &lanes, per_threshold_sq);
-        for (l, error) in errors[..count].iter().enumerate() {
-            if *error < 1.0 {
-                inliers.push(start + l);
             }
         }
     }
 }
 
-/// `½ Σ ρ(e²)` of the Sampson errors.
-pub(crate) fn cost(
-    coordinates: &Coordinates,
-    fundamental: &Matrix3<f64>,
-    loss: &RobustLoss,
-) -> f64 {
-    let f = entries(fundamental);
-    let mut total = [0.0; LANES];
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let (lanes, count) = coordinates.lanes(start);
-        let errors = relative_errors(&f, &lanes, 1.0);
-        for l in 0..count {
-            total[l] += loss.rho(errors[l]);
+dispatched! {
+    /// `½ Σ ρ(e²)` of the Sampson errors.
+    pub(crate) fn cost(
+        coordinates: &Coordinates,
+        fundamental: &Matrix3<f64>,
+        loss: &RobustLoss,
+    ) -> f64 {
+        let f = entries(fundamental);
+        let mut total = [0.0; LANES];
+        for start in (0..coordinates.len()).step_by(LANES) {
+            let (lanes, count) = coordinates.lanes(start);
+            let errors = relative_errors(&f, &lanes, 1.0);
+            for l in 0..count {
+                total[l] += loss.rho(errors[l]);
+            }
         }
+        0.5 * sum(&total)
     }
-    0.5 * sum(&total)
 }
 
 /// The sums of least squares with respect to the nine entries of F, row by row.
@@ -115,84 +122,86 @@ pub(crate) struct EntrySums {
     pub(crate) cost: f64,
 }
 
-/// Linearizes the Sampson errors of all matches: `r = C/√D` with `C = x2ᵀ F x1`, and
-/// `∂r/∂F = (x2 x1ᵀ − (C/D) ½ ∂D/∂F)/√D`.
-pub(crate) fn linearize(
-    coordinates: &Coordinates,
-    fundamental: &Matrix3<f64>,
-    loss: &RobustLoss,
-) -> EntrySums {
-    let f = entries(fundamental);
-    let mut products = [[0.0; LANES]; 45];
-    let mut gradient = [[0.0; LANES]; 9];
-    let mut total = [0.0; LANES];
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let ([u1, v1, u2, v2], count) = coordinates.lanes(start);
-        let mut jacobian = [[0.0; LANES]; 9];
-        let mut residual = [0.0; LANES];
-        let mut weight = [0.0; LANES];
-        for l in 0..LANES {
-            let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
-            let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
-            let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
-            let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
-            let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
-            let algebraic = u2[l] * a + v2[l] * b + c;
-            let slope_sq = (a * a + b * b) + (p * p + q * q);
-            let per_slope = 1.0 / slope_sq.sqrt();
-            let s = algebraic * per_slope * per_slope;
-            residual[l] = algebraic * per_slope;
-            jacobian[0][l] = (u2[l] * u1[l] - s * (a * u1[l] + p * u2[l])) * per_slope;
-            jacobian[1][l] = (u2[l] * v1[l] - s * (a * v1[l] + q * u2[l])) * per_slope;
-            jacobian[2][l] = (u2[l] - s * a) * per_slope;
-            jacobian[3][l] = (v2[l] * u1[l] - s * (b * u1[l] + p * v2[l])) * per_slope;
-            jacobian[4][l] = (v2[l] * v1[l] - s * (b * v1[l] + q * v2[l])) * per_slope;
-            jacobian[5][l] = (v2[l] - s * b) * per_slope;
-            jacobian[6][l] = (u1[l] - s * p) * per_slope;
-            jacobian[7][l] = (v1[l] - s * q) * per_slope;
-            jacobian[8][l] = per_slope;
-        }
-        for l in 0..count {
-            let error_sq = residual[l] * residual[l];
-            total[l] += loss.rho(error_sq);
-            weight[l] = loss.weight(error_sq);
-        }
-        if count < LANES {
-            // Lanes beyond the end may hold anything, even NaN.
-            for l in count..LANES {
-                residual[l] = 0.0;
-                for entry in &mut jacobian {
-                    entry[l] = 0.0;
+dispatched! {
+    /// Linearizes the Sampson errors of all matches: `r = C/√D` with `C = x2ᵀ F x1`, and
+    /// `∂r/∂F = (x2 x1ᵀ − (C/D) ½ ∂D/∂F)/√D`.
+    pub(crate) fn linearize(
+        coordinates: &Coordinates,
+        fundamental: &Matrix3<f64>,
+        loss: &RobustLoss,
+    ) -> EntrySums {
+        let f = entries(fundamental);
+        let mut products = [[0.0; LANES]; 45];
+        let mut gradient = [[0.0; LANES]; 9];
+        let mut total = [0.0; LANES];
+        for start in (0..coordinates.len()).step_by(LANES) {
+            let ([u1, v1, u2, v2], count) = coordinates.lanes(start);
+            let mut jacobian = [[0.0; LANES]; 9];
+            let mut residual = [0.0; LANES];
+            let mut weight = [0.0; LANES];
+            for l in 0..LANES {
+                let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
+                let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
+                let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
+                let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
+                let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
+                let algebraic = u2[l] * a + v2[l] * b + c;
+                let slope_sq = (a * a + b * b) + (p * p + q * q);
+                let per_slope = 1.0 / slope_sq.sqrt();
+                let s = algebraic * per_slope * per_slope;
+                residual[l] = algebraic * per_slope;
+                jacobian[0][l] = (u2[l] * u1[l] - s * (a * u1[l] + p * u2[l])) * per_slope;
+                jacobian[1][l] = (u2[l] * v1[l] - s * (a * v1[l] + q * u2[l])) * per_slope;
+                jacobian[2][l] = (u2[l] - s * a) * per_slope;
+                jacobian[3][l] = (v2[l] * u1[l] - s * (b * u1[l] + p * v2[l])) * per_slope;
+                jacobian[4][l] = (v2[l] * v1[l] - s * (b * v1[l] + q * v2[l])) * per_slope;
+                jacobian[5][l] = (v2[l] - s * b) * per_slope;
+                jacobian[6][l] = (u1[l] - s * p) * per_slope;
+                jacobian[7][l] = (v1[l] - s * q) * per_slope;
+                jacobian[8][l] = per_slope;
+            }
+            for l in 0..count {
+                let error_sq = residual[l] * residual[l];
+                total[l] += loss.rho(error_sq);
+                weight[l] = loss.weight(error_sq);
+            }
+            if count < LANES {
+                // Lanes beyond the end may hold anything, even NaN.
+                for l in count..LANES {
+                    residual[l] = 0.0;
+                    for entry in &mut jacobian {
+                        entry[l] = 0.0;
+                    }
+                }
+            }
+            let mut k = 0;
+            for i in 0..9 {
+                let mut weighted = [0.0; LANES];
+                for l in 0..LANES {
+                    weighted[l] = weight[l] * jacobian[i][l];
+                    gradient[i][l] += weighted[l] * residual[l];
+                }
+                for other in &jacobian[i..] {
+                    for l in 0..LANES {
+                        products[k][l] += weighted[l] * other[l];
+                    }
+                    k += 1;
                 }
             }
         }
+        let mut hessian = SMatrix::zeros();
         let mut k = 0;
         for i in 0..9 {
-            let mut weighted = [0.0; LANES];
-            for l in 0..LANES {
-                weighted[l] = weight[l] * jacobian[i][l];
-                gradient[i][l] += weighted[l] * residual[l];
-            }
-            for other in &jacobian[i..] {
-                for l in 0..LANES {
-                    products[k][l] += weighted[l] * other[l];
-                }
+            for j in i..9 {
+                hessian[(i, j)] = sum(&products[k]);
+                hessian[(j, i)] = hessian[(i, j)];
                 k += 1;
             }
         }
-    }
-    let mut hessian = SMatrix::zeros();
-    let mut k = 0;
-    for i in 0..9 {
-        for j in i..9 {
-            hessian[(i, j)] = sum(&products[k]);
-            hessian[(j, i)] = hessian[(i, j)];
-            k += 1;
+        EntrySums {
+            hessian,
+            gradient: SVector::from_fn(|i, _| sum(&gradient[i])),
+            cost: 0.5 * sum(&total),
         }
-    }
-    EntrySums {
-        hessian,
-        gradient: SVector::from_fn(|i, _| sum(&gradient[i])),
-        cost: 0.5 * sum(&total),
     }
 }

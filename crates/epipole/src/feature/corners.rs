@@ -2,7 +2,7 @@
 
 use super::structure_tensor::{StructureTensorOptions, with_tensor};
 use crate::imaging::GrayImage32;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 
 /// The Harris response `R = det M − k (trace M)²` of the structure tensor M at each pixel:

@@ -1,8 +1,8 @@
 //! The structure tensor: how the gradient is spread around each pixel.
 
 use crate::imaging::separable::{Ring, RowFilter, Sink, filter_along_row, in_bands};
-use crate::imaging::simd::dispatched;
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use std::ops::Range;
 

@@ -1,6 +1,7 @@
 //! The transfer error over many matches at once: for scoring and for least squares.
 
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
+use crate::math::simd::dispatched;
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -21,156 +22,164 @@ fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
     (du, dv, per_z)
 }
 
-/// The support of H among the matches; stops once the cost exceeds the limit.
-pub(crate) fn support(
-    coordinates: &Coordinates,
-    homography: &Matrix3<f64>,
-    max_error: f64,
-    cost_limit: f64,
-) -> Support {
-    let h = entries(homography);
-    let per_threshold_sq = 1.0 / (max_error * max_error);
-    let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
-    for (chunk, start) in (0..coordinates.len()).step_by(LANES).enumerate() {
-        let (lanes, count) = coordinates.lanes(start);
-        let (du, dv, _) = offsets(&h, &lanes);
-        let mut errors = [0.0; LANES];
-        for l in 0..LANES {
-            errors[l] = (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq;
-        }
-        if count == LANES {
+dispatched! {
+    /// The support of H among the matches; stops once the cost exceeds the limit.
+    pub(crate) fn support(
+        coordinates: &Coordinates,
+        homography: &Matrix3<f64>,
+        max_error: f64,
+        cost_limit: f64,
+    ) -> Support {
+        let h = entries(homography);
+        let per_threshold_sq = 1.0 / (max_error * max_error);
+        let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
+        for (chunk, start) in (0..coordinates.len()).step_by(LANES).enumerate() {
+            let (lanes, count) = coordinates.lanes(start);
+            let (du, dv, _) = offsets(&h, &lanes);
+            let mut errors = [0.0; LANES];
             for l in 0..LANES {
-                // Not a number counts as an outlier.
-                let fits = errors[l] < 1.0;
-                cost[l] += if fits { errors[l] } else { 1.0 };
-                inliers[l] += if fits { 1.0 } else { 0.0 };
+                errors[l] = (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq;
             }
-        } else {
-            for l in 0..count {
-                let fits = errors[l] < 1.0;
-                cost[l] += if fits { errors[l] } else { 1.0 };
-                inliers[l] += if fits { 1.0 } else { 0.0 };
-            }
-        }
-        if chunk % 4 == 3 && sum(&cost) > cost_limit {
-            break;
-        }
-    }
-    Support {
-        cost: sum(&cost),
-        num_inliers: sum(&inliers) as usize,
-    }
-}
-
-/// Fills `inliers` with the matches within the threshold.
-pub(crate) fn inliers(
-    coordinates: &Coordinates,
-    homography: &Matrix3<f64>,
-    max_error: f64,
-    inliers: &mut Vec<usize>,
-) {
-    let h = entries(homography);
-    let per_threshold_sq = 1.0 / (max_error * max_error);
-    inliers.clear();
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let (lanes, count) = coordinates.lanes(start);
-        let (du, dv, _) = offsets(&h, &lanes);
-        for l in 0..count {
-            if (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq < 1.0 {
-                inliers.push(start + l);
-            }
-        }
-    }
-}
-
-/// `½ Σ ρ(e²)` of the transfer errors.
-pub(crate) fn cost(coordinates: &Coordinates, homography: &Matrix3<f64>, loss: &RobustLoss) -> f64 {
-    let h = entries(homography);
-    let mut total = [0.0; LANES];
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let (lanes, count) = coordinates.lanes(start);
-        let (du, dv, _) = offsets(&h, &lanes);
-        for l in 0..count {
-            total[l] += loss.rho(du[l] * du[l] + dv[l] * dv[l]);
-        }
-    }
-    0.5 * sum(&total)
-}
-
-/// The sums of least squares with respect to the nine entries of H, row by row:
-/// (`JᵀJ`, `Jᵀr`, cost).
-///
-/// With `x = (u1, v1, 1)/z`, the residual (du, dv) has the derivatives x by the first row of H, x
-/// by the second, and `−(u', v') x` by the third, (u', v') being the transferred pixel.
-pub(crate) fn linearize(
-    coordinates: &Coordinates,
-    homography: &Matrix3<f64>,
-    loss: &RobustLoss,
-) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>, f64) {
-    let h = entries(homography);
-    // For each of the six products of x with itself: weighted by 1, u', v', u'² + v'².
-    let mut products = [[[0.0; LANES]; 6]; 4];
-    let mut gradient = [[0.0; LANES]; 9];
-    let mut total = [0.0; LANES];
-    for start in (0..coordinates.len()).step_by(LANES) {
-        let (lanes, count) = coordinates.lanes(start);
-        let (du, dv, per_z) = offsets(&h, &lanes);
-        let [u1, v1, u2, v2] = lanes;
-        let mut weight = [0.0; LANES];
-        for l in 0..count {
-            let error_sq = du[l] * du[l] + dv[l] * dv[l];
-            total[l] += loss.rho(error_sq);
-            weight[l] = loss.weight(error_sq);
-        }
-        for l in 0..LANES {
-            // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
-            let (du, dv, z) = if weight[l] > 0.0 {
-                (du[l], dv[l], per_z[l])
+            if count == LANES {
+                for l in 0..LANES {
+                    // Not a number counts as an outlier.
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
             } else {
-                (0.0, 0.0, 0.0)
-            };
-            let (u, v) = (du + u2[l], dv + v2[l]);
-            let x = [u1[l] * z, v1[l] * z, z];
-            let scaled = x.map(|value| value * weight[l]);
-            let squares = [
-                scaled[0] * x[0],
-                scaled[0] * x[1],
-                scaled[0] * x[2],
-                scaled[1] * x[1],
-                scaled[1] * x[2],
-                scaled[2] * x[2],
-            ];
-            let factors = [1.0, u, v, u * u + v * v];
-            for (block, factor) in products.iter_mut().zip(factors) {
-                for (sum, square) in block.iter_mut().zip(squares) {
-                    sum[l] += factor * square;
+                for l in 0..count {
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
                 }
             }
-            let third = -(du * u + dv * v);
-            for i in 0..3 {
-                gradient[i][l] += scaled[i] * du;
-                gradient[3 + i][l] += scaled[i] * dv;
-                gradient[6 + i][l] += scaled[i] * third;
+            if chunk % 4 == 3 && sum(&cost) > cost_limit {
+                break;
+            }
+        }
+        Support {
+            cost: sum(&cost),
+            num_inliers: sum(&inliers) as usize,
+        }
+    }
+}
+
+dispatched! {
+    /// Fills `inliers` with the matches within the threshold.
+    pub(crate) fn inliers(
+        coordinates: &Coordinates,
+        homography: &Matrix3<f64>,
+        max_error: f64,
+        inliers: &mut Vec<usize>,
+    ) {
+        let h = entries(homography);
+        let per_threshold_sq = 1.0 / (max_error * max_error);
+        inliers.clear();
+        for start in (0..coordinates.len()).step_by(LANES) {
+            let (lanes, count) = coordinates.lanes(start);
+            let (du, dv, _) = offsets(&h, &lanes);
+            for l in 0..count {
+                if (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq < 1.0 {
+                    inliers.push(start + l);
+                }
             }
         }
     }
-    const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
-    let mut hessian = SMatrix::zeros();
-    for i in 0..3 {
-        for j in 0..3 {
-            let [one, u, v, uv] = [0, 1, 2, 3].map(|k: usize| sum(&products[k][PLACE[i][j]]));
-            hessian[(i, j)] = one;
-            hessian[(3 + i, 3 + j)] = one;
-            hessian[(6 + i, 6 + j)] = uv;
-            hessian[(i, 6 + j)] = -u;
-            hessian[(6 + i, j)] = -u;
-            hessian[(3 + i, 6 + j)] = -v;
-            hessian[(6 + i, 3 + j)] = -v;
+}
+
+dispatched! {
+    /// `½ Σ ρ(e²)` of the transfer errors.
+    pub(crate) fn cost(coordinates: &Coordinates, homography: &Matrix3<f64>, loss: &RobustLoss) -> f64 {
+        let h = entries(homography);
+        let mut total = [0.0; LANES];
+        for start in (0..coordinates.len()).step_by(LANES) {
+            let (lanes, count) = coordinates.lanes(start);
+            let (du, dv, _) = offsets(&h, &lanes);
+            for l in 0..count {
+                total[l] += loss.rho(du[l] * du[l] + dv[l] * dv[l]);
+            }
         }
+        0.5 * sum(&total)
     }
-    (
-        hessian,
-        SVector::from_fn(|i, _| sum(&gradient[i])),
-        0.5 * sum(&total),
-    )
+}
+
+dispatched! {
+    /// The sums of least squares with respect to the nine entries of H, row by row:
+    /// (`JᵀJ`, `Jᵀr`, cost).
+    ///
+    /// With `x = (u1, v1, 1)/z`, the residual (du, dv) has the derivatives x by the first row of H, x
+    /// by the second, and `−(u', v') x` by the third, (u', v') being the transferred pixel.
+    pub(crate) fn linearize(
+        coordinates: &Coordinates,
+        homography: &Matrix3<f64>,
+        loss: &RobustLoss,
+    ) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>, f64) {
+        let h = entries(homography);
+        // For each of the six products of x with itself: weighted by 1, u', v', u'² + v'².
+        let mut products = [[[0.0; LANES]; 6]; 4];
+        let mut gradient = [[0.0; LANES]; 9];
+        let mut total = [0.0; LANES];
+        for start in (0..coordinates.len()).step_by(LANES) {
+            let (lanes, count) = coordinates.lanes(start);
+            let (du, dv, per_z) = offsets(&h, &lanes);
+            let [u1, v1, u2, v2] = lanes;
+            let mut weight = [0.0; LANES];
+            for l in 0..count {
+                let error_sq = du[l] * du[l] + dv[l] * dv[l];
+                total[l] += loss.rho(error_sq);
+                weight[l] = loss.weight(error_sq);
+            }
+            for l in 0..LANES {
+                // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
+                let (du, dv, z) = if weight[l] > 0.0 {
+                    (du[l], dv[l], per_z[l])
+                } else {
+                    (0.0, 0.0, 0.0)
+                };
+                let (u, v) = (du + u2[l], dv + v2[l]);
+                let x = [u1[l] * z, v1[l] * z, z];
+                let scaled = x.map(|value| value * weight[l]);
+                let squares = [
+                    scaled[0] * x[0],
+                    scaled[0] * x[1],
+                    scaled[0] * x[2],
+                    scaled[1] * x[1],
+                    scaled[1] * x[2],
+                    scaled[2] * x[2],
+                ];
+                let factors = [1.0, u, v, u * u + v * v];
+                for (block, factor) in products.iter_mut().zip(factors) {
+                    for (sum, square) in block.iter_mut().zip(squares) {
+                        sum[l] += factor * square;
+                    }
+                }
+                let third = -(du * u + dv * v);
+                for i in 0..3 {
+                    gradient[i][l] += scaled[i] * du;
+                    gradient[3 + i][l] += scaled[i] * dv;
+                    gradient[6 + i][l] += scaled[i] * third;
+                }
+            }
+        }
+        const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+        let mut hessian = SMatrix::zeros();
+        for i in 0..3 {
+            for j in 0..3 {
+                let [one, u, v, uv] = [0, 1, 2, 3].map(|k: usize| sum(&products[k][PLACE[i][j]]));
+                hessian[(i, j)] = one;
+                hessian[(3 + i, 3 + j)] = one;
+                hessian[(6 + i, 6 + j)] = uv;
+                hessian[(i, 6 + j)] = -u;
+                hessian[(6 + i, j)] = -u;
+                hessian[(3 + i, 6 + j)] = -v;
+                hessian[(6 + i, 3 + j)] = -v;
+            }
+        }
+        (
+            hessian,
+            SVector::from_fn(|i, _| sum(&gradient[i])),
+            0.5 * sum(&total),
+        )
+    }
 }

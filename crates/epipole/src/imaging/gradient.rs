@@ -4,9 +4,9 @@ use super::approx::atan2;
 use super::gaussian::derivative_kernels;
 use super::gray::from_vec;
 use super::separable::{filter, filter_into};
-use super::simd::dispatched;
 use super::{Border, GrayImage32};
 use crate::Result;
+use crate::math::simd::dispatched;
 
 /// The two partial derivatives of an image, in the units of the filter that made them.
 #[derive(Debug, Clone, PartialEq)]

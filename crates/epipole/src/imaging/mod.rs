@@ -24,7 +24,6 @@ mod pyramid;
 mod resize;
 mod sample;
 pub(crate) mod separable;
-pub(crate) mod simd;
 mod warp;
 
 pub use border::Border;

@@ -2,8 +2,8 @@
 //! while the kernel along v needs it, and never written to memory as an image of its own.
 
 use super::gray::from_vec;
-use super::simd::dispatched;
 use super::{Border, GrayImage32};
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use std::ops::Range;
 

@@ -299,8 +299,9 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.refine(model, &self.inliers, max_error_px)
     }
 
-    /// The last refinement. Its result may weigh errors differently from the score, so it is kept
-    /// unless it loses inliers: one in twenty at most.
+    /// The last refinement, from all data within a few times the errors that inliers have. Its
+    /// result may weigh errors differently from the score, so it is kept unless it loses inliers:
+    /// one in twenty at most.
     fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         self.estimator
@@ -308,9 +309,15 @@ impl<E: Estimator> Ransac<E> {
         if self.inliers.len() < self.estimator.sample_size() {
             return;
         }
+        let width_px = self.error_width_px(&candidate.model);
+        self.estimator.inliers(
+            &candidate.model,
+            max_error_px.max(2.0 * width_px),
+            &mut self.inliers,
+        );
         let polished = self
             .estimator
-            .polish(&candidate.model, &self.inliers, max_error_px);
+            .polish(&candidate.model, &self.inliers, width_px);
         if let Some(model) = polished {
             let support = self.support(&model, f64::INFINITY);
             if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
@@ -318,6 +325,18 @@ impl<E: Estimator> Ransac<E> {
                 self.refinements += 1;
             }
         }
+    }
+
+    /// How large the errors of the inliers are: two and a half times their median, between a
+    /// quarter of the threshold and the whole. The threshold is a guess of the caller's; errors a
+    /// tenth as large deserve a sharper weight, and those that fill it a wider one.
+    fn error_width_px(&self, model: &E::Model) -> f64 {
+        let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
+        let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
+        let middle = errors_sq.len() / 2;
+        let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
+        let max_error_px = self.options.max_error_px;
+        (2.5 * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {

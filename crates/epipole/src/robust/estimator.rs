@@ -84,13 +84,16 @@ pub trait Estimator {
 
     /// The last refinement, of the best model, which may take longer, allocate, and weigh errors
     /// in another way than the score; `None` if [`refine`](Estimator::refine) did all there is to do.
+    ///
+    /// * `near`: indices of the data within the threshold, or two widths if that is more
+    /// * `width_px`: how large the errors of the inliers are
     fn polish(
         &mut self,
         model: &Self::Model,
-        inliers: &[usize],
-        max_error_px: f64,
+        near: &[usize],
+        width_px: f64,
     ) -> Option<Self::Model> {
-        let _ = (model, inliers, max_error_px);
+        let _ = (model, near, width_px);
         None
     }
 

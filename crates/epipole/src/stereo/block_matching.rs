@@ -6,7 +6,7 @@ use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
 use super::winner::{Selector, Tests};
 use super::work::{Progress, Strips};
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;

@@ -12,7 +12,7 @@
 //! to image sampling".
 
 use super::search::Search;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use image::GrayImage;
 
 /// The census window is 5×5: 24 comparisons with the center, three bytes.

@@ -8,7 +8,7 @@
 //! Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information",
 //! equations 13 and 14.
 
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 
 /// Bytes of "infinite cost" on either side of a path's disparities, so that d ± 1 exists.
 const PAD: usize = 8;

@@ -1,6 +1,6 @@
 //! What block matching compares instead of gray values: details, without slow changes of light.
 
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use image::GrayImage;
 
 /// What is done to both pictures before blocks are compared.

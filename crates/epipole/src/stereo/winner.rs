@@ -1,7 +1,7 @@
 //! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
 
 use super::search::Search;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 
 /// What makes an answer credible.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@
 //! lengths subtracted: near neighbors would lose their digits.
 
 use super::dense::Scanned;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 
 /// Descriptors of the second list in a tile.
 const TILE: usize = 64;

@@ -2,7 +2,7 @@
 
 use super::{Found, MatchOptions, Neighbors, check, parallel, select};
 use crate::feature::matching::Match;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 
 /// Descriptors of 256 bits each, as four 64-bit words; bit 0 of word 0 comes first.

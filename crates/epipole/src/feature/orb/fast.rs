@@ -1,7 +1,7 @@
 //! FAST corners: nine neighbors in a row on a circle, all brighter or all darker.
 
 use crate::feature::Keypoint;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use image::GrayImage;
 use std::cmp::Ordering;
 

@@ -3,7 +3,7 @@
 use super::SiftNormalization;
 use crate::imaging::GrayImage32;
 use crate::imaging::approx::{atan2, exp_negative};
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use std::f32::consts::TAU;
 
 /// Cells along a side of the descriptor.

@@ -3,7 +3,7 @@
 use super::SiftOptions;
 use super::scale_space::Octave;
 use crate::feature::parallel;
-use crate::imaging::simd::dispatched;
+use crate::math::simd::dispatched;
 use nalgebra::{Matrix3, Vector3};
 
 /// Samples along the edge of an octave in which no extremum is looked for.
