@@ -1,0 +1,185 @@
+//! Times robust estimation, triangulation and the minimal solvers on given problems, for scripts
+//! that set them beside peers.
+//!
+//! Usage: `geometry_time FOLDER`, where the folder holds `general-0.f64`, `planar-0.f64` … : rows of
+//! seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, least milliseconds,
+//! numbers of the answer` a line, separated by tabs. The time is that for which the thread had a
+//! processor, where Linux tells it, so that other work on the machine disturbs less.
+
+use epipole::absolute_pose::pose_p3p;
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point};
+use epipole::homography::homography_4point;
+use epipole::robust::RansacOptions;
+use epipole::triangulation::triangulate_dlt_all;
+use epipole::{estimate_relative_pose, find_absolute_pose, find_fundamental, find_homography};
+use nalgebra::{Point2, Point3, Rotation3, Vector3};
+use std::array::from_fn;
+use std::error::Error;
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+/// Milliseconds since some fixed moment.
+fn now(start: &Instant) -> f64 {
+    let on_processor = || {
+        let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+        text.split(' ').next()?.parse::<f64>().ok()
+    };
+    match on_processor() {
+        Some(nanoseconds) => nanoseconds * 1e-6,
+        None => start.elapsed().as_secs_f64() * 1e3,
+    }
+}
+
+/// The answer, and the least time for it over about a fifth of a second.
+fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
+    let mut answer = work();
+    let start = Instant::now();
+    answer = black_box({
+        drop(answer);
+        work()
+    });
+    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
+    let one = start.elapsed().as_secs_f64() * 1e3;
+    let batch = (10.0 / one).clamp(1.0, 1000.0) as usize;
+    let mut least = f64::INFINITY;
+    for _ in 0..(200.0 / (one * batch as f64)).clamp(3.0, 20.0) as usize {
+        let before = now(&start);
+        for _ in 0..batch {
+            answer = black_box(work());
+        }
+        least = least.min((now(&start) - before) / batch as f64);
+    }
+    (least, answer)
+}
+
+struct Problem {
+    pixels1: Vec<Point2<f64>>,
+    pixels2: Vec<Point2<f64>>,
+    points: Vec<Point3<f64>>,
+}
+
+fn read(folder: &Path, kind: &str, index: usize) -> Result<Option<Problem>, Box<dyn Error>> {
+    let path = folder.join(format!("{kind}-{index}.f64"));
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bytes = std::fs::read(path)?;
+    let numbers: Vec<f64> = bytes
+        .chunks_exact(8)
+        .map(|x| f64::from_le_bytes(from_fn(|i| x[i])))
+        .collect();
+    let rows = || numbers.chunks_exact(7);
+    Ok(Some(Problem {
+        pixels1: rows().map(|r| Point2::new(r[0], r[1])).collect(),
+        pixels2: rows().map(|r| Point2::new(r[2], r[3])).collect(),
+        points: rows().map(|r| Point3::new(r[4], r[5], r[6])).collect(),
+    }))
+}
+
+fn print(name: &str, index: usize, least_ms: f64, numbers: &[f64]) {
+    let text: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    println!("{name}\t{index}\t{least_ms}\t{}", text.join(" "));
+}
+
+/// The rows of [R t].
+fn rows_of(pose: &RigidTransform) -> Vec<f64> {
+    let m = pose.to_matrix();
+    (0..12).map(|i| m[(i / 4, i % 4)]).collect()
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args().nth(1).ok_or("which folder?")?;
+    let folder = Path::new(&folder);
+    let k = Intrinsics::centered(800.0, 640, 480)?;
+    let options = RansacOptions::default();
+    let flat = |m: &nalgebra::Matrix3<f64>| m.transpose().as_slice().to_vec();
+    for index in 0.. {
+        let Some(p) = read(folder, "general", index)? else {
+            break;
+        };
+        let (ms, found) = time(|| find_fundamental(&p.pixels1, &p.pixels2, &options));
+        print("F RANSAC", index, ms, &flat(&found?.model));
+        let (ms, found) = time(|| estimate_relative_pose(&p.pixels1, &p.pixels2, &k, &k, &options));
+        print(
+            "E RANSAC",
+            index,
+            ms,
+            &rows_of(&found?.model.cam2_from_cam1()),
+        );
+        let (ms, found) = time(|| find_absolute_pose(&p.points, &p.pixels2, &k, &options));
+        print("P3P RANSAC", index, ms, &rows_of(&found?.model));
+    }
+    for index in 0.. {
+        let Some(p) = read(folder, "planar", index)? else {
+            break;
+        };
+        let (ms, found) = time(|| find_homography(&p.pixels1, &p.pixels2, &options));
+        print("H RANSAC", index, ms, &flat(&found?.model));
+    }
+    let clean = read(folder, "clean", 0)?.ok_or("no clean-0.f64")?;
+    let left = Camera {
+        intrinsics: k,
+        cam_from_world: RigidTransform::identity(),
+    };
+    let turn = Rotation3::new(Vector3::new(0.03, 0.12, -0.05));
+    let right = Camera {
+        intrinsics: k,
+        cam_from_world: RigidTransform::from_parts(
+            Vector3::new(-0.6, 0.1, 0.1).into(),
+            turn.into(),
+        ),
+    };
+    let (p1, p2) = (left.projection_matrix(), right.projection_matrix());
+    let (ms, found) = time(|| triangulate_dlt_all(&p1, &p2, &clean.pixels1, &clean.pixels2));
+    let mut numbers = Vec::new();
+    for point in found? {
+        numbers.extend(point?.iter());
+    }
+    print("triangulation", 0, ms, &numbers);
+
+    let s = read(folder, "minimal", 0)?.ok_or("no minimal-0.f64")?;
+    let first = |i: usize| 7 * i;
+    let hundred = |solve: &dyn Fn(usize)| time(|| (0..100).for_each(|i| solve(first(i)))).0;
+    let ms = hundred(&|at| {
+        let (a, b) = (
+            from_fn(|i| s.pixels1[at + i]),
+            from_fn(|i| s.pixels2[at + i]),
+        );
+        black_box(fundamental_7point(&a, &b));
+    });
+    print("F7 × 100", 0, ms, &[]);
+    let ms = hundred(&|at| {
+        let _ = black_box(fundamental_8point(
+            &s.pixels1[at..at + 8],
+            &s.pixels2[at..at + 8],
+        ));
+    });
+    print("F8 × 100", 0, ms, &[]);
+    let ms = hundred(&|at| {
+        let (a, b) = (
+            from_fn(|i| k.ray(&s.pixels1[at + i])),
+            from_fn(|i| k.ray(&s.pixels2[at + i])),
+        );
+        black_box(essential_5point(&a, &b));
+    });
+    print("E5 × 100", 0, ms, &[]);
+    let ms = hundred(&|at| {
+        let (a, b) = (
+            from_fn(|i| k.ray(&s.pixels2[at + i])),
+            from_fn(|i| s.points[at + i]),
+        );
+        black_box(pose_p3p(&a, &b));
+    });
+    print("P3P × 100", 0, ms, &[]);
+    let ms = hundred(&|at| {
+        let (a, b) = (
+            from_fn(|i| s.pixels1[at + i]),
+            from_fn(|i| s.pixels2[at + i]),
+        );
+        let _ = black_box(homography_4point(&a, &b));
+    });
+    print("H4 × 100", 0, ms, &[]);
+    Ok(())
+}
