@@ -3,7 +3,8 @@
 //! The state is the settings and the place of the probe. Matches are drawn when they are first
 //! needed, because following rays through the scene is the only part that takes time.
 
-use super::matches::{MAX_USED, Match, Matches, cameras, exact_match};
+use super::estimate::{Estimate, Meeting, line2};
+use super::matches::{MAX_USED, Matches, cameras, exact_match};
 use crate::contract::{
     Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Toggle,
     Value, format_number,
@@ -11,12 +12,9 @@ use crate::contract::{
 use crate::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use crate::words;
 use epipole::camera::Camera;
-use epipole::epipolar::{
-    EightPoint as Solution, Epipole, epipolar_line2, epipoles, fundamental_8point_explained,
-    fundamental_8point_unnormalized, fundamental_from_cameras,
-};
-use epipole::math::{Line2, svd3};
-use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
+use epipole::epipolar::{EightPoint as Solution, Epipole, epipoles, fundamental_from_cameras};
+use epipole::math::svd3;
+use nalgebra::{Matrix3, Point2};
 use std::cell::OnceCell;
 
 const COUNT: Slider = Slider {
@@ -81,30 +79,6 @@ pub struct EightPoint {
     estimate: OnceCell<Result<Estimate, String>>,
 }
 
-/// F by both ways, and how good the chosen one is.
-pub(super) struct Estimate {
-    /// The matches that F was estimated from.
-    pub(super) used: Vec<Match>,
-    normalized: Solution,
-    raw: Solution,
-    /// F as the toggles want it.
-    pub(super) fundamental: Matrix3<f64>,
-    /// Where the lines of the matches meet, or nearly do.
-    pub(super) meeting: Option<Meeting>,
-    /// Mean distance of a match from its line in photograph 2, pixels.
-    used_px: f64,
-    /// The same for exact matches that F never saw.
-    held_out_px: f64,
-}
-
-/// The point of least squared distance from many lines.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting {
-    pub(super) place: Point2<f64>,
-    /// Mean distance of the lines from it, pixels.
-    pub(super) miss_px: f64,
-}
-
 impl EightPoint {
     fn matches(&self) -> &Matches {
         let seed = self.settings.count(&SEED) as u64;
@@ -122,28 +96,12 @@ impl EightPoint {
     fn compute(&self) -> Result<Estimate, epipole::Error> {
         let matches = self.matches();
         let used = matches.noisy(self.settings.count(&COUNT), self.settings.number(&NOISE));
-        let (pixels1, pixels2): (Vec<_>, Vec<_>) = used.iter().copied().unzip();
-        let normalized = fundamental_8point_explained(&pixels1, &pixels2)?;
-        let raw = fundamental_8point_unnormalized(&pixels1, &pixels2)?;
-        let chosen = if self.is_normalized() {
-            &normalized
-        } else {
-            &raw
-        };
-        let fundamental = if self.has_rank2() {
-            chosen.fundamental
-        } else {
-            chosen.full_rank
-        };
-        Ok(Estimate {
-            normalized,
-            raw,
-            fundamental,
-            meeting: meeting(&fundamental, &pixels1),
-            used_px: mean_distance_px(&fundamental, &used),
-            held_out_px: mean_distance_px(&fundamental, &matches.held_out),
+        Estimate::new(
             used,
-        })
+            &matches.held_out,
+            self.is_normalized(),
+            self.has_rank2(),
+        )
     }
 
     pub(super) fn is_normalized(&self) -> bool {
@@ -206,59 +164,6 @@ impl EightPoint {
     }
 }
 
-impl Estimate {
-    /// The singular values of the stacked rows without and with normalization, largest first.
-    pub(super) fn singular_values(&self) -> [&[f64; 9]; 2] {
-        [&self.raw.singular_values, &self.normalized.singular_values]
-    }
-
-    fn chosen(&self, is_normalized: bool) -> &Solution {
-        if is_normalized {
-            &self.normalized
-        } else {
-            &self.raw
-        }
-    }
-}
-
-/// The epipolar line of a pixel of photograph 1; `None` if it has none.
-pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
-    epipolar_line2(fundamental, pixel1).ok()
-}
-
-/// Mean distance of the second pixels from the lines of the first, pixels.
-fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
-    let distances: Vec<f64> = matches
-        .iter()
-        .filter_map(|(x1, x2)| Some(line2(fundamental, x1)?.signed_distance(x2).abs()))
-        .collect();
-    distances.iter().sum::<f64>() / distances.len().max(1) as f64
-}
-
-/// The point nearest to all lines of these pixels; `None` if they are nearly parallel.
-fn meeting(fundamental: &Matrix3<f64>, pixels1: &[Point2<f64>]) -> Option<Meeting> {
-    let lines: Vec<Line2> = pixels1
-        .iter()
-        .filter_map(|pixel1| line2(fundamental, pixel1))
-        .collect();
-    let (mut normals, mut offsets) = (Matrix2::zeros(), Vector2::zeros());
-    for line in &lines {
-        let normal = Vector2::new(line.a, line.b);
-        normals += normal * normal.transpose();
-        offsets -= normal * line.c;
-    }
-    let trace = normals.trace();
-    if !(normals.determinant() > 1e-6 * trace * trace) {
-        return None;
-    }
-    let place = Point2::from(normals.try_inverse()? * offsets);
-    let distance = |line: &Line2| line.signed_distance(&place).abs();
-    Some(Meeting {
-        place,
-        miss_px: lines.iter().map(distance).sum::<f64>() / lines.len() as f64,
-    })
-}
-
 impl Model for EightPoint {
     const NAME: &'static str = "eight-point";
     const TITLE: &'static str = "F from matches";
@@ -304,7 +209,7 @@ impl Model for EightPoint {
             Ok(estimate) => estimate,
             Err(sentence) => return vec![Readout::words("state", "State", sentence)],
         };
-        let solution = estimate.chosen(self.is_normalized());
+        let solution = estimate.chosen();
         let sigma = &solution.singular_values;
         let values = [0, 7, 8].map(|k| words::magnitude(sigma[k], sigma[0]));
         let of_f = svd3(&estimate.fundamental).singular_values;
@@ -351,7 +256,7 @@ impl Model for EightPoint {
             Ok(estimate) => estimate,
             Err(sentence) => return sentence.to_owned(),
         };
-        let solution = estimate.chosen(self.is_normalized());
+        let solution = estimate.chosen();
         format!(
             "F from {} matches with {} px of noise, {}, condition number {}. {}. Held-out points are \
              {} px from their lines on average.",
@@ -491,14 +396,6 @@ mod tests {
         let estimate = without.estimate().unwrap();
         assert!(estimate.fundamental.determinant().abs() > 0.0);
         assert!(estimate.meeting.unwrap().miss_px > 0.1);
-    }
-
-    #[test]
-    fn parallel_lines_meet_nowhere() {
-        // A step to the right: the lines are rows.
-        let fundamental = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
-        let pixels = [(10.0, 20.0), (300.0, 50.0), (90.0, 400.0)];
-        assert!(meeting(&fundamental, &pixels.map(|(u, v)| Point2::new(u, v))).is_none());
     }
 
     #[test]

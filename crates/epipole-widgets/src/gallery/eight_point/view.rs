@@ -1,7 +1,8 @@
 //! Both photographs with the matches and their lines; below, the place where the lines meet, much
 //! enlarged, and the singular values.
 
-use super::model::{EightPoint, Estimate, line2};
+use super::estimate::{Estimate, line2};
+use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
 use crate::labels::Labels;
@@ -305,7 +306,9 @@ fn draw_values(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &
             canvas.marker(place, if is_chosen { 4.5 } else { 3.5 }, shape, role, false);
             labels.keep_free(place, 7.0);
         }
-        let text = if is_chosen {
+        // A phone has no room for more than the name; the stroke says which one is in use.
+        let is_wide = panel.rect.width > 250.0;
+        let text = if is_chosen && is_wide {
             format!("{name}, in use")
         } else {
             name.to_owned()

@@ -1,6 +1,7 @@
 //! `ransac-epipolar`: the core's RANSAC on the matches of two photographs, sample by sample.
 
 mod answer;
+mod knobs;
 mod model;
 mod run;
 mod view;

@@ -4,104 +4,16 @@
 //! the settings; the loop is deterministic, so a permalink replays it.
 
 use super::answer::{Answer, Match, Request, STILL_LIFE_SIZE};
+use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SLOTS, SOURCE};
 use super::run::{MAX_SAMPLES, Question, Run};
 use crate::contract::{
-    Challenge, Choice, Control, Event, Job, JobResult, Knob, Model, PhotoSlot, Problem, Progress,
-    Readout, Settings, Slider, Toggle, Value, format_number,
+    Challenge, Control, Event, Job, JobResult, Model, PhotoSlot, Problem, Progress, Readout,
+    Settings, Slider, Value, format_number,
 };
 use crate::running::{RESTART, RUN, STEP};
 use crate::words;
 use image::RgbImage;
 
-const SOURCE: Choice = Choice {
-    id: "source",
-    label: "Photographs",
-    options: &[("still-life", "Still life"), ("own", "Your photographs")],
-    default: 0,
-};
-const OWN: usize = 1;
-const SHOW: Choice = Choice {
-    id: "show",
-    label: "Show",
-    options: &[
-        ("matches", "Matches"),
-        ("outliers", "Outliers only"),
-        ("lines", "Epipolar lines"),
-    ],
-    default: 0,
-};
-const RATIO: Slider = Slider {
-    id: "ratio",
-    label: "Ratio test τ",
-    unit: "",
-    min: 0.5,
-    max: 1.0,
-    step: 0.05,
-    default: 0.9,
-    digits: 2,
-    visible: true,
-};
-const EPSILON: Slider = Slider {
-    id: "epsilon",
-    label: "Threshold ε",
-    unit: "px",
-    min: 0.2,
-    max: 10.0,
-    step: 0.2,
-    default: 1.0,
-    digits: 1,
-    visible: true,
-};
-const LOCAL: Toggle = Toggle {
-    id: "local",
-    label: "Local optimization",
-    default: false,
-};
-const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 1.0,
-    digits: 0,
-    visible: true,
-};
-/// Asked for; the loop ends before when enough have been drawn.
-const ITERATIONS: Slider = Slider {
-    id: "iterations",
-    label: "Samples drawn",
-    unit: "",
-    min: 0.0,
-    max: MAX_SAMPLES as f64,
-    step: 1.0,
-    default: MAX_SAMPLES as f64,
-    digits: 0,
-    visible: false,
-};
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SOURCE),
-    Knob::Choice(&SHOW),
-    Knob::Slider(&EPSILON),
-    Knob::Slider(&RATIO),
-    Knob::Toggle(&LOCAL),
-    Knob::Slider(&SEED),
-    Knob::Slider(&ITERATIONS),
-];
-
-const SLOTS: &[PhotoSlot] = &[
-    PhotoSlot {
-        id: "first",
-        label: "Your photograph 1",
-        max_side_px: 640,
-    },
-    PhotoSlot {
-        id: "second",
-        label: "Your photograph 2",
-        max_side_px: 640,
-    },
-];
 /// Smaller photographs have no features to speak of.
 const MIN_SIDE_PX: u32 = 32;
 const SAMPLES_PER_SECOND: f64 = 8.0;
@@ -453,12 +365,10 @@ impl Model for RansacEpipolar {
             format!(", {count} of which are right by the scene's true geometry")
         });
         let end = match run.budget() {
-            _ if run.iterations() >= MAX_SAMPLES
-                && !run.budget().is_some_and(|n| n <= MAX_SAMPLES as u64) =>
-            {
-                format!(" The loop gave up after {MAX_SAMPLES} samples.")
+            _ if run.is_confident() => " That is enough for 99 % confidence.".to_owned(),
+            _ if run.is_finished() => {
+                " More would be needed for 99 % confidence, but the figure stops here.".to_owned()
             }
-            _ if run.is_finished() => " That is enough for 99 % confidence.".to_owned(),
             Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
             None => String::new(),
         };
@@ -512,5 +422,63 @@ fn set(slider: &Slider, value: f64) -> Event {
     Event::Set {
         id: slider.id.to_owned(),
         value: Value::Number(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{photograph, still_life_pair};
+    use std::ops::ControlFlow;
+
+    fn finish(model: &mut RansacEpipolar) {
+        while let Some(job) = model.job() {
+            let result = RansacEpipolar::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            model.job_done(result);
+        }
+    }
+
+    #[test]
+    fn the_vote_is_right_about_the_still_life() {
+        let mut model = RansacEpipolar::new();
+        finish(&mut model);
+        let run = model.run().unwrap();
+        let best = run.best().unwrap();
+        assert!(run.is_confident());
+        let num_right = model.num_right().unwrap();
+        assert!(best.num_inliers > 100 && 20 * num_right > 19 * best.num_inliers);
+        // The outliers are wrong: right matches are hardly ever outvoted.
+        let matches = model.matches();
+        let all_right = matches
+            .iter()
+            .filter(|found| found.is_right == Some(true))
+            .count();
+        assert!(20 * num_right > 19 * all_right && all_right < matches.len() * 4 / 5);
+    }
+
+    #[test]
+    fn two_photographs_of_the_readers_own_are_matched() {
+        let size = (240, 180);
+        let cameras = still_life_pair(size, 0.15, 0.0, 4.0);
+        let photographs = cameras
+            .map(|camera| photograph(&camera, size, &mut |_| ControlFlow::Continue(())).unwrap());
+        let [first, second] = photographs;
+        let mut model = RansacEpipolar::new();
+        model.take_photo("second", second).unwrap();
+        assert!(model.job().is_none());
+        assert!(
+            model.describe().contains("choose photograph 1"),
+            "{}",
+            model.describe()
+        );
+        model.take_photo("first", first).unwrap();
+        finish(&mut model);
+        assert!(model.run().unwrap().best().unwrap().num_inliers > 20);
+        assert_eq!(model.num_right(), None, "nobody knows the truth");
+        // A gray card has no features, and that is no reason to fail.
+        model.take_photo("first", RgbImage::new(64, 64)).unwrap();
+        finish(&mut model);
+        assert!(model.problem().unwrap().starts_with("There is no F"));
+        assert!(model.take_photo("first", RgbImage::new(3, 64)).is_err());
     }
 }

@@ -158,9 +158,91 @@ impl Run {
         (required <= 1_000_000).then_some(required)
     }
 
+    /// Whether the samples drawn suffice for the confidence.
+    pub(super) fn is_confident(&self) -> bool {
+        self.budget()
+            .is_some_and(|budget| budget <= self.iterations() as u64)
+    }
+
     /// Whether there is nothing more to draw.
     pub(super) fn is_finished(&self) -> bool {
-        let most = self.budget().unwrap_or(u64::MAX).min(MAX_SAMPLES as u64);
-        self.iterations() as u64 >= most
+        self.is_confident() || self.iterations() >= MAX_SAMPLES
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::still_life_pair;
+    use epipole::math::random::Random;
+    use nalgebra::Point3;
+
+    const NUM_RIGHT: usize = 60;
+    const QUESTION: Question = Question {
+        epsilon_px: 1.0,
+        seed: 3,
+        local_optimization: false,
+    };
+
+    /// Matches of random points before two cameras, the last 40 of them wrong.
+    fn matches() -> Vec<Match> {
+        let mut random = Random::new(9);
+        let [first, second] = still_life_pair((640, 480), 0.4, -0.3, 12.0);
+        let mut point = || {
+            let (x, y) = (random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.3));
+            Point3::new(x, y, random.uniform(-0.4, 0.9))
+        };
+        let right = (0..NUM_RIGHT).map(|_| point()).collect::<Vec<_>>();
+        let wrong = (0..40).map(|_| (point(), point())).collect::<Vec<_>>();
+        let pairs = right.iter().map(|p| (*p, *p)).chain(wrong);
+        let seen = pairs.map(|(p, q)| Match {
+            pixel1: first.project(&p).unwrap(),
+            pixel2: second.project(&q).unwrap(),
+            ratio: 0.5,
+            is_right: Some(p == q),
+        });
+        seen.collect()
+    }
+
+    #[test]
+    fn the_right_matches_win() {
+        let matches = matches();
+        let mut run = Run::new(&matches.iter().collect::<Vec<_>>(), QUESTION).unwrap();
+        run.draw_to(MAX_SAMPLES);
+        assert!(run.is_confident() && run.is_finished());
+        let best = run.best().unwrap();
+        assert!(best.is_inlier[..NUM_RIGHT].iter().all(|is| *is));
+        assert!(best.num_inliers <= NUM_RIGHT + 3, "{}", best.num_inliers);
+        assert!(best.mean_px < 0.1, "{}", best.mean_px);
+    }
+
+    #[test]
+    fn sample_by_sample_is_the_same_as_all_at_once() {
+        let matches = matches();
+        let matches: Vec<&Match> = matches.iter().collect();
+        let mut at_once = Run::new(&matches, QUESTION).unwrap();
+        at_once.draw_to(25);
+        let mut by_steps = Run::new(&matches, QUESTION).unwrap();
+        for iterations in 1..=25 {
+            by_steps.draw_to(iterations);
+        }
+        let [one, other] = [&at_once, &by_steps];
+        assert_eq!(one.iterations(), other.iterations());
+        assert_eq!(
+            one.candidate().unwrap().sample,
+            other.candidate().unwrap().sample
+        );
+        assert_eq!(
+            one.best().unwrap().fundamental,
+            other.best().unwrap().fundamental
+        );
+        assert_eq!(one.budget(), other.budget());
+    }
+
+    #[test]
+    fn too_few_matches_are_a_sentence() {
+        let matches = matches();
+        let few: Vec<&Match> = matches[..6].iter().collect();
+        assert!(Run::new(&few, QUESTION).is_err());
     }
 }

@@ -205,7 +205,11 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
 fn status(model: &RansacEpipolar) -> Option<&'static str> {
     let run = model.run()?;
     if model.is_finished() {
-        Some("enough samples drawn")
+        Some(if run.is_confident() {
+            "enough samples drawn"
+        } else {
+            "as many samples as it may draw"
+        })
     } else if run.candidate().is_none() {
         Some("press Run or Step")
     } else {
