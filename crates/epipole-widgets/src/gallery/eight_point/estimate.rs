@@ -106,7 +106,8 @@ fn meeting(fundamental: &Matrix3<f64>, pixels1: &[Point2<f64>]) -> Option<Meetin
         offsets -= normal * line.c;
     }
     let trace = normals.trace();
-    if !(normals.determinant() > 1e-6 * trace * trace) {
+    // Lines that are nearly parallel, or none at all.
+    if normals.determinant().max(0.0) <= 1e-6 * trace * trace {
         return None;
     }
     let place = Point2::from(normals.try_inverse()? * offsets);

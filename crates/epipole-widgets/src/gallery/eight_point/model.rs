@@ -191,11 +191,12 @@ impl Model for EightPoint {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) {
+                let has_changed = self.settings.set(id, value)? == Some(true);
+                if has_changed {
                     self.estimate.take();
-                    if id == SEED.id {
-                        self.matches.take();
-                    }
+                }
+                if has_changed && id == SEED.id {
+                    self.matches.take();
                 }
             }
             Event::HandleMoved { x, y, .. } | Event::Clicked { x, y, .. } => self.put_probe(*x, *y),

@@ -199,18 +199,18 @@ impl Model for RansacEpipolar {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) {
-                    match &**id {
-                        id if id == SOURCE.id => {
-                            self.running = false;
-                            self.ask();
-                        }
-                        id if id == RATIO.id => {
-                            self.run = None;
-                            self.draw();
-                        }
-                        _ => self.draw(),
+                let has_changed = self.settings.set(id, value)? == Some(true);
+                match &**id {
+                    _ if !has_changed => {}
+                    id if id == SOURCE.id => {
+                        self.running = false;
+                        self.ask();
                     }
+                    id if id == RATIO.id => {
+                        self.run = None;
+                        self.draw();
+                    }
+                    _ => self.draw(),
                 }
             }
             Event::Press { id } => match &**id {
