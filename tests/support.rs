@@ -41,6 +41,9 @@ pub mod listings {
     /// Chapter "One point, one line".
     #[doc = include_str!("../content/epipolar.md")]
     pub struct Epipolar;
+    /// Chapter "F from matches".
+    #[doc = include_str!("../content/eight-point.md")]
+    pub struct EightPoint;
     /// Chapter "Let the data vote".
     #[doc = include_str!("../content/ransac.md")]
     pub struct Ransac;

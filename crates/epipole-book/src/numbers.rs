@@ -150,9 +150,28 @@ mod tests {
         let pair = "f=500 cu=320 cv=240 tx=-0.2 ty=0 tz=-0.5";
         let matched = format!("{pair} u=400 v=300 u2=362 v2=324 digits=2");
         let mut used = Vec::new();
+        // u′u, u′v, u′, v′u, v′v, v′, u, v, 1
+        let row = [
+            "11000", "5500", "110", "4800", "2400", "48", "100", "50", "1",
+        ];
+        for (k, expected) in row.into_iter().enumerate() {
+            let call = format!("eight-point.row u=100 v=50 u2=110 v2=48 k={}", k + 1);
+            assert_eq!(printed(&call).as_deref(), Ok(expected), "{call}");
+        }
         for (call, expected) in [
             // 320 + 500 · 0.1 / 2
             ("camera.project-u f=500 cu=320 x=0.1 z=2", "345.0"),
+            // NumPy: singular values of the rows, raw and after Hartley's normalization.
+            ("eight-point.row u=100 v=50 u2=110 v2=48 k=1", "11000"),
+            ("eight-point.sigma normalized=0 k=1", "837858.69"),
+            ("eight-point.sigma normalized=0 k=8", "12.85"),
+            ("eight-point.sigma normalized=1 k=1", "7.79"),
+            ("eight-point.sigma normalized=1 k=8 digits=3", "0.394"),
+            ("eight-point.sigma normalized=1 k=9 digits=4", "0.0025"),
+            ("eight-point.condition normalized=0", "65203"),
+            ("eight-point.condition normalized=1 digits=1", "19.8"),
+            ("eight-point.distance-px normalized=0", "0.24"),
+            ("eight-point.distance-px normalized=1", "0.13"),
             // 320 + 500 · (−0.2) / (−0.5), and 240.
             (&format!("epipolar.epipole2-u {pair}"), "520"),
             (&format!("epipolar.epipole2-v {pair}"), "240"),

@@ -3,8 +3,11 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+pub mod eight_point;
 mod epipolar_click;
 pub mod harris;
+pub mod ransac_budget;
+pub mod ransac_epipolar;
 pub mod ransac_race;
 mod stereo_slider;
 
@@ -22,8 +25,11 @@ pub struct Entry {
 
 /// Every figure, in the order of the book.
 pub static FIGURES: &[Entry] = &[
+    entry::<eight_point::View>(),
     entry::<epipolar_click::EpipolarClickView>(),
     entry::<harris::View>(),
+    entry::<ransac_budget::View>(),
+    entry::<ransac_epipolar::View>(),
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
 ];

@@ -22,10 +22,14 @@ mod figure;
 mod font;
 pub mod gallery;
 mod labels;
+mod legend;
+mod pair;
 mod photo;
 pub mod pointing;
+mod running;
 mod scenes;
 mod stage;
 pub mod theme;
+mod words;
 
 pub use figure::{ChallengeStatus, Figure, POSTER_WIDTH};

@@ -1,8 +1,13 @@
 //! The scenes that figures photograph, and the size of their photographs.
 
+use crate::contract::Progress;
 use epipole::Error;
-use epipole::synthetic::{MovableKind, MovableObject, Scene};
-use nalgebra::Point2;
+use epipole::camera::Camera;
+use epipole::synthetic::{
+    MovableKind, MovableObject, Photograph, Sampling, Scene, still_life_camera,
+};
+use image::RgbImage;
+use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector3};
 
 /// Size of a photograph, pixels.
 pub(crate) const PHOTO_WIDTH: u32 = 640;
@@ -26,6 +31,53 @@ pub(crate) const BALL: &str = "the ball";
 /// The still life of the book.
 pub(crate) fn still_life() -> Scene {
     Scene::still_life()
+}
+
+/// Two cameras before the still life: the one it was composed for, and one moved and turned in the
+/// first one's own horizontal plane.
+///
+/// * `size`: width and height of both photographs, pixels
+/// * `right_m`, `forward_m`, `left_deg`: where the second camera stands in the frame of the first,
+///   and how far it is turned to the left
+pub(crate) fn still_life_pair(
+    (width, height): (u32, u32),
+    right_m: f64,
+    forward_m: f64,
+    left_deg: f64,
+) -> [Camera; 2] {
+    let first = still_life_camera(width, height);
+    // y points down, so turning the camera left turns what it sees right, by +y.
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_deg.to_radians());
+    let to_center = Translation3::new(-right_m, 0.0, -forward_m);
+    let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
+    let second = Camera {
+        cam_from_world: cam2_from_cam1 * first.cam_from_world,
+        ..first
+    };
+    [first, second]
+}
+
+/// A sharp photograph of the still life.
+///
+/// # Errors
+/// As [`Scene::render`], and [`Error::Canceled`] if `progress`, told the share that is done, ended
+/// it.
+pub(crate) fn photograph(
+    camera: &Camera,
+    (width, height): (u32, u32),
+    progress: Progress<'_>,
+) -> Result<RgbImage, Error> {
+    let scene = still_life();
+    let mut photograph = Photograph::blank(width, height);
+    for first in (0..height).step_by(60) {
+        let rows = first..first + 60;
+        scene.render_rows(camera, width, height, Sampling::Full, rows, &mut photograph)?;
+        let done = f64::from((first + 60).min(height)) / f64::from(height);
+        if progress(done).is_break() {
+            return Err(Error::Canceled);
+        }
+    }
+    Ok(photograph.image)
 }
 
 /// The long table, with its ball at this place seen from above, meters to the right of the left

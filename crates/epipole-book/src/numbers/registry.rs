@@ -5,7 +5,8 @@ use super::Number::{Count, Real};
 use super::{Arguments, Entry};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
-    Epipole, epipolar_line2, epipoles, essential_from_motion, fundamental_from_essential,
+    EightPoint, Epipole, epipolar_line2, epipolar_row, epipoles, essential_from_motion,
+    fundamental_8point_explained, fundamental_8point_unnormalized, fundamental_from_essential,
     sampson_px,
 };
 use epipole::robust::{num_trials_with_replacement, num_trials_without_replacement};
@@ -72,6 +73,44 @@ pub const REGISTRY: &[Entry] = &[
                 sampson_px(&fundamental(a)?, &pixel1(a), &pixel2(a)),
                 2,
             ))
+        },
+    },
+    Entry {
+        name: "eight-point.row",
+        parameters: &["u", "v", "u2", "v2", "k"],
+        summary: "entry k, 1 to 9, of the equation that the match (u, v) – (u2, v2) gives for F",
+        compute: |a| {
+            let row = epipolar_row(&pixel1(a), &pixel2(a));
+            Ok(Real(row[index_below(a, row.len())?], 0))
+        },
+    },
+    Entry {
+        name: "eight-point.sigma",
+        parameters: &["normalized", "k"],
+        summary: "singular value k, 1 to 9, of the stacked equations of the chapter's ten matches",
+        compute: |a| {
+            let values = ten_matches(a)?.singular_values;
+            Ok(Real(values[index_below(a, values.len())?], 2))
+        },
+    },
+    Entry {
+        name: "eight-point.condition",
+        parameters: &["normalized"],
+        summary: "σ₁ / σ₈ of the stacked equations of the chapter's ten matches",
+        compute: |a| Ok(Real(ten_matches(a)?.condition_number, 0)),
+    },
+    Entry {
+        name: "eight-point.distance-px",
+        parameters: &["normalized"],
+        summary: "mean distance of the chapter's ten matches from their lines in picture 2, pixels",
+        compute: |a| {
+            let fundamental = ten_matches(a)?.fundamental;
+            let mut sum = 0.0;
+            for [u, v, u2, v2] in TEN_MATCHES {
+                let line = epipolar_line2(&fundamental, &Point2::new(u, v)).map_err(sentence)?;
+                sum += line.signed_distance(&Point2::new(u2, v2)).abs();
+            }
+            Ok(Real(sum / TEN_MATCHES.len() as f64, 2))
         },
     },
     Entry {
@@ -143,6 +182,40 @@ pub const REGISTRY: &[Entry] = &[
 /// Two equal cameras that look the same way; t takes coordinates of camera 1 to camera 2.
 const PAIR: &[&str] = &["f", "cu", "cv", "tx", "ty", "tz"];
 const MATCH: &[&str] = &["f", "cu", "cv", "tx", "ty", "tz", "u", "v", "u2", "v2"];
+
+/// The matches that the chapter on the eight-point algorithm works with: u, v, u2, v2, rounded to
+/// whole pixels.
+const TEN_MATCHES: [[f64; 4]; 10] = [
+    [584.0, 385.0, 506.0, 399.0],
+    [97.0, 341.0, 114.0, 338.0],
+    [348.0, 351.0, 335.0, 355.0],
+    [367.0, 137.0, 371.0, 143.0],
+    [122.0, 60.0, 88.0, 88.0],
+    [348.0, 304.0, 366.0, 308.0],
+    [454.0, 201.0, 375.0, 214.0],
+    [444.0, 264.0, 456.0, 269.0],
+    [148.0, 194.0, 159.0, 203.0],
+    [587.0, 368.0, 612.0, 381.0],
+];
+
+/// F from the ten matches, `normalized=1` or not.
+fn ten_matches(a: &Arguments) -> Result<EightPoint, String> {
+    let pixels1 = TEN_MATCHES.map(|[u, v, _, _]| Point2::new(u, v));
+    let pixels2 = TEN_MATCHES.map(|[_, _, u2, v2]| Point2::new(u2, v2));
+    match a.count("normalized")? {
+        0 => fundamental_8point_unnormalized(&pixels1, &pixels2),
+        _ => fundamental_8point_explained(&pixels1, &pixels2),
+    }
+    .map_err(sentence)
+}
+
+/// The parameter k, counted from 1, as an index.
+fn index_below(a: &Arguments, length: usize) -> Result<usize, String> {
+    let index = a.count("k")?.checked_sub(1);
+    index
+        .filter(|&index| index < length)
+        .ok_or_else(|| format!("k must be 1 to {length}"))
+}
 
 fn sentence(error: epipole::Error) -> String {
     error.to_string()

@@ -1,19 +1,20 @@
 //! State and mathematics of `epipolar-click`: points of one photograph, their epipolar lines and
 //! true matches in another.
 
-use super::words;
+use super::words as said;
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
     Slider, Value,
 };
-use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
+use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life_pair};
+use crate::words;
 use epipole::camera::Camera;
 use epipole::epipolar::{
     Epipole, epipolar_line1, epipolar_line2, epipoles, fundamental_from_cameras,
 };
 use epipole::math::Line2;
-use epipole::synthetic::{Transfer, still_life_camera};
-use nalgebra::{Isometry3, Matrix3, Point2, Translation3, UnitQuaternion, Vector3};
+use epipole::synthetic::Transfer;
+use nalgebra::{Matrix3, Point2};
 
 pub(super) const BASELINE: Slider = Slider {
     id: "baseline",
@@ -136,19 +137,8 @@ impl EpipolarClick {
     /// The first and the second camera. The second is the first, moved and turned in its own
     /// horizontal plane.
     pub(super) fn cameras(&self) -> [Camera; 2] {
-        let first = still_life_camera(PHOTO_WIDTH, PHOTO_HEIGHT);
-        let right_m = self.settings.number(&BASELINE);
-        let forward_m = self.settings.number(&FORWARD);
-        let left_rad = self.settings.number(&TURN).to_radians();
-        // y points down, so turning the camera left turns what it sees right, by +y.
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_rad);
-        let to_center = Translation3::new(-right_m, 0.0, -forward_m);
-        let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
-        let second = Camera {
-            cam_from_world: cam2_from_cam1 * first.cam_from_world,
-            ..first
-        };
-        [first, second]
+        let (right_m, forward_m, left_deg) = self.motion();
+        still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
     }
 
     /// Camera 2 in the frame of camera 1: meters to the right, meters forward, and degrees to the
@@ -375,7 +365,7 @@ impl Model for EpipolarClick {
             readouts.push(Readout::words(
                 "match",
                 "Its match in photograph 2",
-                words::found(found),
+                said::found(found),
             ));
             if let Some(geometry) = &geometry {
                 let line = self.line2(geometry, &point);
@@ -421,11 +411,11 @@ impl Model for EpipolarClick {
     fn describe(&self) -> String {
         let (right_m, forward_m, left_deg) = self.motion();
         let Some(geometry) = self.geometry() else {
-            return words::NO_BASELINE.to_owned();
+            return said::NO_BASELINE.to_owned();
         };
         let mut text = format!(
             "Camera 2 stands {}. ",
-            words::motion(right_m, forward_m, left_deg)
+            said::motion(right_m, forward_m, left_deg)
         );
         let count = self.points().count();
         if count == 0 {
@@ -587,7 +577,7 @@ mod tests {
         let (a, b) = (still.find_match(&point), turned.find_match(&point));
         assert!(b.pixel().unwrap().x > a.pixel().unwrap().x + 50.0);
         assert!(turned.geometry().is_none());
-        assert_eq!(turned.describe(), words::NO_BASELINE);
+        assert_eq!(turned.describe(), said::NO_BASELINE);
     }
 
     #[test]

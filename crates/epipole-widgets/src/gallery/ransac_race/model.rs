@@ -6,9 +6,10 @@
 //! millisecond, and so a permalink replays exactly.
 
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
-    Slider, Value, format_number, round_to_digits,
+    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Value,
+    format_number, round_to_digits,
 };
+use crate::running::{RESTART, RUN, STEP};
 use epipole::math::{Line2, random::Random};
 use epipole::robust::{
     Budget, LineEstimator, Ransac, RansacOptions, ScoreKind, Step, fit_line_total_least_squares,
@@ -90,22 +91,6 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&SEED),
     Knob::Slider(&ITERATIONS),
 ];
-
-const RUN: Button = Button {
-    id: "run",
-    label: "Run",
-    role: ButtonRole::Run,
-};
-const STEP: Button = Button {
-    id: "step",
-    label: "Step",
-    role: ButtonRole::Step,
-};
-const RESTART: Button = Button {
-    id: "restart",
-    label: "Start over",
-    role: ButtonRole::Restart,
-};
 
 /// A point and where it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]

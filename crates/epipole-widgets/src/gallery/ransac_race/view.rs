@@ -1,27 +1,19 @@
 //! The plane with its points and lines, and a legend below.
 
 use super::model::{HEIGHT_PX, RansacRace, WIDTH_PX};
-use crate::canvas::{Canvas, Dash, Shape, Stroke, TextStyle, text_width};
+use crate::canvas::{Canvas, Dash, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View};
+use crate::legend::{self, Entry, Swatch};
 use crate::theme::Role;
 use epipole::math::Line2;
 
 const MARGIN: f64 = 8.0;
-const LEGEND_SIZE: f64 = 13.0;
-const LEGEND_LINE: f64 = 22.0;
-const SWATCH: f64 = 26.0;
 
 /// Draws [`RansacRace`].
 #[derive(Default)]
 pub struct RansacRaceView;
 
-/// Lines and markers of the legend.
-enum Swatch {
-    Line(Stroke),
-    Marker(Shape, Role),
-}
-
-fn legend() -> [(Swatch, &'static str); 6] {
+fn legend() -> [Entry; 6] {
     [
         (Swatch::Line(least_squares_stroke()), "least squares"),
         (Swatch::Line(candidate_stroke()), "this sample"),
@@ -51,28 +43,13 @@ fn truth_stroke() -> Stroke {
     Stroke::solid(Role::Truth, 2.0).dotted()
 }
 
-/// Where each entry of the legend begins, and how many lines it takes.
-fn legend_places(width: f64) -> (Vec<(f64, f64)>, f64) {
-    let (mut x, mut y) = (MARGIN, 0.0);
-    let mut places = Vec::new();
-    for (_, label) in legend() {
-        let entry_width = SWATCH + 6.0 + text_width(label, LEGEND_SIZE);
-        if x > MARGIN && x + entry_width > width - MARGIN {
-            (x, y) = (MARGIN, y + LEGEND_LINE);
-        }
-        places.push((x, y));
-        x += entry_width + 18.0;
-    }
-    (places, y + LEGEND_LINE)
-}
-
 impl View for RansacRaceView {
     type Model = RansacRace;
 
     fn layout(&self, _: &RansacRace, width: f64) -> Layout {
         let plane_width = (width - 2.0 * MARGIN).max(1.0);
         let plane_height = plane_width * HEIGHT_PX / WIDTH_PX;
-        let (_, legend_height) = legend_places(width);
+        let legend_height = legend::height(&legend(), width, MARGIN);
         Layout {
             width,
             height: plane_height + legend_height + 2.5 * MARGIN,
@@ -113,7 +90,8 @@ impl View for RansacRaceView {
             points(canvas, plane, model);
         });
         status(canvas, plane, model);
-        draw_legend(canvas, layout, plane.rect.bottom() + 0.75 * MARGIN);
+        let top = plane.rect.bottom() + 0.75 * MARGIN;
+        legend::draw(canvas, &legend(), layout.width, MARGIN, top);
     }
 }
 
@@ -179,19 +157,4 @@ fn status(canvas: &mut Canvas, plane: &Panel, model: &RansacRace) {
     };
     let place = (plane.rect.x + 10.0, plane.rect.y + 20.0);
     canvas.text(place, text, TextStyle::new(Role::Ink, 13.0).cased());
-}
-
-fn draw_legend(canvas: &mut Canvas, layout: &Layout, top: f64) {
-    let (places, _) = legend_places(layout.width);
-    for ((swatch, label), (x, y)) in legend().into_iter().zip(places) {
-        let middle = top + y + LEGEND_LINE / 2.0;
-        match swatch {
-            Swatch::Line(stroke) => canvas.line((x, middle), (x + SWATCH - 2.0, middle), stroke),
-            Swatch::Marker(shape, role) => {
-                canvas.marker((x + SWATCH / 2.0, middle), 4.5, shape, role, false);
-            }
-        }
-        let style = TextStyle::new(Role::Ink, LEGEND_SIZE);
-        canvas.label((x + SWATCH + 6.0, middle), label, style);
-    }
 }

@@ -1,0 +1,115 @@
+//! Matches of the still life's two photographs: exact by the scene's own geometry, then disturbed.
+
+use crate::scenes::{
+    PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life, still_life_pair,
+};
+use epipole::camera::Camera;
+use epipole::math::random::Random;
+use epipole::synthetic::Transfer;
+use nalgebra::Point2;
+
+/// The most matches that F can be estimated from.
+pub(super) const MAX_USED: usize = 60;
+/// Exact matches that F is judged by; it never sees them.
+const NUM_HELD_OUT: usize = 100;
+/// Places in photograph 1 that are tried in all.
+const MAX_TRIED: usize = 4000;
+/// Matches that F is estimated from are no nearer to each other, pixels.
+const APART_PX: f64 = 24.0;
+/// Matches are no nearer to the edge of a photograph, pixels.
+const MARGIN_PX: f64 = 8.0;
+
+/// Where the second camera stands: meters to the right, meters forward, degrees to the left.
+const MOTION: (f64, f64, f64) = (0.5, -0.6, 24.0);
+
+/// A pixel of photograph 1 and its match in photograph 2.
+pub(super) type Match = (Point2<f64>, Point2<f64>);
+
+/// Both cameras.
+pub(super) fn cameras() -> [Camera; 2] {
+    let (right_m, forward_m, left_deg) = MOTION;
+    still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
+}
+
+/// The exact match of a pixel of photograph 1, if photograph 2 shows it.
+pub(super) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
+    let [first, second] = cameras();
+    match still_life().transfer(&first, &second, pixel1) {
+        Transfer::Visible { pixel2, .. } if in_picture(&pixel2) => Some(pixel2),
+        _ => None,
+    }
+}
+
+/// Matches to estimate F from, and matches to judge it by.
+pub(super) struct Matches {
+    exact: Vec<Match>,
+    /// A draw from the standard normal distribution for each coordinate of each match.
+    disturbances: Vec<[f64; 4]>,
+    pub(super) held_out: Vec<Match>,
+}
+
+impl Matches {
+    /// Draws places of photograph 1 and follows them to photograph 2.
+    pub(super) fn draw(seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let (mut exact, mut held_out): (Vec<Match>, Vec<Match>) = (Vec::new(), Vec::new());
+        for _ in 0..MAX_TRIED {
+            if held_out.len() == NUM_HELD_OUT {
+                break;
+            }
+            let mut along = |size: u32| random.uniform(MARGIN_PX, f64::from(size) - MARGIN_PX);
+            let pixel1 = Point2::new(along(PHOTO_WIDTH), along(PHOTO_HEIGHT));
+            let near = |other: &Match| (other.0 - pixel1).norm() < APART_PX;
+            let for_use = exact.len() < MAX_USED;
+            if for_use && exact.iter().any(near) {
+                continue;
+            }
+            if let Some(pixel2) = exact_match(&pixel1) {
+                let list = if for_use { &mut exact } else { &mut held_out };
+                list.push((pixel1, pixel2));
+            }
+        }
+        let disturbances = exact
+            .iter()
+            .map(|_| core::array::from_fn(|_| random.normal()))
+            .collect();
+        Self {
+            exact,
+            disturbances,
+            held_out,
+        }
+    }
+
+    /// The first `count` matches, their coordinates off by normal noise.
+    pub(super) fn noisy(&self, count: usize, noise_px: f64) -> Vec<Match> {
+        let disturbed = self.exact.iter().zip(&self.disturbances).take(count);
+        let moved = |p: &Point2<f64>, by: &[f64]| {
+            Point2::new(p.x + noise_px * by[0], p.y + noise_px * by[1])
+        };
+        disturbed
+            .map(|((x1, x2), by)| (moved(x1, &by[..2]), moved(x2, &by[2..])))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::epipolar::{fundamental_from_cameras, sampson_px};
+
+    #[test]
+    fn every_seed_gives_enough_matches_that_obey_the_cameras() {
+        let [first, second] = cameras();
+        let fundamental = fundamental_from_cameras(&first, &second).unwrap();
+        for seed in [1, 2, 99] {
+            let matches = Matches::draw(seed);
+            assert_eq!(matches.exact.len(), MAX_USED);
+            assert_eq!(matches.held_out.len(), NUM_HELD_OUT);
+            for (x1, x2) in matches.exact.iter().chain(&matches.held_out) {
+                assert!(sampson_px(&fundamental, x1, x2) < 1e-9);
+                assert!(in_picture(x1) && in_picture(x2));
+            }
+            assert_eq!(matches.noisy(9, 0.0), matches.exact[..9]);
+        }
+    }
+}

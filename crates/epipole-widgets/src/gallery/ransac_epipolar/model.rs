@@ -1,0 +1,484 @@
+//! Matches of two photographs, of which some are wrong, and the loop that finds F all the same.
+//!
+//! The photographs and their matches come from a job. How many samples have been drawn is part of
+//! the settings; the loop is deterministic, so a permalink replays it.
+
+use super::answer::{Answer, Match, Request, STILL_LIFE_SIZE};
+use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SLOTS, SOURCE};
+use super::run::{MAX_SAMPLES, Question, Run};
+use crate::contract::{
+    Challenge, Control, Event, Job, JobResult, Model, PhotoSlot, Problem, Progress, Readout,
+    Settings, Slider, Value, format_number,
+};
+use crate::running::{RESTART, RUN, STEP};
+use crate::words;
+use image::RgbImage;
+
+/// Smaller photographs have no features to speak of.
+const MIN_SIDE_PX: u32 = 32;
+const SAMPLES_PER_SECOND: f64 = 8.0;
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Show {
+    Matches,
+    Outliers,
+    Lines,
+}
+
+/// The model of `ransac-epipolar`.
+pub struct RansacEpipolar {
+    settings: Settings,
+    own: [Option<RgbImage>; 2],
+    answer: Option<Answer>,
+    pending: Option<Job>,
+    run: Option<Run>,
+    problem: Option<String>,
+    running: bool,
+    since_sample_s: f64,
+}
+
+impl RansacEpipolar {
+    pub(super) fn photographs(&self) -> Option<&[RgbImage; 2]> {
+        Some(&self.answer.as_ref()?.photographs)
+    }
+
+    /// Width and height of both photographs, pixels, also before they are there.
+    pub(super) fn sizes(&self) -> [(u32, u32); 2] {
+        if self.settings.chosen(&SOURCE) != OWN {
+            return [STILL_LIFE_SIZE; 2];
+        }
+        let size = |photograph: &Option<RgbImage>| {
+            photograph
+                .as_ref()
+                .map_or(STILL_LIFE_SIZE, RgbImage::dimensions)
+        };
+        [size(&self.own[0]), size(&self.own[1])]
+    }
+
+    /// The matches that pass the ratio test.
+    pub(super) fn matches(&self) -> Vec<&Match> {
+        let most = self.settings.number(&RATIO) as f32;
+        let passes = |found: &&Match| found.ratio <= most;
+        let answer = self.answer.iter();
+        answer
+            .flat_map(|answer| answer.matches.iter().filter(passes))
+            .collect()
+    }
+
+    pub(super) fn run(&self) -> Option<&Run> {
+        self.run.as_ref()
+    }
+
+    pub(super) fn show(&self) -> Show {
+        [Show::Matches, Show::Outliers, Show::Lines][self.settings.chosen(&SHOW)]
+    }
+
+    /// Why there is nothing to see, as a sentence.
+    pub(super) fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    pub(super) fn is_finished(&self) -> bool {
+        self.run.as_ref().is_some_and(Run::is_finished)
+    }
+
+    /// States the search for matches that the present photographs need.
+    fn ask(&mut self) {
+        (self.answer, self.run, self.problem) = (None, None, None);
+        let request = match (self.settings.chosen(&SOURCE), &self.own) {
+            (OWN, [Some(first), Some(second)]) => {
+                let bytes = |photograph: &RgbImage| {
+                    let (width, height) = photograph.dimensions();
+                    (width, height, photograph.as_raw().clone())
+                };
+                Some(Request::Own([bytes(first), bytes(second)]))
+            }
+            (OWN, own) => {
+                let sentence = match own {
+                    [None, None] => "Choose two photographs of one scene, taken from two places.",
+                    [None, _] => "Photograph 2 is there; now choose photograph 1.",
+                    _ => "Photograph 1 is there; now choose photograph 2.",
+                };
+                self.problem = Some(sentence.to_owned());
+                None
+            }
+            _ => Some(Request::StillLife),
+        };
+        self.pending = request.map(|request| Job {
+            label: "Matching features",
+            request: request.to_bytes(),
+        });
+    }
+
+    /// Begins the loop if its question is a new one, and draws as many samples as the settings say.
+    fn draw(&mut self) {
+        if self.answer.is_none() {
+            return;
+        }
+        let question = Question {
+            epsilon_px: self.settings.number(&EPSILON),
+            seed: self.settings.count(&SEED) as u64,
+            local_optimization: self.settings.flag(&LOCAL),
+        };
+        let iterations = self.settings.count(&ITERATIONS);
+        let goes_on = |run: &Run| run.question() == question && run.iterations() <= iterations;
+        if !self.run.as_ref().is_some_and(goes_on) {
+            self.problem = None;
+            match Run::new(&self.matches(), question) {
+                Ok(run) => self.run = Some(run),
+                Err(error) => {
+                    self.run = None;
+                    self.problem = Some(format!("There is no F: {error}."));
+                }
+            }
+        }
+        if let Some(run) = &mut self.run {
+            run.draw_to(iterations);
+        }
+        self.running &= self.run.is_some() && !self.is_finished();
+    }
+
+    /// Draws to so many samples in all. The number asked for is kept: another question may need
+    /// more of them.
+    fn draw_to(&mut self, iterations: usize) -> Result<(), Problem> {
+        let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
+        self.settings.set(ITERATIONS.id, &value)?;
+        self.draw();
+        Ok(())
+    }
+
+    fn iterations(&self) -> usize {
+        self.run.as_ref().map_or(0, Run::iterations)
+    }
+
+    /// How many inliers of the best so far are right, where the truth is known.
+    fn num_right(&self) -> Option<usize> {
+        let best = self.run.as_ref()?.best()?;
+        let mut count = 0;
+        for (found, is_inlier) in self.matches().iter().zip(&best.is_inlier) {
+            count += usize::from(found.is_right? && *is_inlier);
+        }
+        Some(count)
+    }
+}
+
+impl Model for RansacEpipolar {
+    const NAME: &'static str = "ransac-epipolar";
+    const TITLE: &'static str = "Votes for a geometry";
+    const HELP: &'static str = "Run or step through the samples: each is seven matches, which give \
+        F, for which the other matches vote. Change the threshold, let more wrong matches in with \
+        the ratio test, or choose two photographs of your own.";
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            own: [None, None],
+            answer: None,
+            pending: None,
+            run: None,
+            problem: None,
+            running: false,
+            since_sample_s: 0.0,
+        };
+        model.ask();
+        model
+    }
+
+    fn controls(&self) -> Vec<Control> {
+        let can_run = self.run.is_some();
+        let mut controls = self.settings.controls();
+        controls.extend([
+            RUN.control(can_run, self.running),
+            STEP.control(can_run && !self.is_finished(), false),
+            RESTART.control(self.iterations() > 0, false),
+        ]);
+        controls
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        match event {
+            Event::Set { id, value } => {
+                let has_changed = self.settings.set(id, value)? == Some(true);
+                match &**id {
+                    _ if !has_changed => {}
+                    id if id == SOURCE.id => {
+                        self.running = false;
+                        self.ask();
+                    }
+                    id if id == RATIO.id => {
+                        self.run = None;
+                        self.draw();
+                    }
+                    _ => self.draw(),
+                }
+            }
+            Event::Press { id } => match &**id {
+                "run" if self.running => self.running = false,
+                "run" => {
+                    if self.is_finished() {
+                        self.draw_to(0)?;
+                    }
+                    self.running = true;
+                    self.since_sample_s = 0.0;
+                }
+                "step" => {
+                    self.running = false;
+                    self.draw_to(self.iterations() + 1)?;
+                }
+                _ => {
+                    self.running = false;
+                    self.draw_to(0)?;
+                }
+            },
+            Event::Tick { dt_s } => {
+                self.since_sample_s += dt_s;
+                if self.since_sample_s >= 1.0 / SAMPLES_PER_SECOND {
+                    self.since_sample_s -= 1.0 / SAMPLES_PER_SECOND;
+                    self.draw_to(self.iterations() + 1)?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn is_running(&self) -> bool {
+        self.running
+    }
+
+    fn job(&self) -> Option<Job> {
+        self.pending.clone()
+    }
+
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        Request::compute(request, progress)
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.pending = None;
+        match result.map(|bytes| Answer::from_bytes(&bytes)) {
+            Ok(Some(answer)) => {
+                self.answer = Some(answer);
+                self.draw();
+            }
+            Ok(None) => self.problem = Some("The matches could not be found.".to_owned()),
+            Err(problem) => self.problem = Some(format!("There are no matches: {problem}.")),
+        }
+    }
+
+    fn photo_slots(&self) -> &'static [PhotoSlot] {
+        SLOTS
+    }
+
+    fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
+        let (width, height) = photo.dimensions();
+        if width < MIN_SIDE_PX || height < MIN_SIDE_PX {
+            return Err(Problem::BadValue {
+                name: slot.to_owned(),
+                value: format!("{width} × {height} pixels"),
+                expected: format!("photographs of at least {MIN_SIDE_PX} pixels on each side"),
+            });
+        }
+        let index = usize::from(slot != SLOTS[0].id);
+        self.own[index] = Some(photo);
+        self.settings
+            .set(SOURCE.id, &Value::from(SOURCE.options[OWN].0))?;
+        self.running = false;
+        self.ask();
+        Ok(())
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let Some(run) = &self.run else {
+            return vec![Readout::words("state", "State", self.describe())];
+        };
+        let of = |count: usize| format!("{count} of {}", self.matches().len());
+        let votes = match run.candidate() {
+            Some(candidate) => of(candidate.num_inliers),
+            None => "no sample yet".to_owned(),
+        };
+        let needed = "Samples needed (99 %)";
+        let mut readouts = vec![
+            Readout::count("matches", "Matches", self.matches().len()),
+            Readout::count("iterations", "Samples drawn", run.iterations()),
+            match run.budget() {
+                Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
+                None => Readout::words("budget", needed, "more than a million"),
+            },
+            Readout::words("inliers", "Inliers of the last sample", votes),
+        ];
+        match run.best() {
+            Some(best) => readouts.extend([
+                Readout::words("best", "Inliers of the best", of(best.num_inliers)),
+                Readout::number(
+                    "sampson",
+                    "Their mean Sampson distance",
+                    best.mean_px,
+                    3,
+                    "px",
+                ),
+            ]),
+            None => readouts.push(Readout::words("best", "Inliers of the best", "none yet")),
+        }
+        if let (Some(best), Some(num_right)) = (run.best(), self.num_right()) {
+            let all = self.matches();
+            let right = all
+                .iter()
+                .filter(|found| found.is_right == Some(true))
+                .count();
+            readouts.push(Readout::words(
+                "right",
+                "Right matches among the inliers",
+                format!("{num_right} of {}", best.num_inliers),
+            ));
+            readouts.push(Readout::words(
+                "found",
+                "Right matches in all",
+                right.to_string(),
+            ));
+        }
+        if let Some(best) = run.best() {
+            let f = words::matrix(&best.fundamental);
+            readouts.push(Readout::words("f", "F refitted to the inliers, by rows", f));
+        }
+        readouts
+    }
+
+    fn describe(&self) -> String {
+        if let Some(problem) = &self.problem {
+            return problem.clone();
+        }
+        let Some(run) = &self.run else {
+            return "Matching the features of two photographs.".to_owned();
+        };
+        let num_matches = self.matches().len();
+        let Some(best) = run.best() else {
+            return format!("{num_matches} matches, some of them wrong; no F found yet.");
+        };
+        let plural = if run.iterations() == 1 {
+            "sample"
+        } else {
+            "samples"
+        };
+        let right = self.num_right().map_or_else(String::new, |count| {
+            format!(", {count} of which are right by the scene's true geometry")
+        });
+        let end = match run.budget() {
+            _ if run.is_confident() => " That is enough for 99 % confidence.".to_owned(),
+            _ if run.is_finished() => {
+                " More would be needed for 99 % confidence, but the figure stops here.".to_owned()
+            }
+            Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
+            None => String::new(),
+        };
+        let show = match self.show() {
+            Show::Matches => "",
+            Show::Outliers => " Outliers are shown.",
+            Show::Lines => " Epipolar lines are shown.",
+        };
+        format!(
+            "After {} {plural}, {} of {num_matches} matches agree on one F within {} px{right}. \
+             Their mean Sampson distance is {} px.{end}{show}",
+            run.iterations(),
+            best.num_inliers,
+            format_number(self.settings.number(&EPSILON), 1),
+            format_number(best.mean_px, 2),
+        )
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+const CHALLENGES: &[Challenge<RansacEpipolar>] = &[
+    Challenge {
+        id: "expensive",
+        goal: "Let in so many wrong matches that more than 500 samples are needed.",
+        hint: "Which test had kept them out?",
+        check: |model| {
+            let budget = model.run.as_ref().and_then(Run::budget);
+            model.is_finished() && budget.is_some_and(|budget| budget > 500)
+        },
+        solution: || vec![set(&RATIO, 1.0), set(&EPSILON, 0.4)],
+    },
+    Challenge {
+        id: "bribed",
+        goal: "Make at least 20 wrong matches vote for the best F.",
+        hint: "How near is near enough?",
+        check: |model| {
+            let best = model.run.as_ref().and_then(Run::best);
+            match (best, model.num_right()) {
+                (Some(best), Some(num_right)) => best.num_inliers - num_right >= 20,
+                _ => false,
+            }
+        },
+        solution: || vec![set(&EPSILON, 8.0), set(&RATIO, 1.0)],
+    },
+];
+
+fn set(slider: &Slider, value: f64) -> Event {
+    Event::Set {
+        id: slider.id.to_owned(),
+        value: Value::Number(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{photograph, still_life_pair};
+    use std::ops::ControlFlow;
+
+    fn finish(model: &mut RansacEpipolar) {
+        while let Some(job) = model.job() {
+            let result = RansacEpipolar::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            model.job_done(result);
+        }
+    }
+
+    #[test]
+    fn the_vote_is_right_about_the_still_life() {
+        let mut model = RansacEpipolar::new();
+        finish(&mut model);
+        let run = model.run().unwrap();
+        let best = run.best().unwrap();
+        assert!(run.is_confident());
+        let num_right = model.num_right().unwrap();
+        assert!(best.num_inliers > 100 && 20 * num_right > 19 * best.num_inliers);
+        // The outliers are wrong: right matches are hardly ever outvoted.
+        let matches = model.matches();
+        let all_right = matches
+            .iter()
+            .filter(|found| found.is_right == Some(true))
+            .count();
+        assert!(20 * num_right > 19 * all_right && all_right < matches.len() * 4 / 5);
+    }
+
+    #[test]
+    fn two_photographs_of_the_readers_own_are_matched() {
+        let size = (240, 180);
+        let cameras = still_life_pair(size, 0.15, 0.0, 4.0);
+        let photographs = cameras
+            .map(|camera| photograph(&camera, size, &mut |_| ControlFlow::Continue(())).unwrap());
+        let [first, second] = photographs;
+        let mut model = RansacEpipolar::new();
+        model.take_photo("second", second).unwrap();
+        assert!(model.job().is_none());
+        assert!(
+            model.describe().contains("choose photograph 1"),
+            "{}",
+            model.describe()
+        );
+        model.take_photo("first", first).unwrap();
+        finish(&mut model);
+        assert!(model.run().unwrap().best().unwrap().num_inliers > 20);
+        assert_eq!(model.num_right(), None, "nobody knows the truth");
+        // A gray card has no features, and that is no reason to fail.
+        model.take_photo("first", RgbImage::new(64, 64)).unwrap();
+        finish(&mut model);
+        assert!(model.problem().unwrap().starts_with("There is no F"));
+        assert!(model.take_photo("first", RgbImage::new(3, 64)).is_err());
+    }
+}
