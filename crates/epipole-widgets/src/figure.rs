@@ -6,7 +6,7 @@
 use crate::canvas::{Canvas, Picture};
 use crate::contract::{
     Control, ControlKind, Event, Handle, Job, JobResult, Layout, PhotoSlot, Problem, Progress,
-    Readout, Value,
+    Readout, Space, Value,
 };
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
@@ -85,6 +85,11 @@ impl Figure {
     /// The draggable points.
     pub fn handles(&self) -> Vec<Handle> {
         self.stage.handles()
+    }
+
+    /// The panels that show things in three dimensions.
+    pub fn spaces(&self) -> &'static [Space] {
+        self.stage.spaces()
     }
 
     /// The numbers beside the picture.

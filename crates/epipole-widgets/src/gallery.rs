@@ -3,10 +3,12 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+mod disparity_map;
 mod epipolar_click;
 pub mod harris;
 pub mod ransac_race;
 mod stereo_slider;
+mod two_view_sfm;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -26,6 +28,8 @@ pub static FIGURES: &[Entry] = &[
     entry::<harris::View>(),
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
+    entry::<disparity_map::View>(),
+    entry::<two_view_sfm::View>(),
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -22,9 +22,11 @@ mod figure;
 mod font;
 pub mod gallery;
 mod labels;
+mod orbit;
 mod photo;
 pub mod pointing;
 mod scenes;
+mod space;
 mod stage;
 pub mod theme;
 

@@ -3,7 +3,7 @@
 use crate::canvas::Canvas;
 use crate::contract::{
     Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Progress, Readout,
-    View,
+    Space, View,
 };
 use crate::figure::ChallengeStatus;
 use image::RgbImage;
@@ -12,6 +12,7 @@ use image::RgbImage;
 pub(crate) trait Stage {
     fn controls(&self) -> Vec<Control>;
     fn handles(&self) -> Vec<Handle>;
+    fn spaces(&self) -> &'static [Space];
     fn readouts(&self) -> Vec<Readout>;
     fn describe(&self) -> String;
     fn challenges(&self) -> Vec<ChallengeStatus>;
@@ -53,6 +54,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn handles(&self) -> Vec<Handle> {
         self.model.handles()
+    }
+
+    fn spaces(&self) -> &'static [Space] {
+        self.model.spaces()
     }
 
     fn readouts(&self) -> Vec<Readout> {

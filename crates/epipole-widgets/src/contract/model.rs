@@ -1,7 +1,7 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout,
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout, Space,
 };
 use image::RgbImage;
 
@@ -26,6 +26,11 @@ pub trait Model: Sized + 'static {
     /// The draggable points. A handle's id must not be a control's.
     fn handles(&self) -> Vec<Handle> {
         Vec::new()
+    }
+
+    /// The panels that show things in three dimensions.
+    fn spaces(&self) -> &'static [Space] {
+        &[]
     }
 
     /// The only way that state changes. Values of controls arrive unchecked, places of handles
