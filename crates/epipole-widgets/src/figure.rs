@@ -167,6 +167,15 @@ impl Figure {
         self.stage.take_photo(slot, photo)
     }
 
+    /// Tells the focal length of the photograph in a slot, in units of its longer side, as its
+    /// file has it. One that no lens has is ignored.
+    pub fn take_focal(&mut self, slot: &str, focal: f64) {
+        let is_slot = self.photo_slots().iter().any(|known| known.id == slot);
+        if is_slot && (0.1..100.0).contains(&focal) {
+            self.stage.take_focal(slot, focal);
+        }
+    }
+
     /// Panels and height for a width of the page, CSS pixels.
     pub fn layout(&self, width: f64) -> Layout {
         self.stage.layout(width)

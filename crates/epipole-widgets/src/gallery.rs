@@ -5,6 +5,7 @@ use crate::stage::{self, Stage};
 
 mod disparity_map;
 mod epipolar_click;
+mod four_poses;
 pub mod harris;
 pub mod ransac_race;
 mod stereo_slider;
@@ -29,6 +30,7 @@ pub static FIGURES: &[Entry] = &[
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
     entry::<disparity_map::View>(),
+    entry::<four_poses::View>(),
     entry::<two_view_sfm::View>(),
 ];
 

@@ -24,6 +24,7 @@ pub(crate) trait Stage {
     fn job_done(&mut self, result: JobResult);
     fn photo_slots(&self) -> &'static [PhotoSlot];
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem>;
+    fn take_focal(&mut self, slot: &str, focal: f64);
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
     fn refine(&mut self) -> bool;
@@ -111,6 +112,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.model.take_photo(slot, photo)
+    }
+
+    fn take_focal(&mut self, slot: &str, focal: f64) {
+        self.model.take_focal(slot, focal);
     }
 
     fn layout(&self, width: f64) -> Layout {

@@ -81,6 +81,10 @@ pub trait Model: Sized + 'static {
         Ok(())
     }
 
+    /// Takes the focal length that the file of a photograph tells, in units of the photograph's
+    /// longer side. Comes after [`Model::take_photo`], if at all; always finite and positive.
+    fn take_focal(&mut self, _slot: &str, _focal: f64) {}
+
     /// The numbers beside the picture. Every number is finite.
     fn readouts(&self) -> Vec<Readout>;
 

@@ -107,6 +107,19 @@ pub(super) enum Stage {
     Cloud,
 }
 
+/// Who says how long the focal length is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FocalFrom {
+    /// The photographs are rendered with it.
+    Known,
+    /// The reader has set it.
+    Reader,
+    /// The file of a photograph.
+    File,
+    /// Nobody: it is what most telephones have.
+    Guess,
+}
+
 /// The model of `two-view-sfm`.
 pub(crate) struct TwoViewSfm {
     settings: Settings,
@@ -115,6 +128,7 @@ pub(crate) struct TwoViewSfm {
     answer: Option<Answer>,
     pending: Option<Job>,
     problem: Option<String>,
+    focal_from: FocalFrom,
 }
 
 impl TwoViewSfm {
@@ -142,6 +156,10 @@ impl TwoViewSfm {
 
     pub(super) fn focal(&self) -> f64 {
         self.settings.number(&FOCAL)
+    }
+
+    pub(super) fn focal_from(&self) -> FocalFrom {
+        self.focal_from
     }
 
     pub(super) fn is_own(&self) -> bool {
@@ -227,6 +245,7 @@ impl Model for TwoViewSfm {
             answer: None,
             pending: None,
             problem: None,
+            focal_from: FocalFrom::Known,
         };
         model.ask();
         model
@@ -263,6 +282,9 @@ impl Model for TwoViewSfm {
                 let changed = self.settings.set(id, value)? == Some(true);
                 if changed && id == PAIR.id {
                     self.answer = None;
+                }
+                if changed && id == FOCAL.id {
+                    self.focal_from = FocalFrom::Reader;
                 }
                 if changed && id != STAGE.id {
                     self.ask();
@@ -312,6 +334,7 @@ impl Model for TwoViewSfm {
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
             self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
+            self.focal_from = FocalFrom::Guess;
             self.settings
                 .set(PAIR.id, &Value::from(PAIR.options[OWN].0))?;
         }
@@ -319,6 +342,15 @@ impl Model for TwoViewSfm {
         self.answer = None;
         self.ask();
         Ok(())
+    }
+
+    fn take_focal(&mut self, _: &str, focal: f64) {
+        let focal = focal.clamp(FOCAL.min, FOCAL.max);
+        // Within its range every number is taken.
+        if self.settings.set(FOCAL.id, &Value::Number(focal)).is_ok() {
+            self.focal_from = FocalFrom::File;
+            self.ask();
+        }
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -1,7 +1,7 @@
 //! What `two-view-sfm` says: readouts, description, sentences.
 
 use super::answer::{Answer, Motion, Verdict};
-use super::model::{Stage, TwoViewSfm};
+use super::model::{FocalFrom, Stage, TwoViewSfm};
 use super::pipeline::MIN_NUM_MATCHES;
 use crate::contract::{Readout, format_number};
 
@@ -43,6 +43,10 @@ pub(super) fn failure(answer: &Answer) -> Option<String> {
             "{matches} features match, but no motion of the camera explains {MIN_NUM_MATCHES} of \
              them. The photographs hardly overlap, or nearly all matches are wrong."
         ),
+        Verdict::Turned(angle_deg) if angle_deg < 0.1 => format!(
+            "The camera did not move: {inliers} of {matches} matches are where they were. Without \
+             a step aside there is no depth, and no cloud."
+        ),
         Verdict::Turned(angle_deg) => format!(
             "The camera only turned, by {}: a rotation alone explains {inliers} of {matches} \
              matches. Without a step aside there is no depth, and no cloud.",
@@ -78,6 +82,15 @@ pub(super) fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
             readouts.push(Readout::words("state", "State", text));
         }
         Some(answer) => stages(model, answer, &mut readouts),
+    }
+    if model.is_own() {
+        let from = match model.focal_from() {
+            FocalFrom::Known | FocalFrom::Reader => "as you set it",
+            FocalFrom::File => "from the file",
+            FocalFrom::Guess => "a guess",
+        };
+        let text = format!("{}, {from}", focal(model.focal()));
+        readouts.push(Readout::words("lens", "Focal length", text));
     }
     let zoom = format_number(model.zoom(), 1);
     let from = format!("{}, {zoom} ×", model.orbit().words());
