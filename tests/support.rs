@@ -47,6 +47,9 @@ pub mod listings {
     /// Chapter "Let the data vote".
     #[doc = include_str!("../content/ransac.md")]
     pub struct Ransac;
+    /// Chapter "Structure from motion".
+    #[doc = include_str!("../content/sfm.md")]
+    pub struct Sfm;
     /// Chapter "Two eyes in a row".
     #[doc = include_str!("../content/stereo.md")]
     pub struct Stereo;

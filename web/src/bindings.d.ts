@@ -21,6 +21,7 @@ declare module "epipole-web" {
     move_to_end(id: string, width: number, towards: string): string | undefined;
     click(width: number, x: number, y: number): string | undefined;
     take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
+    take_focal(slot: string, focal: number): void;
     job_key(): string | undefined;
     job_request(): Uint8Array;
     job_done(key: string, result: Uint8Array): boolean;

@@ -98,11 +98,23 @@ export interface Panel {
   clickable: boolean;
 }
 
+/** A panel that shows things in three dimensions. */
+export interface Space {
+  panel: string;
+  /** The handle that turns them; a drag from anywhere in the panel moves it. */
+  orbit: string;
+  /** The handle that moves them across the panel; a drag with Shift, or two fingers. */
+  pan: string;
+  /** The slider that enlarges them; the wheel with Ctrl, or two fingers spread. */
+  zoom: string;
+}
+
 /** Everything that a page shows, for one width of the picture. */
 export interface Snapshot {
   layout: { width: number; height: number; panels: Panel[] };
   controls: Control[];
   handles: Handle[];
+  spaces: Space[];
   readouts: Readout[];
   challenges: Challenge[];
   description: string;

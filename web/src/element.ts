@@ -33,6 +33,7 @@ export class EpipoleFigure extends HTMLElement {
         // A point that a click has made can be dragged on at once.
         this.#session?.flush();
       },
+      set: (id, value) => this.#session?.act((engine) => engine.update({ type: "set", id, value })),
     },
     deeds: {
       reset: () => this.reset(),

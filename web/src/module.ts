@@ -107,8 +107,10 @@ export class Engine {
     return this.#figure.click(width, x, y);
   }
 
-  takePhoto(slot: string, { width, height, rgba }: Photo): string | undefined {
-    return this.#figure.take_photo(slot, width, height, rgba);
+  takePhoto(slot: string, { width, height, rgba, focal }: Photo): string | undefined {
+    const refused = this.#figure.take_photo(slot, width, height, rgba);
+    if (refused === undefined && focal !== undefined) this.#figure.take_focal(slot, focal);
+    return refused;
   }
 
   /** The long computation that the figure waits for. */

@@ -2,11 +2,14 @@
 
 import type { PhotoSlot } from "./contract.js";
 import { make } from "./dom.js";
+import { focalOf, HEAD_BYTES } from "./exif.js";
 
 export interface Photo {
   width: number;
   height: number;
   rgba: Uint8Array;
+  /** Focal length in units of the longer side, if the file tells. */
+  focal?: number | undefined;
 }
 
 export class Photos {
@@ -49,6 +52,8 @@ export class Photos {
       return;
     }
     const [photo, words] = shrink(bitmap, slot.max_side_px);
+    const head = await file.slice(0, HEAD_BYTES).arrayBuffer();
+    if (photo) photo.focal = focalOf(head, bitmap.width, bitmap.height);
     bitmap.close();
     note.textContent = `${words} Stays on your device.`;
     if (photo) this.#take(slot.id, photo);

@@ -1,7 +1,8 @@
 /** The canvas and what lies on it: handles to focus, a crosshair for the keys, pointers. */
 
-import type { Direction, Handle, Panel, Snapshot } from "./contract.js";
+import type { Direction, Handle, Panel, Snapshot, Space } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
+import { Pinch } from "./pinch.js";
 
 /** What a reader can do in the picture. Places are CSS pixels of the layout. */
 export interface Hand {
@@ -11,12 +12,19 @@ export interface Hand {
   moveToEnd: (id: string, towards: Direction) => void;
   remove: (id: string) => void;
   click: (x: number, y: number) => void;
+  set: (id: string, value: number) => void;
 }
 
 /** Beyond this many handles, one focus stop and a list to choose from stand for all. */
 const MOST_FOCUS_STOPS = 12;
 /** How near a mouse or pen must come to take a handle; a finger has the figure's own radius. */
 const FINE_RADIUS = 14;
+/** How near a finger must come to the handle that turns a space; elsewhere it scrolls the page. */
+const FINGER_RADIUS = 22;
+/** What one press of + or −, or one notch of the wheel, multiplies a space's size by. */
+const ZOOM_STEP = 1.2;
+/** What a wheel reports for one notch, pixels. */
+const NOTCH = 100;
 /** How far a finger may wander and still tap. */
 const TAP_SLOP = 10;
 const FINE_STEPS = 0.2;
@@ -28,7 +36,7 @@ const ARROWS: Record<string, Direction> = {
   ArrowDown: "down",
 };
 
-type Place = [x: number, y: number];
+export type Place = [x: number, y: number];
 
 export class Picture {
   readonly element = make("div", { class: "picture" });
@@ -49,6 +57,15 @@ export class Picture {
   #chosen = "";
   #dragging: { pointer: number; id: string; offset: Place } | undefined;
   #pressing: { pointer: number; place: Place } | undefined;
+  readonly #pinch = new Pinch({
+    placeOf: (touch) => this.#placeOf(touch),
+    spaceAt: (place) => (this.canvas.hidden ? undefined : this.#spaceAt(place)),
+    handle: (id) => this.#snapshot?.handles.find((handle) => handle.id === id),
+    zoomOf: (space) => this.#zoomOf(space)?.value ?? 1,
+    begin: () => this.#letGo(),
+    drag: (id, x, y) => this.#hand.drag(id, x, y),
+    zoom: (space, value) => this.#zoomTo(space, value),
+  });
 
   constructor(hand: Hand) {
     this.#hand = hand;
@@ -184,7 +201,10 @@ export class Picture {
     const sideways = handle.x_range[0] < handle.x_range[1];
     const upright = handle.y_range[0] < handle.y_range[1];
     const arrow = ARROWS[event.key];
-    if (arrow) this.#hand.nudge(id, arrow, event.shiftKey ? FINE_STEPS : 1);
+    const space = this.#snapshot?.spaces.find(({ orbit, pan }) => orbit === id || pan === id);
+    const larger = event.key === "+" || event.key === "=";
+    if (space && (larger || event.key === "-")) this.#zoomBy(space, larger ? ZOOM_STEP : 1 / ZOOM_STEP);
+    else if (arrow) this.#hand.nudge(id, arrow, event.shiftKey ? FINE_STEPS : 1);
     else if (event.key === "PageUp") this.#hand.nudge(id, upright ? "up" : "right", COARSE_STEPS);
     else if (event.key === "PageDown") this.#hand.nudge(id, upright ? "down" : "left", COARSE_STEPS);
     else if (event.key === "Home") this.#hand.moveToEnd(id, sideways ? "left" : "down");
@@ -234,12 +254,52 @@ export class Picture {
       "touchstart",
       (event) => {
         const touch = event.touches[0];
+        if (this.#pinch.start(event)) return;
         if (touch && event.touches.length === 1 && this.#take(this.#placeOf(touch), "touch")) {
           event.preventDefault();
         }
       },
       { passive: false },
     );
+    stage.addEventListener("touchmove", (event) => this.#pinch.move(event), { passive: false });
+    for (const type of ["touchend", "touchcancel"]) stage.addEventListener(type, () => this.#pinch.end());
+    stage.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
+  }
+
+  /** With Ctrl or ⌘, which is also what two fingers on a touchpad send; alone it scrolls the page. */
+  #onWheel(event: WheelEvent): void {
+    if (this.canvas.hidden || !(event.ctrlKey || event.metaKey)) return;
+    const space = this.#spaceAt(this.#placeOf(event));
+    if (!space) return;
+    event.preventDefault();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 / NOTCH : 1 / 3;
+    this.#zoomBy(space, ZOOM_STEP ** (-event.deltaY * lines));
+  }
+
+  #zoomOf(space: Space) {
+    const control = this.#snapshot?.controls.find(({ id }) => id === space.zoom);
+    return control?.kind === "slider" ? control : undefined;
+  }
+
+  #zoomTo(space: Space, value: number): void {
+    const slider = this.#zoomOf(space);
+    if (slider) this.#hand.set(space.zoom, Math.min(Math.max(value, slider.min), slider.max));
+  }
+
+  /** Enlarges a space, by one step of its slider at least. */
+  #zoomBy(space: Space, factor: number): void {
+    const slider = this.#zoomOf(space);
+    if (!slider || factor === 1) return;
+    const step = Math.max(Math.abs(slider.value * (factor - 1)), slider.step);
+    this.#zoomTo(space, slider.value + (factor > 1 ? step : -step));
+  }
+
+  #spaceAt([x, y]: Place): Space | undefined {
+    const panel = this.#snapshot?.layout.panels.find(({ rect }) => {
+      const inside = x >= rect.x && x <= rect.x + rect.width;
+      return inside && y >= rect.y && y <= rect.y + rect.height;
+    });
+    return this.#snapshot?.spaces.find((space) => space.panel === panel?.id);
   }
 
   #placeOf({ clientX, clientY }: { clientX: number; clientY: number }): Place {
@@ -258,7 +318,16 @@ export class Picture {
     const handle = this.#snapshot?.handles.find((known) => known.id === id);
     if (!handle) return undefined;
     const distance = Math.hypot(handle.place[0] - x, handle.place[1] - y);
+    const space = this.#snapshot?.spaces.some(({ orbit, pan }) => orbit === id || pan === id);
+    if (space && pointerType === "touch") return distance <= FINGER_RADIUS ? handle : undefined;
     return pointerType === "touch" || distance <= FINE_RADIUS ? handle : undefined;
+  }
+
+  /** The handle that a mouse or pen takes anywhere in a space; with Shift the one that moves it. */
+  #takeSpace(place: Place, event: PointerEvent): Handle | undefined {
+    const space = event.pointerType === "touch" ? undefined : this.#spaceAt(place);
+    const id = event.shiftKey ? space?.pan : space?.orbit;
+    return this.#snapshot?.handles.find((handle) => handle.id === id);
   }
 
   #panelAt([x, y]: Place): Panel | undefined {
@@ -273,7 +342,7 @@ export class Picture {
     // Lists and labels that lie on the picture are no part of it.
     if (event.target instanceof Node && this.#chooserBox.contains(event.target)) return;
     const place = this.#placeOf(event);
-    let handle = this.#take(place, event.pointerType);
+    let handle = this.#take(place, event.pointerType) ?? this.#takeSpace(place, event);
     if (!handle && this.#panelAt(place)) {
       if (event.pointerType === "touch") {
         // It may become a scroll; whether it was a tap shows when the finger leaves.
@@ -305,8 +374,15 @@ export class Picture {
       return;
     }
     if (event.pointerType !== "mouse" || event.buttons !== 0) return;
-    const over = this.#take(place, "mouse") ? "handle" : this.#panelAt(place) ? "panel" : undefined;
+    const held = this.#take(place, "mouse") ?? this.#takeSpace(place, event);
+    const over = held ? "handle" : this.#panelAt(place) ? "panel" : undefined;
     setAttribute(this.element, "data-over", over);
+  }
+
+  /** What one finger held is let go when a second one comes. */
+  #letGo(): void {
+    this.#dragging = this.#pressing = undefined;
+    setAttribute(this.element, "data-dragging", false);
   }
 
   #onUp(event: PointerEvent, meant: boolean): void {

@@ -84,6 +84,7 @@ impl Gallery for Widgets {
 
     fn open(&self, name: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
         let mut figure = open(name, settings)?;
+        // The poster shows what is there after the computation, so its words must say that too.
         figure.finish_job();
         Ok(Box::new(Widget {
             name: name.to_owned(),

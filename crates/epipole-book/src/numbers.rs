@@ -211,6 +211,21 @@ mod tests {
                 "ransac.trials-without-replacement inliers=50 data=100 s=3 p=0.99",
                 "36",
             ),
+            // (0, 0, 4) is seen from (1, 0, 0) along (−1, 0, 4), which is (−0.25, 0, 1).
+            ("sfm.depth camera=1 turned=0 sign=1 x=-0.25", "4"),
+            ("sfm.depth camera=2 turned=0 sign=1 x=-0.25", "4"),
+            ("sfm.depth camera=1 turned=0 sign=-1 x=-0.25", "-4"),
+            ("sfm.depth camera=2 turned=0 sign=-1 x=-0.25", "-4"),
+            // λ1 (0, 0, −1) + (−1, 0, 0) = λ2 (−0.25, 0, 1)
+            ("sfm.depth camera=1 turned=1 sign=1 x=-0.25", "-4"),
+            ("sfm.depth camera=2 turned=1 sign=1 x=-0.25", "4"),
+            ("sfm.depth camera=1 turned=1 sign=-1 x=-0.25", "4"),
+            ("sfm.depth camera=2 turned=1 sign=-1 x=-0.25", "-4"),
+            // NumPy: 1.01 ** 100
+            ("sfm.drift rate=0.01 steps=100 digits=2", "2.70"),
+            ("sfm.unknowns cameras=100 points=50000", "150600"),
+            // 8 · 150600² bytes
+            ("sfm.matrix-gigabytes unknowns=150600 digits=0", "181"),
             ("stereo.disparity left=410 right=380", "30"),
             // 700 · 0.12 = 84
             ("stereo.depth f=700 b=0.12 d=30 digits=2", "2.80"),

@@ -201,6 +201,11 @@ impl Figure {
         refused.map(|problem| problem.to_string())
     }
 
+    /// Tells the focal length of the photograph in a slot, in units of its longer side.
+    pub fn take_focal(&mut self, slot: &str, focal: f64) {
+        self.figure.take_focal(slot, focal);
+    }
+
     /// The long computation that the figure waits for: a name that tells it from others.
     pub fn job_key(&self) -> Option<String> {
         self.figure.job().map(|job| format!("{:016x}", job.key()))

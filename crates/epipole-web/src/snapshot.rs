@@ -1,6 +1,6 @@
 //! Everything that a page shows beside the picture, as one piece of JSON.
 
-use epipole_widgets::contract::{Control, Handle, Layout, PhotoSlot, Problem, Readout};
+use epipole_widgets::contract::{Control, Handle, Layout, PhotoSlot, Problem, Readout, Space};
 use epipole_widgets::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
 
@@ -10,6 +10,7 @@ pub(crate) struct Snapshot {
     layout: Layout,
     controls: Vec<Control>,
     handles: Vec<PlacedHandle>,
+    spaces: &'static [Space],
     readouts: Vec<Readout>,
     challenges: Vec<ChallengeStatus>,
     description: String,
@@ -37,6 +38,7 @@ impl Snapshot {
         Self {
             controls: figure.controls(),
             handles: figure.handles().into_iter().map(place).collect(),
+            spaces: figure.spaces(),
             readouts: figure.readouts(),
             challenges: figure.challenges(),
             description: figure.describe(),

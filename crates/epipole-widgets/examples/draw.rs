@@ -25,6 +25,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let width = argument(4).map_or(Ok(POSTER_WIDTH), str::parse)?;
     let scale = argument(5).map_or(Ok(2.0), str::parse)?;
 
+    let begin = Instant::now();
+    figure.finish_job();
+    println!("computed in {:.1} ms", begin.elapsed().as_secs_f64() * 1e3);
     println!("{}\n", figure.describe());
     for readout in figure.readouts() {
         println!("{:28} {}", readout.label, readout.text);

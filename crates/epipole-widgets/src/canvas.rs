@@ -279,6 +279,15 @@ impl Canvas {
 
     /// A filled rectangle, its sides moved to the nearest device pixels.
     pub fn fill_rect(&mut self, rect: Rect, role: Role, opacity: f64) {
+        self.fill(rect, self.theme.color(role), opacity);
+    }
+
+    /// A filled rectangle in a color of a scale or of the world.
+    pub fn fill_color(&mut self, rect: Rect, color: Rgb) {
+        self.fill(rect, color, 1.0);
+    }
+
+    fn fill(&mut self, rect: Rect, color: Rgb, opacity: f64) {
         // Whole pixels need no coverage, so a large rectangle costs little.
         let device = |low: f64, high: f64, clip: (f64, f64), most: u32| {
             let is_number = !low.is_nan() && !high.is_nan();
@@ -304,7 +313,7 @@ impl Canvas {
             (clip.y, clip.bottom()),
             self.pixmap.height(),
         );
-        let [r, g, b] = self.theme.color(role);
+        let [r, g, b] = color;
         let alpha = (opacity.clamp(0.0, 1.0) * 255.0).round() as u16;
         let color = [r, g, b, 255].repeat(columns.len());
         let added: Vec<u16> = color
@@ -409,6 +418,43 @@ impl Canvas {
         if self.clip.contains(center) {
             let path = PathBuilder::from_circle(center.0 as f32, center.1 as f32, radius as f32);
             self.fill_path(path, role, opacity);
+        }
+    }
+
+    /// A small disk in a color of the world, such as a point of a colored cloud, with a rim of the
+    /// theme so that it shows on any background. Made for thousands: it writes pixels itself.
+    pub fn dot(&mut self, center: Place, radius: f64, color: Rgb) {
+        let usable = center.0.is_finite() && center.1.is_finite() && radius.is_finite();
+        if !usable || !self.clip.contains(center) {
+            return;
+        }
+        let (x, y) = (center.0 * self.scale - 0.5, center.1 * self.scale - 0.5);
+        let inner = radius.clamp(0.5, 20.0) * self.scale;
+        let outer = inner + 0.7 * self.scale;
+        let rim = self.theme.color(Role::Muted);
+        let reach = outer.ceil() as i64 + 1;
+        let (width, height) = (
+            i64::from(self.pixmap.width()),
+            i64::from(self.pixmap.height()),
+        );
+        let (column, row) = (x.round() as i64, y.round() as i64);
+        let data = self.pixmap.data_mut();
+        for v in (row - reach).max(0)..(row + reach + 1).min(height) {
+            for u in (column - reach).max(0)..(column + reach + 1).min(width) {
+                let (dx, dy) = (u as f64 - x, v as f64 - y);
+                let distance = (dx * dx + dy * dy).sqrt();
+                let cover = |radius: f64| (radius + 0.5 - distance).clamp(0.0, 1.0);
+                let (around, inside) = (0.55 * cover(outer), cover(inner));
+                if around <= 0.0 {
+                    continue;
+                }
+                let at = 4 * (v * width + u) as usize;
+                for (byte, (rim, fill)) in data[at..at + 3].iter_mut().zip(rim.iter().zip(color)) {
+                    let behind = f64::from(*byte);
+                    let rimmed = behind + (f64::from(*rim) - behind) * around;
+                    *byte = (rimmed + (f64::from(fill) - rimmed) * inside).round() as u8;
+                }
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 use crate::canvas::{Canvas, Picture};
 use crate::contract::{
     Control, ControlKind, Event, Handle, Job, JobResult, Layout, PhotoSlot, Problem, Progress,
-    Readout, Value,
+    Readout, Space, Value,
 };
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
@@ -87,6 +87,11 @@ impl Figure {
         self.stage.handles()
     }
 
+    /// The panels that show things in three dimensions.
+    pub fn spaces(&self) -> &'static [Space] {
+        self.stage.spaces()
+    }
+
     /// The numbers beside the picture.
     pub fn readouts(&self) -> Vec<Readout> {
         self.stage.readouts()
@@ -160,6 +165,15 @@ impl Figure {
             return Err(self.unknown(slot));
         }
         self.stage.take_photo(slot, photo)
+    }
+
+    /// Tells the focal length of the photograph in a slot, in units of its longer side, as its
+    /// file has it. One that no lens has is ignored.
+    pub fn take_focal(&mut self, slot: &str, focal: f64) {
+        let is_slot = self.photo_slots().iter().any(|known| known.id == slot);
+        if is_slot && (0.1..100.0).contains(&focal) {
+            self.stage.take_focal(slot, focal);
+        }
     }
 
     /// Panels and height for a width of the page, CSS pixels.

@@ -4,12 +4,15 @@ use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 pub mod eight_point;
+mod disparity_map;
 mod epipolar_click;
+mod four_poses;
 pub mod harris;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
 mod stereo_slider;
+mod two_view_sfm;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -32,6 +35,9 @@ pub static FIGURES: &[Entry] = &[
     entry::<ransac_epipolar::View>(),
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
+    entry::<disparity_map::View>(),
+    entry::<four_poses::View>(),
+    entry::<two_view_sfm::View>(),
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -3,7 +3,7 @@
 use crate::canvas::Canvas;
 use crate::contract::{
     Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Progress, Readout,
-    View,
+    Space, View,
 };
 use crate::figure::ChallengeStatus;
 use image::RgbImage;
@@ -12,6 +12,7 @@ use image::RgbImage;
 pub(crate) trait Stage {
     fn controls(&self) -> Vec<Control>;
     fn handles(&self) -> Vec<Handle>;
+    fn spaces(&self) -> &'static [Space];
     fn readouts(&self) -> Vec<Readout>;
     fn describe(&self) -> String;
     fn challenges(&self) -> Vec<ChallengeStatus>;
@@ -23,6 +24,7 @@ pub(crate) trait Stage {
     fn job_done(&mut self, result: JobResult);
     fn photo_slots(&self) -> &'static [PhotoSlot];
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem>;
+    fn take_focal(&mut self, slot: &str, focal: f64);
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
     fn refine(&mut self) -> bool;
@@ -53,6 +55,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn handles(&self) -> Vec<Handle> {
         self.model.handles()
+    }
+
+    fn spaces(&self) -> &'static [Space] {
+        self.model.spaces()
     }
 
     fn readouts(&self) -> Vec<Readout> {
@@ -106,6 +112,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.model.take_photo(slot, photo)
+    }
+
+    fn take_focal(&mut self, slot: &str, focal: f64) {
+        self.model.take_focal(slot, focal);
     }
 
     fn layout(&self, width: f64) -> Layout {

@@ -99,6 +99,40 @@ impl Theme {
     }
 }
 
+/// Dark blue to yellow, in even steps of brightness and the same for readers who confuse red and
+/// green.
+///
+/// Source: the map "viridis" by van der Walt & Smith 2015, at nine of its places.
+const SCALE: [Rgb; 9] = [
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
+];
+
+impl Theme {
+    /// The color of a value on a scale from 0 to 1: the larger, the brighter, in every theme.
+    pub fn scale(self, share: f64) -> Rgb {
+        let share = if share.is_nan() { 0.0 } else { share };
+        let at = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+        let first = (at as usize).min(SCALE.len() - 2);
+        mix(SCALE[first], SCALE[first + 1], (at - first as f64) as f32)
+    }
+}
+
+/// The color at a share of the way from one to another.
+pub(crate) fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
+    std::array::from_fn(|channel| {
+        let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
+        (a + (b - a) * share).round() as u8
+    })
+}
+
 impl FromStr for Theme {
     type Err = String;
 
@@ -129,6 +163,19 @@ mod tests {
         };
         let (a, b) = (luminance(a), luminance(b));
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn the_scale_becomes_brighter_and_survives_any_number() {
+        let gray = |rgb: Rgb| contrast(rgb, [0, 0, 0]);
+        let steps: Vec<f64> = (0..=20)
+            .map(|step| gray(Theme::Light.scale(f64::from(step) / 20.0)))
+            .collect();
+        assert!(steps.windows(2).all(|pair| pair[0] < pair[1]), "{steps:?}");
+        for odd in [f64::NAN, f64::NEG_INFINITY, -1.0] {
+            assert_eq!(Theme::Dark.scale(odd), SCALE[0]);
+        }
+        assert_eq!(Theme::Dark.scale(f64::INFINITY), SCALE[8]);
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod model;
 mod problem;
 mod readout;
 mod settings;
+mod space;
 mod view;
 
 pub use challenge::Challenge;
@@ -24,4 +25,5 @@ pub use model::Model;
 pub use problem::Problem;
 pub use readout::{Readout, ReadoutValue, format_number};
 pub use settings::{Knob, Settings};
+pub use space::Space;
 pub use view::View;

@@ -1,7 +1,7 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout,
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout, Space,
 };
 use image::RgbImage;
 
@@ -26,6 +26,11 @@ pub trait Model: Sized + 'static {
     /// The draggable points. A handle's id must not be a control's.
     fn handles(&self) -> Vec<Handle> {
         Vec::new()
+    }
+
+    /// The panels that show things in three dimensions.
+    fn spaces(&self) -> &'static [Space] {
+        &[]
     }
 
     /// The only way that state changes. Values of controls arrive unchecked, places of handles
@@ -75,6 +80,10 @@ pub trait Model: Sized + 'static {
     fn take_photo(&mut self, _slot: &str, _photo: RgbImage) -> Result<(), Problem> {
         Ok(())
     }
+
+    /// Takes the focal length that the file of a photograph tells, in units of the photograph's
+    /// longer side. Comes after [`Model::take_photo`], if at all; always finite and positive.
+    fn take_focal(&mut self, _slot: &str, _focal: f64) {}
 
     /// The numbers beside the picture. Every number is finite.
     fn readouts(&self) -> Vec<Readout>;

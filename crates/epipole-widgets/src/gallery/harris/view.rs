@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::model::Harris;
 use crate::canvas::{Canvas, Stroke, TextStyle};
 use crate::contract::{Layout, Panel, Rect, View};
-use crate::theme::{Rgb, Role, Theme};
+use crate::theme::{Role, Theme, mix};
 use image::RgbImage;
 
 const GAP: f64 = 12.0;
@@ -127,13 +127,6 @@ fn colored(answer: &Answer, theme: Theme) -> RgbImage {
         let stripe = relative < 0.0 && (u + v) % STRIPE_PX < STRIPE_PX / 2;
         let share = if stripe { strength * 0.45 } else { strength };
         image::Rgb(mix(zero, if relative < 0.0 { cool } else { warm }, share))
-    })
-}
-
-fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
-    std::array::from_fn(|channel| {
-        let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
-        (a + (b - a) * share).round() as u8
     })
 }
 
