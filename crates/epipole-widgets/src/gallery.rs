@@ -7,6 +7,7 @@ mod epipolar_click;
 pub mod harris;
 pub mod ransac_race;
 mod stereo_slider;
+pub mod window_shift;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -23,6 +24,7 @@ pub struct Entry {
 /// Every figure, in the order of the book.
 pub static FIGURES: &[Entry] = &[
     entry::<epipolar_click::EpipolarClickView>(),
+    entry::<window_shift::View>(),
     entry::<harris::View>(),
     entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
