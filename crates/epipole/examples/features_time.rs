@@ -4,8 +4,8 @@
 //! Usage: `features_time FOLDER [ROUNDS] [MAX_FEATURES]`. The folder holds `frame.f32`, 1280 × 720
 //! gray values; `a.f32` and `b.f32`, 2048 descriptors of 128 numbers each; and `photograph.png`.
 //! Prints `name median_ms min_ms note` a line and writes `name.f32`. With `RAYON_NUM_THREADS=1`
-//! it is the time that the thread had a processor, where Linux tells it, so that other work on
-//! the machine disturbs less; else the time that passed.
+//! the time of long work is that on the processor, where Linux tells it, so that other work on the
+//! machine disturbs less; else it is the time that passed.
 
 use epipole::feature::{
     Descriptors, OrbOptions, Scaling, SiftOptions, StructureTensorOptions, Window, detect_orb,
@@ -21,17 +21,17 @@ use std::time::Instant;
 const FRAME: (u32, u32) = (1280, 720);
 const DIMENSION: usize = 128;
 
-/// Milliseconds since some fixed moment.
-fn now(start: &Instant) -> f64 {
-    let one_thread = std::env::var("RAYON_NUM_THREADS").is_ok_and(|n| n == "1");
-    let on_processor = || {
-        let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-        text.split(' ').next()?.parse::<f64>().ok()
-    };
-    match on_processor().filter(|_| one_thread) {
-        Some(nanoseconds) => nanoseconds * 1e-6,
-        None => start.elapsed().as_secs_f64() * 1e3,
-    }
+/// Longer work is interrupted by other work on the machine, so its time on the processor counts.
+const LONG_MS: f64 = 20.0;
+
+/// Milliseconds that this thread has had a processor, where Linux tells it and there is only one.
+fn on_processor() -> Option<f64> {
+    std::env::var("RAYON_NUM_THREADS")
+        .ok()
+        .filter(|n| n == "1")?;
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
+    Some(nanoseconds * 1e-6)
 }
 
 /// Times some work and returns what it found.
@@ -41,21 +41,16 @@ fn time<T>(
     mut work: impl FnMut() -> T,
     note: impl Fn(&T) -> String,
 ) -> T {
-    work();
-    let start = Instant::now();
-    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
-    let before = now(&start);
     let mut last = work();
-    let one = (now(&start) - before).max(start.elapsed().as_secs_f64() * 2e2);
-    let batch = (100.0 / one).clamp(1.0, 100.0) as usize;
-    let mut times: Vec<f64> = Vec::new();
-    for _ in 0..rounds.div_ceil(batch).max(3) {
-        let before = now(&start);
-        for _ in 0..batch {
+    let mut times: Vec<f64> = (0..rounds)
+        .map(|_| {
+            let (before, start) = (on_processor(), Instant::now());
             last = work();
-        }
-        times.push((now(&start) - before) / batch as f64);
-    }
+            let passed = start.elapsed().as_secs_f64() * 1e3;
+            let used = before.zip(on_processor()).map(|(from, to)| to - from);
+            used.filter(|_| passed > LONG_MS).unwrap_or(passed)
+        })
+        .collect();
     times.sort_by(f64::total_cmp);
     println!(
         "{name} {:.4} {:.4} {}",

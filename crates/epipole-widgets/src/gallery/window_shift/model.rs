@@ -35,7 +35,7 @@ const THRESHOLD: Slider = Slider {
     label: "An eigenvalue is large from, per pixel",
     unit: "",
     min: 20.0,
-    max: 400.0,
+    max: 600.0,
     step: 20.0,
     default: 100.0,
     digits: 0,
@@ -244,12 +244,13 @@ impl Model for WindowShift {
         let (large, small) = found.eigenvalues();
         let (du, dv) = self.shift;
         format!(
-            "The window at column {}, row {} lies on {what}. Per pixel λ₁ is {} and λ₂ is {}. A \
-             shift by {} columns and {} rows changes it by {}.",
+            "The window at column {}, row {} lies on {what}. Per pixel λ₁ is {} and λ₂ is {}; \
+             from {} on one is large. A shift by {} columns and {} rows changes it by {}.",
             self.window.0,
             self.window.1,
             format_number(large, 0),
             format_number(small, 0),
+            format_number(self.settings.number(&THRESHOLD), 0),
             format_number(du, 0),
             format_number(dv, 0),
             format_number(found.change(du as i32, dv as i32), 0),
