@@ -65,7 +65,7 @@ export class Photos {
         input.value = "";
       });
       const label = make("label", { for: id }, kind === "camera" ? "Take one now" : slot.label);
-      return make("div", { class: kind }, label, input);
+      return make("div", { class: kind === "camera" ? kind : "file" }, label, input);
     });
     return { slot, row: make("div", { class: "photo" }, ...inputs, note), note };
   }
