@@ -36,7 +36,7 @@ test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
 	cd tests/browser && npm test --silent
 
-bench: setup ## us and our peers on the same work
+bench: setup tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
@@ -47,7 +47,7 @@ new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 
 clean: ## removes everything that was built or installed here
 	cargo clean
-	rm -rf web/node_modules tests/browser/node_modules $(VENV)
+	rm -rf web/node_modules tests/browser/node_modules tests/bench/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
 	@tests/tools/need.sh cargo rustup node npm
@@ -63,6 +63,11 @@ web/node_modules/.installed: web/package-lock.json
 
 tests/browser/node_modules/.installed: tests/browser/package-lock.json
 	cd tests/browser && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+# Large and only for `make bench`, so `make setup` leaves it out.
+tests/bench/node_modules/.installed: tests/bench/package-lock.json
+	cd tests/bench && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 
 $(VENV)/.installed: tests/listings/requirements.txt

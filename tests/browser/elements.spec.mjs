@@ -216,6 +216,34 @@ test("a photograph of one's own is taken, made smaller, and goes nowhere", async
   await expect(figure.locator(".notice")).toContainText("letter.txt is not a photograph");
 });
 
+test("a photograph can be dropped on the figure, and taken where there is a camera", async ({ page, open }) => {
+  const figure = await open(page, [own]);
+  const before = await told(figure);
+  await figure.evaluate(async (element) => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [300, 200];
+    const context = canvas.getContext("2d");
+    context.fillStyle = "#dddddd";
+    context.fillRect(0, 0, 300, 200);
+    context.fillStyle = "#224466";
+    context.fillRect(70, 50, 90, 80);
+    const blob = await new Promise((done) => canvas.toBlob(done));
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([blob], "desk.png", { type: "image/png" }));
+    const picture = element.shadowRoot.querySelector(".picture");
+    for (const type of ["dragover", "drop"]) {
+      const event = new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true, composed: true });
+      // Unless both are taken, the browser would leave the page and show the file.
+      if (picture.dispatchEvent(event)) throw new Error(`${type} was not taken`);
+    }
+  });
+  await expect(figure.locator(".photo .note").first()).toContainText("300 × 200 pixels");
+  await expect.poll(async () => (await told(figure)).readouts).not.toEqual(before.readouts);
+  const camera = figure.locator("input[capture]").first();
+  await expect(camera).toHaveAttribute("capture", "environment");
+  await expect(camera).toBeHidden();
+});
+
 test("parameters are properties of every element", async ({ page, open }) => {
   for (const [figureName, { controls }] of snapshots) {
     const figure = await open(page, [figureName]);

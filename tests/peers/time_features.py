@@ -1,75 +1,132 @@
 #!/usr/bin/env python3
-"""Times our image and feature rooms and OpenCV's, in turns, and prints their ratios.
+"""Times our image and feature rooms and OpenCV's, in turns, on the same numbers: one table.
 
-    python time_features.py IMAGE path/to/features_time [THREADS] [TURNS]
+    python time_features.py path/to/features_time [THREADS] [TURNS]
 
-Both work on the same image; filters on 1280 x 720 floats; matching on 2048 x 2048 random
-descriptors of 128 whole numbers. Each turn runs both; the median and the least over all turns are
-printed, and OpenCV's time over ours (above 1: ours is faster).
+The frame is 1280 x 720 floats; matching is on 2048 x 2048 random descriptors of 128 whole numbers;
+features are those of EPIPOLE_DATA/homography/graf/img1.png, ours limited to as many as OpenCV finds.
+Each turn runs both, so that whatever else the machine does hits both; times are the least of all
+turns, ratios are OpenCV's time over ours (above 1: ours is faster), of the least and of the medians.
+The last column says how well the two agree.
 """
-import os, subprocess, sys, time
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
 import cv2
 import numpy as np
 
-path, binary = sys.argv[1], sys.argv[2]
-threads = int(sys.argv[3]) if len(sys.argv) > 3 else 1
-turns = int(sys.argv[4]) if len(sys.argv) > 4 else 5
+binary = sys.argv[1]
+threads = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+turns = int(sys.argv[3]) if len(sys.argv) > 3 else 5
 cv2.setNumThreads(threads)
-gray = cv2.imread(path, 0)
-frame = cv2.resize(gray, (1280, 720), interpolation=cv2.INTER_LINEAR).astype(np.float32) / np.float32(255)
 rng = np.random.default_rng(1)
+folder = tempfile.TemporaryDirectory()
+room = pathlib.Path(folder.name)
+
+
+def rectangles(width, height):
+    """Gray rectangles, a little blurred: edges and corners everywhere."""
+    image = np.full((height, width), 0.5, np.float32)
+    for _ in range(width * height // 300):
+        u, v = rng.integers(0, width), rng.integers(0, height)
+        image[v : v + rng.integers(2, 32), u : u + rng.integers(2, 32)] = rng.random()
+    return cv2.GaussianBlur(image, (0, 0), 0.8)
+
+
+data = os.environ.get("EPIPOLE_DATA")
+photograph = pathlib.Path(data, "homography/graf/img1.png") if data else None
+gray = cv2.imread(str(photograph), 0) if photograph and photograph.exists() else None
+if gray is None:
+    print("no EPIPOLE_DATA/homography/graf/img1.png: features and frame of made-up rectangles")
+    gray = (255 * rectangles(800, 640)).round().astype(np.uint8)
+frame = cv2.resize(gray, (1280, 720), interpolation=cv2.INTER_LINEAR).astype(np.float32) / np.float32(255)
 a, b = (rng.integers(0, 160, (2048, 128)).astype(np.float32) for _ in range(2))
+broken = [x * np.float32(0.37) for x in (a, b)]
 sift, orb, matcher = cv2.SIFT_create(), cv2.ORB_create(nfeatures=1000), cv2.BFMatcher(cv2.NORM_L2)
 found = {}
-# On one thread: time on a processor, which other work on the machine disturbs less.
-clock = time.process_time if threads == 1 else time.perf_counter
+du, dv, blurred, response = (np.empty_like(frame) for _ in range(4))
 
 
 def both_derivatives():
-    return cv2.Sobel(frame, cv2.CV_32F, 1, 0), cv2.Sobel(frame, cv2.CV_32F, 0, 1)
-
-
-du, dv = np.empty_like(frame), np.empty_like(frame)
-
-
-def both_derivatives_again():
     cv2.Sobel(frame, cv2.CV_32F, 1, 0, dst=du)
     cv2.Sobel(frame, cv2.CV_32F, 0, 1, dst=dv)
 
 
 def detect(name, detector):
-    found[name] = len(detector.detectAndCompute(gray, None)[0])
+    found[name] = detector.detectAndCompute(gray, None)[0]
+
+
+def match(name, first, second):
+    found[name] = matcher.knnMatch(first, second, k=2)
 
 
 work = {
-    "sobel": (both_derivatives, 100),
-    "sobel_into": (both_derivatives_again, 100),
-    "gaussian5": (lambda: cv2.GaussianBlur(frame, (5, 5), 1.1), 100),
-    "harris": (lambda: cv2.cornerHarris(frame, 3, 3, 0.04), 50),
-    "sift": (lambda: detect("sift", sift), 10),
-    "orb": (lambda: detect("orb", orb), 10),
-    "match_sift": (lambda: matcher.knnMatch(a, b, k=2), 10),
-    "match_f32": (lambda: matcher.knnMatch(a, b, k=2), 10),
+    "sobel": ("Sobel 3×3, both derivatives, 1280×720", both_derivatives, 100),
+    "gaussian5": ("Gaussian 5×5, 1280×720", lambda: cv2.GaussianBlur(frame, (5, 5), 1.1, dst=blurred), 100),
+    "harris": ("Harris response, 1280×720", lambda: cv2.cornerHarris(frame, 3, 3, 0.04, dst=response), 50),
+    "sift": ("SIFT, graf 800×640", lambda: detect("sift", sift), 8),
+    "orb": ("ORB, graf 800×640", lambda: detect("orb", orb), 10),
+    "match_sift": ("Two nearest, 2048² × 128, whole numbers", lambda: match("match_sift", a, b), 8),
+    "match_f32": ("Two nearest, 2048² × 128, floats", lambda: match("match_f32", *broken), 8),
 }
+frame.tofile(room / "frame.f32")
+a.tofile(room / "a.f32")
+b.tofile(room / "b.f32")
+cv2.imwrite(str(room / "photograph.png"), gray)
+num_keypoints = len(sift.detect(gray, None))
+
 ours, theirs, notes = {n: [] for n in work}, {n: [] for n in work}, {}
 for _ in range(turns):
-    text = subprocess.run([binary, path, "10"], capture_output=True, text=True, check=True,
+    text = subprocess.run([binary, str(room), "10", str(num_keypoints)], capture_output=True, text=True, check=True,
                           env={**os.environ, "RAYON_NUM_THREADS": str(threads)}).stdout
     for line in text.splitlines():
         name, median, least, note = line.split()
         ours[name].append((float(median), float(least)))
         notes[name] = note
-    for name, (run, rounds) in work.items():
+    for name, (_, run, rounds) in work.items():
         run()
         times = []
+        # Long work is interrupted by other work on the machine: on one thread, its time on the processor counts.
+        clock = time.process_time if threads == 1 and rounds <= 10 else time.perf_counter
         for _ in range(rounds):
             start = clock()
             run()
             times.append(1e3 * (clock() - start))
         theirs[name].append((np.median(times), min(times)))
-print(f"{'':11}{'ours':>9}{'OpenCV':>9}{'ratio':>7}   least: {'ours':>8}{'OpenCV':>9}{'ratio':>7}   ({threads} thread{'s' * (threads > 1)}, ms)")
-for name in work:
+
+
+def difference(name, expected):
+    mine = np.fromfile(room / f"{name}.f32", np.float32).reshape(expected.shape)
+    return f"largest difference {100 * np.abs(mine - expected).max() / np.abs(expected).max():.0e} %"
+
+
+def nearest(name):
+    mine = np.fromfile(room / f"{name}.f32", np.float32)
+    same = np.mean(mine == [pair[0].trainIdx for pair in found[name]])
+    return f"{100 * same:.1f} % the same nearest"
+
+
+quality = {
+    "sobel": difference("sobel", np.stack([du, dv])),
+    "gaussian5": difference("gaussian5", blurred),
+    "harris": difference("harris", response),
+    "sift": f"{notes['sift']} features, OpenCV {len(found['sift'])}",
+    "orb": f"{notes['orb']} features, OpenCV {len(found['orb'])}",
+    "match_sift": nearest("match_sift"),
+    "match_f32": nearest("match_f32"),
+}
+title = "one thread" if threads == 1 else f"{threads} threads"
+head = [f"images and features, {title}", "ours", "OpenCV", "ratio", "of medians", "quality"]
+rows = [head]
+for name, (label, _, _) in work.items():
     o, t = np.array(ours[name]), np.array(theirs[name])
-    m, l = (np.median(o[:, 0]), np.median(t[:, 0])), (o[:, 1].min(), t[:, 1].min())
-    note = f"features {notes[name]} / {found[name]}" if name in found else ""
-    print(f"{name:11}{m[0]:9.3f}{m[1]:9.3f}{m[1] / m[0]:7.2f}          {l[0]:8.3f}{l[1]:9.3f}{l[1] / l[0]:7.2f}   {note}")
+    least, median = (o[:, 1].min(), t[:, 1].min()), (np.median(o[:, 0]), np.median(t[:, 0]))
+    rows.append([label, f"{least[0]:.3f} ms", f"{least[1]:.3f} ms", f"{least[1] / least[0]:.2f} ×",
+                 f"{median[1] / median[0]:.2f} ×", quality[name]])
+widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
+for row in rows:
+    print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())

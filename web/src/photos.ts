@@ -1,4 +1,7 @@
-/** Photographs of the reader's own: chosen, decoded and made smaller here; they go nowhere else. */
+/**
+ * Photographs of the reader's own: chosen, dropped or taken, decoded and made smaller here; they go
+ * nowhere else.
+ */
 
 import type { PhotoSlot } from "./contract.js";
 import { make } from "./dom.js";
@@ -17,6 +20,8 @@ export class Photos {
   readonly #take: (slot: string, photo: Photo) => void;
   readonly #warn: (sentence: string) => void;
   #slots = "";
+  /** Each slot with the note beside it. */
+  #rows: { slot: PhotoSlot; row: HTMLElement; note: HTMLElement }[] = [];
 
   constructor(take: (slot: string, photo: Photo) => void, warn: (sentence: string) => void) {
     this.#take = take;
@@ -28,19 +33,44 @@ export class Photos {
     if (ids === this.#slots) return;
     this.#slots = ids;
     this.element.hidden = slots.length === 0;
-    this.element.replaceChildren(...slots.map((slot) => this.#row(slot)));
+    this.#rows = slots.map((slot) => this.#row(slot));
+    this.element.replaceChildren(...this.#rows.map(({ row }) => row));
   }
 
-  #row(slot: PhotoSlot): HTMLElement {
-    const input = make("input", { id: `photo-${slot.id}`, type: "file", accept: "image/*" });
-    const note = make("span", { class: "note" }, "Stays on your device.");
-    input.addEventListener("change", () => {
-      const file = input.files?.[0];
-      if (file) void this.#read(slot, file, note);
-      // The same photograph may be chosen again.
-      input.value = "";
+  /** Files may be dropped anywhere on `target`: onto a slot's row for that slot, else for the first. */
+  listen(target: HTMLElement): void {
+    target.addEventListener("dragover", (event) => {
+      if (this.#rows.length === 0 || !event.dataTransfer?.types.includes("Files")) return;
+      event.preventDefault();
+      event.dataTransfer.dropEffect = "copy";
     });
-    return make("div", { class: "photo" }, make("label", { for: input.id }, slot.label), input, note);
+    target.addEventListener("drop", (event) => {
+      const file = event.dataTransfer?.files[0];
+      const [first] = this.#rows;
+      if (!file || !first) return;
+      event.preventDefault();
+      const path = event.composedPath();
+      const { slot, note } = this.#rows.find(({ row }) => path.includes(row)) ?? first;
+      void this.#read(slot, file, note);
+    });
+  }
+
+  #row(slot: PhotoSlot): { slot: PhotoSlot; row: HTMLElement; note: HTMLElement } {
+    const note = make("span", { class: "note" }, "Or drop one here. Stays on your device.");
+    const inputs = ["photo", "camera"].map((kind) => {
+      const capture = kind === "camera" ? "environment" : undefined;
+      const id = `${kind}-${slot.id}`;
+      const input = make("input", { id, type: "file", accept: "image/*", capture });
+      input.addEventListener("change", () => {
+        const file = input.files?.[0];
+        if (file) void this.#read(slot, file, note);
+        // The same photograph may be chosen again.
+        input.value = "";
+      });
+      const label = make("label", { for: id }, kind === "camera" ? "Take one now" : slot.label);
+      return make("div", { class: kind === "camera" ? kind : "file" }, label, input);
+    });
+    return { slot, row: make("div", { class: "photo" }, ...inputs, note), note };
   }
 
   async #read(slot: PhotoSlot, file: File, note: HTMLElement): Promise<void> {

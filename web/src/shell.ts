@@ -67,6 +67,7 @@ export class Shell {
       this.speaker.region,
       make("slot", { name: "caption" }),
     );
+    this.#photos.listen(this.#root);
     // Keys that move something here must not turn the page around.
     this.#root.addEventListener("keydown", (event) => {
       if (/^(Arrow|Page|Home|End)/.test(event.key)) event.stopPropagation();

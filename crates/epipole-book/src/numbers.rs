@@ -149,6 +149,8 @@ mod tests {
     fn worked_numbers() {
         let pair = "f=500 cu=320 cv=240 tx=-0.2 ty=0 tz=-0.5";
         let matched = format!("{pair} u=400 v=300 u2=362 v2=324 digits=2");
+        let corner = "u1=4 v1=0 u2=0 v2=3 u3=2 v3=2";
+        let edge = "u1=4 v1=0 u2=5 v2=0 u3=3 v3=0";
         let mut used = Vec::new();
         // u′u, u′v, u′, v′u, v′v, v′, u, v, 1
         let row = [
@@ -172,6 +174,38 @@ mod tests {
             ("eight-point.condition normalized=1 digits=1", "19.8"),
             ("eight-point.distance-px normalized=0", "0.24"),
             ("eight-point.distance-px normalized=1", "0.13"),
+            // 4² + 0² + 2², 0² + 3² + 2², 4·0 + 0·3 + 2·2; 20 · 13 − 4²; 244 − 0.04 · 33²
+            (&format!("corners.a {corner}"), "20"),
+            (&format!("corners.b {corner}"), "13"),
+            (&format!("corners.c {corner}"), "4"),
+            (&format!("corners.det {corner}"), "244"),
+            (&format!("corners.trace {corner}"), "33"),
+            (&format!("corners.harris {corner} k=0.04"), "200.44"),
+            // 16.5 ± √(3.5² + 4²)
+            (&format!("corners.lambda1 {corner}"), "21.82"),
+            (&format!("corners.lambda2 {corner}"), "11.18"),
+            // 20 · 1 + 2 · 4 · (−1) + 13 · 1
+            (&format!("corners.change {corner} du=1 dv=-1"), "25"),
+            // 4² + 5² + 3²; 0 − 0.04 · 50²
+            (&format!("corners.a {edge}"), "50"),
+            (&format!("corners.b {edge}"), "0"),
+            (&format!("corners.det {edge}"), "0"),
+            (&format!("corners.harris {edge} k=0.04"), "-100.00"),
+            (&format!("corners.change {edge} du=0 dv=1"), "0"),
+            // 22.96: 22.96 / 23.96² = 0.0400; 14.60 / 15.60² = 0.0600; 2.618 / 3.618² = 0.2000
+            ("corners.ratio-limit k=0.04", "22.96"),
+            ("corners.ratio-limit k=0.06 digits=1", "14.6"),
+            ("corners.ratio-limit k=0.2 digits=3", "2.618"),
+            // 1 − 0.1 + √0.8 over 0.1
+            ("corners.ratio-limit k=0.05", "17.94"),
+            // (3, 0), (0, 1), (0, 2): A = 9, B = 5, C = 0; 45 − 0.04 · 14²
+            (
+                "corners.harris u1=3 v1=0 u2=0 v2=1 u3=0 v3=2 k=0.04",
+                "37.16",
+            ),
+            // OpenCV's corner.cpp: 2^(3 − 1) · block · 255
+            ("corners.opencv-divisor block=2", "2040"),
+            ("corners.opencv-divisor block=3", "3060"),
             // 320 + 500 · (−0.2) / (−0.5), and 240.
             (&format!("epipolar.epipole2-u {pair}"), "520"),
             (&format!("epipolar.epipole2-v {pair}"), "240"),
@@ -261,7 +295,7 @@ mod tests {
         for (call, part) in [
             (
                 "nosuch",
-                "unknown number \"nosuch\"; known numbers: camera.project-u, epipolar.epipole2-u",
+                "unknown number \"nosuch\"; known numbers: camera.project-u, corners.a",
             ),
             (
                 "camera.project-u f=1 cu=1 x=1 w=1",

@@ -26,8 +26,8 @@ fill "$here/model.rs" "$gallery/$module/model.rs"
 fill "$here/view.rs" "$gallery/$module/view.rs"
 list=$here/../src/gallery.rs
 awk -v line="pub mod $module;" -v entry="    entry::<$module::View>()," '
-    /^pub mod / { last = 1 }
-    last && !/^pub mod / { print line; last = 0 }
+    /^(pub )?mod / && !done { last = 1 }
+    last && !/^(pub )?mod / { print line; last = 0; done = 1 }
     /^\];/ { print entry }
     { print }
 ' "$list" >"$list.part"

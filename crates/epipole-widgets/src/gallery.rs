@@ -13,6 +13,7 @@ pub mod ransac_epipolar;
 pub mod ransac_race;
 mod stereo_slider;
 mod two_view_sfm;
+pub mod window_shift;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -30,6 +31,7 @@ pub struct Entry {
 pub static FIGURES: &[Entry] = &[
     entry::<eight_point::View>(),
     entry::<epipolar_click::EpipolarClickView>(),
+    entry::<window_shift::View>(),
     entry::<harris::View>(),
     entry::<ransac_budget::View>(),
     entry::<ransac_epipolar::View>(),

@@ -6,7 +6,7 @@ use epipole::camera::Camera;
 use epipole::synthetic::{
     MovableKind, MovableObject, Photograph, Sampling, Scene, still_life_camera,
 };
-use image::RgbImage;
+use image::{Rgb, RgbImage};
 use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector3};
 
 /// Size of a photograph, pixels.
@@ -90,5 +90,26 @@ pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
         kind: MovableKind::Ball,
         x_m,
         z_m,
+    })
+}
+
+/// Size of [`square_picture`], pixels.
+pub(crate) const SQUARE_SIZE: (u32, u32) = (240, 180);
+
+/// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, and noise of a
+/// standard deviation of so many gray levels.
+pub(crate) fn square_picture(noise: f64) -> RgbImage {
+    let mut random = epipole::math::random::Random::new(5);
+    let (width, height) = SQUARE_SIZE;
+    let angle = 15.0_f64.to_radians();
+    let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+    let half = 46.0;
+    RgbImage::from_fn(width, height, |u, v| {
+        let x = f64::from(u) - f64::from(width - 1) / 2.0;
+        let y = f64::from(v) - f64::from(height - 1) / 2.0;
+        let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
+        let cover = (0.5 - outside).clamp(0.0, 1.0);
+        let gray = 215.0 - 150.0 * cover + noise * random.normal();
+        Rgb([gray.round() as u8; 3])
     })
 }

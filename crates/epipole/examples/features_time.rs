@@ -1,49 +1,56 @@
-//! Times the image and feature rooms on one image, for scripts that set them beside peers.
+//! Times the image and feature rooms for `tests/peers/time_features.py`, which sets them beside a
+//! peer, and leaves what they found for it to compare.
 //!
-//! Usage: `features_time IMAGE [ROUNDS]`. Prints `name median_ms min_ms note` a line. With
-//! `RAYON_NUM_THREADS=1` it is the time that the thread had a processor, where Linux tells it, so
-//! that other work on the machine disturbs less; else the time that passed.
+//! Usage: `features_time FOLDER [ROUNDS] [MAX_FEATURES]`. The folder holds `frame.f32`, 1280 × 720
+//! gray values; `a.f32` and `b.f32`, 2048 descriptors of 128 numbers each; and `photograph.png`.
+//! Prints `name median_ms min_ms note` a line and writes `name.f32`. With `RAYON_NUM_THREADS=1`
+//! the time of long work is that on the processor, where Linux tells it, so that other work on the
+//! machine disturbs less; else it is the time that passed.
 
 use epipole::feature::{
-    Descriptors, OrbOptions, SiftOptions, StructureTensorOptions, Window, detect_orb, detect_sift,
-    harris_response, nearest_two,
+    Descriptors, OrbOptions, Scaling, SiftOptions, StructureTensorOptions, Window, detect_orb,
+    detect_sift, harris_response, nearest_two,
 };
 use epipole::imaging::{
-    Border, DecodeOptions, DerivativeFilter, GrayImage32, decode_gray, derivative_into,
-    gaussian_kernel, resize, separable_filter, sobel,
+    Border, DecodeOptions, DerivativeFilter, decode_gray, derivative_into, gaussian_kernel,
+    gray_from_values, separable_filter, sobel,
 };
-use epipole::math::random::Random;
+use std::path::Path;
 use std::time::Instant;
 
-/// Milliseconds since some fixed moment.
-fn now(start: &Instant) -> f64 {
-    let one_thread = std::env::var("RAYON_NUM_THREADS").is_ok_and(|n| n == "1");
-    let on_processor = || {
-        let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-        text.split(' ').next()?.parse::<f64>().ok()
-    };
-    match on_processor().filter(|_| one_thread) {
-        Some(nanoseconds) => nanoseconds * 1e-6,
-        None => start.elapsed().as_secs_f64() * 1e3,
-    }
+const FRAME: (u32, u32) = (1280, 720);
+const DIMENSION: usize = 128;
+
+/// Longer work is interrupted by other work on the machine, so its time on the processor counts.
+const LONG_MS: f64 = 20.0;
+
+/// Milliseconds that this thread has had a processor, where Linux tells it and there is only one.
+fn on_processor() -> Option<f64> {
+    std::env::var("RAYON_NUM_THREADS")
+        .ok()
+        .filter(|n| n == "1")?;
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
+    Some(nanoseconds * 1e-6)
 }
 
-fn time<T>(name: &str, rounds: usize, mut work: impl FnMut() -> T, note: impl Fn(&T) -> String) {
-    work();
-    let start = Instant::now();
-    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
-    let before = now(&start);
+/// Times some work and returns what it found.
+fn time<T>(
+    name: &str,
+    rounds: usize,
+    mut work: impl FnMut() -> T,
+    note: impl Fn(&T) -> String,
+) -> T {
     let mut last = work();
-    let one = (now(&start) - before).max(start.elapsed().as_secs_f64() * 2e2);
-    let batch = (100.0 / one).clamp(1.0, 100.0) as usize;
-    let mut times: Vec<f64> = Vec::new();
-    for _ in 0..rounds.div_ceil(batch).max(3) {
-        let before = now(&start);
-        for _ in 0..batch {
+    let mut times: Vec<f64> = (0..rounds)
+        .map(|_| {
+            let (before, start) = (on_processor(), Instant::now());
             last = work();
-        }
-        times.push((now(&start) - before) / batch as f64);
-    }
+            let passed = start.elapsed().as_secs_f64() * 1e3;
+            let used = before.zip(on_processor()).map(|(from, to)| to - from);
+            used.filter(|_| passed > LONG_MS).unwrap_or(passed)
+        })
+        .collect();
     times.sort_by(f64::total_cmp);
     println!(
         "{name} {:.4} {:.4} {}",
@@ -51,78 +58,80 @@ fn time<T>(name: &str, rounds: usize, mut work: impl FnMut() -> T, note: impl Fn
         times[0],
         note(&last)
     );
+    last
+}
+
+fn no_note<T>(_: &T) -> String {
+    "-".to_owned()
+}
+
+fn read(path: &Path) -> std::io::Result<Vec<f32>> {
+    let bytes = std::fs::read(path)?;
+    let numbers = bytes.chunks_exact(4);
+    Ok(numbers
+        .map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
+        .collect())
+}
+
+fn write(path: &Path, numbers: impl IntoIterator<Item = f32>) -> std::io::Result<()> {
+    let bytes: Vec<u8> = numbers.into_iter().flat_map(f32::to_ne_bytes).collect();
+    std::fs::write(path, bytes)
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let bytes = std::fs::read(arguments.first().ok_or("which image?")?)?;
+    let folder = Path::new(arguments.first().ok_or("which folder?")?);
     let rounds: usize = arguments.get(1).map_or(Ok(10), |n| n.parse())?;
-    let image = decode_gray(&bytes, &DecodeOptions::default())?.image;
-    let frame: GrayImage32 = resize(&image, 1280, 720)?;
-    time(
-        "sobel",
-        10 * rounds,
-        || sobel(&frame, Border::Reflect101),
-        |_| "-".to_owned(),
-    );
+    let max_features: usize = arguments.get(2).map_or(Ok(0), |n| n.parse())?;
+
+    let frame = gray_from_values(FRAME.0, FRAME.1, read(&folder.join("frame.f32"))?)?;
     let mut gradient = sobel(&frame, Border::Reflect101);
     let again = || {
-        derivative_into(
-            &frame,
-            DerivativeFilter::Sobel3,
-            Border::Reflect101,
-            &mut gradient,
-        );
+        let border = Border::Reflect101;
+        derivative_into(&frame, DerivativeFilter::Sobel3, border, &mut gradient);
     };
-    time("sobel_into", 10 * rounds, again, |()| "-".to_owned());
+    time("sobel", 10 * rounds, again, no_note);
+    let both = gradient.du.iter().chain(gradient.dv.iter()).copied();
+    write(&folder.join("sobel.f32"), both)?;
     let kernel = gaussian_kernel(1.1, 5)?;
     let blur = || separable_filter(&frame, &kernel, &kernel, Border::Reflect101);
-    time("gaussian5", 10 * rounds, blur, |_| "-".to_owned());
+    let blurred = time("gaussian5", 10 * rounds, blur, no_note)?;
+    write(&folder.join("gaussian5.f32"), blurred.into_raw())?;
     let options = StructureTensorOptions {
         window: Window::Box(3),
+        scaling: Scaling::OpenCv,
         ..StructureTensorOptions::default()
     };
-    time(
-        "harris",
-        5 * rounds,
-        || harris_response(&frame, 0.04, &options),
-        |_| "-".to_owned(),
-    );
-    let sift = || detect_sift(&image, &SiftOptions::default());
+    let harris = || harris_response(&frame, 0.04, &options);
+    let response = time("harris", 5 * rounds, harris, no_note)?;
+    write(&folder.join("harris.f32"), response.into_raw())?;
+
+    let bytes = std::fs::read(folder.join("photograph.png"))?;
+    let image = decode_gray(&bytes, &DecodeOptions::default())?.image;
+    let options = SiftOptions {
+        max_features,
+        ..SiftOptions::default()
+    };
+    let sift = || detect_sift(&image, &options);
     time("sift", rounds, sift, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()
-    });
+    })?;
     let orb = || detect_orb(&image, &OrbOptions::default());
     time("orb", rounds, orb, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()
-    });
-    let mut random = Random::new(1);
-    let mut list = || -> Vec<u8> { (0..2048 * 128).map(|_| random.below(160) as u8).collect() };
-    let (a, b) = (list(), list());
-    let floats = |v: &[u8], scale: f32| {
-        v.iter()
-            .map(|&x| f32::from(x) * scale)
-            .collect::<Vec<f32>>()
-    };
-    let whole = [
-        Descriptors::from_floats(128, floats(&a, 1.0))?,
-        Descriptors::from_floats(128, floats(&b, 1.0))?,
-    ];
-    time(
-        "match_sift",
-        rounds,
-        || nearest_two(&whole[0], &whole[1]),
-        |_| "-".to_owned(),
-    );
-    let broken = [
-        Descriptors::from_floats(128, floats(&a, 0.37))?,
-        Descriptors::from_floats(128, floats(&b, 0.37))?,
-    ];
-    time(
-        "match_f32",
-        rounds,
-        || nearest_two(&broken[0], &broken[1]),
-        |_| "-".to_owned(),
-    );
+    })?;
+
+    let lists = [read(&folder.join("a.f32"))?, read(&folder.join("b.f32"))?];
+    // Whole numbers are compared in integers, others in floats.
+    for (name, scale) in [("match_sift", 1.0), ("match_f32", 0.37)] {
+        let list = |values: &[f32]| {
+            let values = values.iter().map(|value| value * scale).collect();
+            Descriptors::from_floats(DIMENSION, values)
+        };
+        let (first, second) = (list(&lists[0])?, list(&lists[1])?);
+        let near = time(name, rounds, || nearest_two(&first, &second), no_note)?;
+        let indices = near.iter().map(|near| near.index as f32);
+        write(&folder.join(format!("{name}.f32")), indices)?;
+    }
     Ok(())
 }

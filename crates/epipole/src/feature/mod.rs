@@ -17,6 +17,7 @@ mod refine;
 mod sift;
 mod structure_tensor;
 mod track;
+mod window_tensor;
 
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
@@ -35,3 +36,4 @@ pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };
 pub use track::{Track, TrackOptions, track_lucas_kanade};
+pub use window_tensor::{ShiftSurface, WindowTensor, shift_surface};

@@ -1,19 +1,21 @@
 //! The long computation behind `harris`: the picture, its response and the local maxima.
 
 use crate::contract::{Problem, Progress};
+use crate::scenes::square_picture;
 use epipole::feature::{
-    StructureTensorOptions, Window, harris_response, non_maximum_suppression, structure_tensor,
+    StructureTensorOptions, Window, WindowTensor, harris_response, non_maximum_suppression,
+    structure_tensor,
 };
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Size of the test pattern, pixels.
-pub(super) const PATTERN_SIZE: (u32, u32) = (240, 180);
 /// Size of the rendered photograph, pixels.
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
+/// Noise of the test pattern, gray levels.
+const PATTERN_NOISE: f64 = 2.5;
 /// Half the window of non-maximum suppression, pixels.
 const SUPPRESSION_RADIUS_PX: usize = 4;
 /// More maxima than this help nobody.
@@ -59,18 +61,8 @@ pub(super) struct Answer {
     pub(super) k: f32,
 }
 
-/// The structure tensor at one pixel and what follows from it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Probe {
-    pub(super) a: f64,
-    pub(super) b: f64,
-    pub(super) c: f64,
-    pub(super) lambda1: f64,
-    pub(super) lambda2: f64,
-    pub(super) response: f64,
-}
-
-/// Sobel's 3×3 filter answers 8 times the slope; divided by it, gradients are gray levels a pixel.
+/// Gray levels divided by 8, what Sobel's 3×3 filter multiplies slopes by: gradients are then gray
+/// levels a pixel.
 fn gray_levels(picture: &RgbImage) -> GrayImage32 {
     let mut gray = rgb_to_gray_f32(picture, &BT601_WEIGHTS);
     gray.pixels_mut()
@@ -101,7 +93,7 @@ impl Request {
         };
         let request: Self = postcard::from_bytes(bytes).map_err(unreadable)?;
         let picture = match request.source {
-            Source::Pattern => pattern(),
+            Source::Pattern => square_picture(PATTERN_NOISE),
             Source::StillLife => still_life(progress)?,
             Source::Own(width, height, rgb) => RgbImage::from_raw(width, height, rgb)
                 .unwrap_or_else(|| RgbImage::new(width.min(1), height.min(1))),
@@ -109,7 +101,7 @@ impl Request {
         let gray = gray_levels(&picture);
         let response = harris_response(&gray, request.k, &options(request.window_px))?;
         if progress(0.8).is_break() {
-            return Err(cancelled());
+            return Err(epipole::Error::Canceled.into());
         }
         let mut peaks = non_maximum_suppression(&response, SUPPRESSION_RADIUS_PX, 0.0)?;
         peaks.truncate(MAX_PEAKS);
@@ -124,14 +116,6 @@ impl Request {
         };
         Ok(postcard::to_allocvec(&wire).unwrap_or_default())
     }
-}
-
-fn cancelled() -> Problem {
-    epipole::Error::Degenerate {
-        what: "the corner response",
-        why: "the computation was ended",
-    }
-    .into()
 }
 
 impl Answer {
@@ -158,7 +142,7 @@ impl Answer {
     }
 
     /// The structure tensor at a pixel, from a piece of the picture that is just large enough.
-    pub(super) fn probe(&self, u: u32, v: u32) -> Option<Probe> {
+    pub(super) fn tensor(&self, u: u32, v: u32) -> Option<WindowTensor> {
         let reach = self.window_px as u32 / 2 + 2;
         let (left, top) = (u.saturating_sub(reach), v.saturating_sub(reach));
         let right = (u + reach + 1).min(self.gray.width());
@@ -167,38 +151,9 @@ impl Answer {
             return None;
         }
         let piece = image::imageops::crop_imm(&self.gray, left, top, right - left, bottom - top);
-        let tensor = structure_tensor(&piece.to_image(), &options(self.window_px)).ok()?;
-        let (lambda1, lambda2) = tensor.eigenvalues(u - left, v - top)?;
-        let at = |image: &GrayImage32| f64::from(image.get_pixel(u - left, v - top).0[0]);
-        let (a, b, c) = (at(&tensor.uu), at(&tensor.uv), at(&tensor.vv));
-        let response = a * c - b * b - f64::from(self.k) * (a + c) * (a + c);
-        let (lambda1, lambda2) = (f64::from(lambda1), f64::from(lambda2).max(0.0));
-        Some(Probe {
-            a,
-            b,
-            c,
-            lambda1,
-            lambda2,
-            response,
-        })
+        let tensors = structure_tensor(&piece.to_image(), &options(self.window_px)).ok()?;
+        tensors.at(u - left, v - top)
     }
-}
-
-/// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, faint noise.
-fn pattern() -> RgbImage {
-    let mut random = epipole::math::random::Random::new(5);
-    let (width, height) = PATTERN_SIZE;
-    let angle = 15.0_f64.to_radians();
-    let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-    let half = 46.0;
-    RgbImage::from_fn(width, height, |u, v| {
-        let x = f64::from(u) - f64::from(width - 1) / 2.0;
-        let y = f64::from(v) - f64::from(height - 1) / 2.0;
-        let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
-        let cover = (0.5 - outside).clamp(0.0, 1.0);
-        let gray = 215.0 - 150.0 * cover + 2.5 * random.normal();
-        Rgb([gray.round() as u8; 3])
-    })
 }
 
 fn still_life(progress: Progress<'_>) -> Result<RgbImage, Problem> {
@@ -217,7 +172,7 @@ fn still_life(progress: Progress<'_>) -> Result<RgbImage, Problem> {
             &mut photograph,
         )?;
         if progress(0.7 * f64::from(first + 60) / f64::from(height)) == ControlFlow::Break(()) {
-            return Err(cancelled());
+            return Err(epipole::Error::Canceled.into());
         }
     }
     Ok(photograph.image)

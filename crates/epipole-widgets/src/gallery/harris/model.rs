@@ -1,10 +1,12 @@
 //! The picture, its Harris response, the corners above a threshold, and a probe.
 
-use super::answer::{Answer, PATTERN_SIZE, Probe, Request, STILL_LIFE_SIZE, Source};
+use super::answer::{Answer, Request, STILL_LIFE_SIZE, Source};
 use crate::contract::{
     Challenge, Choice, Control, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot, Problem,
     Progress, Readout, Settings, Slider, Value, format_number,
 };
+use crate::scenes::SQUARE_SIZE;
+use epipole::feature::WindowTensor;
 use image::RgbImage;
 
 const SOURCE: Choice = Choice {
@@ -74,6 +76,15 @@ pub(super) enum Verdict {
     Corner,
 }
 
+/// The structure tensor under the probe and what follows from it.
+struct Probe {
+    tensor: WindowTensor,
+    lambda1: f64,
+    lambda2: f64,
+    response: f64,
+    verdict: Verdict,
+}
+
 /// The model of `harris`.
 pub struct Harris {
     settings: Settings,
@@ -106,9 +117,9 @@ impl Harris {
     /// The picture's width and height, pixels, also before it is there.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
-            0 => PATTERN_SIZE,
+            0 => SQUARE_SIZE,
             1 => STILL_LIFE_SIZE,
-            _ => self.own.as_ref().map_or(PATTERN_SIZE, RgbImage::dimensions),
+            _ => self.own.as_ref().map_or(SQUARE_SIZE, RgbImage::dimensions),
         }
     }
 
@@ -134,18 +145,25 @@ impl Harris {
         &answer.peaks[..answer.peaks.partition_point(strong)]
     }
 
-    fn probe(&self) -> Option<(Probe, Verdict)> {
+    fn probe(&self) -> Option<Probe> {
         let answer = self.answer.as_ref()?;
-        let probe = answer.probe(self.probe.0 as u32, self.probe.1 as u32)?;
-        let strong = f64::from(self.threshold());
-        let verdict = if probe.response >= strong {
+        let tensor = answer.tensor(self.probe.0 as u32, self.probe.1 as u32)?;
+        let (lambda1, lambda2) = tensor.eigenvalues();
+        let response = tensor.harris(f64::from(answer.k));
+        let verdict = if response >= f64::from(self.threshold()) {
             Verdict::Corner
-        } else if probe.lambda1 > 400.0 && probe.lambda1 > 6.0 * probe.lambda2 {
+        } else if lambda1 > 400.0 && lambda1 > 6.0 * lambda2 {
             Verdict::Edge
         } else {
             Verdict::Flat
         };
-        Some((probe, verdict))
+        Some(Probe {
+            tensor,
+            lambda1,
+            lambda2,
+            response,
+            verdict,
+        })
     }
 
     fn request(&self) -> Option<Request> {
@@ -300,10 +318,10 @@ impl Model for Harris {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let Some((probe, verdict)) = self.probe() else {
+        let Some(probe) = self.probe() else {
             return vec![Readout::words("state", "State", self.describe())];
         };
-        let verdict = match verdict {
+        let verdict = match probe.verdict {
             Verdict::Flat => "flat",
             Verdict::Edge => "edge",
             Verdict::Corner => "corner",
@@ -311,9 +329,9 @@ impl Model for Harris {
         vec![
             Readout::count("corners", "Corners", self.corners().len()),
             Readout::words("verdict", "At the probe", verdict),
-            Readout::number("a", "A = Σ Iu²", probe.a, 0, ""),
-            Readout::number("b", "B = Σ Iv²", probe.c, 0, ""),
-            Readout::number("c", "C = Σ Iu Iv", probe.b, 0, ""),
+            Readout::number("a", "A = Σ Iu²", probe.tensor.uu, 0, ""),
+            Readout::number("b", "B = Σ Iv²", probe.tensor.vv, 0, ""),
+            Readout::number("c", "C = Σ Iu Iv", probe.tensor.uv, 0, ""),
             Readout::number("lambda1", "λ₁", probe.lambda1, 0, ""),
             Readout::number("lambda2", "λ₂", probe.lambda2, 0, ""),
             Readout::number("response", "R", probe.response / 1e6, 2, "million"),
@@ -324,10 +342,10 @@ impl Model for Harris {
         if let Some(problem) = &self.problem {
             return problem.clone();
         }
-        let Some((probe, verdict)) = self.probe() else {
+        let Some(probe) = self.probe() else {
             return "Looking for corners.".to_owned();
         };
-        let what = match verdict {
+        let what = match probe.verdict {
             Verdict::Flat => "a flat place",
             Verdict::Edge => "an edge",
             Verdict::Corner => "a corner",
@@ -353,9 +371,9 @@ impl Model for Harris {
                 goal: "Put the probe where the response is negative.",
                 hint: "One large eigenvalue and one small one.",
                 check: |model| {
-                    model.probe().is_some_and(|(probe, verdict)| {
-                        verdict == Verdict::Edge && probe.response < 0.0
-                    })
+                    model
+                        .probe()
+                        .is_some_and(|probe| probe.verdict == Verdict::Edge && probe.response < 0.0)
                 },
                 solution: || {
                     vec![Event::HandleMoved {

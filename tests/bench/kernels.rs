@@ -1,0 +1,162 @@
+//! The work of the browser's bench table as a bare WebAssembly module: numbers go in and out
+//! through its memory. `tests/browser/opencv.mjs` sets it beside opencv.js.
+//!
+//! A page writes inputs to `floats` or `doubles`, calls `prepare` once and `run` as often as it
+//! likes, and reads what `result` has left in `floats(2, …)` or `doubles`.
+
+#![allow(unsafe_code, reason = "exported names must not be mangled")]
+#![allow(unreachable_pub, reason = "exports have no other user")]
+
+use epipole::feature::{
+    Descriptors, Neighbors, StructureTensorOptions, Window, harris_response, nearest_two,
+};
+use epipole::homography::find_homography;
+use epipole::imaging::{
+    Border, DerivativeFilter, Gradient, GrayImage32, derivative_into, gaussian_kernel,
+    gray_from_values, separable_filter, sobel,
+};
+use epipole::robust::RansacOptions;
+use nalgebra::{Matrix3, Point2};
+use std::cell::RefCell;
+
+/// What is kept between the calls of a page.
+#[derive(Default)]
+struct Room {
+    floats: [Vec<f32>; 3],
+    doubles: Vec<f64>,
+    frame: GrayImage32,
+    gradient: Option<Gradient>,
+    response: GrayImage32,
+    descriptors: Option<[Descriptors; 2]>,
+    neighbors: Vec<Neighbors>,
+    matches: [Vec<Point2<f64>>; 2],
+    homography: Matrix3<f64>,
+}
+
+thread_local! {
+    static ROOM: RefCell<Room> = RefCell::default();
+}
+
+const SOBEL: usize = 0;
+const GAUSSIAN: usize = 1;
+const HARRIS: usize = 2;
+const MATCH: usize = 3;
+const HOMOGRAPHY: usize = 4;
+
+/// Room for so many numbers, and where it is.
+#[unsafe(no_mangle)]
+pub extern "C" fn floats(index: usize, length: usize) -> *mut f32 {
+    ROOM.with_borrow_mut(|room| {
+        room.floats[index].resize(length, 0.0);
+        room.floats[index].as_mut_ptr()
+    })
+}
+
+/// Room for so many numbers of double precision, and where it is.
+#[unsafe(no_mangle)]
+pub extern "C" fn doubles(length: usize) -> *mut f64 {
+    ROOM.with_borrow_mut(|room| {
+        room.doubles.resize(length, 0.0);
+        room.doubles.as_mut_ptr()
+    })
+}
+
+/// Takes the input of a kind of work: an image of `width` × `height` from `floats(0)`; two lists
+/// of `height` descriptors of `width` numbers from `floats(0)` and `floats(1)`; `height` matches
+/// u1 v1 u2 v2 from `doubles`. Says whether it can be used.
+#[unsafe(no_mangle)]
+pub extern "C" fn prepare(work: usize, width: usize, height: usize) -> bool {
+    ROOM.with_borrow_mut(|room| {
+        let taken = match work {
+            SOBEL | GAUSSIAN | HARRIS => {
+                gray_from_values(width as u32, height as u32, room.floats[0].clone()).map(|frame| {
+                    room.gradient = Some(sobel(&frame, Border::Reflect101));
+                    room.frame = frame;
+                })
+            }
+            MATCH => {
+                let list = |values: &Vec<f32>| Descriptors::from_floats(width, values.clone());
+                list(&room.floats[0])
+                    .and_then(|a| Ok([a, list(&room.floats[1])?]))
+                    .map(|both| room.descriptors = Some(both))
+            }
+            _ => {
+                let pixels = |at: usize| -> Vec<Point2<f64>> {
+                    let matches = room.doubles.chunks_exact(4);
+                    matches.map(|m| Point2::new(m[at], m[at + 1])).collect()
+                };
+                room.matches = [pixels(0), pixels(2)];
+                Ok(())
+            }
+        };
+        taken.is_ok()
+    })
+}
+
+/// Does the work once; says whether it succeeded.
+#[unsafe(no_mangle)]
+pub extern "C" fn run(work: usize) -> bool {
+    ROOM.with_borrow_mut(|room| work_once(room, work).is_ok())
+}
+
+fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
+    match work {
+        SOBEL => {
+            if let Some(gradient) = &mut room.gradient {
+                let border = Border::Reflect101;
+                derivative_into(&room.frame, DerivativeFilter::Sobel3, border, gradient);
+            }
+        }
+        GAUSSIAN => {
+            let kernel = gaussian_kernel(1.1, 5)?;
+            room.response = separable_filter(&room.frame, &kernel, &kernel, Border::Reflect101)?;
+        }
+        HARRIS => {
+            let options = StructureTensorOptions {
+                window: Window::Box(3),
+                scaling: epipole::feature::Scaling::OpenCv,
+                ..StructureTensorOptions::default()
+            };
+            room.response = harris_response(&room.frame, 0.04, &options)?;
+        }
+        MATCH => {
+            if let Some([first, second]) = &room.descriptors {
+                room.neighbors = nearest_two(first, second)?;
+            }
+        }
+        HOMOGRAPHY => {
+            let [pixels1, pixels2] = &room.matches;
+            room.homography = find_homography(pixels1, pixels2, &RansacOptions::default())?.model;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Copies what the last run found to `floats(2)`, a homography to `doubles`; says how many
+/// numbers.
+#[unsafe(no_mangle)]
+pub extern "C" fn result(work: usize) -> usize {
+    ROOM.with_borrow_mut(|room| {
+        let found: Vec<f32> = match work {
+            SOBEL => {
+                let gradient = room.gradient.iter();
+                let both = gradient.flat_map(|gradient| [&gradient.du, &gradient.dv]);
+                both.flat_map(|image| image.as_raw().clone()).collect()
+            }
+            GAUSSIAN | HARRIS => room.response.as_raw().clone(),
+            MATCH => room
+                .neighbors
+                .iter()
+                .map(|near| near.index as f32)
+                .collect(),
+            _ => {
+                // By rows, as OpenCV.
+                room.doubles = room.homography.transpose().as_slice().to_vec();
+                return room.doubles.len();
+            }
+        };
+        room.floats[2] = found;
+        room.floats[2].len()
+    })
+}

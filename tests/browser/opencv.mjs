@@ -1,0 +1,200 @@
+// Our WebAssembly beside opencv.js, in turns, in one page of a headless browser. Prints one table:
+// times, their ratio, and beside it what both have found. `make bench` builds and installs what it needs:
+//
+//     node opencv.mjs path/to/kernels.wasm
+
+import { chromium } from "@playwright/test";
+import { existsSync, readFileSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { brotliCompressSync } from "node:zlib";
+import { launchOptions } from "./chromium.mjs";
+import { serve } from "./server.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const kernels = resolve(process.argv[2] ?? "kernels.wasm");
+const require = createRequire(join(here, "../bench/package.json"));
+const opencv = require.resolve("@techstark/opencv-js");
+for (const path of [kernels, opencv]) {
+  if (!existsSync(path)) throw new Error(`${path} is missing: run \`make bench\``);
+}
+
+const server = await serve({
+  mounts: {
+    page: () => "<!DOCTYPE html><title>Bench</title>",
+    kernels: dirname(kernels),
+    opencv: dirname(opencv),
+  },
+  // opencv.js makes functions from text.
+  policy: false,
+});
+const browser = await chromium.launch(launchOptions);
+const page = await browser.newPage();
+await page.goto(`${server.origin}/page`);
+await page.addScriptTag({ url: `${server.origin}/opencv/opencv.js` });
+const rows = await page.evaluate(compare, { wasm: `${server.origin}/kernels/${kernels.split("/").pop()}` });
+await browser.close();
+await server.close();
+
+const header = ["in the browser, one thread", "ours", "opencv.js", "ratio", "quality"];
+const texts = rows.map(({ name, ours, theirs, quality }) => {
+  const ratio = theirs / ours;
+  return [name, `${ours.toFixed(2)} ms`, `${theirs.toFixed(2)} ms`, `${ratio.toFixed(2)} ×`, quality];
+});
+const widths = header.map((_, column) => Math.max(...[header, ...texts].map((row) => row[column].length)));
+for (const row of [header, ...texts]) {
+  console.log(row.map((cell, column) => cell.padEnd(widths[column])).join("  ").trimEnd());
+}
+const size = (path) =>
+  `${(statSync(path).size / 1024).toFixed(0)} KB, ${(brotliCompressSync(readFileSync(path)).length / 1024).toFixed(0)} KB brotli`;
+console.log(`these kernels: ${size(kernels)}; opencv.js: ${size(opencv)}`);
+
+/** In the page. */
+async function compare({ wasm }) {
+  const [SOBEL, GAUSSIAN, HARRIS, MATCH, HOMOGRAPHY] = [0, 1, 2, 3, 4];
+  const cv = await readyOpenCv();
+  const { instance } = await WebAssembly.instantiateStreaming(fetch(wasm));
+  const { memory, floats, doubles, prepare, run, result } = instance.exports;
+  // Park and Miller's generator: any would do, if it is the same in every run.
+  let state = 7;
+  const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
+  const normal = () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
+  const put = (index, values) => {
+    const at = floats(index, values.length);
+    new Float32Array(memory.buffer, at, values.length).set(values);
+  };
+  const found = (work) => {
+    const length = result(work);
+    const at = work === HOMOGRAPHY ? doubles(length) : floats(2, length);
+    return Array.from(new (work === HOMOGRAPHY ? Float64Array : Float32Array)(memory.buffer, at, length));
+  };
+  const rows = [];
+
+  const [width, height] = [1280, 720];
+  const gray = rectangles(width, height);
+  const frame = cv.matFromArray(height, width, cv.CV_32FC1, gray);
+  const outs = [new cv.Mat(), new cv.Mat()];
+  const five = new cv.Size(5, 5);
+  put(0, gray);
+  for (const work of [SOBEL, GAUSSIAN, HARRIS]) {
+    if (!prepare(work, width, height)) throw new Error("the frame was refused");
+  }
+  const sobel = () => {
+    cv.Sobel(frame, outs[0], cv.CV_32F, 1, 0);
+    cv.Sobel(frame, outs[1], cv.CV_32F, 0, 1);
+  };
+  const filters = [
+    ["Sobel 3×3, both derivatives, 1280×720", SOBEL, sobel, 2],
+    ["Gaussian 5×5, 1280×720", GAUSSIAN, () => cv.GaussianBlur(frame, outs[0], five, 1.1), 1],
+    ["Harris response, 1280×720", HARRIS, () => cv.cornerHarris(frame, outs[0], 3, 3, 0.04), 1],
+  ];
+  for (const [name, work, theirs, images] of filters) {
+    const times = inTurns(() => run(work), theirs, 20, 8);
+    const other = outs.slice(0, images).flatMap((out) => Array.from(out.data32F));
+    const mine = found(work);
+    const scale = other.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    const off = mine.reduce((most, value, at) => Math.max(most, Math.abs(value - other[at])), 0);
+    rows.push({ name, ...times, quality: `largest difference ${((100 * off) / scale).toExponential(0)} %` });
+  }
+
+  {
+    const [count, dimension] = [2048, 128];
+    const list = () => Float32Array.from({ length: count * dimension }, () => Math.floor(160 * random()));
+    const lists = [list(), list()];
+    lists.forEach((values, index) => put(index, values));
+    prepare(MATCH, dimension, count);
+    const mats = lists.map((values) => cv.matFromArray(count, dimension, cv.CV_32FC1, values));
+    const matcher = new cv.BFMatcher(cv.NORM_L2, false);
+    let pairs = new cv.DMatchVectorVector();
+    const theirs = () => {
+      pairs.delete();
+      pairs = new cv.DMatchVectorVector();
+      matcher.knnMatch(mats[0], mats[1], pairs, 2);
+    };
+    const times = inTurns(() => run(MATCH), theirs, 1, 6);
+    const mine = found(MATCH);
+    const same = mine.filter((nearest, at) => pairs.get(at).get(0).trainIdx === nearest).length;
+    const name = "Two nearest, 2048² × 128";
+    rows.push({ name, ...times, quality: `${((100 * same) / count).toFixed(1)} % the same nearest` });
+  }
+
+  {
+    // A plane seen twice: 1000 matches, 40 % wrong, 0.5 px of noise.
+    const truth = [0.9, -0.15, 60, 0.12, 1.05, -20, 1e-4, -5e-5, 1];
+    const warp = (h, u, v) => {
+      const w = h[6] * u + h[7] * v + h[8];
+      return [(h[0] * u + h[1] * v + h[2]) / w, (h[3] * u + h[4] * v + h[5]) / w];
+    };
+    const count = 1000;
+    const matches = Array.from({ length: count }, (_, index) => {
+      const [u, v] = [640 * random(), 480 * random()];
+      const right = warp(truth, u, v).map((value) => value + 0.5 * normal());
+      return [u, v, ...(index % 5 < 2 ? [640 * random(), 480 * random()] : right)];
+    });
+    const at = doubles(4 * count);
+    new Float64Array(memory.buffer, at, 4 * count).set(matches.flat());
+    prepare(HOMOGRAPHY, 4, count);
+    const points = [0, 2].map((from) =>
+      cv.matFromArray(count, 1, cv.CV_64FC2, matches.flatMap((match) => match.slice(from, from + 2))),
+    );
+    const error = (h) => {
+      const corners = [[0, 0], [639, 0], [0, 479], [639, 479]];
+      const off = corners.map(([u, v]) => {
+        const [a, b] = [warp(h, u, v), warp(truth, u, v)];
+        return Math.hypot(a[0] - b[0], a[1] - b[1]);
+      });
+      return (off.reduce((sum, value) => sum + value) / 4).toFixed(3);
+    };
+    for (const [method, label] of [[cv.RANSAC, "RANSAC"], [cv.USAC_MAGSAC, "USAC_MAGSAC"]]) {
+      const mask = new cv.Mat();
+      let homography;
+      const theirs = () => {
+        homography?.delete();
+        homography = cv.findHomography(points[0], points[1], method, 1, mask, 10000, 0.999);
+      };
+      const times = inTurns(() => run(HOMOGRAPHY), theirs, 1, 20);
+      const [mine, other] = [error(found(HOMOGRAPHY)), error(Array.from(homography.data64F))];
+      const name = `Homography of 1000 matches, 40 % wrong, against ${label}`;
+      rows.push({ name, ...times, quality: `corner error ${mine} px, opencv.js ${other} px` });
+    }
+  }
+  return rows;
+
+  /** Runs both in turns; the least time of each, milliseconds. Batches, for clocks are coarse. */
+  function inTurns(ours, theirs, batch, turns) {
+    const least = [Infinity, Infinity];
+    for (let turn = 0; turn < turns; turn += 1) {
+      [ours, theirs].forEach((work, who) => {
+        work();
+        const start = performance.now();
+        for (let round = 0; round < batch; round += 1) {
+          if (work() === false) throw new Error("our work failed");
+        }
+        least[who] = Math.min(least[who], (performance.now() - start) / batch);
+      });
+    }
+    return { ours: least[0], theirs: least[1] };
+  }
+
+  /** Gray rectangles on gray, values in [0, 1]: edges and corners everywhere. */
+  function rectangles(width, height) {
+    const values = new Float32Array(width * height).fill(0.5);
+    for (let count = 0; count < (width * height) / 300; count += 1) {
+      const [left, top] = [Math.floor(width * random()), Math.floor(height * random())];
+      const [right, bottom] = [left + 2 + 30 * random(), top + 2 + 30 * random()];
+      const value = random();
+      for (let v = top; v < Math.min(bottom, height); v += 1) {
+        for (let u = left; u < Math.min(right, width); u += 1) values[v * width + u] = value;
+      }
+    }
+    return values;
+  }
+
+  async function readyOpenCv() {
+    const loaded = await globalThis.cv;
+    if (loaded.Mat) return loaded;
+    await new Promise((done) => (loaded.onRuntimeInitialized = done));
+    return loaded;
+  }
+}
