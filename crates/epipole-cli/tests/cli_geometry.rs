@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Point2, Vector3};
 use serde_json::Value;
 use std::path::PathBuf;
 
-const SIZE: (u32, u32) = (480, 360);
+const SIZE: (u32, u32) = (640, 480);
 const K: &str = "600,600,319.5,239.5";
 
 /// Matches of which two in five are wrong.
@@ -265,12 +265,12 @@ fn step() -> RigidTransform {
     )
 }
 
-/// Where the second camera sees what the first sees at every 24th pixel.
+/// Where the second camera sees what the first sees at every 32nd pixel.
 fn true_matches(cameras: &[Camera; 2]) -> Vec<(Point2<f64>, Point2<f64>)> {
     let scene = Scene::still_life();
     let mut matches = Vec::new();
-    for v in (12..SIZE.1).step_by(24) {
-        for u in (12..SIZE.0).step_by(24) {
+    for v in (16..SIZE.1).step_by(32) {
+        for u in (16..SIZE.0).step_by(32) {
             let pixel1 = Point2::new(f64::from(u), f64::from(v));
             if let Transfer::Visible { pixel2, .. } =
                 scene.transfer(&cameras[0], &cameras[1], &pixel1)
@@ -307,8 +307,13 @@ fn two_photographs_give_the_motion_of_the_camera() {
             &camera,
         ]);
         let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
-        assert!(turn < 0.3 && direction < 2.0, "{model}: {turn} {direction}");
-        assert_eq!(result["model_kind"], "essential");
+        assert!(turn < 0.1 && direction < 0.3, "{model}: {turn} {direction}");
+        // F may gain some matches that are wrong; the motion is that of E in any case.
+        let kind = result["model_kind"].as_str().unwrap();
+        assert!(
+            kind == "essential" || (model == "auto" && kind == "fundamental"),
+            "{kind}"
+        );
         assert_eq!(result["configuration"], "general");
         let rows: Vec<Vec<f64>> = result["matches"]
             .as_array()
@@ -468,6 +473,6 @@ fn rectified_photographs_share_their_rows() {
         &folder,
         &arguments,
         1,
-        "must have the same size, but one is 480 × 360 and the other 100 × 80",
+        "must have the same size, but one is 640 × 480 and the other 100 × 80",
     );
 }

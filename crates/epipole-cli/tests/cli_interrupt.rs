@@ -66,10 +66,8 @@ fn bundle_adjustment_ends_with_the_best_that_it_has() {
     let problem = BalProblem::parse(&text).unwrap();
     let written = BalProblem::parse(&std::fs::read_to_string(&out).unwrap()).unwrap();
     assert_eq!(written, problem, "no step was taken");
-    assert_eq!(
-        result["final_cost"].as_f64(),
-        Some(problem.cost(RobustLoss::Trivial))
-    );
+    let ratio = result["final_cost"].as_f64().unwrap() / problem.cost(RobustLoss::Trivial);
+    assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
     assert_eq!(folder.listing().len(), 1, "no part is left behind");
 }
 

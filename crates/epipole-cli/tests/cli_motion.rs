@@ -6,7 +6,7 @@ mod common;
 
 use common::{Folder, fails, json, k, motion, moved, numbers, path};
 use epipole::camera::{Camera, RigidTransform};
-use epipole::sfm::{AlignmentKind, absolute_trajectory_error, align_points};
+use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 
@@ -230,11 +230,6 @@ fn a_stereo_rig_is_followed_in_meters() {
         let turn = got.rotation.angle_to(&want.rotation).to_degrees();
         assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
     }
-    let back = align_points(&centers(&cameras), &centers(&right), AlignmentKind::Rigid);
-    assert!(
-        back.is_err(),
-        "the path is straight, so that no alignment could have been used"
-    );
 }
 
 #[test]

@@ -4,6 +4,8 @@
 //! `RAYON_NUM_THREADS=1` it is the time that the thread had a processor, where Linux tells it, so
 //! that other work on the machine disturbs less; else the time that passed.
 
+mod timing;
+
 use epipole::feature::{
     Descriptors, OrbOptions, SiftOptions, StructureTensorOptions, Window, detect_orb, detect_sift,
     harris_response, nearest_two,
@@ -13,45 +15,7 @@ use epipole::imaging::{
     gaussian_kernel, resize, separable_filter, sobel,
 };
 use epipole::math::random::Random;
-use std::time::Instant;
-
-/// Milliseconds since some fixed moment.
-fn now(start: &Instant) -> f64 {
-    let one_thread = std::env::var("RAYON_NUM_THREADS").is_ok_and(|n| n == "1");
-    let on_processor = || {
-        let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-        text.split(' ').next()?.parse::<f64>().ok()
-    };
-    match on_processor().filter(|_| one_thread) {
-        Some(nanoseconds) => nanoseconds * 1e-6,
-        None => start.elapsed().as_secs_f64() * 1e3,
-    }
-}
-
-fn time<T>(name: &str, rounds: usize, mut work: impl FnMut() -> T, note: impl Fn(&T) -> String) {
-    work();
-    let start = Instant::now();
-    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
-    let before = now(&start);
-    let mut last = work();
-    let one = (now(&start) - before).max(start.elapsed().as_secs_f64() * 2e2);
-    let batch = (100.0 / one).clamp(1.0, 100.0) as usize;
-    let mut times: Vec<f64> = Vec::new();
-    for _ in 0..rounds.div_ceil(batch).max(3) {
-        let before = now(&start);
-        for _ in 0..batch {
-            last = work();
-        }
-        times.push((now(&start) - before) / batch as f64);
-    }
-    times.sort_by(f64::total_cmp);
-    println!(
-        "{name} {:.4} {:.4} {}",
-        times[times.len() / 2],
-        times[0],
-        note(&last)
-    );
-}
+use timing::time;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

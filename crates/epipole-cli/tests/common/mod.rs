@@ -15,27 +15,27 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// A folder for one test's files, removed with it.
-pub struct Folder(pub PathBuf);
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    pub fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("epipole-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&path).unwrap();
         Self(path)
     }
 
-    pub fn file(&self, name: &str) -> PathBuf {
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
 
-    pub fn write(&self, name: &str, text: &str) -> PathBuf {
+    pub(crate) fn write(&self, name: &str, text: &str) -> PathBuf {
         let path = self.file(name);
         std::fs::write(&path, text).unwrap();
         path
     }
 
     /// A photograph of the still life as a PNG file, with its depth.
-    pub fn photograph(&self, name: &str, camera: &Camera, size: (u32, u32)) -> Photograph {
+    pub(crate) fn photograph(&self, name: &str, camera: &Camera, size: (u32, u32)) -> Photograph {
         let photograph = Scene::still_life()
             .render(camera, size.0, size.1, Sampling::Full)
             .unwrap();
@@ -44,7 +44,7 @@ impl Folder {
     }
 
     /// A picture of one gray.
-    pub fn blank(&self, name: &str, size: (u32, u32)) -> PathBuf {
+    pub(crate) fn blank(&self, name: &str, size: (u32, u32)) -> PathBuf {
         let path = self.file(name);
         image::GrayImage::from_pixel(size.0, size.1, image::Luma([128]))
             .save(&path)
@@ -53,7 +53,7 @@ impl Folder {
     }
 
     /// All files and folders in it, however deep.
-    pub fn listing(&self) -> BTreeSet<PathBuf> {
+    pub(crate) fn listing(&self) -> BTreeSet<PathBuf> {
         let mut found = BTreeSet::new();
         let mut open = vec![self.0.clone()];
         while let Some(folder) = open.pop() {
@@ -75,11 +75,11 @@ impl Drop for Folder {
     }
 }
 
-pub fn path(path: &Path) -> &str {
+pub(crate) fn path(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-pub fn command(arguments: &[&str]) -> Command {
+pub(crate) fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_epipole"));
     command
         .args(arguments)
@@ -89,18 +89,18 @@ pub fn command(arguments: &[&str]) -> Command {
     command
 }
 
-pub fn epipole(arguments: &[&str]) -> Output {
+pub(crate) fn epipole(arguments: &[&str]) -> Output {
     command(arguments).output().unwrap()
 }
 
 /// The one object on standard output.
-pub fn parse(output: &Output) -> Value {
+pub(crate) fn parse(output: &Output) -> Value {
     let text = std::str::from_utf8(&output.stdout).unwrap();
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
 /// The result of a command that must succeed. Its table must be printed without errors, too.
-pub fn json(arguments: &[&str]) -> Value {
+pub(crate) fn json(arguments: &[&str]) -> Value {
     let output = epipole(&[arguments, &["--json"]].concat());
     let result = parse(&output);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {result}");
@@ -110,7 +110,7 @@ pub fn json(arguments: &[&str]) -> Value {
 
 /// Runs a command that must fail with a status and a sentence that contains `expected`, for people
 /// and for scripts, and that must leave the folder as it was.
-pub fn fails(folder: &Folder, arguments: &[&str], status: i32, expected: &str) {
+pub(crate) fn fails(folder: &Folder, arguments: &[&str], status: i32, expected: &str) {
     let before = folder.listing();
     let plain = epipole(arguments);
     let sentence = String::from_utf8(plain.stderr).unwrap();
@@ -134,17 +134,17 @@ pub fn fails(folder: &Folder, arguments: &[&str], status: i32, expected: &str) {
     assert_eq!(folder.listing(), before, "{arguments:?} leaves something");
 }
 
-pub fn numbers(list: &Value) -> Vec<f64> {
+pub(crate) fn numbers(list: &Value) -> Vec<f64> {
     let list = list.as_array().unwrap_or_else(|| panic!("no list: {list}"));
     list.iter().map(|value| value.as_f64().unwrap()).collect()
 }
 
-pub fn matrix(list: &Value) -> Matrix3<f64> {
+pub(crate) fn matrix(list: &Value) -> Matrix3<f64> {
     Matrix3::from_row_slice(&numbers(list))
 }
 
 /// Reads `{rotation, translation}`.
-pub fn motion(value: &Value) -> RigidTransform {
+pub(crate) fn motion(value: &Value) -> RigidTransform {
     let rotation = Rotation3::from_matrix_unchecked(matrix(&value["rotation"]));
     let translation = Vector3::from_row_slice(&numbers(&value["translation"]));
     RigidTransform::from_parts(
@@ -154,7 +154,7 @@ pub fn motion(value: &Value) -> RigidTransform {
 }
 
 /// The camera of the still life, moved in its own frame: `cam_from_camera0 = motion`.
-pub fn moved(size: (u32, u32), motion: &RigidTransform) -> Camera {
+pub(crate) fn moved(size: (u32, u32), motion: &RigidTransform) -> Camera {
     let camera = still_life_camera(size.0, size.1);
     Camera {
         cam_from_world: motion * camera.cam_from_world,
@@ -163,13 +163,13 @@ pub fn moved(size: (u32, u32), motion: &RigidTransform) -> Camera {
 }
 
 /// `fx,fy,cx,cy`.
-pub fn k(camera: &Camera) -> String {
+pub(crate) fn k(camera: &Camera) -> String {
     let center = camera.intrinsics.principal_point();
     let (fu, fv) = (camera.intrinsics.fu_px(), camera.intrinsics.fv_px());
     format!("{fu},{fv},{},{}", center.x, center.y)
 }
 
 /// The angle between two directions, degrees.
-pub fn angle_deg(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+pub(crate) fn angle_deg(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.angle(b).to_degrees()
 }
