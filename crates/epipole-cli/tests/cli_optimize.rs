@@ -153,7 +153,7 @@ fn broken_problems_are_refused_with_their_line() {
         ("1 1".to_owned(), "the number of observations"),
         (format!("1 1 1\n0 0 11 nan\n{camera}\n1 2 -10\n"), "line 2"),
         (
-            format!("1 1 1\n0 0 11 20\n0 0 0 0 0 0 inf 0 0\n1 2 -10\n"),
+            "1 1 1\n0 0 11 20\n0 0 0 0 0 0 inf 0 0\n1 2 -10\n".to_owned(),
             "line 3",
         ),
         (
