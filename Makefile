@@ -36,7 +36,7 @@ test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
 	cd tests/browser && npm test --silent
 
-bench: setup tests/bench/node_modules/.installed ## us and our peers on the same work
+bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
@@ -65,7 +65,13 @@ tests/browser/node_modules/.installed: tests/browser/package-lock.json
 	cd tests/browser && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 
-# Large and only for `make bench`, so `make setup` leaves it out.
+# Large and only for `make bench`, so `make setup` leaves them out.
+target/peers/.installed: tests/peers/requirements.txt
+	@tests/tools/need.sh python3
+	python3 -m venv target/peers
+	target/peers/bin/python -m pip install --quiet --disable-pip-version-check -r tests/peers/requirements.txt
+	@touch $@
+
 tests/bench/node_modules/.installed: tests/bench/package-lock.json
 	cd tests/bench && npm ci --no-audit --no-fund --loglevel error
 	@touch $@

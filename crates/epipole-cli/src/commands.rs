@@ -5,6 +5,7 @@ mod detect;
 mod figure;
 mod fit;
 mod matching;
+mod odometry;
 mod posegraph;
 mod rectify;
 mod sfm;
@@ -28,6 +29,7 @@ pub(crate) enum Command {
     Sfm(sfm::Arguments),
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
+    Odometry(odometry::Arguments),
     Figure(figure::Arguments),
 }
 
@@ -43,6 +45,7 @@ impl Command {
             Self::Sfm(arguments) => sfm::run(&arguments, context),
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
+            Self::Odometry(arguments) => odometry::run(&arguments, context),
             Self::Figure(arguments) => figure::run(&arguments, context),
         }
     }

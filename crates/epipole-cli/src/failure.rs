@@ -1,6 +1,7 @@
 //! Why a command could not do its work.
 
 use std::fmt;
+use std::process::ExitCode;
 
 /// A kind that scripts can test and a sentence that people can read.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,16 @@ impl Failure {
             message: format!("{}: {}", path.display(), self.message),
             ..self
         }
+    }
+
+    /// Options that do not go together, or that only the file itself shows to be wrong.
+    pub(crate) fn usage(message: impl Into<String>) -> Self {
+        Self::new("usage", message)
+    }
+
+    /// 2 for wrong usage, 1 for what could not be done.
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(if self.kind == "usage" { 2 } else { 1 })
     }
 
     /// `{"error": {"kind", "message"}}`.
@@ -48,6 +59,9 @@ impl From<epipole::Error> for Failure {
             E::Degenerate { .. } => "degenerate",
             E::SizeMismatch { .. } => "size-mismatch",
             E::NoConsensus { .. } => "no-consensus",
+            E::BadImage { .. } => "bad-image",
+            E::Malformed { .. } => "malformed",
+            E::Canceled => "canceled",
             _ => "failed",
         };
         Self::new(kind, error.to_string())

@@ -62,7 +62,7 @@ fn main() -> ExitCode {
         Ok(report) => print_report(report, time_ms, cli.json),
         Err(failure) => {
             print_failure(&failure, cli.json);
-            ExitCode::FAILURE
+            failure.exit_code()
         }
     }
 }
@@ -72,7 +72,7 @@ fn wrong_usage(error: &clap::Error) -> ExitCode {
     if error.use_stderr() && std::env::args().any(|argument| argument == "--json") {
         let message = error.to_string();
         print_failure(
-            &Failure::new("usage", message.trim_start_matches("error: ").trim()),
+            &Failure::usage(message.trim_start_matches("error: ").trim()),
             true,
         );
     } else if error.print().is_err() {

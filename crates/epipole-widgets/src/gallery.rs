@@ -3,11 +3,12 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
-pub mod eight_point;
 mod disparity_map;
+pub mod eight_point;
 mod epipolar_click;
 mod four_poses;
 pub mod harris;
+pub mod new_figure;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
@@ -29,17 +30,17 @@ pub struct Entry {
 
 /// Every figure, in the order of the book.
 pub static FIGURES: &[Entry] = &[
-    entry::<eight_point::View>(),
-    entry::<epipolar_click::EpipolarClickView>(),
     entry::<window_shift::View>(),
     entry::<harris::View>(),
+    entry::<epipolar_click::EpipolarClickView>(),
+    entry::<eight_point::View>(),
     entry::<ransac_budget::View>(),
     entry::<ransac_epipolar::View>(),
-    entry::<ransac_race::View>(),
     entry::<stereo_slider::StereoSliderView>(),
     entry::<disparity_map::View>(),
     entry::<four_poses::View>(),
     entry::<two_view_sfm::View>(),
+    entry::<ransac_race::View>(),
 ];
 
 const fn entry<V: View>() -> Entry {
@@ -72,7 +73,6 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
 #[path = "../scaffold/mod.rs"]
-pub mod new_figure;
 
 #[cfg(test)]
 mod tests {

@@ -3,8 +3,10 @@
 //!
 //! Usage: `geometry_time FOLDER`, where the folder holds `general-0.f64`, `planar-0.f64` … : rows of
 //! seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, least milliseconds,
-//! numbers of the answer` a line, separated by tabs. The time is that for which the thread had a
-//! processor, where Linux tells it, so that other work on the machine disturbs less.
+//! numbers of the answer` a line, separated by tabs. With
+//! `RAYON_NUM_THREADS=1` the time is that for which the process had a processor.
+
+mod timing;
 
 use epipole::absolute_pose::pose_p3p;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -19,18 +21,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
-
-/// Milliseconds since some fixed moment.
-fn now(start: &Instant) -> f64 {
-    let on_processor = || {
-        let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-        text.split(' ').next()?.parse::<f64>().ok()
-    };
-    match on_processor() {
-        Some(nanoseconds) => nanoseconds * 1e-6,
-        None => start.elapsed().as_secs_f64() * 1e3,
-    }
-}
+use timing::now;
 
 /// The answer, and the least time for it over about a fifth of a second.
 fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {

@@ -439,6 +439,38 @@ fn one_camera_is_followed_up_to_scale() {
 }
 
 #[test]
+fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
+    // Four pictures from every place: three of them show nothing new.
+    let making = Making {
+        noise_px: 0.2,
+        wrong: 0.1,
+        reach: 8,
+        ..Making::default()
+    };
+    let (moving, points) = drive(8, making);
+    let cameras = moving.cameras.iter().flat_map(|camera| [*camera; 4]);
+    let world = photograph(cameras.collect(), &points, making, 36);
+    let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut keep_going)
+        .expect("a path");
+    assert!(result.lost.is_empty());
+    let mut places: Vec<usize> = result.keyframes.iter().map(|frame| frame / 4).collect();
+    places.dedup();
+    assert_eq!(
+        places.len(),
+        result.keyframes.len(),
+        "{:?}",
+        result.keyframes
+    );
+    assert!(
+        places.len() >= 4 && result.keyframes.is_sorted(),
+        "{places:?}"
+    );
+    let (distance, angle_deg) = errors(&world, &result.reconstruction.cameras);
+    // One percent of the four meters.
+    assert!(distance < 0.04 && angle_deg < 0.2, "{distance} {angle_deg}");
+}
+
+#[test]
 fn a_stereo_rig_is_followed_in_metres() {
     let making = Making {
         noise_px: 0.2,

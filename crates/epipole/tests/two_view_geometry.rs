@@ -10,7 +10,9 @@ use epipole::epipolar::{
 use epipole::homography::{homography_from_motion, transfer, transfer_error_px};
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, StopReason, find_similarity};
-use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
+use epipole::two_view::{
+    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
+};
 use epipole::{
     Error, estimate_relative_pose, estimate_two_view, find_absolute_pose, find_fundamental,
     find_homography,
@@ -215,6 +217,44 @@ fn configurations_are_recognized() {
 
 /// OpenCV's test of its USAC framework: every returned inlier is within 1.001 × the threshold of
 /// the model, and more than 80 % of the true inliers are found.
+#[test]
+fn the_motion_is_that_of_e_even_where_f_is_chosen() {
+    let (mut by_f, mut by_e) = (Vec::new(), Vec::new());
+    for seed in 0..10 {
+        let mut random = Random::new(400 + seed);
+        let pair = cameras(&mut random);
+        let scene = scene(&mut random, pair, Shape::Volume, 200, 0.7, 0.5);
+        let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
+        let choose = TwoViewOptions {
+            ransac: options(seed),
+            // E cannot have twice F's inliers.
+            min_essential_share: 2.0,
+            ..TwoViewOptions::default()
+        };
+        let found = estimate_two_view_calibrated(&scene.p1, &scene.p2, &k1, &k2, &choose).unwrap();
+        assert!(matches!(found.model, TwoViewModel::Fundamental(_)));
+        let motion = found.cam2_from_cam1.unwrap();
+        let truth = scene.motion();
+        by_e.push(direction_error(&motion, &truth));
+        assert!(rotation_error(&motion, &truth) < 0.01 && by_e[by_e.len() - 1] < 0.05);
+        // What decomposing the chosen F would give.
+        let e = essential_from_fundamental(&found.fundamental.unwrap(), &k1, &k2).unwrap();
+        let motions = decompose_essential(&e).unwrap();
+        let chosen = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+            let inliers = pixels
+                .iter()
+                .zip(&found.inliers)
+                .filter(|(_, inlier)| **inlier);
+            inliers.map(|(pixel, _)| *pixel).collect()
+        };
+        let (in1, in2) = (chosen(&scene.p1), chosen(&scene.p2));
+        let selected = select_pose(&motions, &in1, &in2, &k1, &k2).unwrap();
+        by_f.push(direction_error(&selected.cam2_from_cam1, &truth));
+    }
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
+    assert!(mean(&by_e) < 0.7 * mean(&by_f), "{by_e:?} {by_f:?}");
+}
+
 fn check_grid(
     name: &str,
     s: &Scene,

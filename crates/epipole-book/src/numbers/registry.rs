@@ -13,8 +13,8 @@ use epipole::feature::{Scaling, StructureTensorOptions, Window, WindowTensor, ha
 use epipole::imaging::gray_from_values;
 use epipole::robust::{num_trials_with_replacement, num_trials_without_replacement};
 use epipole::stereo::depth_from_disparity;
-use nalgebra::{Matrix3, Point2, Point3, Vector3};
 use nalgebra::{Matrix3, Point2, Point3, Vector2};
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// All numbers that chapters may print, by name.
 pub const REGISTRY: &[Entry] = &[
@@ -338,6 +338,8 @@ fn index_below(a: &Arguments, length: usize) -> Result<usize, String> {
     index
         .filter(|&index| index < length)
         .ok_or_else(|| format!("k must be 1 to {length}"))
+}
+
 /// Three gradients (Iu, Iv).
 const GRADIENTS: &[&str] = &["u1", "v1", "u2", "v2", "u3", "v3"];
 

@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             .is_none_or(|extension| !extension.eq_ignore_ascii_case("png"))
         {
             let message = "the picture must be a .png file";
-            return Err(Failure::new("usage", message).about(path));
+            return Err(Failure::usage(message).about(path));
         }
         let picture = draw(&mut figure, arguments)?;
         let mut png = Vec::new();

@@ -140,9 +140,9 @@ fn fit(
             Ok(of_matrix(&found, &found.model, errors, None))
         }
         Model::Essential => {
-            let k1 = arguments.k.ok_or_else(|| {
-                Failure::new("usage", "an essential matrix needs --k fx,fy,cx,cy")
-            })?;
+            let k1 = arguments
+                .k
+                .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
             let found = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)?;
             let pose = &found.model;

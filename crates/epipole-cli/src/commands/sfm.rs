@@ -78,15 +78,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let (input, result) =
         reconstruct_photos(&photos, &intrinsics, &photo_options, &options, observer)?;
     drop(progress);
-    if result.cancelled {
-        context.warn("ended early; the result is what there was");
-    }
     let Some(largest) = result.components.first() else {
+        if result.cancelled {
+            return Err(epipole::Error::Canceled.into());
+        }
         return Err(Failure::new(
             "no-consensus",
             "no two photographs show enough of the same thing",
         ));
     };
+    if result.cancelled {
+        context.warn("ended early; the result is what there was");
+    }
     files::make_folder(&arguments.output)?;
     let mut written = write(&arguments.output, largest, &input.images)?;
     for (index, component) in result.components.iter().enumerate().skip(1) {
@@ -170,7 +173,8 @@ fn write(
     Ok(written)
 }
 
-fn name(path: &Path) -> String {
+/// The name of a file without its folder.
+pub(super) fn name(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }

@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Some("pfm") => false,
         Some("png") => true,
         _ => {
-            let failure = Failure::new("usage", "the disparities must be a .pfm or .png file");
+            let failure = Failure::usage("the disparities must be a .pfm or .png file");
             return Err(failure.about(&arguments.output));
         }
     };

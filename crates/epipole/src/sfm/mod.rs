@@ -17,6 +17,7 @@ mod bundle;
 mod export;
 mod g2o;
 mod incremental;
+mod keyframes;
 mod loop_closure;
 mod odometry;
 mod photos;
@@ -42,7 +43,10 @@ pub use loop_closure::{ClosedPath, LoopClosure, close_loops, find_similarity_of_
 pub use odometry::{
     OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
 };
-pub use photos::{Photo, PhotoOptions, match_photos, reconstruct_photos};
+pub use photos::{
+    Photo, PhotoFeatures, PhotoOptions, match_features, match_photos, match_rectified,
+    photo_features, reconstruct_photos,
+};
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
 pub use tracks::{PairMatches, TrackElement, build_tracks};

@@ -3,6 +3,7 @@
 use super::builder::{Builder, undistorted};
 use super::bundle::{RadialDistortion, Sensor};
 use super::incremental::{Reporter, SfmInput, SfmObserver, SfmOptions, SfmProgress, check, verify};
+use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
 use crate::camera::{Camera, Intrinsics, RigidTransform};
@@ -15,7 +16,7 @@ pub struct OdometryOptions {
     /// Thresholds, in pixels and degrees. Frames are nearer to each other than photographs, so
     /// that points are accepted under smaller angles: 0.3 degrees, and the start wants 1.
     pub sfm: SfmOptions,
-    /// Frames that are refined together; older ones stay. 8.
+    /// Keyframes that are refined together; older ones stay. 8.
     pub window: usize,
     /// Refine everything once more at the end. True.
     pub final_adjustment: bool,
@@ -44,6 +45,9 @@ pub struct OdometryResult {
     /// `world_from_cam` of each frame, `None` where it was lost. The first frame that was found is
     /// the origin. One camera alone leaves the unit of length open.
     pub world_from_cam: Vec<Option<RigidTransform>>,
+    /// Frames that gave points: those that lie sufficiently far from the one before, by the angle
+    /// under which points see the two, or that show much that it does not.
+    pub keyframes: Vec<usize>,
     /// Frames that could not be placed.
     pub lost: Vec<usize>,
     /// The cameras and points; of a stereo rig the left cameras, then the right ones.
@@ -59,8 +63,8 @@ pub struct OdometryResult {
 /// * `observer`: hears of every frame; answer [`ControlFlow::Break`] to stop with what is there
 ///
 /// The start comes from the essential matrix of the first two frames that see their points under
-/// a sufficient angle; each further frame is placed by P3P, gives new points, and the last frames
-/// are refined together.
+/// a sufficient angle; each further frame is placed by P3P. Frames that show something new become
+/// keyframes: they give points, and the last of them are refined together.
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames make a
@@ -218,6 +222,11 @@ fn follow(
             why: "no two pictures see enough points under a sufficient angle",
         });
     }
+    let mut keyframes = Keyframes::default();
+    for frame in (0..num_frames).filter(|&f| builder.cameras[f].is_some()) {
+        keyframes.insert(frame);
+    }
+    let keyframe_angle_rad = options.sfm.min_start_angle_deg.to_radians();
     let first = (0..num_frames)
         .find(|&f| builder.cameras[f].is_some())
         .unwrap_or(0);
@@ -230,11 +239,11 @@ fn follow(
         if builder.cameras[frame].is_some() || builder.register(frame).is_none() {
             continue;
         }
-        builder.triangulate_of(Some(frame));
-        let near = |other: &usize| other.abs_diff(frame) < options.window.max(2);
-        let window: Vec<usize> = (0..num_frames)
-            .filter(|f| near(f) && builder.cameras[*f].is_some())
-            .collect();
+        if keyframes.is_due(&builder, frame, keyframe_angle_rad) {
+            keyframes.insert(frame);
+            builder.triangulate_of(Some(frame));
+        }
+        let window = keyframes.window(frame, options.window.max(2) - 1);
         let cost = builder.adjust(Some(&window), 10, false);
         builder.filter();
         builder.complete();
@@ -255,7 +264,10 @@ fn follow(
         builder.adjust(None, 50, true);
         builder.filter();
     }
-    Ok(result_of(builder, num_frames, reporter.cancelled))
+    let keyframes = keyframes.into_frames(|frame| builder.cameras[frame].is_some());
+    let mut result = result_of(builder, num_frames, reporter.cancelled);
+    result.keyframes = keyframes;
+    Ok(result)
 }
 
 /// Starts at the first frame whose two pictures share enough points.
@@ -302,6 +314,7 @@ fn result_of(builder: Builder<'_>, num_frames: usize, cancelled: bool) -> Odomet
         world_from_cam,
         reconstruction,
         cancelled,
+        ..OdometryResult::default()
     }
 }
 

@@ -5,7 +5,8 @@ use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
-    Descriptors, MatchOptions, SiftNormalization, SiftOptions, detect_sift, match_descriptors,
+    Descriptors, Match, MatchOptions, SiftNormalization, SiftOptions, detect_sift,
+    match_descriptors,
 };
 use crate::imaging::{gray_to_f32, rgb_to_gray};
 use crate::{Error, Result};
@@ -51,6 +52,125 @@ impl Default for PhotoOptions {
 /// Doubling the size of larger photographs costs seconds each and yields what is not needed.
 const MAX_UPSAMPLED_PIXELS: u64 = 1_500_000;
 
+/// What [`match_features`] needs to know about a photograph; its pixels are no longer needed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhotoFeatures {
+    /// Size, keypoints and their colors.
+    pub image: SfmImage,
+    /// What the keypoints look like, in the same order.
+    pub descriptors: Descriptors,
+}
+
+/// Keypoints and descriptors of a photograph.
+///
+/// # Errors
+/// As [`detect_sift`].
+///
+/// Source: Lowe 2004.
+pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeatures> {
+    let gray = gray_to_f32(&rgb_to_gray(&photo.image));
+    let (width, height) = photo.image.dimensions();
+    let sift = SiftOptions {
+        upsample: options.sift.upsample
+            && u64::from(width) * u64::from(height) <= MAX_UPSAMPLED_PIXELS,
+        ..options.sift
+    };
+    let features = detect_sift(&gray, &sift)?;
+    let color = |u: f64, v: f64| {
+        let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
+        photo.image.get_pixel(inside(u, width), inside(v, height)).0
+    };
+    let image = SfmImage {
+        name: photo.name.clone(),
+        width,
+        height,
+        colors: features.keypoints.iter().map(|k| color(k.u, k.v)).collect(),
+        keypoints: features.keypoints.iter().map(|k| k.point()).collect(),
+    };
+    Ok(PhotoFeatures {
+        image,
+        descriptors: features.descriptors,
+    })
+}
+
+/// Matches between all pairs of photographs, or between those that are near in order.
+///
+/// * `observer`: hears of every pair
+///
+/// Returns `None` if the observer did not want to wait.
+///
+/// # Errors
+/// As [`match_descriptors`].
+///
+/// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
+pub fn match_features(
+    features: &[PhotoFeatures],
+    options: &PhotoOptions,
+    observer: SfmObserver<'_>,
+) -> Result<Option<Vec<PairMatches>>> {
+    let reach = if options.neighbors == 0 {
+        features.len()
+    } else {
+        options.neighbors
+    };
+    let after = |image: usize| image + 1..features.len().min(image.saturating_add(reach + 1));
+    let total = (0..features.len()).map(|image| after(image).len()).sum();
+    let mut pairs = Vec::new();
+    for image1 in 0..features.len() {
+        for image2 in after(image1) {
+            pairs.push(PairMatches {
+                image1,
+                image2,
+                matches: indices(&features[image1], &features[image2], options)?,
+            });
+            let progress = SfmProgress::Matched {
+                done: pairs.len(),
+                total,
+            };
+            if observer(&progress).is_break() {
+                return Ok(None);
+            }
+        }
+    }
+    Ok(Some(pairs))
+}
+
+/// Matches between the two pictures of a rectified stereo pair, left first: those that share a
+/// row to within 2 pixels and are further right in the left picture.
+///
+/// # Errors
+/// As [`match_descriptors`].
+///
+/// Source: Lowe 2004.
+pub fn match_rectified(
+    left: &PhotoFeatures,
+    right: &PhotoFeatures,
+    options: &PhotoOptions,
+) -> Result<Vec<(u32, u32)>> {
+    let mut matches = indices(left, right, options)?;
+    matches.retain(|&(i, j)| {
+        let (a, b) = (
+            left.image.keypoints[i as usize],
+            right.image.keypoints[j as usize],
+        );
+        (a.y - b.y).abs() <= MAX_ROW_ERROR_PX && a.x > b.x
+    });
+    Ok(matches)
+}
+
+/// How far a rectification may be off.
+const MAX_ROW_ERROR_PX: f64 = 2.0;
+
+fn indices(
+    first: &PhotoFeatures,
+    second: &PhotoFeatures,
+    options: &PhotoOptions,
+) -> Result<Vec<(u32, u32)>> {
+    let matches = match_descriptors(&first.descriptors, &second.descriptors, &options.matching)?;
+    let pair = |m: &Match| (m.index1 as u32, m.index2 as u32);
+    Ok(matches.iter().map(pair).collect())
+}
+
 /// Keypoints of all photographs and matches between all pairs of them.
 ///
 /// * `observer`: hears of every photograph and every pair
@@ -58,78 +178,28 @@ const MAX_UPSAMPLED_PIXELS: u64 = 1_500_000;
 /// Returns `None` in place of matches that the observer did not want to wait for.
 ///
 /// # Errors
-/// As [`detect_sift`] and [`match_descriptors`].
+/// As [`photo_features`] and [`match_features`].
 ///
-/// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
+/// Source: as these.
 pub fn match_photos(
     photos: &[Photo],
     options: &PhotoOptions,
     observer: SfmObserver<'_>,
 ) -> Result<(Vec<SfmImage>, Option<Vec<PairMatches>>)> {
-    let mut images = Vec::new();
-    let mut descriptors: Vec<Descriptors> = Vec::new();
+    let images = |features: Vec<PhotoFeatures>| features.into_iter().map(|f| f.image).collect();
+    let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
-        let gray = gray_to_f32(&rgb_to_gray(&photo.image));
-        let (width, height) = photo.image.dimensions();
-        let sift = SiftOptions {
-            upsample: options.sift.upsample
-                && u64::from(width) * u64::from(height) <= MAX_UPSAMPLED_PIXELS,
-            ..options.sift
-        };
-        let features = detect_sift(&gray, &sift)?;
-        let color = |u: f64, v: f64| {
-            let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
-            photo.image.get_pixel(inside(u, width), inside(v, height)).0
-        };
-        images.push(SfmImage {
-            name: photo.name.clone(),
-            width,
-            height,
-            colors: features.keypoints.iter().map(|k| color(k.u, k.v)).collect(),
-            keypoints: features.keypoints.iter().map(|k| k.point()).collect(),
-        });
-        descriptors.push(features.descriptors);
+        features.push(photo_features(photo, options)?);
         let progress = SfmProgress::Detected {
             done: index + 1,
             total: photos.len(),
         };
         if observer(&progress).is_break() {
-            return Ok((images, None));
+            return Ok((images(features), None));
         }
     }
-    let reach = if options.neighbors == 0 {
-        photos.len()
-    } else {
-        options.neighbors
-    };
-    let after = |image: usize| image + 1..photos.len().min(image.saturating_add(reach + 1));
-    let total = (0..photos.len()).map(|image| after(image).len()).sum();
-    let mut pairs = Vec::new();
-    for image1 in 0..photos.len() {
-        for image2 in after(image1) {
-            let matches = match_descriptors(
-                &descriptors[image1],
-                &descriptors[image2],
-                &options.matching,
-            )?;
-            pairs.push(PairMatches {
-                image1,
-                image2,
-                matches: matches
-                    .iter()
-                    .map(|m| (m.index1 as u32, m.index2 as u32))
-                    .collect(),
-            });
-            let progress = SfmProgress::Matched {
-                done: pairs.len(),
-                total,
-            };
-            if observer(&progress).is_break() {
-                return Ok((images, None));
-            }
-        }
-    }
-    Ok((images, Some(pairs)))
+    let pairs = match_features(&features, options, observer)?;
+    Ok((images(features), pairs))
 }
 
 /// Cameras and points from photographs: features, matches, and [`reconstruct`].

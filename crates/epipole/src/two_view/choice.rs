@@ -145,7 +145,8 @@ pub fn estimate_two_view(
 ///   is chosen
 ///
 /// A camera that only turned is recognized by a rotation that explains as many matches as the best
-/// other model. For a plane the motion is taken from E or from the decomposition of H, whichever
+/// other model. Where F is chosen, the motion is still that of E, if enough matches support it: it is
+/// the best that agrees with the intrinsics. For a plane the motion is taken from E or from the decomposition of H, whichever
 /// fits more matches with the points in front of both cameras.
 ///
 /// # Errors
@@ -233,7 +234,12 @@ pub fn estimate_two_view_calibrated(
         found.configuration = Configuration::General;
         take_inliers(&mut found, &report, options);
         found.fundamental = Some(report.model);
-        found.cam2_from_cam1 = pose_of_fundamental(pixels1, pixels2, k1, k2, &report);
+        // E's motion was fitted with the intrinsics. F's, made to respect them afterwards, is far
+        // less exact, all the more where F has bent to wrong matches that E refused.
+        found.cam2_from_cam1 = match &essential {
+            Ok(report) if num_e >= options.min_num_inliers => Some(report.model.cam2_from_cam1()),
+            _ => pose_of_fundamental(pixels1, pixels2, k1, k2, &report),
+        };
     }
     if let Some(motion) = &found.cam2_from_cam1 {
         found.median_triangulation_angle_rad =

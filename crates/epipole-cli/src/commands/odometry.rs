@@ -1,0 +1,244 @@
+//! `epipole odometry`: the path of a camera, or of a stereo rig, from its frames.
+
+use super::sfm::{name, photos};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::matrices::{CameraArguments, Motion, positive};
+use crate::photo::Photo;
+use crate::progress::Progress;
+use crate::report::Report;
+use clap::Args;
+use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::sfm::{
+    OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
+    SfmInput, SfmProgress, match_features, match_rectified, monocular_odometry, photo_features,
+    stereo_odometry,
+};
+use serde_json::json;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// Follow a camera, or a stereo rig, through its frames.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole odometry frames/ --k 718.9,718.9,607.2,185.2\n\n\
+    Frames are taken in the order of their names. The path of a single camera has no unit of\n\
+    length; that of a rectified stereo rig has the unit of its baseline:\n  \
+    epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2"
+)]
+pub(crate) struct Arguments {
+    /// The folder of the frames; of the left camera, if there are two.
+    #[arg(value_name = "FOLDER")]
+    frames: PathBuf,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// The folder of the right camera's frames: rectified, as many, in the same order.
+    #[arg(long, value_name = "FOLDER", requires = "stereo_baseline_m")]
+    right: Option<PathBuf>,
+    /// Distance of the two cameras, meters.
+    #[arg(long, value_name = "B", value_parser = positive, requires = "right")]
+    stereo_baseline_m: Option<f64>,
+    /// At most so many features a frame.
+    #[arg(long, default_value_t = 3000, value_name = "N")]
+    max_features: usize,
+}
+
+/// Each frame is matched with so many after it, so that a bad pair costs no track.
+const NEIGHBORS: usize = 4;
+
+/// The shares of the work at which features, and then matches, are done.
+const DETECTED: f64 = 0.5;
+const MATCHED: f64 = 0.7;
+
+/// What all steps share.
+struct Work<'a> {
+    arguments: &'a Arguments,
+    context: &'a Context,
+    options: PhotoOptions,
+    progress: Progress,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let folder = |path: &PathBuf| photos(std::slice::from_ref(path));
+    let left_paths = folder(&arguments.frames)?;
+    let right_paths = arguments.right.as_ref().map(folder).transpose()?;
+    if let Some(right_paths) = &right_paths
+        && right_paths.len() != left_paths.len()
+    {
+        let message = format!(
+            "the two cameras must have as many frames, but there are {} of the left one and {} of \
+             the right one",
+            left_paths.len(),
+            right_paths.len()
+        );
+        return Err(Failure::new("size-mismatch", message));
+    }
+    let mut options = PhotoOptions {
+        neighbors: NEIGHBORS,
+        ..PhotoOptions::default()
+    };
+    options.sift.max_features = arguments.max_features;
+    let work = Work {
+        arguments,
+        context,
+        options,
+        progress: Progress::new(context, "odometry"),
+    };
+    let mut paths = left_paths.clone();
+    paths.extend(right_paths.unwrap_or_default());
+    let (mut features, intrinsics) = work.read(&paths)?;
+    let right = features.split_off(left_paths.len());
+    let result = work.follow(features, right, intrinsics)?;
+    let Work { progress, .. } = work;
+    drop(progress);
+    if result.cancelled {
+        context.warn("ended early; the result is what there was");
+    }
+    Ok(report(
+        &result,
+        &left_paths,
+        arguments.stereo_baseline_m.is_some(),
+    ))
+}
+
+impl Work<'_> {
+    /// Shows the share that is done, and says whether to go on.
+    fn watch(&self, share: f64) -> ControlFlow<()> {
+        self.progress.set(share);
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// The features of all pictures, one in memory at a time, and the intrinsics that they share.
+    fn read(&self, paths: &[PathBuf]) -> Result<(Vec<PhotoFeatures>, Intrinsics), Failure> {
+        let mut features: Vec<PhotoFeatures> = Vec::new();
+        let mut intrinsics = None;
+        for path in paths {
+            let photo = Photo::read(path)?;
+            let (width, height) = photo.color.dimensions();
+            if let Some(PhotoFeatures { image: first, .. }) = features.first()
+                && (first.width, first.height) != (width, height)
+            {
+                let message = format!(
+                    "all frames must have the size of the first, {} × {}, but this one is {width} × \
+                     {height}",
+                    first.width, first.height
+                );
+                return Err(Failure::new("size-mismatch", message).about(path));
+            }
+            if intrinsics.is_none() {
+                let (k, guess) = self.arguments.camera.or_guess(&photo)?;
+                if let Some(sentence) = guess {
+                    self.context.warn(&sentence);
+                }
+                intrinsics = Some(k);
+            }
+            let photo = SfmPhoto {
+                name: name(path),
+                image: photo.color,
+            };
+            features.push(photo_features(&photo, &self.options)?);
+            let share = features.len() as f64 / paths.len() as f64;
+            if self.watch(DETECTED * share).is_break() {
+                return Err(epipole::Error::Canceled.into());
+            }
+        }
+        match intrinsics {
+            Some(intrinsics) => Ok((features, intrinsics)),
+            None => Err(Failure::new("too-few", "a path needs frames")),
+        }
+    }
+
+    fn follow(
+        &self,
+        left: Vec<PhotoFeatures>,
+        right: Vec<PhotoFeatures>,
+        intrinsics: Intrinsics,
+    ) -> Result<OdometryResult, Failure> {
+        let num_frames = left.len();
+        let mut observer = |step: &SfmProgress| {
+            let part = |from: f64, to: f64, done: usize, total: usize| {
+                self.watch(from + (to - from) * done as f64 / total.max(1) as f64)
+            };
+            let verified = (MATCHED + 1.0) / 2.0;
+            match *step {
+                SfmProgress::Matched { done, total } => part(DETECTED, MATCHED, done, total),
+                SfmProgress::Verified { done, total } => part(MATCHED, verified, done, total),
+                SfmProgress::Registered { num_registered, .. } => {
+                    part(verified, 1.0, num_registered, num_frames)
+                }
+                _ if interrupt::requested() => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        };
+        let pairs = match_features(&left, &self.options, &mut observer)?;
+        let mut left_right = Vec::new();
+        for (a, b) in left.iter().zip(&right) {
+            left_right.push(match_rectified(a, b, &self.options)?);
+        }
+        // Descriptors are the larger part of the memory.
+        let images = |features: Vec<PhotoFeatures>| -> Vec<SfmImage> {
+            features.into_iter().map(|f| f.image).collect()
+        };
+        let input = SfmInput {
+            images: images(left),
+            intrinsics: vec![intrinsics],
+            pairs: pairs.ok_or(epipole::Error::Canceled)?,
+        };
+        let mut options = OdometryOptions::default();
+        options.sfm.seed = self.context.seed;
+        let result = match self.arguments.stereo_baseline_m {
+            Some(baseline_m) => stereo_odometry(
+                &input,
+                &images(right),
+                &left_right,
+                &RigidTransform::translation(-baseline_m, 0.0, 0.0),
+                &intrinsics,
+                &options,
+                &mut observer,
+            )?,
+            None => monocular_odometry(&input, &options, &mut observer)?,
+        };
+        if result.cancelled && result.world_from_cam.iter().all(Option::is_none) {
+            return Err(epipole::Error::Canceled.into());
+        }
+        Ok(result)
+    }
+}
+
+fn report(result: &OdometryResult, paths: &[PathBuf], metric: bool) -> Report {
+    let frames: Vec<serde_json::Value> = paths
+        .iter()
+        .zip(&result.world_from_cam)
+        .map(|(path, world_from_cam)| {
+            let motion = world_from_cam.as_ref().map(Motion::from);
+            json!({ "name": name(path), "world_from_cam": motion })
+        })
+        .collect();
+    let placed: Vec<&RigidTransform> = result.world_from_cam.iter().flatten().collect();
+    let length: f64 = placed
+        .windows(2)
+        .map(|pair| (pair[1].translation.vector - pair[0].translation.vector).norm())
+        .sum();
+    let length = if metric {
+        format!("{length:.3} m")
+    } else {
+        format!("{length:.3}, in a unit that one camera alone leaves open")
+    };
+    Report::default()
+        .field("frames", frames)
+        .field("keyframes", &result.keyframes)
+        .field("lost", &result.lost)
+        .field("complete", !result.cancelled)
+        .row(
+            "frames placed",
+            format!("{} of {}", placed.len(), paths.len()),
+        )
+        .row("keyframes", result.keyframes.len())
+        .row("points", result.reconstruction.points.len())
+        .row("length of the path", length)
+}

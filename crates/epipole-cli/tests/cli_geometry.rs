@@ -1,0 +1,478 @@
+//! `epipole fit`, `two-view` and `rectify` against known geometry.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use common::{Folder, angle_deg, fails, json, k, matrix, motion, moved, numbers, path};
+use epipole::camera::{Camera, RigidTransform};
+use epipole::epipolar::{fundamental_from_cameras, symmetric_epipolar_px};
+use epipole::math::random::Random;
+use epipole::synthetic::{Scene, Structure, Transfer, TwoViewOptions, TwoViewProblem};
+use nalgebra::{Matrix3, Point2, Vector3};
+use serde_json::Value;
+use std::path::PathBuf;
+
+const SIZE: (u32, u32) = (640, 480);
+const K: &str = "600,600,319.5,239.5";
+
+/// Matches of which two in five are wrong.
+fn problem(structure: Structure) -> TwoViewProblem {
+    TwoViewProblem::new(&TwoViewOptions {
+        num_points: 250,
+        structure,
+        outlier_fraction: 0.4,
+        seed: 5,
+        ..TwoViewOptions::default()
+    })
+    .unwrap()
+}
+
+fn cube() -> Structure {
+    Structure::Cube { half_side_m: 1.0 }
+}
+
+fn matches_file(folder: &Folder, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> PathBuf {
+    let rows = pixels1.iter().zip(pixels2).map(|(a, b)| {
+        // Commas, further columns and comments are part of the format.
+        format!("{} {}, {}\t{} 0.5 extra # a match\n", a.x, a.y, b.x, b.y)
+    });
+    let text = format!("# u1 v1 u2 v2\n\n{}", rows.collect::<String>());
+    folder.write("matches.txt", &text)
+}
+
+fn file_of(folder: &Folder, problem: &TwoViewProblem) -> PathBuf {
+    matches_file(folder, &problem.pixels1, &problem.pixels2)
+}
+
+fn mask(result: &Value) -> Vec<bool> {
+    numbers(&result["inliers"])
+        .iter()
+        .map(|i| *i == 1.0)
+        .collect()
+}
+
+fn transfer(h: &Matrix3<f64>, pixel: &Point2<f64>) -> Point2<f64> {
+    Point2::from_homogeneous(h * pixel.to_homogeneous()).unwrap()
+}
+
+fn cam2_from_cam1(camera1: &Camera, camera2: &Camera) -> RigidTransform {
+    camera2.cam_from_world * camera1.cam_from_world.inverse()
+}
+
+/// Degrees between the rotations, and between the directions of the translations.
+fn errors_deg(found: &RigidTransform, truth: &RigidTransform) -> (f64, f64) {
+    (
+        found.rotation.angle_to(&truth.rotation).to_degrees(),
+        angle_deg(&found.translation.vector, &truth.translation.vector),
+    )
+}
+
+#[test]
+fn fit_finds_the_motion_between_two_cameras() {
+    let folder = Folder::new("fit-essential");
+    let problem = problem(cube());
+    let file = file_of(&folder, &problem);
+    let result = json(&["fit", "--model", "essential", path(&file), "--k", K]);
+    let truth = cam2_from_cam1(&problem.camera1, &problem.camera2);
+    let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
+    assert!(turn < 1e-4 && direction < 1e-3, "{turn} {direction}");
+    // No true match is missed; a wrong one may lie on its epipolar line by chance.
+    let found = mask(&result);
+    assert!(
+        found
+            .iter()
+            .zip(&problem.is_inlier)
+            .all(|(found, is)| *found || !is)
+    );
+    let by_chance = found
+        .iter()
+        .zip(&problem.is_inlier)
+        .filter(|(f, is)| **f && !**is);
+    assert!(by_chance.count() < 10);
+    let count = found.iter().filter(|found| **found).count();
+    assert_eq!(result["num_inliers"].as_u64(), Some(count as u64));
+    assert!(result["iterations"].as_u64().unwrap() > 0);
+    // Equal seeds give equal results.
+    let mut again = json(&["fit", "--model", "essential", path(&file), "--k", K]);
+    again["time_ms"] = result["time_ms"].clone();
+    assert_eq!(again, result);
+}
+
+#[test]
+fn fit_finds_the_fundamental_matrix() {
+    let folder = Folder::new("fit-fundamental");
+    let problem = problem(cube());
+    let file = file_of(&folder, &problem);
+    let result = json(&["fit", "--model", "fundamental", path(&file)]);
+    let f = matrix(&result["model"]);
+    let truth = fundamental_from_cameras(&problem.camera1, &problem.camera2).unwrap();
+    let difference = (f - truth).norm().min((f + truth).norm());
+    assert!(difference < 1e-6, "{difference}");
+    assert!(result["mean_error_px"].as_f64().unwrap() < 0.1);
+    assert!(result.get("cam2_from_cam1").is_none());
+}
+
+#[test]
+fn fit_finds_the_homography_of_a_plane() {
+    let folder = Folder::new("fit-homography");
+    let problem = problem(Structure::Plane { half_side_m: 1.0 });
+    let file = file_of(&folder, &problem);
+    let result = json(&["fit", "--model", "homography", path(&file)]);
+    let h = matrix(&result["model"]);
+    for n in (0..problem.pixels1.len()).filter(|n| problem.is_inlier[*n]) {
+        let error = (transfer(&h, &problem.pixels1[n]) - problem.pixels2[n]).norm();
+        assert!(error < 1e-6, "{error}");
+    }
+    assert_eq!(mask(&result), problem.is_inlier);
+}
+
+#[test]
+fn fit_finds_similarities_and_lines() {
+    let folder = Folder::new("fit-similarity");
+    let mut random = Random::new(9);
+    let (scale, (sin, cos)) = (1.5, libm::sincos(0.3));
+    let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
+    for n in 0..60 {
+        let p = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+        let mut q = Point2::new(
+            scale * (cos * p.x - sin * p.y) + 7.0,
+            scale * (sin * p.x + cos * p.y) - 20.0,
+        );
+        if n % 3 == 0 {
+            q.x += random.uniform(30.0, 200.0);
+        }
+        pixels1.push(p);
+        pixels2.push(q);
+    }
+    let file = matches_file(&folder, &pixels1, &pixels2);
+    let result = json(&["fit", "--model", "similarity", path(&file)]);
+    let found = matrix(&result["model"]);
+    let truth = Matrix3::new(
+        scale * cos,
+        -scale * sin,
+        7.0,
+        scale * sin,
+        scale * cos,
+        -20.0,
+        0.0,
+        0.0,
+        1.0,
+    );
+    assert!((found - truth).norm() < 1e-6, "{found}");
+    assert_eq!(result["num_inliers"], 40);
+
+    // On 3 u + 4 v = 50, but for every fifth; two columns are enough for points.
+    let rows = (0..50).map(|n| {
+        let u = f64::from(n);
+        let off = if n % 5 == 0 { 20.0 + u } else { 0.0 };
+        format!("{u} {}\n", (50.0 - 3.0 * u) / 4.0 + off)
+    });
+    let file = folder.write("points.txt", &rows.collect::<String>());
+    let result = json(&["fit", "--model", "line", path(&file)]);
+    let line = Vector3::from_row_slice(&numbers(&result["model"]));
+    let truth = Vector3::new(3.0, 4.0, -50.0) / 5.0;
+    let difference = (line - truth).norm().min((line + truth).norm());
+    assert!(difference < 1e-9, "{line}");
+    assert_eq!(result["num_inliers"], 40);
+}
+
+#[test]
+fn files_of_matches_that_say_nothing_are_refused() {
+    let folder = Folder::new("fit-bad");
+    let good = "10 20 30 40\n50 60 70 80\n15 70 33 21\n90 11 40 44\n";
+    let same = "10 20 30 40\n".repeat(30);
+    let along: String = (0..30).map(|n| format!("{n} {n} {n} {n}\n")).collect();
+    for (model, text, expected) in [
+        (
+            "homography",
+            "1 2 3 4\n\n5 6 7\n".to_owned(),
+            ":3: here should be 4 numbers, not \"5 6 7\"",
+        ),
+        (
+            "homography",
+            format!("{good}1 nan 2 3"),
+            ":5: here should be 4 numbers",
+        ),
+        (
+            "fundamental",
+            format!("{good}1 2 inf 3"),
+            "here should be 4 numbers",
+        ),
+        ("line", "1\n".to_owned(), "here should be 2 numbers"),
+        ("homography", String::new(), "needs at least 4"),
+        ("fundamental", good.to_owned(), "but there are only 4"),
+        (
+            "homography",
+            "# only a comment\n1 2 3 4".to_owned(),
+            "needs at least 4, but there are only 1",
+        ),
+        ("homography", same.clone(), "error"),
+        ("fundamental", same, "error"),
+        ("homography", along.clone(), "error"),
+        ("fundamental", along, "error"),
+    ] {
+        let file = folder.write("bad.txt", &text);
+        let expected = if expected == "error" { "" } else { expected };
+        fails(
+            &folder,
+            &["fit", "--model", model, path(&file)],
+            1,
+            expected,
+        );
+    }
+    let good = folder.write("good.txt", good);
+    let missing = folder.file("missing.txt");
+    fails(
+        &folder,
+        &["fit", "--model", "line", path(&missing)],
+        1,
+        "there is no such file",
+    );
+    fails(
+        &folder,
+        &["fit", "--model", "essential", path(&good)],
+        2,
+        "needs --k",
+    );
+    for (option, value) in [
+        ("--k", "600,600,1"),
+        ("--max-error-px", "-1"),
+        ("--confidence", "1"),
+    ] {
+        let arguments = ["fit", "--model", "essential", path(&good), option, value];
+        fails(&folder, &arguments, 2, value);
+    }
+}
+
+/// Two photographs with enough parallax, and their cameras.
+fn pair(folder: &Folder, motion: &RigidTransform) -> [Camera; 2] {
+    let cameras = [
+        moved(SIZE, &RigidTransform::identity()),
+        moved(SIZE, motion),
+    ];
+    for (camera, name) in cameras.iter().zip(["a.png", "b.png"]) {
+        folder.photograph(name, camera, SIZE);
+    }
+    cameras
+}
+
+/// A step to the right with a turn back to the table.
+fn step() -> RigidTransform {
+    RigidTransform::new(
+        Vector3::new(-0.25, 0.02, 0.03),
+        Vector3::new(0.02, 0.17, 0.01),
+    )
+}
+
+/// Where the second camera sees what the first sees at every 32nd pixel.
+fn true_matches(cameras: &[Camera; 2]) -> Vec<(Point2<f64>, Point2<f64>)> {
+    let scene = Scene::still_life();
+    let mut matches = Vec::new();
+    for v in (16..SIZE.1).step_by(32) {
+        for u in (16..SIZE.0).step_by(32) {
+            let pixel1 = Point2::new(f64::from(u), f64::from(v));
+            if let Transfer::Visible { pixel2, .. } =
+                scene.transfer(&cameras[0], &cameras[1], &pixel1)
+                && (0.0..f64::from(SIZE.0)).contains(&pixel2.x)
+                && (0.0..f64::from(SIZE.1)).contains(&pixel2.y)
+            {
+                matches.push((pixel1, pixel2));
+            }
+        }
+    }
+    assert!(matches.len() > 50);
+    matches
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+fn two_photographs_give_the_motion_of_the_camera() {
+    let folder = Folder::new("two-view");
+    let cameras = pair(&folder, &step());
+    let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
+    for model in ["auto", "essential"] {
+        let camera = k(&cameras[0]);
+        let result = json(&[
+            "two-view",
+            path(&a),
+            path(&b),
+            "--model",
+            model,
+            "--k",
+            &camera,
+        ]);
+        let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
+        assert!(turn < 0.1 && direction < 0.3, "{model}: {turn} {direction}");
+        // F may gain some matches that are wrong; the motion is that of E in any case.
+        let kind = result["model_kind"].as_str().unwrap();
+        assert!(
+            kind == "essential" || (model == "auto" && kind == "fundamental"),
+            "{kind}"
+        );
+        assert_eq!(result["configuration"], "general");
+        let rows: Vec<Vec<f64>> = result["matches"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(numbers)
+            .collect();
+        assert_eq!(result["num_matches"].as_u64(), Some(rows.len() as u64));
+        let inliers: Vec<_> = rows.iter().filter(|row| row[4] == 1.0).collect();
+        assert_eq!(result["num_inliers"].as_u64(), Some(inliers.len() as u64));
+        assert!(inliers.len() > 60, "{}", inliers.len());
+        let f = fundamental_from_cameras(&cameras[0], &cameras[1]).unwrap();
+        let distances = inliers.iter().map(|row| {
+            let (p, q) = (Point2::new(row[0], row[1]), Point2::new(row[2], row[3]));
+            symmetric_epipolar_px(&f, &p, &q)
+        });
+        let typical = median(distances.collect());
+        assert!(typical < 0.7, "{typical}");
+        assert!(result["mean_sampson_px"].as_f64().unwrap() < 1.0);
+        assert_eq!(numbers(&result["num_keypoints"]).len(), 2);
+    }
+    let result = json(&["two-view", path(&a), path(&b)]);
+    assert_eq!(result["model_kind"], "fundamental");
+    assert_eq!(result["cam2_from_cam1"], Value::Null);
+    let f = matrix(&result["model"]);
+    let distances = true_matches(&cameras)
+        .into_iter()
+        .map(|(p, q)| symmetric_epipolar_px(&f, &p, &q));
+    let typical = median(distances.collect());
+    assert!(typical < 1.0, "{typical}");
+}
+
+#[test]
+fn a_camera_that_only_turned_is_told_from_one_that_moved() {
+    let folder = Folder::new("panorama");
+    let turn = RigidTransform::new(Vector3::zeros(), Vector3::new(0.03, 0.12, -0.02));
+    let cameras = pair(&folder, &turn);
+    let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
+    let result = json(&["two-view", path(&a), path(&b), "--k", &k(&cameras[0])]);
+    assert_eq!(result["configuration"], "panoramic");
+    assert_eq!(result["model_kind"], "homography");
+    let h = matrix(&result["model"]);
+    for (p, q) in true_matches(&cameras) {
+        let error = (transfer(&h, &p) - q).norm();
+        assert!(error < 1.0, "{error}");
+    }
+    if !result["cam2_from_cam1"].is_null() {
+        let found = motion(&result["cam2_from_cam1"]);
+        assert!(found.rotation.angle_to(&turn.rotation).to_degrees() < 0.2);
+    }
+}
+
+#[test]
+fn pictures_without_a_common_thing_are_refused() {
+    let folder = Folder::new("two-view-bad");
+    let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
+    pair(&folder, &back);
+    let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
+    let blank = folder.blank("blank.png", SIZE);
+    let missing = folder.file("missing.png");
+    fails(
+        &folder,
+        &["two-view", path(&a), path(&b), "--focal-px", "600"],
+        1,
+        "",
+    );
+    for model in ["auto", "fundamental", "essential", "homography"] {
+        let arguments = ["two-view", path(&a), path(&blank), "--model", model];
+        fails(&folder, &arguments, 1, "needs at least");
+    }
+    fails(
+        &folder,
+        &["two-view", path(&a), path(&missing)],
+        1,
+        "missing.png: there is no such file",
+    );
+    fails(&folder, &["two-view", path(&a)], 2, "required arguments");
+    let both = [
+        "two-view",
+        path(&a),
+        path(&b),
+        "--k",
+        K,
+        "--focal-px",
+        "600",
+    ];
+    fails(&folder, &both, 2, "cannot be used with");
+    let out = folder.file("rectified");
+    fails(
+        &folder,
+        &["rectify", path(&a), path(&blank), "-o", path(&out)],
+        1,
+        "needs at least",
+    );
+}
+
+#[test]
+fn rectified_photographs_share_their_rows() {
+    let folder = Folder::new("rectify");
+    let cameras = pair(&folder, &step());
+    let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
+    let camera = k(&cameras[0]);
+    let baseline_m = step().translation.vector.norm().to_string();
+    let known = ["--k", &camera, "--baseline-m", &baseline_m];
+    for (name, options) in [("free", &[][..]), ("known", &known)] {
+        let out = folder.file(name);
+        let base = ["rectify", path(&a), path(&b), "-o", path(&out)];
+        let result = json(&[&base[..], options].concat());
+        let (h1, h2) = (
+            matrix(&result["homography1"]),
+            matrix(&result["homography2"]),
+        );
+        let rows: Vec<f64> = true_matches(&cameras)
+            .iter()
+            .map(|(p, q)| (transfer(&h1, p).y - transfer(&h2, q).y).abs())
+            .collect();
+        let typical = median(rows);
+        assert!(typical < 1.0, "{name}: {typical}");
+        let written: Vec<&str> = result["files"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|f| f.as_str().unwrap())
+            .collect();
+        assert_eq!(written.len(), 2);
+        for file in written {
+            assert_eq!(image::open(file).unwrap().width(), SIZE.0);
+        }
+        assert_eq!(
+            std::fs::read_dir(&out).unwrap().count(),
+            2,
+            "no part is left behind"
+        );
+        if name == "free" {
+            assert_eq!(result["q"], Value::Null);
+            continue;
+        }
+        // Q makes a point of a pixel and its disparity: check it on what is really there.
+        let q = nalgebra::Matrix4::from_row_slice(&numbers(&result["q"]));
+        let scene = Scene::still_life();
+        let errors = true_matches(&cameras).into_iter().map(|(p, other)| {
+            let (left, right) = (transfer(&h1, &p), transfer(&h2, &other));
+            let x = q * nalgebra::Vector4::new(left.x, left.y, left.x - right.x, 1.0);
+            let distance = (x.xyz() / x.w).norm();
+            let center = cameras[0].center_in_world();
+            let hit = scene.cast(&center, &cameras[0].ray_in_world(&p)).unwrap();
+            let truth = (hit.point - center).norm();
+            (distance / truth - 1.0).abs()
+        });
+        let typical = median(errors.collect());
+        assert!(typical < 0.03, "{typical}");
+    }
+    let small = folder.blank("small.png", (100, 80));
+    let out = folder.file("sizes");
+    let arguments = ["rectify", path(&a), path(&small), "-o", path(&out)];
+    fails(
+        &folder,
+        &arguments,
+        1,
+        "must have the same size, but one is 640 × 480 and the other 100 × 80",
+    );
+}

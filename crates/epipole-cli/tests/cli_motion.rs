@@ -1,0 +1,318 @@
+//! `epipole sfm` and `odometry` on rendered photographs whose cameras are known.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use common::{Folder, fails, json, k, motion, moved, numbers, path};
+use epipole::camera::{Camera, RigidTransform};
+use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
+use nalgebra::{Point3, Vector3};
+use serde_json::Value;
+
+const SIZE: (u32, u32) = (400, 300);
+
+/// A camera that goes around the table while it looks at it.
+fn around(n: usize) -> Camera {
+    let angle = 0.1 * (n as f64 - 2.0);
+    // Turns about a point 1.3 m in front of the camera.
+    let pivot = Vector3::new(0.0, 0.0, 1.3);
+    let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+    let shift = pivot - turn * pivot;
+    moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
+}
+
+/// A camera that goes to the right, and a little forward.
+fn along(n: usize) -> Camera {
+    let step = n as f64;
+    let motion = Vector3::new(-0.05 * step, 0.004 * step, -0.02 * step);
+    moved(
+        SIZE,
+        &RigidTransform::new(motion, Vector3::new(0.0, 0.005 * step, 0.0)),
+    )
+}
+
+fn photographs(folder: &Folder, sub: &str, cameras: &[Camera]) {
+    std::fs::create_dir_all(folder.file(sub)).unwrap();
+    for (n, camera) in cameras.iter().enumerate() {
+        folder.photograph(&format!("{sub}/{n}.png"), camera, SIZE);
+    }
+}
+
+fn centers(cameras: &[Camera]) -> Vec<Point3<f64>> {
+    cameras.iter().map(Camera::center_in_world).collect()
+}
+
+/// Lines that are no comments.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.starts_with('#'))
+}
+
+#[test]
+fn photographs_become_cameras_and_points() {
+    let folder = Folder::new("sfm");
+    let cameras: Vec<Camera> = (0..5).map(around).collect();
+    photographs(&folder, "photos", &cameras);
+    // What is no photograph is passed over.
+    folder.write("photos/notes.txt", "not a photograph");
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let result = json(&[
+        "sfm",
+        path(&photos),
+        "--k",
+        &k(&cameras[0]),
+        "-o",
+        path(&out),
+    ]);
+    assert_eq!(
+        (&result["num_registered"], &result["num_images"]),
+        (&5.into(), &5.into())
+    );
+    assert_eq!(result["complete"], true);
+    assert!(result["mean_reprojection_px"].as_f64().unwrap() < 0.7);
+    let images = result["images"].as_array().unwrap();
+    let mut found = Vec::new();
+    for (n, image) in images.iter().enumerate() {
+        assert_eq!(image["name"], format!("{n}.png"));
+        let cam_from_world = motion(&image["cam_from_world"]);
+        found.push(Point3::from(cam_from_world.inverse().translation.vector));
+    }
+    let kind = AlignmentKind::Similarity;
+    let (errors, _) = absolute_trajectory_error(&found, &centers(&cameras), kind).unwrap();
+    // The cameras go half a meter.
+    assert!(errors.max < 0.005, "{errors:?}");
+
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let camera = read("cameras.txt");
+    let words: Vec<&str> = lines(&camera).next().unwrap().split(' ').collect();
+    assert_eq!(words[2..4], ["400", "300"]);
+    // The format has pixel centers at halves, we at integers.
+    let center: Vec<f64> = words[words.len() - 2..]
+        .iter()
+        .map(|w| w.parse().unwrap())
+        .collect();
+    let ours = cameras[0].intrinsics.principal_point();
+    let names: Vec<String> = lines(&read("images.txt"))
+        .step_by(2)
+        .map(|line| line.split(' ').nth(9).unwrap().to_owned())
+        .collect();
+    assert_eq!(names, ["0.png", "1.png", "2.png", "3.png", "4.png"]);
+    if words[1] == "PINHOLE" {
+        assert!((center[0] - ours.x - 0.5).abs() < 1e-9 && (center[1] - ours.y - 0.5).abs() < 1e-9);
+    }
+    let points = lines(&read("points3D.txt")).count();
+    assert_eq!(result["num_points"].as_u64(), Some(points as u64));
+    assert!(points > 200, "{points}");
+    let ply = std::fs::read(out.join("points.ply")).unwrap();
+    let header = format!("element vertex {points}\n");
+    assert!(ply.windows(header.len()).any(|w| w == header.as_bytes()));
+    assert_eq!(
+        std::fs::read_dir(&out).unwrap().count(),
+        4,
+        "no part is left behind"
+    );
+}
+
+#[test]
+fn photographs_that_do_not_fit_together_are_refused() {
+    let folder = Folder::new("sfm-bad");
+    photographs(&folder, "photos", &[around(0)]);
+    std::fs::create_dir(folder.file("empty")).unwrap();
+    let photo = folder.file("photos/0.png");
+    let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
+    folder.photograph("back.png", &moved(SIZE, &back), SIZE);
+    let (out, back) = (folder.file("out"), folder.file("back.png"));
+    let blank = [
+        folder.blank("blank1.png", SIZE),
+        folder.blank("blank2.png", SIZE),
+    ];
+    let sfm = |files: &[&str]| {
+        let options = ["--focal-px", "500", "-o", path(&out)];
+        [&["sfm"], files, &options]
+            .concat()
+            .into_iter()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    let empty = folder.file("empty");
+    let missing = folder.file("missing.png");
+    for (files, expected) in [
+        (vec![path(&photo)], "needs at least 2, but there are only 1"),
+        (
+            vec![path(&photo), path(&back)],
+            "no two photographs show enough of the same thing",
+        ),
+        (
+            vec![path(&blank[0]), path(&blank[1])],
+            "no two photographs show enough of the same thing",
+        ),
+        (vec![path(&photo), path(&photo)], "no two photographs"),
+        (
+            vec![path(&empty)],
+            "there are no photographs in this folder",
+        ),
+        (
+            vec![path(&photo), path(&missing)],
+            "missing.png: there is no such file",
+        ),
+    ] {
+        let arguments = sfm(&files);
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        fails(&folder, &arguments, 1, expected);
+    }
+    fails(&folder, &["sfm", "-o", path(&out)], 2, "required");
+    fails(&folder, &["sfm", path(&photo)], 2, "--output");
+    let wrong = ["sfm", path(&photo), "-o", path(&out), "--focal-px", "-3"];
+    fails(&folder, &wrong, 2, "-3");
+}
+
+/// `world_from_cam` of each frame, relative to the first.
+fn truth(cameras: &[Camera]) -> Vec<RigidTransform> {
+    let first = cameras[0].cam_from_world;
+    cameras
+        .iter()
+        .map(|camera| first * camera.cam_from_world.inverse())
+        .collect()
+}
+
+fn path_of(result: &Value) -> Vec<RigidTransform> {
+    let frames = result["frames"].as_array().unwrap();
+    frames
+        .iter()
+        .map(|frame| motion(&frame["world_from_cam"]))
+        .collect()
+}
+
+#[test]
+fn a_moving_camera_is_followed_up_to_scale() {
+    let folder = Folder::new("odometry");
+    let cameras: Vec<Camera> = (0..8).map(along).collect();
+    photographs(&folder, "left", &cameras);
+    let left = folder.file("left");
+    let result = json(&["odometry", path(&left), "--k", &k(&cameras[0])]);
+    assert_eq!(result["lost"], Value::Array(Vec::new()));
+    assert_eq!(result["complete"], true);
+    assert_eq!(result["frames"][3]["name"], "3.png");
+    let keyframes = numbers(&result["keyframes"]);
+    assert!(keyframes.len() >= 2 && keyframes.windows(2).all(|pair| pair[0] < pair[1]));
+    let (found, truth) = (path_of(&result), truth(&cameras));
+    // One camera alone leaves the unit open: that of the last frame is taken from the truth.
+    let length = |poses: &[RigidTransform]| poses[poses.len() - 1].translation.vector.norm();
+    let scale = length(&truth) / length(&found);
+    for (got, want) in found.iter().zip(&truth) {
+        let error = (got.translation.vector * scale - want.translation.vector).norm();
+        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
+        assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
+    }
+}
+
+#[test]
+fn a_stereo_rig_is_followed_in_meters() {
+    let folder = Folder::new("odometry-stereo");
+    let cameras: Vec<Camera> = (0..6).map(along).collect();
+    let right: Vec<Camera> = cameras
+        .iter()
+        .map(|camera| Camera {
+            cam_from_world: RigidTransform::translation(-0.08, 0.0, 0.0) * camera.cam_from_world,
+            ..*camera
+        })
+        .collect();
+    photographs(&folder, "left", &cameras);
+    photographs(&folder, "right", &right);
+    let folders = [folder.file("left"), folder.file("right")];
+    let camera = k(&cameras[0]);
+    let rig = ["--right", path(&folders[1]), "--stereo-baseline-m", "0.08"];
+    let result = json(&[&["odometry", path(&folders[0]), "--k", &camera], &rig[..]].concat());
+    assert_eq!(result["lost"], Value::Array(Vec::new()));
+    // No alignment: the frame is that of the first camera, the unit is the meter.
+    for (got, want) in path_of(&result).iter().zip(&truth(&cameras)) {
+        let error = (got.translation.vector - want.translation.vector).norm();
+        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
+        assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
+    }
+}
+
+#[test]
+fn frames_without_a_path_are_refused() {
+    let folder = Folder::new("odometry-bad");
+    let cameras: Vec<Camera> = (0..3).map(along).collect();
+    photographs(&folder, "three", &cameras);
+    photographs(&folder, "two", &cameras[..2]);
+    photographs(&folder, "one", &cameras[..1]);
+    let turned = |n: f64| {
+        moved(
+            SIZE,
+            &RigidTransform::new(Vector3::zeros(), Vector3::y() * 0.03 * n),
+        )
+    };
+    photographs(&folder, "turned", &[0.0, 1.0, 2.0, 3.0].map(turned));
+    std::fs::create_dir(folder.file("sizes")).unwrap();
+    folder.blank("sizes/0.png", SIZE);
+    folder.blank("sizes/1.png", (100, 80));
+    std::fs::create_dir(folder.file("blank")).unwrap();
+    for name in ["blank/0.png", "blank/1.png"] {
+        folder.blank(name, SIZE);
+    }
+    std::fs::create_dir(folder.file("empty")).unwrap();
+    let [three, two] = ["three", "two"].map(|name| folder.file(name));
+    for (name, expected) in [
+        ("one", "needs at least 2"),
+        (
+            "turned",
+            "no two pictures see enough points under a sufficient angle",
+        ),
+        ("blank", "is not determined"),
+        (
+            "sizes",
+            "1.png: all frames must have the size of the first, 400 × 300, but this one is 100 × 80",
+        ),
+        ("empty", "there are no photographs"),
+        ("missing", "there is no such file"),
+    ] {
+        let frames = folder.file(name);
+        fails(
+            &folder,
+            &["odometry", path(&frames), "--focal-px", "500"],
+            1,
+            expected,
+        );
+    }
+    let rig = [
+        "--right",
+        path(&two),
+        "--stereo-baseline-m",
+        "0.1",
+        "--focal-px",
+        "500",
+    ];
+    let arguments = [&["odometry", path(&three)], &rig[..]].concat();
+    fails(
+        &folder,
+        &arguments,
+        1,
+        "there are 3 of the left one and 2 of the right one",
+    );
+    for (options, expected) in [
+        (&["--right", path(&two)][..], "--stereo-baseline-m"),
+        (&["--stereo-baseline-m", "0.1"], "--right"),
+        (&["--right", path(&two), "--stereo-baseline-m", "0"], "0"),
+    ] {
+        let arguments = [&["odometry", path(&two), "--focal-px", "500"], options].concat();
+        fails(&folder, &arguments, 2, expected);
+    }
+    // Two cameras at one place, by their pictures: the same pictures on both sides.
+    let rig = [
+        "--right",
+        path(&three),
+        "--stereo-baseline-m",
+        "0.1",
+        "--focal-px",
+        "500",
+    ];
+    fails(
+        &folder,
+        &[&["odometry", path(&three)], &rig[..]].concat(),
+        1,
+        "is not determined",
+    );
+}

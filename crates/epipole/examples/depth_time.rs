@@ -1,0 +1,115 @@
+//! Times dense stereo and bundle adjustment, for scripts that set them beside peers.
+//!
+//! * `depth_time scene FOLDER` renders a rectified pair of 640 × 480 pixels: `left.png`,
+//!   `right.png` and the true disparities of the left picture, `truth.pfm`
+//! * `depth_time stereo FOLDER ROUNDS` times the matchers on that pair and writes what they find to
+//!   `ours_NAME.pfm`; prints `name median_ms min_ms -` a line
+//! * `depth_time ba PROBLEM.txt COST ROUNDS` times a bundle adjustment until it reaches a cost, and
+//!   prints the same with the cost reached in place of `-`
+
+mod timing;
+
+use epipole::camera::RigidTransform;
+use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
+use epipole::optim::{Iteration, LmOptions, RobustLoss};
+use epipole::sfm::{BalProblem, adjust_bal};
+use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
+use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use std::ops::ControlFlow;
+use std::path::Path;
+use timing::time;
+
+const SIZE: (u32, u32) = (640, 480);
+/// Makes disparities of 16 to 60 pixels.
+const BASELINE_M: f64 = 0.06;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn main() -> Outcome {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["scene", folder] => scene(Path::new(folder)),
+        ["stereo", folder, rounds] => stereo(Path::new(folder), rounds.parse()?),
+        ["ba", problem, cost, rounds] => adjust(problem, cost.parse()?, rounds.parse()?),
+        _ => Err("scene FOLDER, stereo FOLDER ROUNDS or ba PROBLEM COST ROUNDS".into()),
+    }
+}
+
+fn scene(folder: &Path) -> Outcome {
+    let camera = still_life_camera(SIZE.0, SIZE.1);
+    let mut right = camera;
+    right.cam_from_world =
+        RigidTransform::translation(-BASELINE_M, 0.0, 0.0) * camera.cam_from_world;
+    let still_life = Scene::still_life();
+    let left = still_life.render(&camera, SIZE.0, SIZE.1, Sampling::Full)?;
+    let right = still_life.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
+    left.image.save(folder.join("left.png"))?;
+    right.image.save(folder.join("right.png"))?;
+    let focal_px = camera.intrinsics.fu_px();
+    let of_depth = |depth: &f32| (focal_px * BASELINE_M / f64::from(*depth)) as f32;
+    let values = left.depth_m.iter().map(of_depth).collect();
+    let truth = DisparityImage::from_raw(SIZE.0, SIZE.1, values)?;
+    std::fs::write(folder.join("truth.pfm"), truth.to_pfm())?;
+    Ok(())
+}
+
+fn stereo(folder: &Path, rounds: usize) -> Outcome {
+    let read = |name: &str| -> Result<_, Box<dyn std::error::Error>> {
+        let bytes = std::fs::read(folder.join(name))?;
+        Ok(rgb_to_gray(
+            &decode_rgb(&bytes, &DecodeOptions::default())?.image,
+        ))
+    };
+    let (left, right) = (read("left.png")?, read("right.png")?);
+    let run = |name: &str, work: &dyn Fn() -> epipole::Result<DisparityImage>| -> Outcome {
+        time(name, rounds, work, |_| "-".to_owned());
+        std::fs::write(folder.join(format!("ours_{name}.pfm")), work()?.to_pfm())?;
+        Ok(())
+    };
+    // With the tests that OpenCV's has, and no others.
+    let plain = StereoBm {
+        left_right_max_px: None,
+        speckle_size: 0,
+        max_gap_px: 0,
+        ..StereoBm::default()
+    };
+    run("bm_plain", &|| plain.compute(&left, &right))?;
+    run("bm", &|| StereoBm::default().compute(&left, &right))?;
+    for (name, paths) in [
+        ("sgm_4", StereoPaths::Four),
+        ("sgm_5", StereoPaths::Five),
+        ("sgm_8", StereoPaths::Eight),
+    ] {
+        let matcher = StereoSgm {
+            paths,
+            ..StereoSgm::default()
+        };
+        run(name, &|| matcher.compute(&left, &right))?;
+    }
+    Ok(())
+}
+
+fn adjust(path: &str, cost: f64, rounds: usize) -> Outcome {
+    let problem = BalProblem::parse(&std::fs::read_to_string(path)?)?;
+    let options = LmOptions {
+        max_iterations: 200,
+        ..LmOptions::default()
+    };
+    let work = || {
+        let mut problem = problem.clone();
+        let mut stop = |iteration: &Iteration| {
+            if iteration.cost <= cost {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut stop)
+    };
+    time("ba", rounds, work, |report| match report {
+        Ok(report) => format!("{:.3}", report.final_cost),
+        Err(error) => format!("{error:?}"),
+    });
+    Ok(())
+}
