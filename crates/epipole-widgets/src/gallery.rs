@@ -8,7 +8,6 @@ pub mod eight_point;
 mod epipolar_click;
 mod four_poses;
 pub mod harris;
-pub mod new_figure;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
@@ -73,6 +72,7 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
 #[path = "../scaffold/mod.rs"]
+pub mod new_figure;
 
 #[cfg(test)]
 mod tests {
