@@ -13,8 +13,7 @@ use epipole::feature::{Scaling, StructureTensorOptions, Window, WindowTensor, ha
 use epipole::imaging::gray_from_values;
 use epipole::robust::{num_trials_with_replacement, num_trials_without_replacement};
 use epipole::stereo::depth_from_disparity;
-use nalgebra::{Matrix3, Point2, Point3, Vector2};
-use nalgebra::{Matrix3, Point2, Point3, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
 /// All numbers that chapters may print, by name.
 pub const REGISTRY: &[Entry] = &[
