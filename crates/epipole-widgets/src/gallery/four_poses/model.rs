@@ -159,6 +159,15 @@ impl FourPoses {
         Ok(())
     }
 
+    /// Where camera 2 stands, seen from camera 1.
+    fn place_words(&self) -> String {
+        let (x, z) = self.place;
+        let side = if x < 0.0 { "left" } else { "right" };
+        let way = if z < 0.0 { "behind" } else { "ahead" };
+        let length = |value: f64| format_number(value.abs(), 2);
+        format!("{} to the {side}, {} {way}", length(x), length(z))
+    }
+
     fn turn_deg(&self) -> f64 {
         self.settings.number(&TURN)
     }
@@ -212,17 +221,11 @@ impl Model for FourPoses {
 
     fn handles(&self) -> Vec<Handle> {
         let (x, z) = self.place;
-        let side = if x < 0.0 { "left" } else { "right" };
-        let way = if z < 0.0 { "behind" } else { "ahead" };
         vec![Handle {
             id: "camera2".to_owned(),
             panel: "first",
             label: "Camera 2".to_owned(),
-            value_text: format!(
-                "{} to the {side}, {} {way}",
-                format_number(x.abs(), 2),
-                format_number(z.abs(), 2)
-            ),
+            value_text: self.place_words(),
             x,
             y: z,
             x_range: X_RANGE,
@@ -255,6 +258,7 @@ impl Model for FourPoses {
         for ((id, label), pose) in names.into_iter().zip(&self.poses) {
             readouts.push(Readout::count(id, label, pose.num_in_front()));
         }
+        readouts.push(Readout::words("step", "Step", self.place_words()));
         readouts.push(Readout::number("turn", "Turn", self.turn_deg(), 0, "°"));
         readouts
     }

@@ -118,7 +118,10 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     ];
     canvas.clipped(panel.rect.inset(1.5), |canvas| {
         for (from, to) in EDGES {
-            if let (Some(a), Some(b)) = (&pose.crossings[from], &pose.crossings[to]) {
+            // A wall from before the cameras to behind them would pass through infinity.
+            if let (Some(a), Some(b)) = (&pose.crossings[from], &pose.crossings[to])
+                && a.in_front == b.in_front
+            {
                 let stroke = Stroke::solid(Role::Reference, 1.5);
                 canvas.line(at(&a.point), at(&b.point), stroke);
             }
