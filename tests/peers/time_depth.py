@@ -7,9 +7,8 @@ Stereo works on a rendered pair of 640 x 480 pixels with 64 disparities, whose t
 row ends with the quality of both: the share of pixels that have an answer, and the share of answers
 that are more than two pixels off, in percent. Bundle adjustment takes the published problem Ladybug
 49, if EPIPOLE_DATA says where the data are, without the points that start behind a camera: COLMAP
-leaves those out. Ceres runs first, through COLMAP; ours runs until it has
-reached Ceres' cost, to a millionth.
-Ratios are the peer's time over ours: above 1, ours is faster.
+leaves those out. Ceres runs first, through COLMAP; ours runs until it has reached Ceres' cost, to a
+millionth. Ratios are the peer's time over ours: above 1, ours is faster.
 """
 import os, pathlib, subprocess, sys, tempfile, time
 import cv2
