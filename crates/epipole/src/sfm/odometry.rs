@@ -300,6 +300,14 @@ fn result_of(builder: Builder<'_>, num_frames: usize, cancelled: bool) -> Odomet
     for camera in reconstruction.cameras.iter_mut().flatten() {
         camera.cam_from_world *= world_from_old.inverse();
     }
+    // Exactly, where rounding would leave a trace of the old pose.
+    if let Some(first) = reconstruction.cameras[..num_frames]
+        .iter_mut()
+        .flatten()
+        .next()
+    {
+        first.cam_from_world = RigidTransform::identity();
+    }
     for point in &mut reconstruction.points {
         point.position = world_from_old * point.position;
     }
