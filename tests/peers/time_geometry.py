@@ -179,7 +179,7 @@ with tempfile.TemporaryDirectory() as folder:
         text = subprocess.run([binary, folder], capture_output=True, text=True, check=True,
                               env={**os.environ, "RAYON_NUM_THREADS": "1"}).stdout
         for line in text.splitlines():
-            name, index, least_ms, *numbers = line.split("\t")
+            name, index, _, least_ms, *numbers = line.split("\t")
             problems, judge, *_ = WORK[name]
             times.setdefault((name, "ours"), {}).setdefault(int(index), []).append(float(least_ms))
             if turn == 0 and judge:

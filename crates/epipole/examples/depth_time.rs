@@ -17,7 +17,7 @@ use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use std::ops::ControlFlow;
 use std::path::Path;
-use timing::time;
+use timing::timed;
 
 const SIZE: (u32, u32) = (640, 480);
 /// Makes disparities of 16 to 60 pixels.
@@ -34,6 +34,13 @@ fn main() -> Outcome {
         ["ba", problem, cost, rounds] => adjust(problem, cost.parse()?, rounds.parse()?),
         _ => Err("scene FOLDER, stereo FOLDER ROUNDS or ba PROBLEM COST ROUNDS".into()),
     }
+}
+
+/// Times work in rounds, and prints `name median_ms min_ms note`.
+fn time<T>(name: &str, rounds: usize, work: impl FnMut() -> T, note: impl Fn(&T) -> String) {
+    let timed = timed(rounds, work);
+    let note = note(&timed.last);
+    println!("{name} {:.4} {:.4} {note}", timed.median_ms, timed.least_ms);
 }
 
 fn scene(folder: &Path) -> Outcome {

@@ -2,8 +2,8 @@
 //! that set them beside peers.
 //!
 //! Usage: `geometry_time FOLDER`, where the folder holds `general-0.f64`, `planar-0.f64` … : rows of
-//! seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, least milliseconds,
-//! numbers of the answer` a line, separated by tabs. With
+//! seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, median and
+//! least milliseconds, numbers of the answer` a line, separated by tabs. With
 //! `RAYON_NUM_THREADS=1` the time is that for which the process had a processor.
 
 mod timing;
@@ -20,29 +20,12 @@ use std::array::from_fn;
 use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
-use timing::now;
+use timing::timed;
 
-/// The answer, and the least time for it over about a fifth of a second.
-fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
-    let mut answer = work();
-    let start = Instant::now();
-    answer = black_box({
-        drop(answer);
-        work()
-    });
-    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
-    let one = start.elapsed().as_secs_f64() * 1e3;
-    let batch = (10.0 / one).clamp(1.0, 1000.0) as usize;
-    let mut least = f64::INFINITY;
-    for _ in 0..(200.0 / (one * batch as f64)).clamp(3.0, 20.0) as usize {
-        let before = now(&start);
-        for _ in 0..batch {
-            answer = black_box(work());
-        }
-        least = least.min((now(&start) - before) / batch as f64);
-    }
-    (least, answer)
+/// Median and least time of some work, milliseconds, and the answer.
+fn time<T>(work: impl FnMut() -> T) -> ([f64; 2], T) {
+    let timed = timed(20, work);
+    ([timed.median_ms, timed.least_ms], timed.last)
 }
 
 struct Problem {
@@ -69,9 +52,12 @@ fn read(folder: &Path, kind: &str, index: usize) -> Result<Option<Problem>, Box<
     }))
 }
 
-fn print(name: &str, index: usize, least_ms: f64, numbers: &[f64]) {
+fn print(name: &str, index: usize, [median_ms, least_ms]: [f64; 2], numbers: &[f64]) {
     let text: Vec<String> = numbers.iter().map(f64::to_string).collect();
-    println!("{name}\t{index}\t{least_ms}\t{}", text.join(" "));
+    println!(
+        "{name}\t{index}\t{median_ms}\t{least_ms}\t{}",
+        text.join(" ")
+    );
 }
 
 /// The rows of [R t].

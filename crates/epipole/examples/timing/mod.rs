@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 /// Milliseconds since some fixed moment.
-pub(crate) fn now(start: &Instant) -> f64 {
+fn now(start: &Instant) -> f64 {
     let one_thread = std::env::var("RAYON_NUM_THREADS").is_ok_and(|n| n == "1");
     // The one worker is a thread of its own, so that all threads of the process count.
     let on_processor = || -> Option<f64> {
@@ -22,33 +22,34 @@ pub(crate) fn now(start: &Instant) -> f64 {
     }
 }
 
-/// Times work in rounds, and prints `name median_ms min_ms note`.
-pub(crate) fn time<T>(
-    name: &str,
-    rounds: usize,
-    mut work: impl FnMut() -> T,
-    note: impl Fn(&T) -> String,
-) {
+/// How long some work took, and what it gave the last time.
+pub(crate) struct Timed<T> {
+    pub(crate) median_ms: f64,
+    pub(crate) least_ms: f64,
+    pub(crate) last: T,
+}
+
+/// Times work in rounds, at least three.
+pub(crate) fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> Timed<T> {
     work();
     let start = Instant::now();
     // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
     let before = now(&start);
     let mut last = work();
     let one = (now(&start) - before).max(start.elapsed().as_secs_f64() * 2e2);
-    let batch = (100.0 / one).clamp(1.0, 100.0) as usize;
+    let batch = (100.0 / one).clamp(1.0, 1000.0) as usize;
     let mut times: Vec<f64> = Vec::new();
     for _ in 0..rounds.div_ceil(batch).max(3) {
         let before = now(&start);
         for _ in 0..batch {
-            last = work();
+            last = std::hint::black_box(work());
         }
         times.push((now(&start) - before) / batch as f64);
     }
     times.sort_by(f64::total_cmp);
-    println!(
-        "{name} {:.4} {:.4} {}",
-        times[times.len() / 2],
-        times[0],
-        note(&last)
-    );
+    Timed {
+        median_ms: times[times.len() / 2],
+        least_ms: times[0],
+        last,
+    }
 }
