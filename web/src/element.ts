@@ -13,7 +13,7 @@ import { defineProperties } from "./properties.js";
 import { Session } from "./session.js";
 import { Shell } from "./shell.js";
 import { themeOf, watchTheme } from "./theme.js";
-import { watchVisibility } from "./visibility.js";
+import { pageIsCalm, watchVisibility } from "./visibility.js";
 
 export class EpipoleFigure extends HTMLElement {
   static readonly observedAttributes = ["name", "theme"];
@@ -77,6 +77,7 @@ export class EpipoleFigure extends HTMLElement {
     addEventListener("afterprint", after);
     const interest = () => {
       this.#interested = true;
+      this.#begin();
       // At once, so that the very touch that shows interest already takes hold of something.
       this.#session?.flush();
     };
@@ -98,7 +99,7 @@ export class EpipoleFigure extends HTMLElement {
       watchVisibility(this, {
         near: (near) => {
           this.#near = near;
-          if (near && !this.#session && this.#opening === 0) void this.#open(true);
+          if (near) void pageIsCalm().then(() => this.#begin());
         },
         seen: (inSight) => this.#session?.setInSight(inSight),
       }),
@@ -211,6 +212,11 @@ export class EpipoleFigure extends HTMLElement {
   /** Whether the page's address speaks of this figure. */
   #isLinked(): boolean {
     return parametersIn(location.search, this).own.length > 0;
+  }
+
+  /** Opens the figure unless that has been done. */
+  #begin(): void {
+    if (this.#near && !this.#session && this.#opening === 0) void this.#open(true);
   }
 
   async #open(withAddress: boolean): Promise<void> {

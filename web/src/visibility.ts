@@ -29,3 +29,19 @@ export function watchVisibility(element: Element, callbacks: { near: Seen; seen:
     listeners.delete(element);
   };
 }
+
+let calm: Promise<void> | undefined;
+
+/** Resolves when the page has loaded and the browser has a moment: text and pictures come first. */
+export function pageIsCalm(): Promise<void> {
+  calm ??= new Promise((resolve) => {
+    const wait = () => {
+      // Safari has no requestIdleCallback.
+      if ("requestIdleCallback" in window) requestIdleCallback(() => resolve(), { timeout: 1000 });
+      else setTimeout(resolve, 200);
+    };
+    if (document.readyState === "complete") wait();
+    else addEventListener("load", wait, { once: true });
+  });
+  return calm;
+}
