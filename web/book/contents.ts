@@ -1,5 +1,10 @@
 // The table of contents: show where the reader is.
 
+/** Once the browser has laid the page out by itself, so that asking for places costs nothing. */
+function afterFirstFrame(work: () => void): void {
+  requestAnimationFrame(() => setTimeout(work));
+}
+
 /** Scrolls the contents, not the page, to the present chapter. */
 export function revealCurrentChapter(): void {
   const contents = document.getElementById("contents");
@@ -9,7 +14,7 @@ export function revealCurrentChapter(): void {
     const below = current.offsetTop + current.offsetHeight - contents.clientHeight;
     if (below > 0) contents.scrollTop = Math.min(current.offsetTop - 80, below + 80);
   };
-  show();
+  afterFirstFrame(show);
   contents.addEventListener("toggle", show);
   // A link to a section of this page closes the sheet.
   contents.addEventListener("click", (event) => {
@@ -49,5 +54,5 @@ export function followSections(): void {
   };
   addEventListener("scroll", schedule, { passive: true });
   addEventListener("resize", schedule, { passive: true });
-  update();
+  afterFirstFrame(update);
 }

@@ -9,19 +9,24 @@ const NAMES: [string, (box: HTMLElement) => string][] = [
 
 export function makeScrollersReachable(): void {
   const boxes = new Map<Element, string>();
-  const update = (box: Element) => {
-    const element = box as HTMLElement;
-    if (element.scrollWidth > element.clientWidth + 1) {
-      element.tabIndex = 0;
-      element.setAttribute("role", "group");
-      element.setAttribute("aria-label", boxes.get(box) ?? "");
+  const update = (box: Element, scrolls: boolean) => {
+    if (scrolls) {
+      box.setAttribute("tabindex", "0");
+      box.setAttribute("role", "group");
+      box.setAttribute("aria-label", boxes.get(box) ?? "");
     } else {
-      element.removeAttribute("tabindex");
-      element.removeAttribute("role");
-      element.removeAttribute("aria-label");
+      box.removeAttribute("tabindex");
+      box.removeAttribute("role");
+      box.removeAttribute("aria-label");
     }
   };
-  const observer = new ResizeObserver((entries) => entries.forEach((entry) => update(entry.target)));
+  const observer = new ResizeObserver((entries) => {
+    // All are measured before any is changed, so that the page is laid out once.
+    const measured = entries.map(({ target }) => [target, target.scrollWidth > target.clientWidth + 1] as const);
+    for (const [box, scrolls] of measured) {
+      if (scrolls !== box.hasAttribute("tabindex")) update(box, scrolls);
+    }
+  });
   for (const [selector, name] of NAMES) {
     for (const box of document.querySelectorAll<HTMLElement>(`article ${selector}`)) {
       boxes.set(box, name(box));

@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Point2};
 use std::cell::OnceCell;
 
 const COUNT: Slider = Slider {
-    id: "matches",
+    id: "count",
     label: "Number of matches",
     unit: "",
     min: 8.0,

@@ -2,7 +2,7 @@
 //! sizes.
 
 use crate::contract::{
-    Challenge, Control, Event, Knob, Model, Problem, Readout, Settings, Slider, Value,
+    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Value,
     format_number,
 };
 use epipole::robust::num_trials_with_replacement;
@@ -67,8 +67,8 @@ impl RansacBudget {
 impl Model for RansacBudget {
     const NAME: &'static str = "ransac-budget";
     const TITLE: &'static str = "How many samples?";
-    const HELP: &'static str = "Click in the plot where the share of inliers should be, or move its \
-        slider, and change the confidence.";
+    const HELP: &'static str = "Drag the dashed line to a share of inliers, click where it should be, or \
+        move its slider; and change the confidence.";
 
     fn new() -> Self {
         Self {
@@ -80,12 +80,29 @@ impl Model for RansacBudget {
         self.settings.controls()
     }
 
+    fn handles(&self) -> Vec<Handle> {
+        let share = self.share();
+        vec![Handle {
+            id: "share".to_owned(),
+            panel: "plot",
+            label: SHARE.label.to_owned(),
+            value_text: format!("{} % inliers", format_number(100.0 * share, 0)),
+            x: share,
+            y: 0.0,
+            x_range: [SHARE.min, SHARE.max],
+            y_range: [0.0, 0.0],
+            step: [SHARE.step, 0.0],
+            digits: SHARE.digits,
+            removable: false,
+        }]
+    }
+
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
                 self.settings.set(id, value)?;
             }
-            Event::Clicked { x, .. } => {
+            Event::Clicked { x, .. } | Event::HandleMoved { x, .. } => {
                 let inside = x.clamp(SHARE.min, SHARE.max);
                 self.settings.set(SHARE.id, &Value::Number(inside))?;
             }

@@ -60,6 +60,9 @@ impl View for RansacBudgetView {
         let x = plot.canvas_from_world((share, 0.0)).0;
         let marker = Stroke::solid(Role::Grip, 2.0).dashed();
         canvas.line((x, plot.rect.y), (x, plot.rect.bottom()), marker);
+        let grip = plot.canvas_from_world((share, 0.0));
+        canvas.marker(grip, 6.0, Shape::Disk, Role::Grip, true);
+        labels.keep_free(grip, 8.0);
         canvas.clipped(plot.rect.inset(1.0), |canvas| {
             for (index, (size, _)) in SIZES.iter().enumerate() {
                 canvas.polyline(&curve(model, plot, *size), stroke(index));

@@ -7,8 +7,8 @@ use super::answer::{Answer, Match, Request, STILL_LIFE_SIZE};
 use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SLOTS, SOURCE};
 use super::run::{MAX_SAMPLES, Question, Run};
 use crate::contract::{
-    Challenge, Control, Event, Job, JobResult, Model, PhotoSlot, Problem, Progress, Readout,
-    Settings, Slider, Value, format_number,
+    Challenge, Control, Event, Handle, Job, JobResult, Model, PhotoSlot, Problem, Progress,
+    Readout, Settings, Slider, Value, format_number,
 };
 use crate::running::{RESTART, RUN, STEP};
 use crate::words;
@@ -36,7 +36,12 @@ pub struct RansacEpipolar {
     problem: Option<String>,
     running: bool,
     since_sample_s: f64,
+    /// A place in photograph 1 whose epipolar line is drawn, pixels.
+    probe: (f64, f64),
 }
+
+/// Where the probe is at first: on the jug of the still life.
+const PROBE: (f64, f64) = (178.0, 142.0);
 
 impl RansacEpipolar {
     pub(super) fn photographs(&self) -> Option<&[RgbImage; 2]> {
@@ -54,6 +59,13 @@ impl RansacEpipolar {
                 .map_or(STILL_LIFE_SIZE, RgbImage::dimensions)
         };
         [size(&self.own[0]), size(&self.own[1])]
+    }
+
+    /// A place in photograph 1, pixels; photographs of another size may have moved it.
+    pub(super) fn probe(&self) -> (f64, f64) {
+        let [(width, height), _] = self.sizes();
+        let within = |value: f64, size: u32| value.clamp(0.0, f64::from(size - 1));
+        (within(self.probe.0, width), within(self.probe.1, height))
     }
 
     /// The matches that pass the ratio test.
@@ -168,7 +180,8 @@ impl Model for RansacEpipolar {
     const TITLE: &'static str = "Votes for a geometry";
     const HELP: &'static str = "Run or step through the samples: each is seven matches, which give \
         F, for which the other matches vote. Change the threshold, let more wrong matches in with \
-        the ratio test, or choose two photographs of your own.";
+        the ratio test, or choose two photographs of your own. The probe in photograph 1 has its \
+        epipolar line in photograph 2.";
 
     fn new() -> Self {
         let mut model = Self {
@@ -180,6 +193,7 @@ impl Model for RansacEpipolar {
             problem: None,
             running: false,
             since_sample_s: 0.0,
+            probe: PROBE,
         };
         model.ask();
         model
@@ -196,8 +210,31 @@ impl Model for RansacEpipolar {
         controls
     }
 
+    fn handles(&self) -> Vec<Handle> {
+        let (u, v) = self.probe();
+        let [(width, height), _] = self.sizes();
+        vec![Handle {
+            id: "probe".to_owned(),
+            panel: "first",
+            label: "Probe in photograph 1".to_owned(),
+            value_text: format!(
+                "column {}, row {}",
+                format_number(u, 0),
+                format_number(v, 0)
+            ),
+            x: u,
+            y: v,
+            x_range: [0.0, f64::from(width - 1)],
+            y_range: [0.0, f64::from(height - 1)],
+            step: [4.0, 4.0],
+            digits: 0,
+            removable: false,
+        }]
+    }
+
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
+            Event::HandleMoved { x, y, .. } => self.probe = (*x, *y),
             Event::Set { id, value } => {
                 let has_changed = self.settings.set(id, value)? == Some(true);
                 match &**id {

@@ -7,6 +7,7 @@ use crate::legend::{self, Entry, Swatch};
 use crate::pair::{self, TEXT, draw_line};
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
+use nalgebra::Point2;
 
 /// Room to the sides of the legend.
 const MARGIN: f64 = 2.0;
@@ -82,6 +83,7 @@ impl View for RansacEpipolarView {
             show => draw_matches(model, show, panels, canvas),
         }
         draw_sample(model, panels, canvas);
+        draw_probe(model, panels, canvas);
         for (panel, title) in panels.iter().zip(["Photograph 1", "Photograph 2"]) {
             pair::draw_title(canvas, panel.rect, title);
         }
@@ -199,6 +201,33 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
             canvas.circle(place, 5.5, Stroke::solid(Role::Candidate, 2.5).cased());
         }
     }
+}
+
+/// A place in photograph 1, and the line on which the best F expects its match.
+fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
+    if model.photographs().is_none() {
+        return;
+    }
+    let (u, v) = model.probe();
+    let best = model.run().and_then(|run| run.best());
+    let line = best.and_then(|best| epipolar_line2(&best.fundamental, &Point2::new(u, v)).ok());
+    if let Some(line) = line {
+        canvas.clipped(second.rect, |canvas| {
+            draw_line(
+                canvas,
+                second,
+                &line,
+                Stroke::solid(Role::Grip, 2.0).cased(),
+            );
+        });
+    }
+    canvas.marker(
+        first.canvas_from_world((u, v)),
+        6.0,
+        Shape::Ring,
+        Role::Grip,
+        true,
+    );
 }
 
 /// A word on where the loop stands.
