@@ -81,7 +81,7 @@ test("keys and mouse add what a click adds", async ({ page, open }) => {
   for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "ArrowUp", "ArrowUp"]) await page.keyboard.press(key);
   await page.keyboard.press("Enter");
   await expect.poll(async () => (await heard(figure)).length).toBeGreaterThan(0);
-  await figure.getByRole("button", { name: "Reset" }).click();
+  await figure.getByRole("button", { name: "Reset", exact: true }).click();
   expect((await told(figure)).state).toEqual({});
 
   // The same place by mouse; and the new point can be dragged on at once.

@@ -137,7 +137,7 @@ test("a panic stops one figure, Reset starts it again, and the other goes on", a
   await page.keyboard.press("ArrowRight");
   expect((await told(second)).state).not.toEqual({});
 
-  await first.getByRole("button", { name: "Reset" }).click();
+  await first.getByRole("button", { name: "Reset", exact: true }).click();
   await expect(first.locator(".notice")).toBeHidden();
   await expect.poll(() => told(first)).toEqual(start);
   await slider.focus();

@@ -163,7 +163,7 @@ for (const { name, title, help } of figures) {
       await grip.focus();
       await page.keyboard.press("ArrowLeft");
       expect(await told(figure)).not.toEqual(before);
-      await figure.getByRole("button", { name: "Reset" }).click();
+      await figure.getByRole("button", { name: "Reset", exact: true }).click();
       await expect.poll(() => told(figure)).toEqual(before);
     });
 
