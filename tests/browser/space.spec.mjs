@@ -158,7 +158,7 @@ test("one's own photographs bring their focal length, or it is guessed", async (
   const jpeg = Buffer.from(url.split(",")[1], "base64");
   const put = (index, buffer) =>
     figure
-      .locator("input[type=file]")
+      .locator("input[type=file]:not([capture])")
       .nth(index)
       .setInputFiles({ name: "desk.jpg", mimeType: "image/jpeg", buffer });
   const words = async () => (await told(figure)).readouts.lens;
