@@ -2,7 +2,7 @@
 //! sizes.
 
 use crate::contract::{
-    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Value,
+    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider,
     format_number,
 };
 use epipole::robust::num_trials_with_replacement;
@@ -16,17 +16,10 @@ pub(super) const SIZES: [(usize, &str); 5] = [
     (8, "F from eight"),
 ];
 
-pub(super) const SHARE: Slider = Slider {
-    id: "w",
-    label: "Share of inliers w",
-    unit: "",
-    min: 0.1,
-    max: 0.99,
-    step: 0.01,
-    default: 0.5,
-    digits: 2,
-    visible: true,
-};
+/// Smallest and largest share of inliers, and the one at first.
+pub(super) const SHARES: [f64; 2] = [0.1, 0.99];
+const SHARE: f64 = 0.5;
+
 const CONFIDENCE: Slider = Slider {
     id: "p",
     label: "Confidence p",
@@ -38,16 +31,17 @@ const CONFIDENCE: Slider = Slider {
     digits: 3,
     visible: true,
 };
-const KNOBS: &[Knob] = &[Knob::Slider(&SHARE), Knob::Slider(&CONFIDENCE)];
+const KNOBS: &[Knob] = &[Knob::Slider(&CONFIDENCE)];
 
 /// The model of `ransac-budget`.
 pub struct RansacBudget {
     settings: Settings,
+    share: f64,
 }
 
 impl RansacBudget {
     pub(super) fn share(&self) -> f64 {
-        self.settings.number(&SHARE)
+        self.share
     }
 
     fn confidence(&self) -> f64 {
@@ -67,12 +61,13 @@ impl RansacBudget {
 impl Model for RansacBudget {
     const NAME: &'static str = "ransac-budget";
     const TITLE: &'static str = "How many samples?";
-    const HELP: &'static str = "Drag the dashed line to a share of inliers, click where it should be, or \
-        move its slider; and change the confidence.";
+    const HELP: &'static str = "Drag the dashed line to a share of inliers, or click where it should be, \
+        and change the confidence.";
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
+            share: SHARE,
         }
     }
 
@@ -85,14 +80,14 @@ impl Model for RansacBudget {
         vec![Handle {
             id: "share".to_owned(),
             panel: "plot",
-            label: SHARE.label.to_owned(),
+            label: "Share of inliers w".to_owned(),
             value_text: format!("{} % inliers", format_number(100.0 * share, 0)),
             x: share,
             y: 0.0,
-            x_range: [SHARE.min, SHARE.max],
+            x_range: SHARES,
             y_range: [0.0, 0.0],
-            step: [SHARE.step, 0.0],
-            digits: SHARE.digits,
+            step: [0.01, 0.0],
+            digits: 2,
             removable: false,
         }]
     }
@@ -103,8 +98,10 @@ impl Model for RansacBudget {
                 self.settings.set(id, value)?;
             }
             Event::Clicked { x, .. } | Event::HandleMoved { x, .. } => {
-                let inside = x.clamp(SHARE.min, SHARE.max);
-                self.settings.set(SHARE.id, &Value::Number(inside))?;
+                let handles = self.handles();
+                if let Some((share, _)) = handles[0].admit(*x, 0.0) {
+                    self.share = share;
+                }
             }
             _ => {}
         }
@@ -148,23 +145,24 @@ impl Model for RansacBudget {
                 goal: "Find the share of inliers from which on fewer than 20 samples of 8 will do.",
                 hint: "Go to the right.",
                 check: |model| model.now(8) < 20,
-                solution: || vec![set(&SHARE, 0.9)],
+                solution: || vec![moved(0.9)],
             },
             Challenge {
                 id: "dear",
                 goal: "Make samples of 8 a thousand times as dear as samples of 2.",
                 hint: "How do the curves run apart?",
                 check: |model| model.now(8) >= 1000 * model.now(2),
-                solution: || vec![set(&SHARE, 0.25)],
+                solution: || vec![moved(0.25)],
             },
         ]
     }
 }
 
-fn set(slider: &Slider, value: f64) -> Event {
-    Event::Set {
-        id: slider.id.to_owned(),
-        value: Value::Number(value),
+fn moved(share: f64) -> Event {
+    Event::HandleMoved {
+        id: "share".to_owned(),
+        x: share,
+        y: 0.0,
     }
 }
 

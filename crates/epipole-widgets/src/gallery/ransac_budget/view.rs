@@ -1,7 +1,7 @@
 //! The curves of the sample sizes over the share of inliers, the number of samples on a logarithmic
 //! scale.
 
-use super::model::{RansacBudget, SHARE, SIZES};
+use super::model::{RansacBudget, SHARES, SIZES};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View};
 use crate::labels::Labels;
@@ -109,7 +109,7 @@ fn stroke(index: usize) -> Stroke {
 
 fn curve(model: &RansacBudget, plot: &Panel, size: usize) -> Vec<Place> {
     let steps = 0..=890;
-    let shares = steps.map(|step| SHARE.min + 0.001 * f64::from(step));
+    let shares = steps.map(|step| SHARES[0] + 0.001 * f64::from(step));
     let places = shares.filter_map(|share| {
         let trials = model.trials(size, share)?;
         Some(plot.canvas_from_world((share, libm::log10(trials as f64))))

@@ -12,7 +12,9 @@ use crate::contract::{
 };
 use crate::running::{RESTART, RUN, STEP};
 use crate::words;
+use epipole::epipolar::epipolar_line2;
 use image::RgbImage;
+use nalgebra::Point2;
 
 /// Smaller photographs have no features to speak of.
 const MIN_SIDE_PX: u32 = 32;
@@ -376,6 +378,14 @@ impl Model for RansacEpipolar {
             ));
         }
         if let Some(best) = run.best() {
+            let (u, v) = self.probe();
+            if let Ok(line) = epipolar_line2(&best.fundamental, &Point2::new(u, v)) {
+                readouts.push(Readout::words(
+                    "line",
+                    "Line of the probe",
+                    words::line(&line),
+                ));
+            }
             let f = words::matrix(&best.fundamental);
             readouts.push(Readout::words("f", "F refitted to the inliers, by rows", f));
         }
