@@ -9,7 +9,7 @@ const { Figure } = await loadBindings();
 const LOOKS = [
   { width: 760, scale: 1, theme: "light", seed: 1 },
   { width: 360, scale: 2, theme: "dark", seed: 2 },
-  { width: 511, scale: 1.5, theme: "high-contrast", seed: 3, rounds: 2 },
+  { width: 511, scale: 1.5, theme: "high-contrast", seed: 3, rounds: 4 },
 ];
 
 test.describe.configure({ timeout: 600_000 });
