@@ -43,3 +43,20 @@ pub struct PhotoSlot {
     /// The largest width or height that is useful here; a page scales larger ones down and says so.
     pub max_side_px: u32,
 }
+
+/// Refuses a photograph for a slot of which a side is shorter than `min_side_px`.
+pub(crate) fn refuse_small(
+    slot: &str,
+    photo: &image::RgbImage,
+    min_side_px: u32,
+) -> Result<(), Problem> {
+    let (width, height) = photo.dimensions();
+    if width.min(height) >= min_side_px {
+        return Ok(());
+    }
+    Err(Problem::BadValue {
+        name: slot.to_owned(),
+        value: format!("{width} × {height} pixels"),
+        expected: format!("photographs of at least {min_side_px} pixels on each side"),
+    })
+}

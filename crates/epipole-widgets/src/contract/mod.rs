@@ -19,6 +19,7 @@ pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Slider, Toggle};
 pub use event::{Event, Value};
 pub use handle::Handle;
+pub(crate) use job::refuse_small;
 pub use job::{Job, JobResult, PhotoSlot, Progress};
 pub use layout::{Axis, Layout, Panel, Rect};
 pub use model::Model;

@@ -3,7 +3,7 @@
 use super::answer::{Answer, Request, STILL_LIFE_SIZE, Source};
 use crate::contract::{
     Challenge, Choice, Control, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot, Problem,
-    Progress, Readout, Settings, Slider, Value, format_number,
+    Progress, Readout, Settings, Slider, Value, format_number, refuse_small,
 };
 use crate::scenes::SQUARE_SIZE;
 use epipole::feature::WindowTensor;
@@ -300,14 +300,7 @@ impl Model for Harris {
     }
 
     fn take_photo(&mut self, _: &str, photo: RgbImage) -> Result<(), Problem> {
-        let (width, height) = photo.dimensions();
-        if width < MIN_SIDE_PX || height < MIN_SIDE_PX {
-            return Err(Problem::BadValue {
-                name: "photo".to_owned(),
-                value: format!("{width} × {height} pixels"),
-                expected: format!("photographs of at least {MIN_SIDE_PX} pixels on each side"),
-            });
-        }
+        refuse_small("photo", &photo, MIN_SIDE_PX)?;
         self.own = Some(photo);
         self.answer = None;
         self.settings

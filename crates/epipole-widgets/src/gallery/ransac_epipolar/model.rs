@@ -8,7 +8,7 @@ use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SL
 use super::run::{MAX_SAMPLES, Question, Run};
 use crate::contract::{
     Challenge, Control, Event, Handle, Job, JobResult, Model, PhotoSlot, Problem, Progress,
-    Readout, Settings, Slider, Value, format_number,
+    Readout, Settings, Slider, Value, format_number, refuse_small,
 };
 use crate::running::{RESTART, RUN, STEP};
 use crate::words;
@@ -311,14 +311,7 @@ impl Model for RansacEpipolar {
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
-        let (width, height) = photo.dimensions();
-        if width < MIN_SIDE_PX || height < MIN_SIDE_PX {
-            return Err(Problem::BadValue {
-                name: slot.to_owned(),
-                value: format!("{width} × {height} pixels"),
-                expected: format!("photographs of at least {MIN_SIDE_PX} pixels on each side"),
-            });
-        }
+        refuse_small(slot, &photo, MIN_SIDE_PX)?;
         let index = usize::from(slot != SLOTS[0].id);
         self.own[index] = Some(photo);
         self.settings

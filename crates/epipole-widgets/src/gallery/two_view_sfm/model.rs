@@ -6,6 +6,7 @@ use super::words;
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, ControlKind, Event, Handle, Job, JobResult,
     Knob, Model, PhotoSlot, Problem, Progress, Readout, Settings, Slider, Space, Value,
+    refuse_small,
 };
 use crate::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use image::RgbImage;
@@ -323,14 +324,7 @@ impl Model for TwoViewSfm {
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
-        let (width, height) = photo.dimensions();
-        if width < MIN_SIDE_PX || height < MIN_SIDE_PX {
-            return Err(Problem::BadValue {
-                name: slot.to_owned(),
-                value: format!("{width} × {height} pixels"),
-                expected: format!("photographs of at least {MIN_SIDE_PX} pixels on each side"),
-            });
-        }
+        refuse_small(slot, &photo, MIN_SIDE_PX)?;
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
             self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
