@@ -1,8 +1,8 @@
 // Makes the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
 //
-// DIR of --bindings holds epipole_web.js and epipole_web_bg.wasm, as wasm-bindgen makes them for the
-// web. Out come index.js, worker.js, the module beside them, and the types. (The book bundles the same sources
-// itself, with names made of their content.)
+// DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
+// makes them for the web. Out come index.js, worker.js, the modules beside them, and the types. (The
+// book bundles the same sources itself, with names made of their content.)
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -20,8 +20,12 @@ const { values } = parseArgs({
 });
 
 const [bindings, out] = [resolve(values.bindings), resolve(values.out)];
-const [glue, wasm] = [join(bindings, "epipole_web.js"), join(bindings, "epipole_web_bg.wasm")];
-for (const path of [glue, wasm]) {
+const parts = ["figures", "jobs"].map((name) => ({
+  name,
+  glue: join(bindings, `epipole_${name}.js`),
+  wasm: join(bindings, `epipole_${name}_bg.wasm`),
+}));
+for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
   if (!existsSync(path)) {
     console.error(`${path} is missing: \`make build\` makes it`);
     process.exit(1);
@@ -29,7 +33,7 @@ for (const path of [glue, wasm]) {
 }
 
 mkdirSync(out, { recursive: true });
-copyFileSync(wasm, join(out, "epipole.wasm"));
+for (const { name, wasm } of parts) copyFileSync(wasm, join(out, `epipole-${name}.wasm`));
 await build({
   entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
   outdir: out,
@@ -37,8 +41,12 @@ await build({
   format: "esm",
   target: "es2022",
   minify: true,
-  alias: { "epipole-web": glue },
-  define: { EPIPOLE_WASM: '"epipole.wasm"', EPIPOLE_WORKER: '"worker.js"' },
+  alias: { "epipole-web": parts[0].glue, "epipole-jobs": parts[1].glue },
+  define: {
+    EPIPOLE_WASM: '"epipole-figures.wasm"',
+    EPIPOLE_JOBS_WASM: '"epipole-jobs.wasm"',
+    EPIPOLE_WORKER: '"worker.js"',
+  },
   logLevel: "warning",
 });
 execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "types")], {

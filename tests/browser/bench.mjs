@@ -8,8 +8,8 @@ import { join } from "node:path";
 import { brotliCompressSync, constants } from "node:zlib";
 import { launchOptions } from "./chromium.mjs";
 import { figurePage } from "./pages.mjs";
-import { bindings, code, elements, here, loadBindings, root, wasm } from "./places.mjs";
-import { playInPage, playNatively } from "./scripts.mjs";
+import { bindings, code, elements, here, jobsWasm, loadBindings, root, wasm } from "./places.mjs";
+import { modulesAt, playInPage, playNatively } from "./scripts.mjs";
 import { serve } from "./server.mjs";
 
 const MOVES = 200;
@@ -66,6 +66,7 @@ for (const { name } of figures) {
     return [kb(bytes.length), `${kb(brotliCompressSync(bytes, { params }).length)} brotli`];
   };
   rows.push([`WebAssembly, ${figures.length} figures`, ...compress(wasm)]);
+  rows.push(["WebAssembly, their long computations", ...compress(jobsWasm)]);
   rows.push(["elements, script", ...compress(code)]);
 }
 
@@ -87,8 +88,7 @@ for (const { name } of figures) {
   const page = await browser.newPage();
   await page.goto(`${server.origin}/figures`);
   const there = await page.evaluate(playInPage, {
-    module: `${server.origin}/bindings/epipole_web.js`,
-    path: `${server.origin}/elements/${wasm}`,
+    ...modulesAt(server.origin),
     scripts,
     timed: true,
   });

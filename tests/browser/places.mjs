@@ -17,15 +17,17 @@ export const book = process.env.EPIPOLE_ELEMENTS ? undefined : join(target, "boo
 export const elements = process.env.EPIPOLE_ELEMENTS ?? join(target, "book");
 export const script = book ? "embed/epipole.js" : "index.js";
 
-/** The generated bindings, epipole_web.js. */
+/** The generated bindings, epipole_figures.js and epipole_jobs.js. */
 export const bindings = process.env.EPIPOLE_BINDINGS ?? join(target, "book-work/bindgen");
 
-for (const path of [join(elements, script), join(bindings, "epipole_web.js")]) {
+const glue = (name) => join(bindings, `epipole_${name}.js`);
+for (const path of [join(elements, script), glue("figures"), glue("jobs")]) {
   if (!existsSync(path)) throw new Error(`${path} is missing: run \`make build\` first`);
 }
 
-/** The WebAssembly module that readers download, under `elements`. */
-export const wasm = find(elements, book ? "assets" : "", /^epipole.*\.wasm$/);
+/** The WebAssembly modules that readers download, under `elements`: for the page, for workers. */
+export const wasm = find(elements, book ? "assets" : "", /^epipole-figures.*\.wasm$/);
+export const jobsWasm = find(elements, book ? "assets" : "", /^epipole-jobs.*\.wasm$/);
 
 /** The script with the elements themselves, under `elements`. */
 export const code = book ? find(elements, "assets", /^index-.*\.js$/) : script;
@@ -36,11 +38,16 @@ function find(folder, under, pattern) {
   return under ? `${under}/${name}` : name;
 }
 
-/** The bindings, loaded into this process. */
+/** The bindings of both modules, loaded into this process. */
 export async function loadBindings() {
+  const [page, worker] = await Promise.all([load("figures", wasm), load("jobs", jobsWasm)]);
+  return { ...page, compute: worker.compute };
+}
+
+async function load(name, wasm) {
   // By its text: Node takes a file of that name for an older kind of script.
-  const glue = readFileSync(join(bindings, "epipole_web.js"));
-  const module = await import(`data:text/javascript;base64,${glue.toString("base64")}`);
+  const text = readFileSync(glue(name));
+  const module = await import(`data:text/javascript;base64,${text.toString("base64")}`);
   await module.default({ module_or_path: readFileSync(join(elements, wasm)) });
   return module;
 }

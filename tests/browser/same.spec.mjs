@@ -1,8 +1,8 @@
 // The same calls give the same answers and the same pixels natively and in WebAssembly.
 
 import { expect, figures, test } from "./fixtures.mjs";
-import { loadBindings, wasm } from "./places.mjs";
-import { playInPage, playNatively, write } from "./scripts.mjs";
+import { loadBindings } from "./places.mjs";
+import { modulesAt, playInPage, playNatively, write } from "./scripts.mjs";
 
 const { Figure } = await loadBindings();
 
@@ -19,8 +19,7 @@ for (const { name } of figures) {
     const scripts = LOOKS.map((look) => write(Figure, name, look));
     const native = playNatively(scripts);
     await page.goto(`${site}/figures`);
-    const [module, path] = [`${site}/bindings/epipole_web.js`, `${site}/elements/${wasm}`];
-    const browser = await page.evaluate(playInPage, { module, path, scripts });
+    const browser = await page.evaluate(playInPage, { ...modulesAt(site), scripts });
     for (const [index, script] of scripts.entries()) {
       for (const [step, words] of script.calls.entries()) {
         const where = `script ${index}, call ${step}: ${words.join(" ")}`;

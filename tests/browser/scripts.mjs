@@ -2,7 +2,7 @@
 // plays the same natively.
 
 import { execFileSync } from "node:child_process";
-import { root } from "./places.mjs";
+import { jobsWasm, root, wasm } from "./places.mjs";
 
 /** A script that touches every control and handle of a figure, with a frame now and then. */
 export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
@@ -61,15 +61,42 @@ export function playNatively(scripts, ...flags) {
   return JSON.parse(output.toString());
 }
 
+/** Where a page finds the modules, as `playInPage` wants it. */
+export function modulesAt(site) {
+  const at = (name, path) => [`${site}/bindings/epipole_${name}.js`, `${site}/elements/${path}`];
+  return { page: at("figures", wasm), worker: at("jobs", jobsWasm) };
+}
+
 /** To be evaluated in a page: what the figures answer there. */
-export async function playInPage({ module, path, scripts, timed = false }) {
-  const { default: load, Figure } = await import(module);
-  await load({ module_or_path: path });
+export async function playInPage({ page, worker, scripts, timed = false }) {
+  const open = async ([glue, path]) => {
+    const module = await import(glue);
+    await module.default({ module_or_path: path });
+    return module;
+  };
+  const [{ Figure }, { compute }] = [await open(page), await open(worker)];
   return scripts.map((script) => {
     const figure = new Figure(script.figure);
     const frame = [script.width, script.scale, script.theme];
-    const call = ([method, ...args]) =>
-      figure[method](...(method.startsWith("draw") ? frame : args)) ?? "";
+    const settle = () => {
+      for (let stage = 0; stage < 16; stage += 1) {
+        const key = figure.job_key();
+        if (key === undefined) return;
+        try {
+          const result = compute(script.figure, figure.job_request(), { progress: () => {} });
+          figure.job_done(key, result);
+        } catch (problem) {
+          figure.job_failed(key, problem);
+        }
+      }
+    };
+    const call = ([method, ...args]) => {
+      if (method === "draw_settled") {
+        settle();
+        return figure.draw_sharp(...frame) ?? "";
+      }
+      return figure[method](...(method === "draw" ? frame : args)) ?? "";
+    };
     if (timed) {
       const start = performance.now();
       for (const words of script.calls) call(words);

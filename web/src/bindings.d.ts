@@ -1,4 +1,4 @@
-/** The bindings that wasm-bindgen generates from `crates/epipole-web`. */
+/** The bindings that wasm-bindgen generates from `crates/epipole-web`, for pages. */
 declare module "epipole-web" {
   export class Figure {
     constructor(name: string);
@@ -28,17 +28,12 @@ declare module "epipole-web" {
     job_failed(key: string, sentence: string): boolean;
     refine(): boolean;
     draw(width: number, scale: number, theme: string): string | undefined;
-    draw_settled(width: number, scale: number, theme: string): string | undefined;
+    draw_sharp(width: number, scale: number, theme: string): string | undefined;
     pixels(): number;
     pixel_width(): number;
     pixel_height(): number;
     frame_hash(): string | undefined;
   }
-  export function compute(
-    name: string,
-    request: Uint8Array,
-    listener: { progress: (share: number) => void },
-  ): Uint8Array;
   export function figures(): string;
   export function take_panic(): string | undefined;
   export default function load(options: {
@@ -46,8 +41,22 @@ declare module "epipole-web" {
   }): Promise<{ memory: WebAssembly.Memory }>;
 }
 
-/** Where the WebAssembly module is, relative to the script; the bundler puts it in. */
+/** The bindings for workers. */
+declare module "epipole-jobs" {
+  export function compute(
+    name: string,
+    request: Uint8Array,
+    listener: { progress: (share: number) => void },
+  ): Uint8Array;
+  export function take_panic(): string | undefined;
+  export default function load(options: { module_or_path: URL }): Promise<unknown>;
+}
+
+/** Where the WebAssembly module of a page is, relative to the script; the bundler puts it in. */
 declare const EPIPOLE_WASM: string;
+
+/** Where the WebAssembly module of a worker is, likewise. */
+declare const EPIPOLE_JOBS_WASM: string;
 
 /** Where the worker's script is, likewise. */
 declare const EPIPOLE_WORKER: string;

@@ -1,6 +1,5 @@
 /** The long computations of one figure: in a worker, one after the other, only the newest wanted. */
 
-import { compute } from "epipole-web";
 import { make, setText } from "./dom.js";
 
 /** What a worker is asked. */
@@ -115,13 +114,13 @@ export class Jobs {
   #here(request: Request): void {
     this.#running = { key: request.key, since: performance.now() };
     this.#show(true);
+    const { key } = request;
     setTimeout(() => {
-      const key = request.key;
-      try {
-        this.#hear({ key, result: compute(request.name, request.request, { progress: () => {} }) });
-      } catch (problem) {
-        this.#hear({ key, problem: String(problem) });
-      }
+      const script: Promise<typeof import("./worker.js")> = import(workerUrl().href);
+      script.then(
+        ({ carryOut }) => carryOut(request, (answer) => this.#hear(answer)),
+        (problem: unknown) => this.#hear({ key, problem: String(problem) }),
+      );
     }, 50);
   }
 
@@ -167,9 +166,13 @@ export class Jobs {
   }
 }
 
+function workerUrl(): URL {
+  return new URL(EPIPOLE_WORKER, import.meta.url);
+}
+
 /** A worker may only be started from the page's own origin; from elsewhere it takes one hop. */
 function hire(): Worker {
-  const url = new URL(EPIPOLE_WORKER, import.meta.url);
+  const url = workerUrl();
   if (url.origin === location.origin) return new Worker(url, { type: "module" });
   const hop = new Blob([`import ${JSON.stringify(url.href)};`], { type: "text/javascript" });
   return new Worker(URL.createObjectURL(hop), { type: "module" });

@@ -137,11 +137,11 @@ export class Engine {
     width: number,
     scale: number,
     theme: string,
-    settled = false,
+    sharp = false,
   ): string | undefined {
     const figure = this.#figure;
-    const refused = settled
-      ? figure.draw_settled(width, scale, theme)
+    const refused = sharp
+      ? figure.draw_sharp(width, scale, theme)
       : figure.draw(width, scale, theme);
     if (refused !== undefined) return refused;
     const [columns, rows] = [figure.pixel_width(), figure.pixel_height()];

@@ -53,6 +53,8 @@ export class Picture {
   readonly #grips = new Map<string, HTMLElement>();
   readonly #crosshairs = new Map<string, { element: HTMLElement; share: Place }>();
   #snapshot: Snapshot | undefined;
+  /** Sizes of spaces that the snapshot does not know yet: keys may come faster than frames. */
+  readonly #sizes = new Map<string, number>();
   #listed = "";
   #chosen = "";
   #dragging: { pointer: number; id: string; offset: Place } | undefined;
@@ -80,6 +82,7 @@ export class Picture {
   /** Puts the handles where the figure has them. */
   update(snapshot: Snapshot): void {
     this.#snapshot = snapshot;
+    this.#sizes.clear();
     setAttribute(this.canvas, "aria-label", snapshot.description);
     this.#refresh();
   }
@@ -283,15 +286,19 @@ export class Picture {
 
   #zoomTo(space: Space, value: number): void {
     const slider = this.#zoomOf(space);
-    if (slider) this.#hand.set(space.zoom, Math.min(Math.max(value, slider.min), slider.max));
+    if (!slider) return;
+    const size = Math.min(Math.max(value, slider.min), slider.max);
+    this.#sizes.set(space.zoom, size);
+    this.#hand.set(space.zoom, size);
   }
 
   /** Enlarges a space, by one step of its slider at least. */
   #zoomBy(space: Space, factor: number): void {
     const slider = this.#zoomOf(space);
     if (!slider || factor === 1) return;
-    const step = Math.max(Math.abs(slider.value * (factor - 1)), slider.step);
-    this.#zoomTo(space, slider.value + (factor > 1 ? step : -step));
+    const size = this.#sizes.get(space.zoom) ?? slider.value;
+    const step = Math.max(Math.abs(size * (factor - 1)), slider.step);
+    this.#zoomTo(space, size + (factor > 1 ? step : -step));
   }
 
   #spaceAt([x, y]: Place): Space | undefined {

@@ -1,33 +1,46 @@
 /** Long computations, away from the page: one request at a time, one answer each. */
 
-import load, { compute, take_panic } from "epipole-web";
+import load, { compute, take_panic } from "epipole-jobs";
 import type { Answer, Request } from "./jobs.js";
 
-const loading = load({ module_or_path: new URL(EPIPOLE_WASM, import.meta.url) });
+let loading: Promise<unknown> | undefined;
 
 /** How often progress is told, milliseconds. */
 const TELL_MS = 50;
 
-function answer(message: Answer, transfer: Transferable[] = []): void {
-  postMessage(message, { transfer });
-}
-
-addEventListener("message", (event: MessageEvent<Request>) => void work(event.data));
-
-async function work({ name, key, request }: Request): Promise<void> {
+/** Carries out a request. A page calls this itself only where it may have no workers. */
+export async function carryOut(
+  { name, key, request }: Request,
+  tell: (answer: Answer, transfer?: Transferable[]) => void,
+): Promise<void> {
   let told = 0;
   const progress = (share: number) => {
     const now = performance.now();
     if (now - told < TELL_MS) return;
     told = now;
-    answer({ key, share });
+    tell({ key, share });
   };
   try {
+    loading ??= load({ module_or_path: new URL(EPIPOLE_JOBS_WASM, import.meta.url) });
     await loading;
+  } catch (problem) {
+    // The next request may have more luck.
+    loading = undefined;
+    tell({ key, problem: `the code for this computation could not be loaded (${String(problem)})` });
+    return;
+  }
+  try {
     const result = compute(name, request, { progress });
-    answer({ key, result }, [result.buffer as ArrayBuffer]);
+    tell({ key, result }, [result.buffer as ArrayBuffer]);
   } catch (problem) {
     const sentence = typeof problem === "string" ? problem : take_panic() ?? String(problem);
-    answer({ key, problem: sentence });
+    tell({ key, problem: sentence });
   }
+}
+
+// In a worker there is no document.
+if (typeof document === "undefined") {
+  addEventListener("message", ({ data }: MessageEvent<Request>) => {
+    void carryOut(data, (answer, transfer = []) => postMessage(answer, { transfer }));
+  });
 }

@@ -113,8 +113,8 @@ pub fn make(options: &Options, letters: &Letters) -> Result<Assets> {
         .join("crates/epipole-web/Cargo.toml")
         .is_file()
     {
-        let module = wasm::make(&tools, options.live)?;
-        scripts::add_elements(&tools, &module, options.live, &mut assets)?;
+        let modules = wasm::make(&tools, options.live)?;
+        scripts::add_elements(&tools, &modules, options.live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);

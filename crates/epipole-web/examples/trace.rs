@@ -1,16 +1,18 @@
 //! Plays scripts of calls on the native side of the bridge and prints what the figures answer.
 //!
 //! Standard input: JSON `[{"figure", "width", "scale", "theme", "calls": [[method, argument, …]]}]`
-//! with the methods of [`Figure`]; `["draw_settled"]` takes its arguments from the script. Standard
-//! output: JSON, for each script what [`answer`] says after each call. A browser plays the same
+//! with the methods of [`Figure`]; `["draw_settled"]` carries out what the figure waits for and draws
+//! it sharp, with the size and theme of the script. Standard output: JSON, for each script what [`answer`] says after each call. A browser plays the same
 //! scripts through WebAssembly and must answer the same.
 //!
 //! With `--time` it plays them without asking for answers, and prints the milliseconds of each.
 
 use epipole_web::Figure;
+use epipole_widgets::gallery;
 use serde::Deserialize;
 use serde_json::Value;
 use std::io::Read;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 #[derive(Deserialize)]
@@ -98,7 +100,23 @@ fn call(figure: &mut Figure, script: &Script, words: &[Value]) -> Result<Option<
         "move_to_end" => figure.move_to_end(&text(1)?, width, &text(3)?),
         "click" => figure.click(width, number(2)?, number(3)?),
         "draw" => figure.draw(width, script.scale, &script.theme),
-        "draw_settled" => figure.draw_settled(width, script.scale, &script.theme),
+        "draw_settled" => {
+            settle(figure, &script.figure);
+            figure.draw_sharp(width, script.scale, &script.theme)
+        }
         other => return Err(format!("there is no method {other}")),
     })
+}
+
+/// Carries out what the figure waits for, as its worker would.
+fn settle(figure: &mut Figure, name: &str) {
+    // A figure may go through several stages, but not through endlessly many.
+    for _ in 0..16 {
+        let Some(key) = figure.job_key() else { return };
+        let go_on = &mut |_| ControlFlow::Continue(());
+        match gallery::compute(name, &figure.job_request(), go_on) {
+            Ok(result) => figure.job_done(&key, result),
+            Err(problem) => figure.job_failed(&key, problem.to_string()),
+        };
+    }
 }

@@ -211,7 +211,7 @@ impl Figure {
         self.figure.job().map(|job| format!("{:016x}", job.key()))
     }
 
-    /// What that computation needs: the second argument of [`compute`].
+    /// What that computation needs: the second argument of `compute`.
     pub fn job_request(&self) -> Vec<u8> {
         self.figure.job().map_or_else(Vec::new, |job| job.request)
     }
@@ -238,10 +238,11 @@ impl Figure {
         self.keep(drawn.map_err(|problem| problem.to_string()))
     }
 
-    /// Draws a frame at full quality, however long it takes.
-    pub fn draw_settled(&mut self, width: f64, scale: f64, theme: &str) -> Option<String> {
+    /// Draws a frame at full quality, however long it takes. A computation that the figure waits
+    /// for is not done.
+    pub fn draw_sharp(&mut self, width: f64, scale: f64, theme: &str) -> Option<String> {
         let theme = theme.parse().unwrap_or(Theme::Light);
-        let drawn = self.figure.draw_settled(width, scale, theme);
+        let drawn = self.figure.draw_sharp(width, scale, theme);
         let drawn = drawn.map(|picture| Frame {
             hash: Some(picture.hash()),
             ..Frame::of(picture)
@@ -373,7 +374,7 @@ mod tests {
     #[test]
     fn a_frame_has_the_pixels_of_its_size_and_a_size_without_pixels_has_none() {
         let mut figure = race();
-        assert_eq!(figure.draw_settled(300.0, 2.0, "dark"), None);
+        assert_eq!(figure.draw_sharp(300.0, 2.0, "dark"), None);
         assert_eq!(figure.pixel_width(), 600);
         assert!(figure.pixel_height() > 100 && !figure.pixels().is_null());
         assert_eq!(figure.frame_hash().unwrap().len(), 16);

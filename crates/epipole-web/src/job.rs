@@ -1,6 +1,6 @@
 //! Long computations, for a worker that knows no figure.
 
-use epipole_widgets::Figure;
+use epipole_widgets::gallery;
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -24,5 +24,5 @@ pub fn compute(name: &str, request: &[u8], listener: &Listener) -> Result<Vec<u8
         listener.progress(share);
         ControlFlow::Continue(())
     };
-    Figure::compute(name, request, &mut report).map_err(|problem| problem.to_string())
+    gallery::compute(name, request, &mut report).map_err(|problem| problem.to_string())
 }

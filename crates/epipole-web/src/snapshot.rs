@@ -3,6 +3,8 @@
 use epipole_widgets::contract::{Control, Handle, Layout, PhotoSlot, Problem, Readout, Space};
 use epipole_widgets::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
+use serde_json::ser::Formatter;
+use std::io::{self, Write};
 
 /// A figure's present state, laid out for a width of the page.
 #[derive(Serialize)]
@@ -77,6 +79,20 @@ impl Refused {
 
 /// JSON of plain data of this crate.
 pub(crate) fn json<T: Serialize>(value: &T) -> String {
+    let mut text = Vec::with_capacity(4096);
+    let mut serializer = serde_json::Serializer::with_formatter(&mut text, Plain);
     // Only a map with keys that are no strings, or a failing `Serialize`, could fail; there is none.
-    serde_json::to_string(value).unwrap_or_default()
+    let written = value.serialize(&mut serializer);
+    debug_assert!(written.is_ok());
+    String::from_utf8(text).unwrap_or_default()
+}
+
+/// Numbers as the rest of the module writes them: a second printer of floating-point numbers, with
+/// its tables, would be a good part of the module.
+struct Plain;
+
+impl Formatter for Plain {
+    fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        write!(writer, "{value}")
+    }
 }

@@ -25,7 +25,7 @@ fill "$here/mod.rs" "$gallery/$module/mod.rs"
 fill "$here/model.rs" "$gallery/$module/model.rs"
 fill "$here/view.rs" "$gallery/$module/view.rs"
 list=$here/../src/gallery.rs
-awk -v line="pub mod $module;" -v entry="    entry::<$module::View>()," '
+awk -v line="pub mod $module;" -v entry="    $module::View," '
     /^(pub )?mod / && !done { last = 1 }
     last && !/^(pub )?mod / { print line; last = 0; done = 1 }
     /^\];/ { print entry }

@@ -5,8 +5,8 @@
 
 use crate::canvas::{Canvas, Picture};
 use crate::contract::{
-    Control, ControlKind, Event, Handle, Job, JobResult, Layout, PhotoSlot, Problem, Progress,
-    Readout, Space, Value,
+    Control, ControlKind, Event, Handle, Job, JobResult, Layout, PhotoSlot, Problem, Readout,
+    Space, Value,
 };
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
@@ -122,14 +122,6 @@ impl Figure {
         self.stage.job()
     }
 
-    /// Carries out a job of the figure `name`; needs no figure, so a worker can do it.
-    ///
-    /// # Errors
-    /// [`Problem::UnknownFigure`], or a sentence about the data.
-    pub fn compute(name: &str, request: &[u8], progress: Progress<'_>) -> JobResult {
-        (gallery::find(name)?.compute)(request, progress)
-    }
-
     /// Hands the result of the job with this [`key`](Job::key) to the figure. An answer that the
     /// figure no longer waits for is dropped; says whether it was used.
     pub fn job_done(&mut self, key: u64, result: JobResult) -> bool {
@@ -145,7 +137,12 @@ impl Figure {
         // A figure may go through several stages, but not through endlessly many.
         for _ in 0..16 {
             let Some(job) = self.job() else { return };
-            let result = (self.entry.compute)(&job.request, &mut |_| ControlFlow::Continue(()));
+            let result =
+                gallery::compute(
+                    self.name(),
+                    &job.request,
+                    &mut |_| ControlFlow::Continue(()),
+                );
             self.stage.job_done(result);
         }
     }
@@ -439,7 +436,7 @@ impl Figure {
         self.stage.refine()
     }
 
-    /// Draws at full quality: what a poster, a saved image and the tests show.
+    /// Finishes the job and draws at full quality: what a poster and the tests show.
     ///
     /// # Errors
     /// As [`Figure::draw`].
@@ -450,6 +447,19 @@ impl Figure {
         theme: Theme,
     ) -> Result<&Picture, Problem> {
         self.finish_job();
+        self.draw_sharp(width, scale, theme)
+    }
+
+    /// Draws at full quality what is known now: the job that the figure may wait for is not done.
+    ///
+    /// # Errors
+    /// As [`Figure::draw`].
+    pub fn draw_sharp(
+        &mut self,
+        width: f64,
+        scale: f64,
+        theme: Theme,
+    ) -> Result<&Picture, Problem> {
         self.draw(width, scale, theme)?;
         while self.refine() {}
         self.draw(width, scale, theme)

@@ -1,30 +1,65 @@
 //! The embedded font: outlines and widths of characters.
 
 use std::sync::OnceLock;
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use ttf_parser::{GlyphId, OutlineBuilder, RawFace, Tag, cmap, glyf, head, hhea, hmtx, loca, maxp};
 
 static FONT: &[u8] = include_bytes!("../assets/EpipoleFigureSans.ttf");
 
 /// Height of a capital letter of size 1.
 pub(crate) const CAP_HEIGHT: f64 = 0.698;
 
-fn face() -> &'static Face<'static> {
-    static FACE: OnceLock<Face<'static>> = OnceLock::new();
-    FACE.get_or_init(|| Face::parse(FONT, 0).expect("the embedded font is valid; a test reads it"))
+/// The tables that we use. `ttf_parser::Face` would bring those of every other kind of font into
+/// the module.
+struct Font {
+    units_per_em: u16,
+    letters: cmap::Subtable<'static>,
+    advances: hmtx::Table<'static>,
+    outlines: glyf::Table<'static>,
+}
+
+impl Font {
+    fn parse() -> Option<Self> {
+        let file = RawFace::parse(FONT, 0).ok()?;
+        let table = |name| file.table(Tag::from_bytes(name));
+        let head = head::Table::parse(table(b"head")?)?;
+        let hhea = hhea::Table::parse(table(b"hhea")?)?;
+        let num_glyphs = maxp::Table::parse(table(b"maxp")?)?.number_of_glyphs;
+        let places =
+            loca::Table::parse(num_glyphs, head.index_to_location_format, table(b"loca")?)?;
+        let letters = cmap::Table::parse(table(b"cmap")?)?;
+        Some(Self {
+            units_per_em: head.units_per_em,
+            letters: letters
+                .subtables
+                .into_iter()
+                .find(|list| list.is_unicode())?,
+            advances: hmtx::Table::parse(hhea.number_of_metrics, num_glyphs, table(b"hmtx")?)?,
+            outlines: glyf::Table::parse(places, table(b"glyf")?)?,
+        })
+    }
+
+    fn glyph_index(&self, character: char) -> Option<GlyphId> {
+        self.letters.glyph_index(character.into())
+    }
+}
+
+fn font() -> &'static Font {
+    static FONT: OnceLock<Font> = OnceLock::new();
+    FONT.get_or_init(|| Font::parse().expect("the embedded font is valid; a test reads it"))
 }
 
 /// A character that the font lacks is drawn as a question mark, never as nothing.
 fn glyph(character: char) -> GlyphId {
-    let face = face();
-    face.glyph_index(character)
-        .or_else(|| face.glyph_index('?'))
+    let font = font();
+    font.glyph_index(character)
+        .or_else(|| font.glyph_index('?'))
         .unwrap_or(GlyphId(0))
 }
 
 /// Width of one character of size 1.
 fn advance(character: char) -> f64 {
-    let units = face().glyph_hor_advance(glyph(character)).unwrap_or(0);
-    f64::from(units) / f64::from(face().units_per_em())
+    let units = font().advances.advance(glyph(character)).unwrap_or(0);
+    f64::from(units) / f64::from(font().units_per_em)
 }
 
 /// Width of a line of text of size 1.
@@ -42,7 +77,7 @@ pub(crate) trait Pen {
 
 /// Draws a line of text with `pen`, the left end of its baseline at (x, y).
 pub(crate) fn draw(text: &str, x: f64, y: f64, size: f64, pen: &mut dyn Pen) {
-    let scale = (size / f64::from(face().units_per_em())) as f32;
+    let scale = (size / f64::from(font().units_per_em)) as f32;
     let mut left = x;
     for character in text.chars() {
         let mut placed = Placed {
@@ -52,7 +87,7 @@ pub(crate) fn draw(text: &str, x: f64, y: f64, size: f64, pen: &mut dyn Pen) {
             scale,
         };
         // `None` means a character without an outline, such as a space.
-        let _ = face().outline_glyph(glyph(character), &mut placed);
+        let _ = font().outlines.outline(glyph(character), &mut placed);
         left += advance(character) * size;
     }
 }
@@ -105,7 +140,7 @@ mod tests {
         let text = "Aa0 ½?−×′₁₂²°λσεθΣ→≤≥≈∞·";
         let missing: Vec<char> = text
             .chars()
-            .filter(|&c| c != '½' && face().glyph_index(c).is_none())
+            .filter(|&c| c != '½' && font().glyph_index(c).is_none())
             .collect();
         assert!(missing.is_empty(), "missing {missing:?}");
         assert!(width("WW") > 1.5 && width("WW") < 2.2);
@@ -113,8 +148,8 @@ mod tests {
 
     #[test]
     fn capitals_are_as_high_as_stated() {
-        let bounds = face().glyph_bounding_box(glyph('H')).unwrap();
-        let height = f64::from(bounds.y_max) / f64::from(face().units_per_em());
+        let bounds = font().outlines.bbox(glyph('H')).unwrap();
+        let height = f64::from(bounds.y_max) / f64::from(font().units_per_em);
         assert!((height - CAP_HEIGHT).abs() < 0.002, "{height}");
     }
 }

@@ -24,22 +24,37 @@ pub struct Entry {
     /// What a reader can do with it.
     pub help: &'static str,
     pub(crate) make: fn() -> Box<dyn Stage>,
-    pub(crate) compute: fn(&[u8], Progress<'_>) -> JobResult,
 }
 
-/// Every figure, in the order of the book.
-pub static FIGURES: &[Entry] = &[
-    entry::<window_shift::View>(),
-    entry::<harris::View>(),
-    entry::<epipolar_click::EpipolarClickView>(),
-    entry::<eight_point::View>(),
-    entry::<ransac_budget::View>(),
-    entry::<ransac_epipolar::View>(),
-    entry::<stereo_slider::StereoSliderView>(),
-    entry::<disparity_map::View>(),
-    entry::<four_poses::View>(),
-    entry::<two_view_sfm::View>(),
-    entry::<ransac_race::View>(),
+/// The long computations of a figure.
+struct Worker {
+    name: &'static str,
+    compute: fn(&[u8], Progress<'_>) -> JobResult,
+}
+
+/// Makes two lists of one, so that a module without long computations leaves the code for them
+/// out, and one with nothing else leaves out the figures.
+macro_rules! figures {
+    ($($view:ty),* $(,)?) => {
+        /// Every figure, in the order of the book.
+        pub static FIGURES: &[Entry] = &[$(entry::<$view>()),*];
+
+        static WORKERS: &[Worker] = &[$(worker::<$view>()),*];
+    };
+}
+
+figures![
+    window_shift::View,
+    harris::View,
+    epipolar_click::EpipolarClickView,
+    eight_point::View,
+    ransac_budget::View,
+    ransac_epipolar::View,
+    stereo_slider::StereoSliderView,
+    disparity_map::View,
+    four_poses::View,
+    two_view_sfm::View,
+    ransac_race::View,
 ];
 
 const fn entry<V: View>() -> Entry {
@@ -48,7 +63,13 @@ const fn entry<V: View>() -> Entry {
         title: V::Model::TITLE,
         help: V::Model::HELP,
         make: stage::set_up::<V>,
-        compute: stage::compute::<V>,
+    }
+}
+
+const fn worker<V: View>() -> Worker {
+    Worker {
+        name: V::Model::NAME,
+        compute: V::Model::compute,
     }
 }
 
@@ -57,16 +78,27 @@ const fn entry<V: View>() -> Entry {
 /// # Errors
 /// [`Problem::UnknownFigure`], with the names that exist.
 pub fn find(name: &str) -> Result<&'static Entry, Problem> {
-    FIGURES
-        .iter()
+    let mut figures = FIGURES.iter();
+    figures
         .find(|entry| entry.name == name)
-        .ok_or_else(|| {
-            let known: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
-            Problem::UnknownFigure {
-                name: name.to_owned(),
-                known: known.join(", "),
-            }
-        })
+        .ok_or_else(|| unknown(name, FIGURES.iter().map(|entry| entry.name)))
+}
+
+/// Carries out a job of the figure `name`; needs no figure, so a worker can do it.
+///
+/// # Errors
+/// [`Problem::UnknownFigure`], or a sentence about the data.
+pub fn compute(name: &str, request: &[u8], progress: Progress<'_>) -> JobResult {
+    let worker = WORKERS.iter().find(|worker| worker.name == name);
+    let worker = worker.ok_or_else(|| unknown(name, WORKERS.iter().map(|worker| worker.name)))?;
+    (worker.compute)(request, progress)
+}
+
+fn unknown(name: &str, known: impl Iterator<Item = &'static str>) -> Problem {
+    Problem::UnknownFigure {
+        name: name.to_owned(),
+        known: known.collect::<Vec<_>>().join(", "),
+    }
 }
 
 /// The template of `make new-figure`, compiled so that it cannot rot.

@@ -2,8 +2,7 @@
 
 use crate::canvas::Canvas;
 use crate::contract::{
-    Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Progress, Readout,
-    Space, View,
+    Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Readout, Space, View,
 };
 use crate::figure::ChallengeStatus;
 use image::RgbImage;
@@ -33,11 +32,6 @@ pub(crate) trait Stage {
 struct Pair<V: View> {
     model: V::Model,
     view: V,
-}
-
-/// Carries out a job of the model that `V` draws.
-pub(crate) fn compute<V: View>(request: &[u8], progress: Progress<'_>) -> JobResult {
-    V::Model::compute(request, progress)
 }
 
 /// A model in its default state, with its view.

@@ -8,7 +8,7 @@ mod common;
 use common::{assert_sound, copy_of, random_event};
 use epipole::math::random::Random;
 use epipole_widgets::Figure;
-use epipole_widgets::gallery::FIGURES;
+use epipole_widgets::gallery::{self, FIGURES};
 use epipole_widgets::theme::Theme;
 use std::ops::ControlFlow;
 
@@ -79,7 +79,7 @@ fn jobs_survive_requests_of_any_bytes() {
                 }
             }
             let mut go_on = |_: f64| ControlFlow::Break(());
-            if let Err(problem) = Figure::compute(entry.name, &bytes, &mut go_on) {
+            if let Err(problem) = gallery::compute(entry.name, &bytes, &mut go_on) {
                 assert!(!problem.to_string().is_empty());
             }
         }

@@ -1,6 +1,6 @@
 //! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
 
-use super::wasm::Module;
+use super::wasm::Modules;
 use super::{Assets, Tools, add_hashed, fonts, read};
 use anyhow::{Context, Result};
 use serde::Deserialize;
@@ -50,22 +50,28 @@ pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Resul
 
 /// The custom elements: `web/src/worker.ts` first, as the elements name it, then
 /// `web/src/index.ts`. The sources find the other files beside their own through the constants
-/// `EPIPOLE_WASM` and `EPIPOLE_WORKER`, and the generated bindings as the module `epipole-web`.
+/// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, and the generated bindings as the modules
+/// `epipole-web` and `epipole-jobs`.
 pub(super) fn add_elements(
     tools: &Tools,
-    module: &Module,
+    modules: &Modules,
     fast: bool,
     assets: &mut Assets,
 ) -> Result<()> {
-    let wasm = add_hashed(&mut assets.files, "epipole", "wasm", module.wasm.clone());
+    let Modules { figures, jobs } = modules;
+    let mut add =
+        |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
+    let figures_wasm = add("epipole-figures", &figures.wasm);
+    let jobs_wasm = add("epipole-jobs", &jobs.wasm);
     let define = |name: &str, path: &str| {
         format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
     };
-    let alias = format!("--alias:epipole-web={}", module.glue.display());
     let mut flags = vec![
         "--format=esm".to_owned(),
-        alias,
-        define("EPIPOLE_WASM", &wasm),
+        format!("--alias:epipole-web={}", figures.glue.display()),
+        format!("--alias:epipole-jobs={}", jobs.glue.display()),
+        define("EPIPOLE_WASM", &figures_wasm),
+        define("EPIPOLE_JOBS_WASM", &jobs_wasm),
     ];
     let worker = "web/src/worker.ts";
     if tools.project.join(worker).is_file() {

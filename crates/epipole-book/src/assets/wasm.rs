@@ -1,4 +1,7 @@
 //! The figures as WebAssembly: cargo, wasm-bindgen (as a library) and Binaryen's wasm-opt.
+//!
+//! Two modules of the same crate: the figures, which every page with a figure loads, and their long
+//! computations, which a worker loads when a figure asks for one.
 
 use super::{Tools, fnv, read};
 use anyhow::{Context, Result};
@@ -18,19 +21,51 @@ const FEATURES: &[&str] = &[
     "--enable-multivalue",
 ];
 
-/// The module and the script that loads it.
+/// A module and the script that loads it.
 pub(super) struct Module {
     /// The optimized module.
     pub(super) wasm: Vec<u8>,
-    /// The generated script, which the elements import as `epipole-web`.
+    /// The generated script.
     pub(super) glue: PathBuf,
 }
 
-/// Builds the module. `fast` leaves out wasm-opt.
-pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
+/// What the elements load.
+pub(super) struct Modules {
+    /// What a page calls; the elements import its script as `epipole-web`.
+    pub(super) figures: Module,
+    /// What a worker calls; it imports the script as `epipole-jobs`.
+    pub(super) jobs: Module,
+}
+
+/// Builds the modules. `fast` leaves out wasm-opt.
+pub(super) fn make(tools: &Tools, fast: bool) -> Result<Modules> {
+    let figures = build(tools, "figures")?;
+    std::thread::scope(|scope| {
+        // Binaryen takes as long as cargo, so one works while the other does.
+        let figures = scope.spawn(|| optimize(tools, figures, fast));
+        let jobs = optimize(tools, build(tools, "jobs")?, fast)?;
+        let figures = figures.join();
+        Ok(Modules {
+            figures: figures.map_err(|_| anyhow::anyhow!("wasm-opt could not be run"))??,
+            jobs,
+        })
+    })
+}
+
+/// A module as wasm-bindgen leaves it.
+struct Bound {
+    /// Names a version of it.
+    key: u64,
+    wasm: PathBuf,
+    glue: PathBuf,
+}
+
+/// Builds the crate with one of its features.
+fn build(tools: &Tools, feature: &str) -> Result<Bound> {
     let target = super::target_folder(&tools.project);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--package", "epipole-web", "--lib"])
+        .args(["--no-default-features", "--features", feature])
         .args([
             "--target",
             "wasm32-unknown-unknown",
@@ -51,21 +86,29 @@ pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
     let raw = read(&built)?;
     let key = fnv(&raw);
     let folder = tools.work.join("bindgen");
+    let name = format!("epipole_{feature}");
     Bindgen::new()
         .input_path(&built)
+        .out_name(&name)
         .web(true)?
         .omit_default_module_path(true)
         .remove_name_section(true)
         .remove_producers_section(true)
         .generate(&folder)
         .context("wasm-bindgen failed")?;
-    let bound = folder.join("epipole_web_bg.wasm");
-    let glue = folder.join("epipole_web.js");
+    Ok(Bound {
+        key,
+        wasm: folder.join(format!("{name}_bg.wasm")),
+        glue: folder.join(format!("{name}.js")),
+    })
+}
+
+/// Makes a module smaller and faster, once for each version of it.
+fn optimize(tools: &Tools, bound: Bound, fast: bool) -> Result<Module> {
+    let Bound { key, wasm, glue } = bound;
     if fast {
-        return Ok(Module {
-            wasm: read(&bound)?,
-            glue,
-        });
+        let wasm = read(&wasm)?;
+        return Ok(Module { wasm, glue });
     }
     let optimized = tools.work.join(format!("epipole-{key:016x}.wasm"));
     if !optimized.is_file() {
@@ -75,7 +118,7 @@ pub(super) fn make(tools: &Tools, fast: bool) -> Result<Module> {
                 .arg(tools.modules.join("binaryen/bin/wasm-opt"))
                 .arg("-O3")
                 .args(FEATURES)
-                .arg(&bound)
+                .arg(&wasm)
                 .arg("-o")
                 .arg(&part),
         )?;

@@ -52,7 +52,8 @@ impl Noise {
         )
     }
 
-    #[inline]
+    /// Called from so many places that copies of it would be a good part of a module.
+    #[inline(never)]
     fn masked(&self, x: f32, y: f32, mask_x: usize, mask_y: usize) -> f32 {
         let (xi, fx) = split(x);
         let (yi, fy) = split(y);

@@ -42,7 +42,7 @@ impl Texture {
         Self {
             width,
             height,
-            levels: LazyLock::new(Box::new(move || painted(width, height, paint))),
+            levels: LazyLock::new(Box::new(move || painted(width, height, &paint))),
             wraps,
         }
     }
@@ -145,7 +145,8 @@ impl fmt::Debug for Texture {
 }
 
 /// Every texel, and the halved copies down to a single one.
-fn painted(width: u32, height: u32, paint: impl Fn(f32, f32) -> [f32; 4]) -> Vec<Level> {
+/// Not generic, and so once in a module, not once for each texture.
+fn painted(width: u32, height: u32, paint: &dyn Fn(f32, f32) -> [f32; 4]) -> Vec<Level> {
     let (step_s, step_t) = (1.0 / width as f32, 1.0 / height as f32);
     let mut texels = Vec::with_capacity((width * height) as usize);
     for y in 0..height {
