@@ -1,5 +1,6 @@
 // What a reader waits for: frame times of each figure, the size of the module, and how WebAssembly
 // compares with native code. Prints one table. Times are of this machine; only ratios travel.
+// With names of figures, only their frames: node bench.mjs harris
 
 import { chromium } from "@playwright/test";
 import { execFileSync } from "node:child_process";
@@ -15,6 +16,7 @@ import { serve } from "./server.mjs";
 const MOVES = 200;
 const module = await loadBindings();
 const figures = JSON.parse(module.figures());
+const wanted = process.argv.slice(2);
 const server = await serve({
   mounts: { figures: figurePage, pages: join(here, "pages"), elements, bindings },
 });
@@ -33,15 +35,18 @@ const quantile = (times, share) =>
 const ms = (time) => `${time.toFixed(1)} ms`;
 const kb = (bytes) => `${(bytes / 1024).toFixed(0)} KB`;
 
-for (const { name } of figures) {
+for (const { name } of figures.filter(({ name }) => wanted.length === 0 || wanted.includes(name))) {
   const context = await browser.newContext({ viewport: { width: 820, height: 900 }, deviceScaleFactor: 2 });
   const page = await context.newPage();
   await page.goto(`${server.origin}/figures?figure=${name}`);
   await page.locator("epipole-figure[data-ready]").waitFor();
   const sliders = await page.locator("epipole-figure input[type=range]").count();
-  const pixels = await page
-    .locator("epipole-figure canvas")
-    .evaluate((canvas) => `${canvas.width} × ${canvas.height}`);
+  // The poster stands for the picture until something is drawn.
+  const pixels = await page.locator("epipole-figure").evaluate((element) => {
+    element.flush();
+    const { width, height } = element.shadowRoot.querySelector("canvas");
+    return `${width} × ${height}`;
+  });
   const grips = await page.locator("epipole-figure .grip").count();
   const kinds = {
     slider: Array.from({ length: sliders }, (_, index) => [slide, { index, moves: Math.ceil(MOVES / sliders) }]),
@@ -59,7 +64,7 @@ for (const { name } of figures) {
   await context.close();
 }
 
-{
+if (wanted.length === 0) {
   const compress = (path) => {
     const bytes = readFileSync(join(elements, path));
     const params = { [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length };
@@ -70,7 +75,7 @@ for (const { name } of figures) {
   rows.push(["elements, script", ...compress(code)]);
 }
 
-{
+if (wanted.length === 0) {
   // The race, run to its end a few times over: sampling, fitting, scoring, no drawing.
   const calls = [];
   for (let seed = 1; seed <= 20; seed += 1) {

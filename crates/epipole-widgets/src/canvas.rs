@@ -429,30 +429,32 @@ impl Canvas {
             return;
         }
         let (x, y) = (center.0 * self.scale - 0.5, center.1 * self.scale - 0.5);
-        let inner = radius.clamp(0.5, 20.0) * self.scale;
-        let outer = inner + 0.7 * self.scale;
-        let rim = self.theme.color(Role::Muted);
-        let reach = outer.ceil() as i64 + 1;
-        let (width, height) = (
-            i64::from(self.pixmap.width()),
-            i64::from(self.pixmap.height()),
-        );
-        let (column, row) = (x.round() as i64, y.round() as i64);
+        let (x, y) = (x as f32, y as f32);
+        let inner = (radius.clamp(0.5, 20.0) * self.scale) as f32;
+        let outer = inner + 0.7 * self.scale as f32;
+        let rim = self.theme.color(Role::Muted).map(f32::from);
+        let fill = color.map(f32::from);
+        let reach = outer + 0.5;
+        let (width, height) = (self.pixmap.width(), self.pixmap.height());
+        // Casts to an unsigned number take what is negative for 0.
+        let rows = (y - reach).ceil() as u32..((y + reach) as u32).saturating_add(1).min(height);
         let data = self.pixmap.data_mut();
-        for v in (row - reach).max(0)..(row + reach + 1).min(height) {
-            for u in (column - reach).max(0)..(column + reach + 1).min(width) {
-                let (dx, dy) = (u as f64 - x, v as f64 - y);
+        for v in rows {
+            let dy = v as f32 - y;
+            let half = (reach * reach - dy * dy).max(0.0).sqrt();
+            let first = ((x - half).ceil() as u32).min(width);
+            let end = ((x + half) as u32).saturating_add(1).clamp(first, width);
+            let start = 4 * (v * width + first) as usize;
+            let pixels = data[start..][..4 * (end - first) as usize].chunks_exact_mut(4);
+            for (u, pixel) in (first..end).zip(pixels) {
+                let dx = u as f32 - x;
                 let distance = (dx * dx + dy * dy).sqrt();
-                let cover = |radius: f64| (radius + 0.5 - distance).clamp(0.0, 1.0);
+                let cover = |radius: f32| (radius + 0.5 - distance).clamp(0.0, 1.0);
                 let (around, inside) = (0.55 * cover(outer), cover(inner));
-                if around <= 0.0 {
-                    continue;
-                }
-                let at = 4 * (v * width + u) as usize;
-                for (byte, (rim, fill)) in data[at..at + 3].iter_mut().zip(rim.iter().zip(color)) {
-                    let behind = f64::from(*byte);
-                    let rimmed = behind + (f64::from(*rim) - behind) * around;
-                    *byte = (rimmed + (f64::from(fill) - rimmed) * inside).round() as u8;
+                for (byte, (rim, fill)) in pixel.iter_mut().zip(rim.iter().zip(fill)) {
+                    let behind = f32::from(*byte);
+                    let rimmed = behind + (rim - behind) * around;
+                    *byte = (rimmed + (fill - rimmed) * inside + 0.5) as u8;
                 }
             }
         }
@@ -630,19 +632,15 @@ impl Canvas {
         let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
         let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
         let stride = photo_width as usize * 3;
-        // Sixteen bits hold 255 · 256, so that many pixels are blended at once.
-        let across = |row: usize, stretched: &mut [u8]| {
-            let source = &photograph.as_raw()[row * stride..][..stride];
+        let mut source = vec![0u32; photo_width as usize];
+        let mut across = |row: usize, stretched: &mut [u8]| {
+            let bytes = &photograph.as_raw()[row * stride..][..stride];
+            for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
+                *pixel = u32::from_le_bytes([rgb[0], rgb[1], rgb[2], 255]);
+            }
             for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
-                let a = &source[column.first * 3..][..3];
-                let b = &source[column.second * 3..][..3];
-                let weight = column.weight_256;
-                for channel in 0..3 {
-                    let sum =
-                        u16::from(a[channel]) * (256 - weight) + u16::from(b[channel]) * weight;
-                    pixel[channel] = ((sum + 128) >> 8) as u8;
-                }
-                pixel[3] = 255;
+                let (a, b) = (source[column.first], source[column.second]);
+                pixel.copy_from_slice(&blend(a, b, column.weight_256.into()).to_le_bytes());
             }
         };
         // Two neighboring rows of the photograph, stretched to the target's width and kept while
@@ -756,6 +754,16 @@ fn break_lines(text: &str, size: f64, width: f64) -> Vec<String> {
 
 fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
     Color::from_rgba8(r, g, b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8)
+}
+
+/// `(a (256 − weight) + b weight) / 256` of each of four bytes, rounded. Sixteen bits hold
+/// 255 · 256, so two bytes are blended at once.
+#[inline]
+fn blend(a: u32, b: u32, weight_256: u32) -> u32 {
+    const EVEN: u32 = 0x00ff_00ff;
+    const HALF: u32 = 0x0080_0080;
+    let mix = |a: u32, b: u32| (a & EVEN) * (256 - weight_256) + (b & EVEN) * weight_256 + HALF;
+    ((mix(a, b) >> 8) & EVEN) | (mix(a >> 8, b >> 8) & !EVEN)
 }
 
 /// Where each device pixel along one side takes its color from.

@@ -12,6 +12,7 @@ use crate::gallery::{self, Entry};
 use crate::stage::Stage;
 use crate::theme::Theme;
 use image::RgbImage;
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 /// Width of a poster and of a page's figure column, CSS pixels.
@@ -38,6 +39,15 @@ pub struct Figure {
     entry: &'static Entry,
     stage: Box<dyn Stage>,
     picture: Picture,
+    /// Where the handles are before the reader moves any, for the controls as they last were:
+    /// a figure is asked for its state after each frame, and few of them change a control.
+    untouched: RefCell<Option<Untouched>>,
+}
+
+struct Untouched {
+    /// The visible controls that differ from the default state.
+    controls: Vec<(String, String)>,
+    handles: Vec<Handle>,
 }
 
 impl Figure {
@@ -59,6 +69,7 @@ impl Figure {
             entry,
             stage: (entry.make)(),
             picture: Picture::default(),
+            untouched: RefCell::default(),
         })
     }
 
@@ -266,7 +277,6 @@ impl Figure {
 
     /// The state as parameters: everything that differs from the default state.
     pub fn state(&self) -> Vec<(String, String)> {
-        let mut fresh = (self.entry.make)();
         let mut visible = Vec::new();
         let mut hidden = Vec::new();
         for control in self.controls() {
@@ -286,18 +296,17 @@ impl Figure {
                 _ => continue,
             };
             if control.visible {
-                let set = Event::Set {
-                    id: control.id.to_owned(),
-                    value: Value::from(&*value),
-                };
-                // It is this figure's own value, so it is accepted.
-                let _ = fresh.update(&set);
                 visible.push((control.id.to_owned(), value));
             } else {
                 hidden.push((control.id.to_owned(), value));
             }
         }
-        let (before, now) = (fresh.handles(), self.handles());
+        let mut untouched = self.untouched.borrow_mut();
+        let untouched = match &*untouched {
+            Some(known) if known.controls == visible => known,
+            _ => untouched.insert(self.untouched_with(&visible)),
+        };
+        let (before, now) = (&untouched.handles, self.handles());
         let mut places = Vec::new();
         for handle in &now {
             let same =
@@ -310,12 +319,27 @@ impl Figure {
                 ));
             }
         }
-        for handle in &before {
+        for handle in before {
             if !now.iter().any(|other| other.id == handle.id) {
                 places.push((handle.id.clone(), REMOVED.to_owned()));
             }
         }
         visible.into_iter().chain(places).chain(hidden).collect()
+    }
+
+    /// The default state with some controls set to values of this figure's own.
+    fn untouched_with(&self, controls: &[(String, String)]) -> Untouched {
+        let mut stage = (self.entry.make)();
+        for (id, value) in controls {
+            let id = id.clone();
+            let value = Value::from(&**value);
+            // This figure has the same value, so it is accepted.
+            let _ = stage.update(&Event::Set { id, value });
+        }
+        Untouched {
+            controls: controls.to_vec(),
+            handles: stage.handles(),
+        }
     }
 
     /// The state as the query of a URL; empty in the default state.

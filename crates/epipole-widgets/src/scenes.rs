@@ -3,11 +3,13 @@
 use crate::contract::Progress;
 use epipole::Error;
 use epipole::camera::Camera;
+use epipole::math::random::Random;
 use epipole::synthetic::{
     MovableKind, MovableObject, Photograph, Sampling, Scene, still_life_camera,
 };
 use image::{Rgb, RgbImage};
 use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector3};
+use std::sync::OnceLock;
 
 /// Size of a photograph, pixels.
 pub(crate) const PHOTO_WIDTH: u32 = 640;
@@ -99,8 +101,12 @@ pub(crate) const SQUARE_SIZE: (u32, u32) = (240, 180);
 /// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, and noise of a
 /// standard deviation of so many gray levels.
 pub(crate) fn square_picture(noise: f64) -> RgbImage {
-    let mut random = epipole::math::random::Random::new(5);
+    static GRAIN: OnceLock<Vec<f64>> = OnceLock::new();
     let (width, height) = SQUARE_SIZE;
+    let grain = GRAIN.get_or_init(|| {
+        let mut random = Random::new(5);
+        (0..width * height).map(|_| random.normal()).collect()
+    });
     let angle = 15.0_f64.to_radians();
     let (cos, sin) = (libm::cos(angle), libm::sin(angle));
     let half = 46.0;
@@ -109,7 +115,7 @@ pub(crate) fn square_picture(noise: f64) -> RgbImage {
         let y = f64::from(v) - f64::from(height - 1) / 2.0;
         let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
         let cover = (0.5 - outside).clamp(0.0, 1.0);
-        let gray = 215.0 - 150.0 * cover + noise * random.normal();
+        let gray = 215.0 - 150.0 * cover + noise * grain[(v * width + u) as usize];
         Rgb([gray.round() as u8; 3])
     })
 }

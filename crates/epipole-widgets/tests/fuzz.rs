@@ -41,7 +41,7 @@ fn fuzz(name: &str, seed: u64) {
             }
         }
         // Jobs take long, so most states are looked at while theirs is still to be done.
-        let finishes_job = sequence % 100 == 0;
+        let finishes_job = sequence % 250 == 0;
         if finishes_job {
             figure.finish_job();
             assert_eq!(figure.job(), None, "{name} computes forever");

@@ -266,7 +266,7 @@ impl RansacRace {
                 .map(|place| line.signed_distance(place).abs() < epsilon_px)
                 .collect()
         };
-        let mut best_line = None;
+        let (mut best_line, mut last) = (None, None);
         for _ in 0..self.settings.count(&ITERATIONS) {
             let Step::Trial(trial) = run.step() else {
                 break;
@@ -275,12 +275,13 @@ impl RansacRace {
             if trial.is_best {
                 best_line = trial.model;
             }
-            outcome.candidate = Some(Candidate {
-                sample: trial.sample.to_vec(),
-                line: trial.model,
-                is_inlier: trial.model.as_ref().map_or_else(Vec::new, consensus),
-            });
+            last = Some((trial.sample.to_vec(), trial.model));
         }
+        outcome.candidate = last.map(|(sample, line)| Candidate {
+            sample,
+            is_inlier: line.as_ref().map_or_else(Vec::new, consensus),
+            line,
+        });
         if let Some(line) = best_line {
             let is_inlier = consensus(&line);
             let chosen: Vec<Point2<f64>> = places
