@@ -1,0 +1,136 @@
+//! Photographs, scaled to where they are shown.
+
+use super::Canvas;
+use crate::contract::Rect;
+use image::RgbImage;
+
+impl Canvas {
+    /// A photograph, scaled to fill `rect`.
+    ///
+    /// Interpolation is bilinear in fixed-point arithmetic, so it is fast and the same everywhere.
+    pub fn photograph(&mut self, rect: Rect, photograph: &RgbImage) {
+        let device = |value: f64| (value * self.scale).round() as i64;
+        let (left, top) = (device(rect.x), device(rect.y));
+        let (right, bottom) = (device(rect.right()), device(rect.bottom()));
+        let (pixmap_width, pixmap_height) = (
+            i64::from(self.pixmap.width()),
+            i64::from(self.pixmap.height()),
+        );
+        let (photo_width, photo_height) = photograph.dimensions();
+        if right <= left || bottom <= top || photo_width == 0 || photo_height == 0 {
+            return;
+        }
+        let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
+        let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
+        let stride = photo_width as usize * 3;
+        let mut source = vec![0u32; photo_width as usize];
+        let mut across = |row: usize, stretched: &mut [u8]| {
+            let bytes = &photograph.as_raw()[row * stride..][..stride];
+            for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
+                *pixel = u32::from_le_bytes([rgb[0], rgb[1], rgb[2], 255]);
+            }
+            for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
+                let (a, b) = (source[column.first], source[column.second]);
+                pixel.copy_from_slice(&blend(a, b, column.weight_256.into()).to_le_bytes());
+            }
+        };
+        // Two neighboring rows of the photograph, stretched to the target's width and kept while
+        // they last, then blended: the inner loop runs along memory.
+        let length = columns.taps.len() * 4;
+        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u8; length]));
+        let target_stride = self.pixmap.width() as usize * 4;
+        let target = self.pixmap.data_mut();
+        for (y, tap) in rows.taps.iter().enumerate() {
+            if stretched[1].0 == tap.first {
+                stretched.swap(0, 1);
+            }
+            for ((known, row), wanted) in stretched.iter_mut().zip([tap.first, tap.second]) {
+                if *known != wanted {
+                    across(wanted, row);
+                    *known = wanted;
+                }
+            }
+            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
+            let weight = tap.weight_256;
+            let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
+            let bytes = &mut target[start..][..length];
+            for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
+                let sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
+                *byte = ((sum + 128) >> 8) as u8;
+            }
+        }
+    }
+}
+
+/// `(a (256 − weight) + b weight) / 256` of each of four bytes, rounded. Sixteen bits hold
+/// 255 · 256, so two bytes are blended at once.
+#[inline]
+fn blend(a: u32, b: u32, weight_256: u32) -> u32 {
+    const EVEN: u32 = 0x00ff_00ff;
+    const HALF: u32 = 0x0080_0080;
+    let mix = |a: u32, b: u32| (a & EVEN) * (256 - weight_256) + (b & EVEN) * weight_256 + HALF;
+    ((mix(a, b) >> 8) & EVEN) | (mix(a >> 8, b >> 8) & !EVEN)
+}
+
+/// Where each device pixel along one side takes its color from.
+struct Taps {
+    begin: i64,
+    taps: Vec<Tap>,
+}
+
+struct Tap {
+    first: usize,
+    second: usize,
+    /// Weight of `second`, 0 to 256.
+    weight_256: u16,
+}
+
+impl Taps {
+    fn new(start: i64, end: i64, source_len: u32, visible: std::ops::Range<i64>) -> Self {
+        let step = f64::from(source_len) / (end - start) as f64;
+        let last = f64::from(source_len) - 1.0;
+        let begin = start.max(visible.start);
+        let taps = (begin..end.min(visible.end))
+            .map(|pixel| {
+                let at = (((pixel - start) as f64 + 0.5) * step - 0.5).clamp(0.0, last);
+                let first = at.floor();
+                Tap {
+                    first: first as usize,
+                    second: (first as usize + 1).min(source_len as usize - 1),
+                    weight_256: ((at - first) * 256.0).round() as u16,
+                }
+            })
+            .collect();
+        Self { begin, taps }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canvas::Picture;
+    use crate::theme::Theme;
+
+    #[test]
+    fn a_photograph_at_its_own_size_keeps_its_pixels() {
+        let photograph =
+            RgbImage::from_fn(7, 5, |x, y| image::Rgb([x as u8 * 30, y as u8 * 40, 9]));
+        let mut canvas = Canvas::new(9.0, 7.0, 1.0, Theme::Light, Picture::default()).unwrap();
+        canvas.photograph(Rect::new(1.0, 1.0, 7.0, 5.0), &photograph);
+        let pixmap = canvas.finish().0.unwrap();
+        for (x, y, pixel) in photograph.enumerate_pixels() {
+            let drawn = pixmap.pixel(x + 1, y + 1).unwrap();
+            assert_eq!([drawn.red(), drawn.green(), drawn.blue()], pixel.0);
+        }
+    }
+
+    #[test]
+    fn a_photograph_hanging_over_the_edge_is_cut() {
+        let photograph = RgbImage::from_pixel(8, 8, image::Rgb([10, 20, 30]));
+        let mut canvas = Canvas::new(6.0, 6.0, 2.0, Theme::Light, Picture::default()).unwrap();
+        canvas.photograph(Rect::new(-3.0, -3.0, 20.0, 6.0), &photograph);
+        let pixmap = canvas.finish().0.unwrap();
+        let drawn = pixmap.pixel(0, 0).unwrap();
+        assert_eq!([drawn.red(), drawn.green(), drawn.blue()], [10, 20, 30]);
+    }
+}

@@ -1,0 +1,156 @@
+//! How marks look: lines, markers and text.
+
+use crate::theme::Role;
+
+/// How a line looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// What it means.
+    pub role: Role,
+    /// Width, CSS pixels.
+    pub width: f64,
+    /// Pattern.
+    pub dash: Dash,
+    /// Whether it has a casing, so that it can be seen on a photograph.
+    pub cased: bool,
+}
+
+impl Stroke {
+    /// A solid line.
+    pub fn solid(role: Role, width: f64) -> Self {
+        Self {
+            role,
+            width,
+            dash: Dash::Solid,
+            cased: false,
+        }
+    }
+
+    /// The same line, dashed.
+    pub fn dashed(self) -> Self {
+        Self {
+            dash: Dash::Dashed,
+            ..self
+        }
+    }
+
+    /// The same line, dotted.
+    pub fn dotted(self) -> Self {
+        Self {
+            dash: Dash::Dotted,
+            ..self
+        }
+    }
+
+    /// The same line with a casing.
+    pub fn cased(self) -> Self {
+        Self {
+            cased: true,
+            ..self
+        }
+    }
+}
+
+/// The pattern of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dash {
+    /// One piece.
+    Solid,
+    /// Long pieces.
+    Dashed,
+    /// Short pieces.
+    Dotted,
+}
+
+/// The shape of a marker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// A filled disk.
+    Disk,
+    /// A circle.
+    Ring,
+    /// A filled square.
+    Square,
+    /// A filled diamond.
+    Diamond,
+    /// A filled triangle, tip up.
+    Triangle,
+    /// Two crossed strokes, ×.
+    Cross,
+    /// Two crossed strokes, +.
+    Plus,
+}
+
+impl Shape {
+    /// The shape that goes with [`Role::Series`], so that hue is never the only channel.
+    pub fn of_series(index: usize) -> Self {
+        [
+            Self::Disk,
+            Self::Square,
+            Self::Diamond,
+            Self::Triangle,
+            Self::Ring,
+            Self::Plus,
+        ][index % 6]
+    }
+}
+
+/// Where a text lies relative to its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// It begins there.
+    Start,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
+/// How a text looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextStyle {
+    /// What it means.
+    pub role: Role,
+    /// Size, CSS pixels.
+    pub size: f64,
+    /// Where it lies.
+    pub align: Align,
+    /// Whether it has a casing, so that it can be read on a photograph or across lines.
+    pub cased: bool,
+}
+
+impl TextStyle {
+    /// Text that begins at its place.
+    pub fn new(role: Role, size: f64) -> Self {
+        Self {
+            role,
+            size,
+            align: Align::Start,
+            cased: false,
+        }
+    }
+
+    /// The same text around its place.
+    pub fn middle(self) -> Self {
+        Self {
+            align: Align::Middle,
+            ..self
+        }
+    }
+
+    /// The same text before its place.
+    pub fn end(self) -> Self {
+        Self {
+            align: Align::End,
+            ..self
+        }
+    }
+
+    /// The same text with a casing.
+    pub fn cased(self) -> Self {
+        Self {
+            cased: true,
+            ..self
+        }
+    }
+}
