@@ -1,13 +1,12 @@
 //! State and mathematics of `epipolar-click`: points of one photograph, their epipolar lines and
 //! true matches in another.
 
-use super::words as said;
+use super::words;
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
     Slider, Value,
 };
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life_pair};
-use crate::words;
 use epipole::camera::Camera;
 use epipole::epipolar::{
     Epipole, epipolar_line1, epipolar_line2, epipoles, fundamental_from_cameras,
@@ -170,6 +169,10 @@ impl EpipolarClick {
     pub(super) fn points(&self) -> impl Iterator<Item = (usize, Point2<f64>)> {
         let points = self.points.iter().enumerate();
         points.filter_map(|(index, point)| Some((index, (*point)?)))
+    }
+
+    pub(super) fn point(&self, index: usize) -> Option<Point2<f64>> {
+        self.points[index]
     }
 
     /// The index of the point that the readouts speak of.
@@ -348,110 +351,11 @@ impl Model for EpipolarClick {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let selected = self
-            .selected()
-            .and_then(|index| Some((index, self.points[index]?)));
-        let mut readouts = vec![match selected {
-            Some((index, point)) => Readout::words(
-                "point",
-                "Selected point",
-                format!("{} at {}", index + 1, words::pixel(&point)),
-            ),
-            None => Readout::words("point", "Selected point", "none"),
-        }];
-        let geometry = self.geometry();
-        if let Some((_, point)) = selected {
-            let found = self.find_match(&point);
-            readouts.push(Readout::words(
-                "match",
-                "Its match in photograph 2",
-                said::found(found),
-            ));
-            if let Some(geometry) = &geometry {
-                let line = self.line2(geometry, &point);
-                readouts.push(Readout::words(
-                    "line",
-                    "Its epipolar line F x₁",
-                    line.map_or_else(
-                        || "none: the point is the epipole".to_owned(),
-                        |line| words::line(&line),
-                    ),
-                ));
-                readouts.push(match (line, found.pixel()) {
-                    (Some(line), Some(pixel2)) => Readout::number(
-                        "residual",
-                        "Distance of the match from the line",
-                        line.signed_distance(&pixel2).abs(),
-                        3,
-                        "px",
-                    ),
-                    _ => Readout::words("residual", "Distance of the match from the line", "none"),
-                });
-            }
-        }
-        match &geometry {
-            Some(geometry) => {
-                for (id, label, epipole) in [
-                    ("e1", "Epipole e₁ in photograph 1", geometry.epipole1),
-                    ("e2", "Epipole e₂ in photograph 2", geometry.epipole2),
-                ] {
-                    readouts.push(Readout::words(id, label, words::epipole(&epipole)));
-                }
-                readouts.push(Readout::words(
-                    "f",
-                    "F, by rows",
-                    words::matrix(&geometry.fundamental),
-                ));
-            }
-            None => readouts.push(Readout::words("f", "F, by rows", "not determined")),
-        }
-        readouts
+        words::readouts(self)
     }
 
     fn describe(&self) -> String {
-        let (right_m, forward_m, left_deg) = self.motion();
-        let Some(geometry) = self.geometry() else {
-            return said::NO_BASELINE.to_owned();
-        };
-        let mut text = format!(
-            "Camera 2 stands {}. ",
-            said::motion(right_m, forward_m, left_deg)
-        );
-        let count = self.points().count();
-        if count == 0 {
-            text.push_str("No point is chosen in photograph 1");
-        } else {
-            let seen = self
-                .points()
-                .filter(|(_, point)| matches!(self.find_match(point), Match::Visible(_)))
-                .count();
-            let points = if count == 1 { "point" } else { "points" };
-            let lines = if count == 1 { "line" } else { "lines" };
-            text.push_str(&format!(
-                "The epipolar {lines} of {count} {points} of photograph 1 each hold the match, \
-                 which is visible in photograph 2 for {}",
-                if seen == count {
-                    "all of them".to_owned()
-                } else if seen == 0 {
-                    "none of them".to_owned()
-                } else {
-                    format!("{seen} of them")
-                }
-            ));
-        }
-        text.push_str(&format!(
-            "; the epipole e₂, where all lines meet, is {}.",
-            words::epipole(&geometry.epipole2)
-        ));
-        if let Some((index, point)) = self.selected().zip(self.points().last().map(|(_, p)| p)) {
-            let point = self.points[index].unwrap_or(point);
-            text.push_str(&format!(
-                " Point {} is at {}.",
-                index + 1,
-                words::pixel(&point)
-            ));
-        }
-        text
+        words::describe(self)
     }
 
     fn challenges() -> &'static [Challenge<Self>] {
@@ -577,7 +481,7 @@ mod tests {
         let (a, b) = (still.find_match(&point), turned.find_match(&point));
         assert!(b.pixel().unwrap().x > a.pixel().unwrap().x + 50.0);
         assert!(turned.geometry().is_none());
-        assert_eq!(turned.describe(), said::NO_BASELINE);
+        assert_eq!(turned.describe(), words::NO_BASELINE);
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod knobs;
 mod model;
 mod run;
 mod view;
+mod words;
 
 pub use model::RansacEpipolar;
 pub use view::RansacEpipolarView as View;

@@ -6,15 +6,13 @@
 use super::answer::{Answer, Match, Request, STILL_LIFE_SIZE};
 use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SLOTS, SOURCE};
 use super::run::{MAX_SAMPLES, Question, Run};
+use super::words;
 use crate::contract::{
     Challenge, Control, Event, Handle, Job, JobResult, Model, PhotoSlot, Problem, Progress,
     Readout, Settings, Slider, Value, format_number, refuse_small,
 };
 use crate::running::{RESTART, RUN, STEP};
-use crate::words;
-use epipole::epipolar::epipolar_line2;
 use image::RgbImage;
-use nalgebra::Point2;
 
 /// Smaller photographs have no features to speak of.
 const MIN_SIDE_PX: u32 = 32;
@@ -89,6 +87,10 @@ impl RansacEpipolar {
     }
 
     /// Why there is nothing to see, as a sentence.
+    pub(super) fn epsilon_px(&self) -> f64 {
+        self.settings.number(&EPSILON)
+    }
+
     pub(super) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()
     }
@@ -167,7 +169,7 @@ impl RansacEpipolar {
     }
 
     /// How many inliers of the best so far are right, where the truth is known.
-    fn num_right(&self) -> Option<usize> {
+    pub(super) fn num_right(&self) -> Option<usize> {
         let best = self.run.as_ref()?.best()?;
         let mut count = 0;
         for (found, is_inlier) in self.matches().iter().zip(&best.is_inlier) {
@@ -322,109 +324,11 @@ impl Model for RansacEpipolar {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let Some(run) = &self.run else {
-            return vec![Readout::words("state", "State", self.describe())];
-        };
-        let of = |count: usize| format!("{count} of {}", self.matches().len());
-        let votes = match run.candidate() {
-            Some(candidate) => of(candidate.num_inliers),
-            None => "no sample yet".to_owned(),
-        };
-        let needed = "Samples needed (99 %)";
-        let mut readouts = vec![
-            Readout::count("matches", "Matches", self.matches().len()),
-            Readout::count("iterations", "Samples drawn", run.iterations()),
-            match run.budget() {
-                Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
-                None => Readout::words("budget", needed, "more than a million"),
-            },
-            Readout::words("inliers", "Inliers of the last sample", votes),
-        ];
-        match run.best() {
-            Some(best) => readouts.extend([
-                Readout::words("best", "Inliers of the best", of(best.num_inliers)),
-                Readout::number(
-                    "sampson",
-                    "Their mean Sampson distance",
-                    best.mean_px,
-                    3,
-                    "px",
-                ),
-            ]),
-            None => readouts.push(Readout::words("best", "Inliers of the best", "none yet")),
-        }
-        if let (Some(best), Some(num_right)) = (run.best(), self.num_right()) {
-            let all = self.matches();
-            let right = all
-                .iter()
-                .filter(|found| found.is_right == Some(true))
-                .count();
-            readouts.push(Readout::words(
-                "right",
-                "Right matches among the inliers",
-                format!("{num_right} of {}", best.num_inliers),
-            ));
-            readouts.push(Readout::words(
-                "found",
-                "Right matches in all",
-                right.to_string(),
-            ));
-        }
-        if let Some(best) = run.best() {
-            let (u, v) = self.probe();
-            if let Ok(line) = epipolar_line2(&best.fundamental, &Point2::new(u, v)) {
-                readouts.push(Readout::words(
-                    "line",
-                    "Line of the probe",
-                    words::line(&line),
-                ));
-            }
-            let f = words::matrix(&best.fundamental);
-            readouts.push(Readout::words("f", "F refitted to the inliers, by rows", f));
-        }
-        readouts
+        words::readouts(self)
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = &self.problem {
-            return problem.clone();
-        }
-        let Some(run) = &self.run else {
-            return "Matching the features of two photographs.".to_owned();
-        };
-        let num_matches = self.matches().len();
-        let Some(best) = run.best() else {
-            return format!("{num_matches} matches, some of them wrong; no F found yet.");
-        };
-        let plural = if run.iterations() == 1 {
-            "sample"
-        } else {
-            "samples"
-        };
-        let right = self.num_right().map_or_else(String::new, |count| {
-            format!(", {count} of which are right by the scene's true geometry")
-        });
-        let end = match run.budget() {
-            _ if run.is_confident() => " That is enough for 99 % confidence.".to_owned(),
-            _ if run.is_finished() => {
-                " More would be needed for 99 % confidence, but the figure stops here.".to_owned()
-            }
-            Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
-            None => String::new(),
-        };
-        let show = match self.show() {
-            Show::Matches => "",
-            Show::Outliers => " Outliers are shown.",
-            Show::Lines => " Epipolar lines are shown.",
-        };
-        format!(
-            "After {} {plural}, {} of {num_matches} matches agree on one F within {} px{right}. \
-             Their mean Sampson distance is {} px.{end}{show}",
-            run.iterations(),
-            best.num_inliers,
-            format_number(self.settings.number(&EPSILON), 1),
-            format_number(best.mean_px, 2),
-        )
+        words::describe(self)
     }
 
     fn challenges() -> &'static [Challenge<Self>] {

@@ -5,15 +5,15 @@
 //! computed from these anew after each event: a run of a few hundred samples takes well under a
 //! millisecond, and so a permalink replays exactly.
 
+use super::knobs::{COUNT, EPSILON, ITERATIONS, KNOBS, OUTLIERS, SEED};
+use super::run::{Best, Candidate, MAX_SAMPLES, Outcome, Question, run};
+use super::words;
 use crate::contract::{
-    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Value,
-    format_number, round_to_digits,
+    Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Value, format_number,
+    round_to_digits,
 };
 use crate::running::{RESTART, RUN, STEP};
 use epipole::math::{Line2, random::Random};
-use epipole::robust::{
-    Budget, LineEstimator, Ransac, RansacOptions, ScoreKind, Step, fit_line_total_least_squares,
-};
 use nalgebra::Point2;
 
 /// The plane that the points lie in, pixels.
@@ -22,75 +22,10 @@ pub(super) const WIDTH_PX: f64 = 640.0;
 pub(super) const HEIGHT_PX: f64 = 400.0;
 /// Standard deviation of a good point's distance from the true line.
 const NOISE_PX: f64 = 4.0;
-const CONFIDENCE: f64 = 0.99;
-const MAX_SAMPLES: usize = 500;
 const MAX_ADDED: usize = 24;
 const SAMPLES_PER_SECOND: f64 = 4.0;
 /// Places of points are kept to a tenth of a pixel.
 const DIGITS: usize = 1;
-
-const OUTLIERS: Slider = Slider {
-    id: "outliers",
-    label: "Share of outliers",
-    unit: "",
-    min: 0.0,
-    max: 0.9,
-    step: 0.05,
-    default: 0.4,
-    digits: 2,
-    visible: true,
-};
-const EPSILON: Slider = Slider {
-    id: "epsilon",
-    label: "Threshold ε",
-    unit: "px",
-    min: 2.0,
-    max: 40.0,
-    step: 1.0,
-    default: 10.0,
-    digits: 0,
-    visible: true,
-};
-const COUNT: Slider = Slider {
-    id: "points",
-    label: "Number of points",
-    unit: "",
-    min: 8.0,
-    max: 120.0,
-    step: 2.0,
-    default: 60.0,
-    digits: 0,
-    visible: true,
-};
-const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 7.0,
-    digits: 0,
-    visible: true,
-};
-const ITERATIONS: Slider = Slider {
-    id: "iterations",
-    label: "Samples drawn",
-    unit: "",
-    min: 0.0,
-    max: MAX_SAMPLES as f64,
-    step: 1.0,
-    default: 9.0,
-    digits: 0,
-    visible: false,
-};
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&OUTLIERS),
-    Knob::Slider(&EPSILON),
-    Knob::Slider(&COUNT),
-    Knob::Slider(&SEED),
-    Knob::Slider(&ITERATIONS),
-];
 
 /// A point and where it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,38 +34,6 @@ pub(super) struct Datum {
     pub(super) number: usize,
     pub(super) place: Point2<f64>,
     pub(super) added: bool,
-}
-
-/// The last sample and its line.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Candidate {
-    /// Indices into the points.
-    pub(super) sample: Vec<usize>,
-    pub(super) line: Option<Line2>,
-    pub(super) is_inlier: Vec<bool>,
-}
-
-/// The largest consensus so far.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Best {
-    /// Total least squares through the consensus.
-    pub(super) line: Line2,
-    pub(super) is_inlier: Vec<bool>,
-    pub(super) num_inliers: usize,
-}
-
-/// What follows from the settings, the points and the number of samples.
-#[derive(Debug, Clone, Default)]
-struct Outcome {
-    least_squares: Option<Line2>,
-    candidate: Option<Candidate>,
-    best: Option<Best>,
-    /// Samples really drawn: no more than the budget asked for.
-    iterations: usize,
-    budget: Option<u64>,
-    finished: bool,
-    /// Why there is no run, as a sentence.
-    problem: Option<String>,
 }
 
 /// The model of `ransac-race`.
@@ -146,6 +49,10 @@ pub struct RansacRace {
 impl RansacRace {
     pub(super) fn data(&self) -> &[Datum] {
         &self.data
+    }
+
+    pub(super) fn outcome(&self) -> &Outcome {
+        &self.outcome
     }
 
     pub(super) fn truth(&self) -> &Line2 {
@@ -227,83 +134,23 @@ impl RansacRace {
     /// Fits both ways to the present points and replays the samples.
     fn compute(&mut self) {
         let places: Vec<Point2<f64>> = self.data.iter().map(|datum| datum.place).collect();
-        let mut outcome = Outcome::default();
-        match fit_line_total_least_squares(&places) {
-            Ok(line) => outcome.least_squares = Some(line),
-            Err(error) => outcome.problem = Some(format!("There is no fit: {error}.")),
-        }
-        let options = RansacOptions {
-            max_error_px: self.epsilon_px(),
-            confidence: CONFIDENCE,
-            min_iterations: 1,
-            max_iterations: MAX_SAMPLES,
+        self.outcome = run(&Question {
+            places: &places,
+            epsilon_px: self.epsilon_px(),
             seed: self.settings.count(&SEED) as u64,
-            score: ScoreKind::InlierCount,
-            budget: Budget::WithReplacement,
-            // The reader sees the plain loop: candidates come straight from two points.
-            local_optimization: false,
-            score_every_trial: true,
-            ..RansacOptions::default()
-        };
-        let run = LineEstimator::new(places.clone()).and_then(|e| Ransac::new(e, options));
-        match run {
-            Ok(mut run) => self.replay(&mut run, &places, &mut outcome),
-            Err(error) => outcome.problem = Some(format!("There is no fit: {error}.")),
-        }
-        self.outcome = outcome;
+            iterations: self.settings.count(&ITERATIONS),
+        });
     }
 
-    fn replay(
-        &self,
-        run: &mut Ransac<LineEstimator<'_>>,
-        places: &[Point2<f64>],
-        outcome: &mut Outcome,
-    ) {
-        let epsilon_px = self.epsilon_px();
-        let consensus = |line: &Line2| -> Vec<bool> {
-            places
-                .iter()
-                .map(|place| line.signed_distance(place).abs() < epsilon_px)
-                .collect()
-        };
-        let (mut best_line, mut last) = (None, None);
-        for _ in 0..self.settings.count(&ITERATIONS) {
-            let Step::Trial(trial) = run.step() else {
-                break;
-            };
-            outcome.iterations = trial.iteration;
-            if trial.is_best {
-                best_line = trial.model;
-            }
-            last = Some((trial.sample.to_vec(), trial.model));
+    pub(super) fn angles_deg(&self) -> Angles {
+        let least_squares = self.least_squares();
+        let ransac = self.best().map(|best| &best.line);
+        let between = |a: Option<&Line2>, b: Option<&Line2>| Some(angle_between_deg(a?, b?));
+        Angles {
+            between: between(least_squares, ransac),
+            least_squares: between(least_squares, Some(&self.truth)),
+            ransac: between(ransac, Some(&self.truth)),
         }
-        outcome.candidate = last.map(|(sample, line)| Candidate {
-            sample,
-            is_inlier: line.as_ref().map_or_else(Vec::new, consensus),
-            line,
-        });
-        if let Some(line) = best_line {
-            let is_inlier = consensus(&line);
-            let chosen: Vec<Point2<f64>> = places
-                .iter()
-                .zip(&is_inlier)
-                .filter(|(_, is)| **is)
-                .map(|(p, _)| *p)
-                .collect();
-            // A consensus without a direction of its own keeps the line of its sample.
-            let line = fit_line_total_least_squares(&chosen).unwrap_or(line);
-            outcome.best = Some(Best {
-                line,
-                num_inliers: chosen.len(),
-                is_inlier,
-            });
-        }
-        let required = run.required_iterations();
-        outcome.budget = (required <= 1_000_000).then_some(required);
-        outcome.finished = match outcome.budget {
-            Some(budget) => outcome.iterations as u64 >= budget.min(MAX_SAMPLES as u64),
-            None => outcome.iterations >= MAX_SAMPLES,
-        };
     }
 
     /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
@@ -331,23 +178,13 @@ impl RansacRace {
         self.compute();
         true
     }
-
-    fn angles_deg(&self) -> Angles {
-        let least_squares = self.least_squares();
-        let ransac = self.best().map(|best| &best.line);
-        let between = |a: Option<&Line2>, b: Option<&Line2>| Some(angle_between_deg(a?, b?));
-        Angles {
-            between: between(least_squares, ransac),
-            least_squares: between(least_squares, Some(&self.truth)),
-            ransac: between(ransac, Some(&self.truth)),
-        }
-    }
 }
 
-struct Angles {
-    between: Option<f64>,
-    least_squares: Option<f64>,
-    ransac: Option<f64>,
+/// Acute angles between lines, degrees; `None` for what has no line yet.
+pub(super) struct Angles {
+    pub(super) between: Option<f64>,
+    pub(super) least_squares: Option<f64>,
+    pub(super) ransac: Option<f64>,
 }
 
 /// The acute angle between two lines, degrees.
@@ -493,76 +330,11 @@ impl Model for RansacRace {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let of = |count: usize| format!("{count} of {}", self.data.len());
-        let inliers_now = self.candidate().map_or_else(
-            || "no sample yet".to_owned(),
-            |candidate| of(candidate.is_inlier.iter().filter(|is| **is).count()),
-        );
-        let best = self
-            .best()
-            .map_or_else(|| "none yet".to_owned(), |best| of(best.num_inliers));
-        let budget = match self.outcome.budget {
-            Some(budget) => {
-                Readout::number("budget", "Samples needed (99 %)", budget as f64, 0, "")
-            }
-            None => Readout::words("budget", "Samples needed (99 %)", "not known yet"),
-        };
-        let angle = |id, label, angle: Option<f64>| match angle {
-            Some(degrees) => Readout::number(id, label, degrees, 1, "°"),
-            None => Readout::words(id, label, "no line yet"),
-        };
-        let angles = self.angles_deg();
-        vec![
-            Readout::count("iterations", "Samples drawn", self.outcome.iterations),
-            budget,
-            Readout::words("inliers", "Inliers of this sample", inliers_now),
-            Readout::words("best", "Best so far", best),
-            angle("ransac-error", "RANSAC from the truth", angles.ransac),
-            angle(
-                "least-squares-error",
-                "Least squares from the truth",
-                angles.least_squares,
-            ),
-            angle("between", "Between the two fits", angles.between),
-        ]
+        words::readouts(self)
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = &self.outcome.problem {
-            return problem.clone();
-        }
-        let angles = self.angles_deg();
-        let degrees = |angle: Option<f64>| format_number(angle.unwrap_or(0.0), 1);
-        let least_squares = degrees(angles.least_squares);
-        let Some(best) = self.best() else {
-            return format!(
-                "{} points, no sample drawn yet. Least squares is {least_squares}° from the true \
-                 line.",
-                self.data.len()
-            );
-        };
-        let end = if self.outcome.finished {
-            " No more samples are needed for 99 % confidence.".to_owned()
-        } else {
-            match self.outcome.budget {
-                Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
-                None => String::new(),
-            }
-        };
-        let plural = if self.outcome.iterations == 1 {
-            "sample"
-        } else {
-            "samples"
-        };
-        format!(
-            "After {} {plural}, RANSAC's best line has {} of {} points within {} px and is {}° \
-             from the true line; least squares is {least_squares}° off.{end}",
-            self.outcome.iterations,
-            best.num_inliers,
-            self.data.len(),
-            format_number(self.epsilon_px(), 0),
-            degrees(angles.ransac),
-        )
+        words::describe(self)
     }
 
     fn challenges() -> &'static [Challenge<Self>] {
