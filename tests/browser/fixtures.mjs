@@ -1,5 +1,6 @@
 // What every test gets: a server with pages and elements, and a page whose console is watched.
 
+import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect } from "@playwright/test";
 import { join } from "node:path";
 import { figurePage } from "./pages.mjs";
@@ -50,6 +51,17 @@ const test = base.extend({
     });
   },
 });
+
+/** What axe knows that looks at colors. */
+const COLOR_RULES = ["color-contrast", "link-in-text-block"];
+
+/** Expects that axe finds nothing wrong: with `colors`, looking at nothing but these. */
+export async function expectAccessible(page, { colors = false } = {}) {
+  const axe = new AxeBuilder({ page });
+  if (colors) axe.withRules(COLOR_RULES);
+  const { violations } = await axe.analyze();
+  expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);
+}
 
 /** Collects what a page complains about. */
 export function listen(page, complaints) {
