@@ -3,6 +3,7 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+mod bundle_adjustment;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
@@ -39,6 +40,7 @@ pub static FIGURES: &[Entry] = &[
     entry::<disparity_map::View>(),
     entry::<four_poses::View>(),
     entry::<two_view_sfm::View>(),
+    entry::<bundle_adjustment::View>(),
     entry::<ransac_race::View>(),
 ];
 

@@ -116,7 +116,7 @@ fn with_power(value: f64, digits: usize) -> String {
 }
 
 /// A whole number as an exponent.
-fn raised(number: &str) -> String {
+pub(crate) fn raised(number: &str) -> String {
     let raise = |c: char| match c {
         '-' => '⁻',
         '0' => '⁰',
