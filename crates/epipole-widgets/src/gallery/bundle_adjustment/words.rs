@@ -33,7 +33,7 @@ pub(super) fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
 const ROWS: [(&str, &str); 6] = [
     ("error", "Reprojection error, RMS"),
     ("off", "House off by"),
-    ("cost", "Cost ½ Σ ρ"),
+    ("cost", "Cost"),
     ("damping-now", "Damping λ of this step"),
     ("unknowns", "Unknowns"),
     ("measured", "Numbers measured"),
@@ -43,6 +43,10 @@ fn values(model: &BundleAdjustment) -> Option<[String; 6]> {
     let ([start, now], answer) = (model.states()?, model.answer()?);
     let num_unknowns = 6 * NUM_CAMERAS + 3 * answer.features.len();
     let pixels = |value: f64| magnitude(value, 1e3);
+    let loss = match model.is_robust() {
+        true => "Huber's loss",
+        false => "squares",
+    };
     Some([
         format!(
             "{} px (start: {})",
@@ -54,7 +58,7 @@ fn values(model: &BundleAdjustment) -> Option<[String; 6]> {
             percent(now.off),
             percent(start.off)
         ),
-        magnitude(now.cost, 1e6),
+        format!("{} px², {loss}", magnitude(now.cost, 1e6)),
         magnitude(now.damping, 1.0),
         format!("{num_unknowns}, 7 of them free"),
         format_number(2.0 * answer.num_observations as f64, 0),
