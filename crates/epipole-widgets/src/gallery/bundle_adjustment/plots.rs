@@ -12,6 +12,8 @@ const TEXT: f64 = 13.0;
 const LEFT: f64 = 42.0;
 const BELOW: f64 = 20.0;
 const TITLE: f64 = 24.0;
+/// Room for the number of a step.
+const LABEL: f64 = 28.0;
 /// Decades that each plot spans; every third has a line.
 const COST: [i32; 2] = [-1, 9];
 const DAMPING: [i32; 2] = [-8, 5];
@@ -82,7 +84,8 @@ fn draw_axes(panel: &Panel, [low, high]: [i32; 2], title: &str, canvas: &mut Can
         canvas.label((rect.x - 6.0, y), text, muted.end());
     }
     let last = panel.x_axis.end as usize;
-    let stride = last.div_ceil(8).max(2);
+    let room = (rect.width / LABEL).max(1.0) as usize;
+    let stride = last.div_ceil(room).max(2);
     for step in (0..=last).step_by(stride) {
         let x = panel.canvas_from_world((step as f64, 0.0)).0;
         let text = step.to_string();

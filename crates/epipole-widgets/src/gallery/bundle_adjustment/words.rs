@@ -83,7 +83,8 @@ pub(super) fn describe(model: &BundleAdjustment) -> String {
             percent(now.off)
         );
     }
-    let plural = if taken == 1 { "step" } else { "steps" };
+    let num_steps = answer.num_steps();
+    let plural = if num_steps == 1 { "step" } else { "steps" };
     let end = match (model.is_finished(), answer.converged) {
         (true, true) => " The loop has converged.",
         (true, false) => " The loop has not converged.",
@@ -91,11 +92,10 @@ pub(super) fn describe(model: &BundleAdjustment) -> String {
         _ => "",
     };
     format!(
-        "After {taken} of {} {plural} the reprojection error has fallen from {} to {} px (RMS), and \
-         the house, which was off by {} % of its width, is off by {} %.{end}",
-        answer.num_steps(),
-        pixels(start.rms_px),
+        "After {taken} of {num_steps} {plural} the reprojection error is {} px (RMS) instead of {} px, \
+         and the house, which was off by {} % of its width, is off by {} %.{end}",
         pixels(now.rms_px),
+        pixels(start.rms_px),
         percent(start.off),
         percent(now.off)
     )
