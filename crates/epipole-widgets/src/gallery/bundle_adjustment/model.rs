@@ -207,11 +207,9 @@ impl Model for BundleAdjustment {
                     self.ask();
                 }
             }
-            Event::HandleMoved { id, x, y } if id == MARK => {
-                if self.mark != (*x, *y) {
-                    self.mark = (*x, *y);
-                    self.ask();
-                }
+            Event::HandleMoved { id, x, y } if id == MARK && self.mark != (*x, *y) => {
+                self.mark = (*x, *y);
+                self.ask();
             }
             Event::Clicked { panel, x, .. } if panel == "cost" || panel == "damping" => {
                 self.running = false;
