@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Times our dense stereo beside OpenCV's and our bundle adjustment beside Ceres', in turns.
 
-    python time_depth.py path/to/depth_time [THREADS] [TURNS]
+    python time_depth.py path/to/depth_time [THREADS] [TURNS] [stereo|ba]
 
 Stereo works on a rendered pair of 640 x 480 pixels with 64 disparities, whose truth is known. Each
 row ends with the quality of both: the share of pixels that have an answer, and the share of answers
 that are more than two pixels off, in percent. Bundle adjustment takes the published problem Ladybug
 49, if EPIPOLE_DATA says where the data are, without the points that start behind a camera: COLMAP
 leaves those out. Ceres runs first, through COLMAP; ours runs until it has reached Ceres' cost, to a
-millionth. Ratios are the peer's time over ours: above 1, ours is faster.
+millionth. They take turns, once each, for as long as a minute is not over. The word `stereo` or `ba`
+leaves out the other part. Ratios are the peer's time over ours: above 1, ours is faster.
 """
 import os, pathlib, subprocess, sys, tempfile, time
 import cv2
@@ -17,6 +18,8 @@ import numpy as np
 binary = sys.argv[1]
 threads = int(sys.argv[2]) if len(sys.argv) > 2 else 1
 turns = int(sys.argv[3]) if len(sys.argv) > 3 else 5
+part = sys.argv[4] if len(sys.argv) > 4 else "both"
+BA_SECONDS = 60  # Further turns of bundle adjustment begin only within this time.
 cv2.setNumThreads(threads)
 folder = pathlib.Path(tempfile.mkdtemp())
 environment = {**os.environ, "RAYON_NUM_THREADS": str(threads)}
@@ -45,7 +48,7 @@ def quality(disparity):
 
 def row(name, mine, other, note):
     (m, l), (pm, pl) = mine, other
-    print(f"{name:34}{m:10.2f}{pm:10.2f}{pm / m:7.2f}   least: {l:9.2f}{pl:10.2f}{pl / l:7.2f}   {note}")
+    print(f"{name:34}{m:10.2f}{pm:10.2f}{pm / m:7.2f}   least: {l:9.2f}{pl:10.2f}{pl / l:7.2f}   {note}", flush=True)
 
 
 ours("scene", folder)
@@ -72,7 +75,7 @@ work = {
     "sgm_8": (sgbm(cv2.STEREO_SGBM_MODE_HH), "SGBM: 8 paths / HH"),
 }
 mine, theirs = {n: [] for n in work}, {n: [] for n in work}
-for _ in range(turns):
+for _ in range(turns if part != "ba" else 0):
     for name, (median, least, _) in ours("stereo", folder, 10).items():
         mine[name].append((median, least))
     for name, (matcher, _) in work.items():
@@ -83,13 +86,15 @@ for _ in range(turns):
             times.append(1e3 * (clock() - start))
         theirs[name].append((np.median(times[1:]), min(times[1:])))
 print(f"{'':34}{'ours':>10}{'peer':>10}{'ratio':>7}          {'ours':>9}{'peer':>10}{'ratio':>7}   ({threads} thread{'s' * (threads > 1)}, ms)")
-for name, (matcher, label) in work.items():
+for name, (matcher, label) in work.items() if part != "ba" else ():
     found = matcher.compute(left, right).astype(np.float32) / 16
     found[found < 0] = np.nan
     m, t = np.array(mine[name]), np.array(theirs[name])
     note = f"ours {quality(read_pfm(folder / f'ours_{name}.pfm'))}; OpenCV {quality(found)}"
     row(label, (np.median(m[:, 0]), m[:, 1].min()), (np.median(t[:, 0]), t[:, 1].min()), note)
 
+if part == "stereo":
+    sys.exit()
 published = pathlib.Path(os.environ.get("EPIPOLE_DATA", "")) / "ba/ladybug-problem-49-7776-pre.txt"
 if not os.environ.get("EPIPOLE_DATA") or not published.exists():
     print("bundle adjustment: skipped, EPIPOLE_DATA does not say where the problem is")
@@ -177,12 +182,13 @@ index, pixels, points = index[use], pixels[use], points[keep]
 index[:, 1] = number[index[:, 1]]
 write_problem(folder / "problem.txt", index, pixels, cameras, points)
 mine, theirs, costs = [], [], []
-for _ in range(min(turns, 3)):
+begin = time.perf_counter()
+while len(theirs) < turns and (not theirs or time.perf_counter() - begin < BA_SECONDS):
     seconds, cost = ceres(index, pixels, cameras, points)
     theirs.append(1e3 * seconds)
     costs.append(cost)
-    median, least, reached = ours("ba", folder / "problem.txt", repr(float(max(costs)) * (1 + 1e-6)), 3)["ba"]
-    mine.append((median, least))
-mine = np.array(mine)
-note = f"cost: ours {reached}, Ceres {max(costs):.3f}; {len(cameras)} cameras, {len(points)} points"
-row("bundle adjustment to Ceres' cost", (np.median(mine[:, 0]), mine[:, 1].min()), (np.median(theirs), min(theirs)), note)
+    median, _, reached = ours("ba", folder / "problem.txt", repr(float(max(costs)) * (1 + 1e-6)), 1)["ba"]
+    mine.append(median)
+mine, theirs = np.array(mine), np.array(theirs)
+note = f"cost: ours {reached}, Ceres {max(costs):.3f}; {len(cameras)} cameras, {len(points)} points; {len(mine)} turns, ratio of each {np.round(theirs / mine, 2).tolist()}"
+row("bundle adjustment to Ceres' cost", (np.median(mine), mine.min()), (np.median(theirs), theirs.min()), note)

@@ -3,6 +3,7 @@
 use crate::contract::{JobResult, Model, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
+mod bundle_adjustment;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
@@ -54,6 +55,7 @@ figures![
     disparity_map::View,
     four_poses::View,
     two_view_sfm::View,
+    bundle_adjustment::View,
     ransac_race::View,
 ];
 

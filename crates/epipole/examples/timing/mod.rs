@@ -29,13 +29,27 @@ pub(crate) struct Timed<T> {
     pub(crate) last: T,
 }
 
-/// Times work in rounds, at least three.
+/// Work that takes longer needs no run to warm up, no batch, and no more rounds than were asked for.
+const SLOW_MS: f64 = 1000.0;
+
+/// Times work in rounds, at least three of what is not slow.
 pub(crate) fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> Timed<T> {
-    work();
     let start = Instant::now();
-    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
     let before = now(&start);
     let mut last = work();
+    let first = now(&start) - before;
+    if first > SLOW_MS {
+        let mut times = vec![first];
+        for _ in 1..rounds {
+            let before = now(&start);
+            last = std::hint::black_box(work());
+            times.push(now(&start) - before);
+        }
+        return summary(times, last);
+    }
+    // The processor's clock moves in steps of milliseconds, so short work is timed in batches.
+    let before = now(&start);
+    last = work();
     let one = (now(&start) - before).max(start.elapsed().as_secs_f64() * 2e2);
     let batch = (100.0 / one).clamp(1.0, 1000.0) as usize;
     let mut times: Vec<f64> = Vec::new();
@@ -46,6 +60,10 @@ pub(crate) fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> Timed<T> {
         }
         times.push((now(&start) - before) / batch as f64);
     }
+    summary(times, last)
+}
+
+fn summary<T>(mut times: Vec<f64>, last: T) -> Timed<T> {
     times.sort_by(f64::total_cmp);
     Timed {
         median_ms: times[times.len() / 2],

@@ -76,12 +76,10 @@ fn turn_deg(motion: &Motion) -> f64 {
 
 pub(super) fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
     let mut readouts = Vec::new();
-    match model.answer() {
-        None => {
-            let text = model.problem().unwrap_or("computing");
-            readouts.push(Readout::words("state", "State", text));
-        }
-        Some(answer) => stages(model, answer, &mut readouts),
+    match (model.answer(), model.problem()) {
+        (Some(answer), _) => stages(model, answer, &mut readouts),
+        (None, Some(problem)) => readouts.push(Readout::words("state", "State", problem)),
+        (None, None) => awaited(model, &mut readouts),
     }
     if model.is_own() {
         let from = match model.focal_from() {
@@ -96,6 +94,28 @@ pub(super) fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
     let from = format!("{}, {zoom} ×", model.orbit().words());
     readouts.push(Readout::words("viewpoint", "Seen from", from));
     readouts
+}
+
+/// The readouts of the stages before anything is found: a page may show the finished picture beside
+/// them, and nothing should jump when their values come.
+fn awaited(model: &TwoViewSfm, readouts: &mut Vec<Readout>) {
+    let rows = [
+        (Stage::Detect, "features", "Features"),
+        (Stage::Match, "matches", "Matches"),
+        (Stage::Ransac, "inliers", "Inliers"),
+        (Stage::Pose, "rotation", "Rotation"),
+        (Stage::Pose, "truth", "True rotation"),
+        (Stage::Pose, "in-front", "In front, four poses"),
+        (Stage::Cloud, "points", "Points"),
+        (Stage::Cloud, "error", "Mean error"),
+        (Stage::Cloud, "error-before", "Before adjustment"),
+    ];
+    for (stage, id, label) in rows {
+        let is_untold = id == "truth" && model.true_turn_deg().is_none();
+        if model.stage() >= stage && !is_untold {
+            readouts.push(Readout::words(id, label, "…"));
+        }
+    }
 }
 
 /// What each stage up to the present one has found.

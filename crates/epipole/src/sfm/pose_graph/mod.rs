@@ -1,14 +1,15 @@
 //! Pose graphs: poses joined by measured relative poses, loops among them.
 
+mod poses;
+
 use crate::optim::{
     EdgeTerms, GraphProblem, GraphSystem, Iteration, LmOptions, RobustLoss, Termination, minimize,
 };
 use crate::{Error, Result};
-use nalgebra::{
-    Isometry2, Isometry3, Matrix3, Rotation2, SMatrix, SVector, Similarity3, Translation2,
-    Translation3, UnitComplex, UnitQuaternion, Vector2, Vector3,
-};
+use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, Similarity3};
 use std::ops::ControlFlow;
+
+pub use poses::GraphPose;
 
 /// A measured relative pose between two vertices.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,196 +46,6 @@ impl<T, const D: usize> Default for Graph<T, D> {
             edges: Vec::new(),
             fixed: Vec::new(),
         }
-    }
-}
-
-/// A pose that a graph's vertices can be: SE(2), SE(3) or Sim(3), with `D` degrees of freedom.
-pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
-    /// The error of an edge, from the difference `measured⁻¹ · a⁻¹ · b`.
-    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, D>;
-    /// The error with its Jacobians for steps on the right, `pose · exp(δ)`.
-    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<D>;
-    /// `self · exp(delta)`.
-    fn plus(&self, delta: &SVector<f64, D>) -> Self;
-    /// The squared length of the translation.
-    fn translation_sq(&self) -> f64;
-    /// Whether every number is finite.
-    fn is_finite(&self) -> bool;
-}
-
-/// An angle brought to (−π, π].
-fn wrapped(angle_rad: f64) -> f64 {
-    use std::f64::consts::{PI, TAU};
-    let turns = (angle_rad / TAU).round();
-    let angle = angle_rad - turns * TAU;
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-impl GraphPose<3> for Isometry2<f64> {
-    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 3> {
-        let difference = measured.inv_mul(&a.inv_mul(b));
-        let t = difference.translation.vector;
-        SVector::<f64, 3>::new(t.x, t.y, wrapped(difference.rotation.angle()))
-    }
-
-    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<3> {
-        let b_in_a = a.inv_mul(b);
-        let difference = measured.inv_mul(&b_in_a);
-        let undo = measured.rotation.inverse().to_rotation_matrix();
-        let turn = difference.rotation.to_rotation_matrix();
-        let mut from = SMatrix::<f64, 3, 3>::zeros();
-        let mut to = SMatrix::<f64, 3, 3>::zeros();
-        from.fixed_view_mut::<2, 2>(0, 0).copy_from(&-undo.matrix());
-        // Turning a by ω moves what it sees by −ω × x, where ω × (x, y) = ω (−y, x).
-        let t = b_in_a.translation.vector;
-        let swept: Vector2<f64> = undo * Vector2::new(t.y, -t.x);
-        from[(0, 2)] = swept.x;
-        from[(1, 2)] = swept.y;
-        from[(2, 2)] = -1.0;
-        to.fixed_view_mut::<2, 2>(0, 0).copy_from(turn.matrix());
-        to[(2, 2)] = 1.0;
-        EdgeTerms {
-            residual: Self::error(a, b, measured),
-            from,
-            to,
-        }
-    }
-
-    fn plus(&self, delta: &SVector<f64, 3>) -> Self {
-        let turn = UnitComplex::from_rotation_matrix(&Rotation2::new(delta[2]));
-        let shift = self.rotation * Vector2::new(delta[0], delta[1]);
-        let mut rotation = self.rotation * turn;
-        rotation.renormalize();
-        Isometry2::from_parts(
-            Translation2::from(self.translation.vector + shift),
-            rotation,
-        )
-    }
-
-    fn translation_sq(&self) -> f64 {
-        self.translation.vector.norm_squared()
-    }
-
-    fn is_finite(&self) -> bool {
-        self.translation.vector.iter().all(|x| x.is_finite())
-            && self.rotation.re.is_finite()
-            && self.rotation.im.is_finite()
-    }
-}
-
-/// The vector part of the quaternion that has a nonnegative real part.
-fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
-    let (w, v) = (rotation.w, rotation.imag());
-    if w < 0.0 { (-w, -v) } else { (w, v) }
-}
-
-/// Error and Jacobians for similarities; a rigid transform is one with scale 1.
-#[allow(clippy::type_complexity)]
-fn similarity_terms(
-    a: &Similarity3<f64>,
-    b: &Similarity3<f64>,
-    measured: &Similarity3<f64>,
-) -> (SVector<f64, 7>, SMatrix<f64, 7, 7>, SMatrix<f64, 7, 7>) {
-    let b_in_a = a.inverse() * b;
-    let difference = measured.inverse() * b_in_a;
-    let (w, v) = half_turn(&difference.isometry.rotation);
-    let t = difference.isometry.translation.vector;
-    let mut error = SVector::<f64, 7>::zeros();
-    error.fixed_rows_mut::<3>(0).copy_from(&t);
-    error.fixed_rows_mut::<3>(3).copy_from(&v);
-    error[6] = libm::log(difference.scaling());
-
-    let rotation = |s: &Similarity3<f64>| *s.isometry.rotation.to_rotation_matrix().matrix();
-    // To the right of b: its translation is turned and scaled, its quaternion multiplied.
-    let mut to = SMatrix::<f64, 7, 7>::zeros();
-    to.fixed_view_mut::<3, 3>(0, 0)
-        .copy_from(&(rotation(&difference) * difference.scaling()));
-    to.fixed_view_mut::<3, 3>(3, 3)
-        .copy_from(&((Matrix3::identity() * w + v.cross_matrix()) * 0.5));
-    to[(6, 6)] = 1.0;
-    // To the right of a: the inverse of the step acts on b as a sees it.
-    let undo = rotation(measured).transpose();
-    let scaled_undo = undo / measured.scaling();
-    let seen = b_in_a.isometry.translation.vector;
-    let mut from = SMatrix::<f64, 7, 7>::zeros();
-    from.fixed_view_mut::<3, 3>(0, 0).copy_from(&-scaled_undo);
-    from.fixed_view_mut::<3, 3>(0, 3)
-        .copy_from(&(scaled_undo * seen.cross_matrix()));
-    from.fixed_view_mut::<3, 1>(0, 6)
-        .copy_from(&-(scaled_undo * seen));
-    from.fixed_view_mut::<3, 3>(3, 3)
-        .copy_from(&((v.cross_matrix() - Matrix3::identity() * w) * undo * 0.5));
-    from[(6, 6)] = -1.0;
-    (error, from, to)
-}
-
-fn similarity_plus(pose: &Similarity3<f64>, delta: &SVector<f64, 7>) -> Similarity3<f64> {
-    let shift = pose.isometry.rotation * Vector3::new(delta[0], delta[1], delta[2]);
-    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(delta[3], delta[4], delta[5]));
-    let mut rotation = pose.isometry.rotation * turn;
-    rotation.renormalize();
-    let translation = pose.isometry.translation.vector + shift * pose.scaling();
-    // Kept away from zero and infinity, where a similarity is none.
-    let scale = (pose.scaling() * libm::exp(delta[6])).clamp(1e-100, 1e100);
-    Similarity3::from_parts(Translation3::from(translation), rotation, scale)
-}
-
-impl GraphPose<6> for Isometry3<f64> {
-    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 6> {
-        let difference = measured.inv_mul(&a.inv_mul(b));
-        let (t, (_, v)) = (
-            difference.translation.vector,
-            half_turn(&difference.rotation),
-        );
-        SVector::<f64, 6>::new(t.x, t.y, t.z, v.x, v.y, v.z)
-    }
-
-    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<6> {
-        let lift = |pose: &Self| Similarity3::from_isometry(*pose, 1.0);
-        let (error, from, to) = similarity_terms(&lift(a), &lift(b), &lift(measured));
-        EdgeTerms {
-            residual: error.fixed_rows::<6>(0).into_owned(),
-            from: from.fixed_view::<6, 6>(0, 0).into_owned(),
-            to: to.fixed_view::<6, 6>(0, 0).into_owned(),
-        }
-    }
-
-    fn plus(&self, delta: &SVector<f64, 6>) -> Self {
-        let mut step = SVector::<f64, 7>::zeros();
-        step.fixed_rows_mut::<6>(0).copy_from(delta);
-        similarity_plus(&Similarity3::from_isometry(*self, 1.0), &step).isometry
-    }
-
-    fn translation_sq(&self) -> f64 {
-        self.translation.vector.norm_squared()
-    }
-
-    fn is_finite(&self) -> bool {
-        self.translation.vector.iter().all(|x| x.is_finite())
-            && self.rotation.coords.iter().all(|x| x.is_finite())
-    }
-}
-
-impl GraphPose<7> for Similarity3<f64> {
-    fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 7> {
-        similarity_terms(a, b, measured).0
-    }
-
-    fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<7> {
-        let (residual, from, to) = similarity_terms(a, b, measured);
-        EdgeTerms { residual, from, to }
-    }
-
-    fn plus(&self, delta: &SVector<f64, 7>) -> Self {
-        similarity_plus(self, delta)
-    }
-
-    fn translation_sq(&self) -> f64 {
-        self.isometry.translation.vector.norm_squared()
-    }
-
-    fn is_finite(&self) -> bool {
-        self.isometry.is_finite() && self.scaling().is_finite()
     }
 }
 
@@ -489,49 +300,10 @@ impl PoseGraph {
 mod tests {
     use super::*;
     use crate::math::random::Random;
-    use crate::optim::check_jacobian;
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::{Vector2, Vector3};
 
     fn go_on(_: &Iteration) -> ControlFlow<()> {
         ControlFlow::Continue(())
-    }
-
-    fn random_similarity(random: &mut Random, amount: f64) -> Similarity3<f64> {
-        let mut draw = || Vector3::from_fn(|_, _| amount * random.normal());
-        let (t, r, s) = (draw(), draw(), draw());
-        Similarity3::new(t, r, libm::exp(0.3 * s.x))
-    }
-
-    fn check_pose<T: GraphPose<D>, const D: usize>(a: T, b: T, measured: T) {
-        let terms = T::linearize(&a, &b, &measured);
-        assert!((terms.residual - T::error(&a, &b, &measured)).norm() < 1e-14);
-        let mut analytic = DMatrix::zeros(D, 2 * D);
-        analytic.view_mut((0, 0), (D, D)).copy_from(&terms.from);
-        analytic.view_mut((0, D), (D, D)).copy_from(&terms.to);
-        let residuals = |d: &DVector<f64>| {
-            let da = SVector::<f64, D>::from_column_slice(&d.as_slice()[..D]);
-            let db = SVector::<f64, D>::from_column_slice(&d.as_slice()[D..]);
-            let error = T::error(&a.plus(&da), &b.plus(&db), &measured);
-            DVector::from_column_slice(error.as_slice())
-        };
-        let worst = check_jacobian(&analytic, &residuals, 1e-6);
-        assert!(worst < 1e-7, "D = {D}: {worst}");
-    }
-
-    #[test]
-    fn jacobians_are_those_of_central_differences() {
-        let mut random = Random::new(41);
-        for _ in 0..20 {
-            let mut draw = || random_similarity(&mut random, 0.6);
-            let (a, b, z) = (draw(), draw(), draw());
-            check_pose(a, b, z);
-            check_pose(a.isometry, b.isometry, z.isometry);
-            let flat = |s: &Similarity3<f64>| {
-                let t = s.isometry.translation.vector;
-                Isometry2::new(Vector2::new(t.x, t.y), t.z)
-            };
-            check_pose(flat(&a), flat(&b), flat(&z));
-        }
     }
 
     /// A circle of poses, each measured from the one before, and the last from the first.
@@ -705,12 +477,5 @@ mod tests {
         let mut bad = good.clone();
         bad.edges.clear();
         assert!(matches!(attempt(&bad), Err(Error::TooFew { .. })));
-    }
-
-    #[test]
-    fn angles_are_wrapped() {
-        assert!((wrapped(7.0) - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
-        assert_eq!(wrapped(std::f64::consts::PI), std::f64::consts::PI);
-        assert_eq!(wrapped(-std::f64::consts::PI), std::f64::consts::PI);
     }
 }

@@ -1,13 +1,18 @@
 //! Bundle adjustment of pinhole cameras.
 
+mod problem;
+mod radial;
+
 use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::optim::{
-    BundleProblem, BundleStep, Iteration, LmOptions, LmReport, ObservationTerms, RobustLoss,
-    SchurSystem, minimize,
-};
+use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
 use crate::{Error, Result};
-use nalgebra::{Matrix3, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Point2, Point3, Translation3, Vector2};
+use problem::{Problem, State};
 use std::ops::ControlFlow;
+
+pub(super) use problem::turned;
+pub use radial::RadialDistortion;
+pub(super) use radial::radial_terms;
 
 /// A camera saw a point at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,89 +23,6 @@ pub struct Observation {
     pub point: usize,
     /// Where it was seen, pixels.
     pub pixel: Point2<f64>,
-}
-
-/// Radial distortion: the normalized point p is moved to `(1 + k1 ‖p‖² + k2 ‖p‖⁴) p`.
-///
-/// Source: Brown 1971, "Close-range camera calibration", the first two radial terms.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RadialDistortion {
-    /// Factor of ‖p‖².
-    pub k1: f64,
-    /// Factor of ‖p‖⁴.
-    pub k2: f64,
-}
-
-impl RadialDistortion {
-    /// Whether the lens is a perfect pinhole.
-    pub fn is_none(&self) -> bool {
-        self.k1 == 0.0 && self.k2 == 0.0
-    }
-
-    /// Moves a normalized point (x/z, y/z) to where the lens shows it.
-    pub fn distort(&self, normalized: &Point2<f64>) -> Point2<f64> {
-        let r_sq = normalized.coords.norm_squared();
-        normalized * (1.0 + r_sq * (self.k1 + r_sq * self.k2))
-    }
-
-    /// The normalized point that [`distort`](Self::distort) moves to `distorted`.
-    ///
-    /// Newton's method on the radius. Where the distortion is so strong that no radius or
-    /// several fit, the result is the nearest stage of the search; it is always finite.
-    pub fn undistort(&self, distorted: &Point2<f64>) -> Point2<f64> {
-        let wanted = distorted.coords.norm();
-        if self.is_none() || wanted == 0.0 {
-            return *distorted;
-        }
-        let mut radius = wanted;
-        for _ in 0..20 {
-            let r_sq = radius * radius;
-            let value = radius * (1.0 + r_sq * (self.k1 + r_sq * self.k2)) - wanted;
-            let slope = 1.0 + r_sq * (3.0 * self.k1 + 5.0 * r_sq * self.k2);
-            if slope < 0.1 {
-                break;
-            }
-            let step = value / slope;
-            radius = (radius - step).max(0.0);
-            if step.abs() <= 1e-15 * wanted {
-                break;
-            }
-        }
-        distorted * (radius / wanted)
-    }
-}
-
-/// The distortion's factor at a normalized point, and its Jacobian times the point.
-pub(super) struct RadialTerms {
-    pub(super) r_sq: f64,
-    pub(super) factor: f64,
-    /// ∂(factor p)/∂p.
-    pub(super) jacobian: [[f64; 2]; 2],
-}
-
-#[inline]
-pub(super) fn radial_terms(p: [f64; 2], k1: f64, k2: f64) -> RadialTerms {
-    let [x, y] = p;
-    let r_sq = x * x + y * y;
-    let factor = 1.0 + r_sq * (k1 + r_sq * k2);
-    let slope = 2.0 * (k1 + 2.0 * k2 * r_sq);
-    RadialTerms {
-        r_sq,
-        factor,
-        jacobian: [
-            [factor + slope * x * x, slope * x * y],
-            [slope * x * y, factor + slope * y * y],
-        ],
-    }
-}
-
-/// `exp(δ) R`; the very same bits for δ = 0, so that a held camera stays exactly.
-pub(super) fn turned(rotation: &UnitQuaternion<f64>, delta: [f64; 3]) -> UnitQuaternion<f64> {
-    if delta == [0.0; 3] {
-        return *rotation;
-    }
-    let turn = UnitQuaternion::from_scaled_axis(Vector3::from(delta));
-    UnitQuaternion::new_normalize((turn * rotation).into_inner())
 }
 
 /// A further camera that is bolted to each camera of a bundle, such as the right one of a stereo
@@ -230,175 +152,6 @@ pub(super) fn observation_pairs(
         .collect()
 }
 
-#[derive(Clone)]
-struct CameraState {
-    rotation: UnitQuaternion<f64>,
-    matrix: Matrix3<f64>,
-    translation: Vector3<f64>,
-}
-
-#[derive(Clone)]
-struct State {
-    cameras: Vec<CameraState>,
-    /// Factor of all focal lengths, k1, k2.
-    shared: [f64; 3],
-    points: Vec<Point3<f64>>,
-}
-
-impl State {
-    fn new(bundle: &Bundle) -> Self {
-        let cameras = bundle
-            .cameras
-            .iter()
-            .map(|camera| CameraState {
-                rotation: camera.cam_from_world.rotation,
-                matrix: *camera.cam_from_world.rotation.to_rotation_matrix().matrix(),
-                translation: camera.cam_from_world.translation.vector,
-            })
-            .collect();
-        Self {
-            cameras,
-            shared: [1.0, bundle.distortion.k1, bundle.distortion.k2],
-            points: bundle.points.clone(),
-        }
-    }
-}
-
-struct Problem<'a> {
-    bundle: &'a Bundle,
-    pairs: Vec<(u32, u32)>,
-    options: &'a BundleOptions,
-    held_cameras: Vec<[bool; 6]>,
-}
-
-impl BundleProblem<6, 3> for Problem<'_> {
-    type Parameters = State;
-
-    fn num_cameras(&self) -> usize {
-        self.bundle.cameras.len()
-    }
-    fn num_points(&self) -> usize {
-        self.bundle.points.len()
-    }
-    fn observations(&self) -> &[(u32, u32)] {
-        &self.pairs
-    }
-    fn loss(&self) -> RobustLoss {
-        self.options.loss
-    }
-    fn held_camera(&self, camera: usize) -> [bool; 6] {
-        self.held_cameras[camera]
-    }
-    fn held_shared(&self) -> [bool; 3] {
-        let (focal, distortion) = (self.options.refine_focal, self.options.refine_distortion);
-        [!focal, !distortion, !distortion]
-    }
-    fn held_point(&self, point: usize) -> bool {
-        self.options
-            .held_points
-            .get(point)
-            .copied()
-            .unwrap_or(false)
-    }
-
-    fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
-        let o = &self.bundle.observations[observation];
-        let camera = &state.cameras[o.camera];
-        let (intrinsics, sensor) = self.bundle.lens(observation);
-        let mut p = camera.matrix * state.points[o.point].coords + camera.translation;
-        if let Some(sensor) = sensor {
-            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
-        }
-        let (x, y) = (p.x / p.z, p.y / p.z);
-        let [focal, k1, k2] = state.shared;
-        let r_sq = x * x + y * y;
-        let factor = focal * (1.0 + r_sq * (k1 + r_sq * k2));
-        let center = intrinsics.principal_point();
-        [
-            factor * intrinsics.fu_px() * x + center.x - o.pixel.x,
-            factor * intrinsics.fv_px() * y + center.y - o.pixel.y,
-        ]
-    }
-
-    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, 3> {
-        let o = &self.bundle.observations[observation];
-        let camera = &state.cameras[o.camera];
-        let (intrinsics, sensor) = self.bundle.lens(observation);
-        let rotated = camera.matrix * state.points[o.point].coords;
-        let mut p = rotated + camera.translation;
-        if let Some(sensor) = sensor {
-            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
-        }
-        let normalized = [p.x / p.z, p.y / p.z];
-        let [x, y] = normalized;
-        let [focal, k1, k2] = state.shared;
-        let radial = radial_terms(normalized, k1, k2);
-        let center = intrinsics.principal_point();
-        let focals = [intrinsics.fu_px(), intrinsics.fv_px()];
-        let seen = [o.pixel.x - center.x, o.pixel.y - center.y];
-        let mut terms = ObservationTerms {
-            residual: [0.0; 2],
-            camera: [[0.0; 6]; 2],
-            shared: [[0.0; 3]; 2],
-            point: [[0.0; 3]; 2],
-        };
-        for row in 0..2 {
-            let f = focals[row] * focal;
-            terms.residual[row] = f * radial.factor * normalized[row] - seen[row];
-            // ∂p/∂P = 1/z [1 0 −x; 0 1 −y], with x and y after the division.
-            let (a, b) = (f * radial.jacobian[row][0], f * radial.jacobian[row][1]);
-            let mut by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
-            if let Some(sensor) = sensor {
-                by_p = sensor.sensor_from_camera.rotation.inverse() * by_p;
-            }
-            // exp(δ) R X moves by δ × R X, and g · (δ × q) = δ · (q × g).
-            let by_rotation = rotated.cross(&by_p);
-            let by_point = camera.matrix.tr_mul(&by_p);
-            terms.camera[row][..3].copy_from_slice(by_rotation.as_slice());
-            terms.camera[row][3..].copy_from_slice(by_p.as_slice());
-            terms.shared[row] = [
-                focals[row] * radial.factor * normalized[row],
-                f * radial.r_sq * normalized[row],
-                f * radial.r_sq * radial.r_sq * normalized[row],
-            ];
-            terms.point[row].copy_from_slice(by_point.as_slice());
-        }
-        terms
-    }
-
-    fn step(&self, from: &State, step: &BundleStep<6, 3>, into: &mut State) {
-        for ((old, new), d) in from
-            .cameras
-            .iter()
-            .zip(&mut into.cameras)
-            .zip(&step.cameras)
-        {
-            new.rotation = turned(&old.rotation, [d[0], d[1], d[2]]);
-            new.matrix = *new.rotation.to_rotation_matrix().matrix();
-            new.translation = old.translation + Vector3::new(d[3], d[4], d[5]);
-        }
-        for k in 0..3 {
-            into.shared[k] = from.shared[k] + step.shared[k];
-        }
-        for ((old, new), d) in from.points.iter().zip(&mut into.points).zip(&step.points) {
-            *new = old + Vector3::from(*d);
-        }
-    }
-
-    fn parameter_norm(&self, state: &State) -> f64 {
-        let mut sum = 0.0;
-        for camera in &state.cameras {
-            sum += 1.0 + camera.translation.norm_squared();
-        }
-        sum += state
-            .points
-            .iter()
-            .map(|p| p.coords.norm_squared())
-            .sum::<f64>();
-        sum.sqrt()
-    }
-}
-
 /// Which degrees of freedom of each camera are held.
 fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
     let is_held = |i: usize| options.held_cameras.get(i).copied().unwrap_or(false);
@@ -518,8 +271,8 @@ mod tests {
     use super::*;
     use crate::camera::look_at;
     use crate::math::random::Random;
-    use crate::optim::{Termination, check_jacobian};
-    use nalgebra::{DMatrix, DVector};
+    use crate::optim::{BundleProblem, BundleStep, Termination, check_jacobian};
+    use nalgebra::{DMatrix, DVector, Vector3};
 
     /// Cameras on an arc look at a ball of points.
     fn arc(num_cameras: usize, num_points: usize, distortion: RadialDistortion) -> Bundle {
@@ -779,17 +532,5 @@ mod tests {
             adjust_bundle(&mut nan, &options, &mut go_on),
             Err(Error::NotFinite { .. })
         ));
-    }
-
-    #[test]
-    fn undistorting_undoes_distorting() {
-        let lens = RadialDistortion { k1: -0.2, k2: 0.05 };
-        for (x, y) in [(0.0, 0.0), (0.3, -0.2), (0.7, 0.6)] {
-            let p = Point2::new(x, y);
-            assert!((lens.undistort(&lens.distort(&p)) - p).norm() < 1e-14);
-        }
-        let absurd = RadialDistortion { k1: -50.0, k2: 0.0 };
-        let p = absurd.undistort(&Point2::new(3.0, 4.0));
-        assert!(p.x.is_finite() && p.y.is_finite());
     }
 }

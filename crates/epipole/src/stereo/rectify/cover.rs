@@ -1,0 +1,125 @@
+//! What a photograph covers once it is rectified, and the zoom that follows from it.
+
+use super::{PixelRect, StereoCamera};
+use crate::{Error, Result};
+use nalgebra::{Point2, Rotation3, Vector2, Vector3};
+
+/// What a photograph covers in the rectified frame, in units of the focal length.
+pub(super) struct Outline {
+    /// The largest rectangle inside, whose corners need not be the photograph's.
+    pub(super) inner: PixelRect,
+    /// The smallest rectangle around.
+    pub(super) outer: PixelRect,
+    /// The mean of the photograph's corners.
+    pub(super) center: Vector2<f64>,
+}
+
+impl PixelRect {
+    pub(super) fn scaled(&self, factor: f64, offset: &Vector2<f64>) -> Self {
+        Self {
+            u_min: self.u_min * factor + offset.x,
+            v_min: self.v_min * factor + offset.y,
+            u_max: self.u_max * factor + offset.x,
+            v_max: self.v_max * factor + offset.y,
+        }
+    }
+}
+
+/// Follows the photograph's border.
+pub(super) fn outline(
+    camera: &StereoCamera,
+    rect_from_cam: &Rotation3<f64>,
+    width: u32,
+    height: u32,
+) -> Result<Outline> {
+    const STEPS: u32 = 64;
+    let (last_u, last_v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
+    let turned = |u: f64, v: f64| -> Result<Vector2<f64>> {
+        let ray = camera.intrinsics.ray(&Point2::new(u, v));
+        let ray = camera.distortion.undistort(&ray.xy().into())?;
+        let ray = rect_from_cam * Vector3::new(ray.x, ray.y, 1.0);
+        if ray.z < 1e-3 {
+            return Err(Error::Degenerate {
+                what: "a rectification",
+                why: "the cameras look in directions too far apart",
+            });
+        }
+        Ok(ray.xy() / ray.z)
+    };
+    let around = f64::INFINITY;
+    let mut inner = PixelRect {
+        u_min: -around,
+        v_min: -around,
+        u_max: around,
+        v_max: around,
+    };
+    let mut outer = PixelRect {
+        u_min: around,
+        v_min: around,
+        u_max: -around,
+        v_max: -around,
+    };
+    for k in 0..=STEPS {
+        let share = f64::from(k) / f64::from(STEPS);
+        let (u, v) = (share * last_u, share * last_v);
+        let (left, right) = (turned(0.0, v)?, turned(last_u, v)?);
+        let (top, bottom) = (turned(u, 0.0)?, turned(u, last_v)?);
+        inner.u_min = inner.u_min.max(left.x);
+        inner.u_max = inner.u_max.min(right.x);
+        inner.v_min = inner.v_min.max(top.y);
+        inner.v_max = inner.v_max.min(bottom.y);
+        for p in [left, right, top, bottom] {
+            outer.u_min = outer.u_min.min(p.x);
+            outer.u_max = outer.u_max.max(p.x);
+            outer.v_min = outer.v_min.min(p.y);
+            outer.v_max = outer.v_max.max(p.y);
+        }
+    }
+    let corners = [
+        turned(0.0, 0.0)?,
+        turned(last_u, 0.0)?,
+        turned(0.0, last_v)?,
+        turned(last_u, last_v)?,
+    ];
+    let center = corners.iter().sum::<Vector2<f64>>() / 4.0;
+    Ok(Outline {
+        inner,
+        outer,
+        center,
+    })
+}
+
+/// How much to multiply the focal length by, so that the results show what alpha asks for.
+pub(super) fn zoom(
+    outlines: &[Outline; 2],
+    centers: &[Vector2<f64>; 2],
+    focal_px: f64,
+    new_size: &Vector2<f64>,
+    alpha: f64,
+) -> Result<f64> {
+    let mut all_valid: f64 = 0.0;
+    let mut all_shown = f64::INFINITY;
+    for (outline, center) in outlines.iter().zip(centers) {
+        // From the principal point to each side: of the result, and of what the camera covers.
+        let room = [
+            center.x,
+            center.y,
+            new_size.x - 1.0 - center.x,
+            new_size.y - 1.0 - center.y,
+        ];
+        let sides = |r: &PixelRect| [-r.u_min, -r.v_min, r.u_max, r.v_max].map(|x| x * focal_px);
+        for (room, covered) in room.into_iter().zip(sides(&outline.inner)) {
+            if covered <= 0.0 || room <= 0.0 {
+                return Err(Error::Degenerate {
+                    what: "a rectification",
+                    why: "the photographs hardly overlap after it",
+                });
+            }
+            all_valid = all_valid.max(room / covered);
+        }
+        for (room, covered) in room.into_iter().zip(sides(&outline.outer)) {
+            all_shown = all_shown.min(room / covered);
+        }
+    }
+    Ok(all_valid * (1.0 - alpha) + all_shown * alpha)
+}
