@@ -11,29 +11,29 @@
 /// Defines a function whose body is compiled for the baseline and again for AVX2, and which picks
 /// by the processor it runs on.
 macro_rules! dispatched {
-    ($(#[$meta:meta])* $vis:vis fn $name:ident $(<const $constant:ident: $kind:ty>)?
+    ($(#[$meta:meta])* $vis:vis fn $name:ident $(<$(const $constant:ident: $kind:ty),+>)?
         ($($argument:ident: $type:ty),* $(,)?) $(-> $output:ty)? $body:block) => {
         $(#[$meta])*
         #[allow(unsafe_code, clippy::too_many_arguments)]
         #[inline]
-        $vis fn $name $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? {
+        $vis fn $name $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? {
             #[inline(always)]
-            fn portable $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? $body
+            fn portable $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? $body
 
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx2,popcnt")]
-                fn wide $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? {
-                    portable $(::<$constant>)? ($($argument),*)
+                fn wide $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? {
+                    portable $(::<$($constant),+>)? ($($argument),*)
                 }
                 if std::is_x86_feature_detected!("avx2")
                     && std::is_x86_feature_detected!("popcnt")
                 {
                     // SAFETY: the processor has both features, as was just checked.
-                    return unsafe { wide $(::<$constant>)? ($($argument),*) };
+                    return unsafe { wide $(::<$($constant),+>)? ($($argument),*) };
                 }
             }
-            portable $(::<$constant>)? ($($argument),*)
+            portable $(::<$($constant),+>)? ($($argument),*)
         }
     };
 }
