@@ -83,6 +83,10 @@ pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Ke
                 || others().any(|(k, other)| other == here && first(k));
             if !beaten {
                 let at = |dx: isize, dy: isize| {
+                    let known = rows[(1 + dy) as usize][(x as isize + dx) as usize];
+                    if known > 0 {
+                        return f64::from(known);
+                    }
                     let center = (y as isize + dy) * width as isize + x as isize + dx;
                     f64::from(score(values, center as usize, &offsets))
                 };
