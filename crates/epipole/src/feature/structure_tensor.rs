@@ -1,6 +1,7 @@
 //! The structure tensor: how the gradient is spread around each pixel.
 
-use crate::imaging::separable::{Ring, RowFilter, Sink, filter_along_row, in_bands};
+use crate::imaging::kernel::{Kernel, Row, along_and_across};
+use crate::imaging::separable::{Ring, RowFilter, Sink, in_bands};
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
 use crate::math::simd::dispatched;
 use crate::{Error, Result};
@@ -199,6 +200,7 @@ fn tensor_rows<const N: usize>(
     let row = || vec![0.0f32; width];
     let mut sums = [row(), row(), row()];
     let (mut du, mut dv, mut product, mut edge) = (row(), row(), row(), Vec::new());
+    let kernel = &Kernel::new(kernel);
     for y in rows.clone() {
         let newest = (y + radius) as isize;
         let first = if y == rows.start {
@@ -209,19 +211,25 @@ fn tensor_rows<const N: usize>(
         for row in first..=newest {
             let source = border.index(row, height);
             if let Some(m) = source {
-                gradient.row(m, [&mut du, &mut dv]);
+                gradient.row(m, [Row::Over(&mut du), Row::Over(&mut dv)]);
             }
             let factors = [(&du, &du), (&du, &dv), (&dv, &dv)];
-            for (ring, (a, b)) in rings.iter_mut().zip(factors) {
+            for ((ring, (a, b)), sums) in rings.iter_mut().zip(factors).zip(&mut sums) {
                 multiply(a, b, scale_sq, &mut product);
-                let row = source.map(|_| product.as_slice());
-                filter_along_row(row, kernel, border, &mut edge, ring.push());
+                let product = source.map(|_| product.as_slice());
+                let target = ring.push();
+                if row < newest {
+                    kernel.along(product, border, &mut edge, target);
+                } else {
+                    let (rows, sums) = (ring.rows(), Row::Over(sums));
+                    along_and_across([kernel; 2], product, border, &mut edge, rows, sums);
+                }
             }
         }
-        for (ring, sums) in rings.iter().zip(&mut sums) {
-            ring.combine(kernel, sums);
-        }
-        sink(&mut |out| finish([&sums[0], &sums[1], &sums[2]], out));
+        sink(&mut |mut out| {
+            let out = out.each_mut().map(|out| out.columns(0..width));
+            finish([&sums[0], &sums[1], &sums[2]], out);
+        });
     }
 }
 

@@ -3,6 +3,7 @@
 use super::gaussian::samples;
 use super::integral::require_box_size;
 use super::{Border, DerivativeFilter};
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 
@@ -209,19 +210,23 @@ fn filter(
             let out = &mut ring[slot * width..(slot + 1) * width];
             out.fill(0);
             for (k, &w) in kernel_u.iter().enumerate().filter(|(_, w)| **w != 0) {
-                for (sum, value) in out.iter_mut().zip(&padded[k..k + width]) {
-                    *sum += w * value;
-                }
+                add(w, &padded[k..k + width], out);
             }
         }
         sums.fill(0);
         for (k, &w) in kernel_v.iter().enumerate().filter(|(_, w)| **w != 0) {
             let slot = (y as usize + k) % length;
-            for (sum, value) in sums.iter_mut().zip(&ring[slot * width..(slot + 1) * width]) {
-                *sum += w * value;
-            }
+            add(w, &ring[slot * width..(slot + 1) * width], &mut sums);
         }
         emit(&sums);
+    }
+}
+
+dispatched! {
+    fn add(weight: i32, values: &[i32], sums: &mut [i32]) {
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += weight * value;
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Gray images, and the ways from and to the types of the `image` crate.
 
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 
@@ -71,10 +72,21 @@ pub fn gray_to_f32(image: &GrayImage) -> GrayImage32 {
 /// # Ok(()) }
 /// ```
 pub fn gray_to_u8(image: &GrayImage32) -> GrayImage {
-    // `as` saturates and turns a NaN into 0.
-    let values = image.as_raw().iter().map(|&v| (v * 255.0).round() as u8);
-    GrayImage::from_raw(image.width(), image.height(), values.collect())
+    let mut bytes = vec![0; image.as_raw().len()];
+    to_bytes(image.as_raw(), &mut bytes);
+    GrayImage::from_raw(image.width(), image.height(), bytes)
         .expect("one value was computed for each pixel")
+}
+
+dispatched! {
+    fn to_bytes(values: &[f32], bytes: &mut [u8]) {
+        for (byte, value) in bytes.iter_mut().zip(values) {
+            // Rounded by hand, which runs in vectors; `as` turns a NaN into 0.
+            let scaled = (value * 255.0).clamp(0.0, 255.0);
+            let whole = scaled as i32;
+            *byte = (whole + i32::from(scaled - whole as f32 >= 0.5)) as u8;
+        }
+    }
 }
 
 /// Gray from color by [`BT601_WEIGHTS`] in 15-bit fixed point, equal to OpenCV's `cvtColor`:
@@ -150,6 +162,27 @@ mod tests {
         let all: Vec<u8> = (0..=255).collect();
         let image = GrayImage::from_raw(16, 16, all).unwrap();
         assert_eq!(gray_to_u8(&gray_to_f32(&image)), image);
+    }
+
+    #[test]
+    fn bytes_are_rounded_and_clamped() {
+        let mut values: Vec<f32> = (-40..1100).map(|k| k as f32 / 1020.0).collect();
+        for half in 0..255 {
+            let at = (half as f32 + 0.5) / 255.0;
+            values.extend([at.next_down(), at, at.next_up()]);
+        }
+        values.extend([
+            f32::NAN,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            -0.0,
+            1e30,
+            -1e30,
+        ]);
+        let image = gray_from_values(values.len() as u32, 1, values).unwrap();
+        for (value, byte) in image.as_raw().iter().zip(gray_to_u8(&image).as_raw()) {
+            assert_eq!(*byte, (value * 255.0).round() as u8, "{value}");
+        }
     }
 
     #[test]

@@ -20,11 +20,13 @@ mod gaussian;
 mod gradient;
 mod gray;
 mod integral;
+pub(crate) mod kernel;
 mod pyramid;
 mod resize;
 mod sample;
 pub(crate) mod separable;
 mod warp;
+mod weigh;
 
 pub use border::Border;
 pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, pyramid_down_u8};

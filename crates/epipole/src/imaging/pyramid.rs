@@ -1,7 +1,8 @@
 //! Gaussian and Laplacian pyramids.
 
 use super::gray::from_vec;
-use super::separable::{Ring, filter_along_row};
+use super::kernel::Kernel;
+use super::separable::Ring;
 use super::{Border, GrayImage32};
 
 /// Weights 1 4 6 4 1 of sixteen.
@@ -25,16 +26,16 @@ pub fn pyramid_down(image: &GrayImage32, border: Border) -> GrayImage32 {
     let (half_width, half_height) = (width.div_ceil(2), height.div_ceil(2));
     let mut values = Vec::with_capacity(half_width * half_height);
     let (mut edge, mut row) = (Vec::new(), vec![0.0; width]);
-    let mut ring = Ring::new(5, width);
+    let (mut ring, kernel) = (Ring::new(5, width), Kernel::new(&BINOMIAL));
     for y in 0..half_height {
         let newest = 2 * y as isize + 2;
         let first = if y == 0 { newest - 4 } else { newest - 1 };
         for j in first..=newest {
             let source = border.index(j, height);
             let source = source.map(|m| &image.as_raw()[m * width..(m + 1) * width]);
-            filter_along_row(source, &BINOMIAL, border, &mut edge, ring.push());
+            kernel.along(source, border, &mut edge, ring.push());
         }
-        ring.combine(&BINOMIAL, &mut row);
+        kernel.across(ring.rows(), 0, &mut row);
         values.extend(row.iter().step_by(2));
     }
     from_vec(half_width as u32, half_height as u32, values)

@@ -2,6 +2,7 @@
 
 use super::GrayImage32;
 use super::gray::from_vec;
+use crate::math::simd::dispatched;
 use crate::{Error, Result};
 
 /// The image at another size, without aliasing: along an axis that shrinks each new pixel is the
@@ -54,9 +55,7 @@ pub fn resize(image: &GrayImage32, width: u32, height: u32) -> Result<GrayImage3
         row.fill(0.0);
         for (k, weight) in weights.iter().enumerate() {
             let source = &image.as_raw()[(first + k) * w..(first + k + 1) * w];
-            for (sum, value) in row.iter_mut().zip(source) {
-                *sum += weight * value;
-            }
+            add(*weight, source, &mut row);
         }
         values.extend(columns.iter().map(|(first, weights)| {
             let covered = &row[*first..first + weights.len()];
@@ -64,6 +63,14 @@ pub fn resize(image: &GrayImage32, width: u32, height: u32) -> Result<GrayImage3
         }));
     }
     Ok(from_vec(width, height, values))
+}
+
+dispatched! {
+    fn add(weight: f32, values: &[f32], sums: &mut [f32]) {
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += weight * value;
+        }
+    }
 }
 
 /// For each new sample, the first old one that it uses and the weights of that and the next ones.

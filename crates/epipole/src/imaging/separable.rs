@@ -2,8 +2,8 @@
 //! while the kernel along v needs it, and never written to memory as an image of its own.
 
 use super::gray::from_vec;
+use super::kernel::{Kernel, Row, along_and_across};
 use super::{Border, GrayImage32};
-use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use std::ops::Range;
 
@@ -85,7 +85,7 @@ pub(crate) fn filter_into<const N: usize>(
 }
 
 /// Takes a closure that fills the next row of each image.
-pub(crate) type Sink<'a, const N: usize> = &'a mut dyn FnMut(&mut dyn FnMut([&mut [f32]; N]));
+pub(crate) type Sink<'a, const N: usize> = &'a mut dyn FnMut(&mut dyn FnMut([Row; N]));
 
 /// Makes equally large images row by row: `work` gets a range of rows and a sink that it calls for
 /// each of them in turn. Ranges are shared between threads where the feature allows; a row must
@@ -107,19 +107,11 @@ pub(crate) fn in_bands<const N: usize>(
     let threads = 1;
     let used_again = images.iter().all(|image| image.len() >= size);
     if threads <= 1 && !used_again {
-        // New memory is written once, not first filled with zeros.
-        let mut rows = vec![0.0; N * width];
         for image in &mut images {
             image.clear();
             image.reserve_exact(size);
         }
-        work(0..height, &mut |fill| {
-            let mut pieces = rows.chunks_exact_mut(width);
-            fill(std::array::from_fn(|_| pieces.next().unwrap_or_default()));
-            for (image, row) in images.iter_mut().zip(rows.chunks_exact(width)) {
-                image.extend_from_slice(row);
-            }
-        });
+        work(0..height, &mut |fill| fill(images.each_mut().map(Row::End)));
         return images;
     }
     for image in &mut images {
@@ -130,7 +122,7 @@ pub(crate) fn in_bands<const N: usize>(
             fill(pieces.each_mut().map(|piece| {
                 let (row, rest) = std::mem::take(piece).split_at_mut(width);
                 *piece = rest;
-                row
+                Row::Over(row)
             }));
         });
     };
@@ -159,7 +151,7 @@ pub(crate) fn in_bands<const N: usize>(
 /// source row along u once.
 pub(crate) struct RowFilter<'a, const N: usize> {
     image: &'a GrayImage32,
-    kernels: [(&'a [f32], &'a [f32]); N],
+    kernels: [[Kernel<'a>; 2]; N],
     border: Border,
     rings: [Ring; N],
     last: Option<usize>,
@@ -175,7 +167,7 @@ impl<'a, const N: usize> RowFilter<'a, N> {
         let width = image.width() as usize;
         Self {
             image,
-            kernels,
+            kernels: kernels.map(|(u, v)| [Kernel::new(u), Kernel::new(v)]),
             border,
             rings: kernels.map(|(_, kernel_v)| Ring::new(kernel_v.len(), width)),
             last: None,
@@ -184,274 +176,48 @@ impl<'a, const N: usize> RowFilter<'a, N> {
     }
 
     /// Row `y` under each kernel.
-    pub(crate) fn row(&mut self, y: usize, out: [&mut [f32]; N]) {
+    pub(crate) fn row(&mut self, y: usize, out: [Row; N]) {
         let (width, height) = (self.image.width() as usize, self.image.height() as usize);
         let follows = y > 0 && self.last == Some(y - 1);
         self.last = Some(y);
+        let source = |row: isize| {
+            let row = self.border.index(row, height);
+            row.map(|m| &self.image.as_raw()[m * width..(m + 1) * width])
+        };
         for (k, out) in out.into_iter().enumerate() {
-            let (kernel_u, kernel_v) = self.kernels[k];
-            let radius = (kernel_v.len() / 2) as isize;
+            let [along, across] = &self.kernels[k];
+            let (ring, edge) = (&mut self.rings[k], &mut self.edge);
+            let radius = (across.len() / 2) as isize;
             let newest = y as isize + radius;
-            let first = if follows { newest } else { newest - 2 * radius };
-            for row in first..=newest {
-                let source = self
-                    .border
-                    .index(row, height)
-                    .map(|m| &self.image.as_raw()[m * width..(m + 1) * width]);
-                let target = self.rings[k].push();
-                filter_along_row(source, kernel_u, self.border, &mut self.edge, target);
+            if !follows {
+                for row in newest - 2 * radius..newest {
+                    along.along(source(row), self.border, edge, ring.push());
+                }
             }
-            self.rings[k].combine(kernel_v, out);
+            ring.push();
+            let (kernels, row) = ([along, across], source(newest));
+            along_and_across(kernels, row, self.border, edge, ring.rows(), out);
         }
     }
 }
 
-/// Correlates a row with a kernel, `None` being a row outside the image: `out[x] = Σ kernel[k]
-/// row[x + k − r]`. The inside is read in place; `edge` holds the ends with their border.
-pub(crate) fn filter_along_row(
-    row: Option<&[f32]>,
-    kernel: &[f32],
-    border: Border,
-    edge: &mut Vec<f32>,
-    out: &mut [f32],
-) {
-    let (width, radius) = (out.len(), kernel.len() / 2);
-    let run = |padded: &[f32], out: &mut [f32]| {
-        let n = out.len();
-        with_slices(
-            kernel.len(),
-            |k| &padded[k..k + n],
-            |taps| weigh(taps, kernel, out),
-        );
-    };
-    let Some(row) = row else {
-        edge.clear();
-        edge.resize(width + 2 * radius, border.constant());
-        run(edge, out);
-        return;
-    };
-    let at = |x: isize| border.index(x, width).map_or(border.constant(), |x| row[x]);
-    let r = radius as isize;
-    if width <= 4 * radius {
-        edge.clear();
-        edge.extend((-r..width as isize + r).map(at));
-        run(edge, out);
-        return;
-    }
-    if radius > 0 {
-        edge.clear();
-        edge.extend((-r..2 * r).map(at));
-        run(edge, &mut out[..radius]);
-        edge.clear();
-        edge.extend((width as isize - 2 * r..width as isize + r).map(at));
-        run(edge, &mut out[width - radius..]);
-    }
-    run(row, &mut out[radius..width - radius]);
-}
-
-/// The last rows of a stream, as many as the kernel along v is long.
-pub(crate) struct Ring {
-    rows: Vec<f32>,
-    width: usize,
-    length: usize,
-    next: usize,
-}
+/// The last rows of a stream, as many as the kernel along v is long, the oldest first.
+pub(crate) struct Ring(Vec<Vec<f32>>);
 
 impl Ring {
     pub(crate) fn new(length: usize, width: usize) -> Self {
-        Self {
-            rows: vec![0.0; length * width],
-            width,
-            length,
-            next: 0,
-        }
+        Self(vec![vec![0.0; width]; length])
     }
 
-    /// The oldest row, to be overwritten by the newest.
+    /// The oldest row, now the newest, to be overwritten.
     pub(crate) fn push(&mut self) -> &mut [f32] {
-        let at = self.next * self.width;
-        self.next = (self.next + 1) % self.length;
-        &mut self.rows[at..at + self.width]
+        self.0.rotate_left(1);
+        self.0.last_mut().map_or(&mut [], |row| row)
     }
 
-    /// `out[x] = Σ kernel[k] rowₖ[x]`, oldest row first.
-    pub(crate) fn combine(&self, kernel: &[f32], out: &mut [f32]) {
-        let row = |k: usize| {
-            let slot = self.next + k;
-            let slot = if slot < self.length {
-                slot
-            } else {
-                slot - self.length
-            };
-            &self.rows[slot * self.width..(slot + 1) * self.width]
-        };
-        with_slices(self.length, row, |taps| weigh(taps, kernel, out));
+    pub(crate) fn rows(&mut self) -> &mut [Vec<f32>] {
+        &mut self.0
     }
-}
-
-/// Collects short lists of slices on the stack, long ones on the heap.
-fn with_slices<'a>(
-    count: usize,
-    slice: impl Fn(usize) -> &'a [f32],
-    run: impl FnOnce(&[&'a [f32]]),
-) {
-    let mut few = [&[] as &[f32]; 33];
-    if count <= few.len() {
-        for (k, tap) in few[..count].iter_mut().enumerate() {
-            *tap = slice(k);
-        }
-        run(&few[..count]);
-    } else {
-        run(&Vec::from_iter((0..count).map(slice)));
-    }
-}
-
-/// `out[x] = Σ weights[k] taps[k][x]`, with symmetric and antisymmetric weights folded.
-fn weigh(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-    let n = weights.len();
-    let mirrored = || (0..n / 2).map(|k| (weights[k], weights[n - 1 - k]));
-    if mirrored().all(|(a, b)| a == b) {
-        match n {
-            3 => weigh_even::<1>(taps, weights, out),
-            5 => weigh_even::<2>(taps, weights, out),
-            7 => weigh_even::<3>(taps, weights, out),
-            _ => weigh_even_any(taps, weights, out),
-        }
-    } else if weights[n / 2] == 0.0 && mirrored().all(|(a, b)| a == -b) {
-        match n {
-            3 => weigh_odd::<1>(taps, weights, out),
-            5 => weigh_odd::<2>(taps, weights, out),
-            _ => weigh_odd_any(taps, weights, out),
-        }
-    } else {
-        weigh_any(taps, weights, out);
-    }
-}
-
-/// Fills `out` by blocks of `L` pixels, the last of which may overlap the one before it: each
-/// pixel's sum is the same wherever its block begins. Gives `false` if there are fewer pixels.
-//
-// No closures in these: a closure is a function of its own, compiled for the baseline only.
-macro_rules! in_blocks {
-    ($block:ident, $taps:expr, $weights:expr, $r:expr, $out:expr) => {{
-        let n = $out.len();
-        if n >= LANES {
-            let mut x = 0;
-            while x < n {
-                let from = x.min(n - LANES);
-                $out[from..from + LANES]
-                    .copy_from_slice(&$block::<LANES>($taps, $weights, $r, from));
-                x += LANES;
-            }
-        } else if n >= FEW {
-            let mut x = 0;
-            while x < n {
-                let from = x.min(n - FEW);
-                $out[from..from + FEW].copy_from_slice(&$block::<FEW>($taps, $weights, $r, from));
-                x += FEW;
-            }
-        } else {
-            for x in 0..n {
-                $out[x] = $block::<1>($taps, $weights, $r, x)[0];
-            }
-        }
-    }};
-}
-
-dispatched! {
-    fn weigh_even<const R: usize>(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        even_body(taps, weights, R, out);
-    }
-}
-dispatched! {
-    fn weigh_even_any(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        even_body(taps, weights, weights.len() / 2, out);
-    }
-}
-dispatched! {
-    fn weigh_odd<const R: usize>(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        odd_body(taps, weights, R, out);
-    }
-}
-dispatched! {
-    fn weigh_odd_any(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        odd_body(taps, weights, weights.len() / 2, out);
-    }
-}
-dispatched! {
-    fn weigh_any(taps: &[&[f32]], weights: &[f32], out: &mut [f32]) {
-        in_blocks!(any_block, taps, weights, 0, out);
-    }
-}
-
-/// Pixels whose sums are kept in registers at once.
-const LANES: usize = 32;
-/// The same for rows too short for that.
-const FEW: usize = 8;
-
-#[inline(always)]
-fn lanes<const L: usize>(slice: &[f32], from: usize) -> &[f32; L] {
-    slice[from..from + L]
-        .try_into()
-        .expect("the slice has this length")
-}
-
-#[inline(always)]
-fn even_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    in_blocks!(
-        even_block,
-        &taps[..2 * r + 1],
-        &weights[..2 * r + 1],
-        r,
-        out
-    );
-}
-
-#[inline(always)]
-fn odd_body(taps: &[&[f32]], weights: &[f32], r: usize, out: &mut [f32]) {
-    in_blocks!(odd_block, &taps[..2 * r + 1], &weights[..2 * r + 1], r, out);
-}
-
-#[inline(always)]
-fn even_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
-    let center = lanes::<L>(taps[r], x);
-    let mut sums = [0.0; L];
-    for i in 0..L {
-        sums[i] = weights[r] * center[i];
-    }
-    for j in 1..=r {
-        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
-        let w = weights[r + j];
-        for i in 0..L {
-            sums[i] += w * (a[i] + b[i]);
-        }
-    }
-    sums
-}
-
-#[inline(always)]
-fn odd_block<const L: usize>(taps: &[&[f32]], weights: &[f32], r: usize, x: usize) -> [f32; L] {
-    let mut sums = [0.0; L];
-    for j in 1..=r {
-        let (a, b) = (lanes::<L>(taps[r - j], x), lanes::<L>(taps[r + j], x));
-        let w = weights[r + j];
-        for i in 0..L {
-            sums[i] += w * (b[i] - a[i]);
-        }
-    }
-    sums
-}
-
-#[inline(always)]
-fn any_block<const L: usize>(taps: &[&[f32]], weights: &[f32], _: usize, x: usize) -> [f32; L] {
-    let mut sums = [0.0; L];
-    for (tap, w) in taps.iter().zip(weights) {
-        let tap = lanes::<L>(tap, x);
-        for i in 0..L {
-            sums[i] += w * tap[i];
-        }
-    }
-    sums
 }
 
 #[cfg(test)]
@@ -479,9 +245,15 @@ mod tests {
         })
     }
 
+    /// The texture, over and over.
+    fn tiled(width: u32, height: u32) -> GrayImage32 {
+        let texture = fixture::gray32("texture.npy");
+        let (w, h) = texture.dimensions();
+        GrayImage32::from_fn(width, height, |u, v| *texture.get_pixel(u % w, v % h))
+    }
+
     #[test]
     fn every_kernel_shape_on_every_image_shape() {
-        let texture = fixture::gray32("texture.npy");
         let kernels: [&[f32]; 6] = [
             &[2.0],
             &[1.0, 2.0, 1.0],
@@ -490,8 +262,8 @@ mod tests {
             &[-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0],
             &[1.0, 2.0, 3.0, 4.0, 5.0, 4.0, 3.0, 2.0, 1.0],
         ];
-        for (w, h) in [(1, 1), (1, 7), (7, 1), (2, 3), (40, 31), (67, 5)] {
-            let image = image::imageops::crop_imm(&texture, 0, 0, w, h).to_image();
+        for (w, h) in [(1, 1), (1, 7), (7, 1), (2, 3), (40, 31), (67, 5), (96, 4)] {
+            let image = tiled(w, h);
             for ku in kernels {
                 for kv in kernels {
                     for border in [Border::Replicate, Border::Reflect101, Border::Constant(0.3)] {
@@ -502,6 +274,32 @@ mod tests {
                         }
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn one_walk_gives_the_bits_of_two() {
+        let (even, odd, skew) = ([0.2, 0.7, 0.2], [-0.3, 0.0, 0.3], [0.1, 0.3, 0.7]);
+        let longer = [0.1, 0.2, 0.4, 0.2, 0.1];
+        let pairs: [(&[f32], &[f32]); 5] = [
+            (&even, &even),
+            (&even, &odd),
+            (&odd, &even),
+            (&longer, &longer),
+            (&skew, &odd),
+        ];
+        for width in [63, 64, 67, 96] {
+            let image = tiled(width, 9);
+            for (ku, kv) in pairs {
+                let border = Border::Reflect101;
+                let [once] = filter(&image, [(ku, kv)], border);
+                let [along] = filter(&image, [(ku, &[1.0])], border);
+                let [twice] = filter(&along, [(&[1.0], kv)], border);
+                assert_eq!(once, twice, "{width} {ku:?} {kv:?}");
+                let mut again = GrayImage32::from_pixel(200, 9, image::Luma([7.0]));
+                filter_into(&image, [(ku, kv)], border, [&mut again]);
+                assert_eq!(once, again, "{width} {ku:?} {kv:?}");
             }
         }
     }

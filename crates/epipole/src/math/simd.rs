@@ -4,36 +4,41 @@
 //! registers. The compiler neither reorders floating-point sums nor fuses a multiplication with an
 //! addition, so both copies give the same bits, which are also those of WebAssembly.
 
-// Calling a function that was compiled for AVX2 is unsafe; each call below follows the check that
-// the processor has its features.
-#![allow(unsafe_code)]
+#![allow(
+    unsafe_code,
+    reason = "calling what was compiled for AVX2 is unsafe; each call follows the check of the processor"
+)]
 
 /// Defines a function whose body is compiled for the baseline and again for AVX2, and which picks
 /// by the processor it runs on.
 macro_rules! dispatched {
-    ($(#[$meta:meta])* $vis:vis fn $name:ident $(<const $constant:ident: $kind:ty>)?
+    ($(#[$meta:meta])* $vis:vis fn $name:ident $(<$(const $constant:ident: $kind:ty),+>)?
         ($($argument:ident: $type:ty),* $(,)?) $(-> $output:ty)? $body:block) => {
         $(#[$meta])*
-        #[allow(unsafe_code, clippy::too_many_arguments)]
+        #[allow(
+            unsafe_code,
+            clippy::too_many_arguments,
+            reason = "each call follows the check; kernels take what they need"
+        )]
         #[inline]
-        $vis fn $name $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? {
+        $vis fn $name $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? {
             #[inline(always)]
-            fn portable $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? $body
+            fn portable $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? $body
 
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx2,popcnt")]
-                fn wide $(<const $constant: $kind>)? ($($argument: $type),*) $(-> $output)? {
-                    portable $(::<$constant>)? ($($argument),*)
+                fn wide $(<$(const $constant: $kind),+>)? ($($argument: $type),*) $(-> $output)? {
+                    portable $(::<$($constant),+>)? ($($argument),*)
                 }
                 if std::is_x86_feature_detected!("avx2")
                     && std::is_x86_feature_detected!("popcnt")
                 {
                     // SAFETY: the processor has both features, as was just checked.
-                    return unsafe { wide $(::<$constant>)? ($($argument),*) };
+                    return unsafe { wide $(::<$($constant),+>)? ($($argument),*) };
                 }
             }
-            portable $(::<$constant>)? ($($argument),*)
+            portable $(::<$($constant),+>)? ($($argument),*)
         }
     };
 }

@@ -4,8 +4,10 @@
 //! 64-bit x86 processor, AVX2 is used where the processor has it, WebAssembly has its own, and
 //! anything else takes the portable loop.
 
-// Loading vectors from memory is unsafe; lengths are fixed by array types or checked beside it.
-#![allow(unsafe_code)]
+#![allow(
+    unsafe_code,
+    reason = "loading vectors is unsafe; array types fix their lengths, or a check beside it does"
+)]
 
 use super::integers::{Integers, Piece, State, walk};
 
@@ -38,7 +40,10 @@ pub(super) type Packed = [i16; 16];
 
 /// Inner products of eight packed descriptors with each of four plain ones, whose pairs of
 /// numbers are packed into one `i32`, low half first. All have equally many pairs.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "wasm32"), allow(dead_code))]
+#[cfg_attr(
+    any(target_arch = "x86_64", target_arch = "wasm32"),
+    allow(dead_code, reason = "only other processors take it")
+)]
 #[inline(always)]
 pub(super) fn portable(eight: &[Packed], four: [&[i32]; 4]) -> [[i32; 8]; 4] {
     let mut sums = [[0i32; 8]; 4];

@@ -4,6 +4,7 @@ use crate::feature::Keypoint;
 use crate::math::simd::dispatched;
 use image::GrayImage;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// The circle of radius 3, clockwise from above.
 const CIRCLE: [(isize, isize); 16] = [
@@ -25,6 +26,18 @@ const CIRCLE: [(isize, isize); 16] = [
     (-1, -3),
 ];
 
+/// The same as column and row of a block of seven by seven.
+const CIRCLE_AT: [(usize, usize); 16] = {
+    let mut places = [(0, 0); 16];
+    let mut k = 0;
+    while k < 16 {
+        let (x, y) = CIRCLE[k];
+        places[k] = ((x + 3) as usize, (y + 3) as usize);
+        k += 1;
+    }
+    places
+};
+
 /// Neighbors in a row that make a corner.
 const ARC: usize = 9;
 
@@ -37,28 +50,13 @@ pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Ke
     }
     let values = image.as_raw();
     let offsets = CIRCLE.map(|(x, y)| y * width as isize + x);
-    let mut flags = vec![0u8; width - 6];
     // Scores of three rows; 0 is no corner.
-    let mut scores = [vec![0i16; width], vec![0i16; width], vec![0i16; width]];
+    let mut scores = [vec![0u8; width], vec![0u8; width], vec![0u8; width]];
     let mut found = Vec::new();
     for y in margin - 1..height - margin + 1 {
-        let row = &mut scores[y % 3];
-        row.fill(0);
-        flag_row(
-            &values[(y - 3) * width..(y + 4) * width],
-            width,
-            threshold,
-            &mut flags,
-        );
-        for (k, &flag) in flags.iter().enumerate() {
-            let x = k + 3;
-            if flag != 0 && x + 1 >= margin && x < width - margin + 1 {
-                let score = score(values, y * width + x, &offsets);
-                if score > i16::from(threshold) {
-                    row[x] = score;
-                }
-            }
-        }
+        let seven = &values[(y - 3) * width..(y + 4) * width];
+        let inside = margin - 1..width - margin + 1;
+        score_row(seven, width, threshold, inside, &mut scores[y % 3]);
         if y < margin + 1 {
             continue;
         }
@@ -66,23 +64,29 @@ pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Ke
         let rows = [&scores[(y + 2) % 3], &scores[y % 3], &scores[(y + 1) % 3]];
         for x in margin..width - margin {
             let here = rows[1][x];
-            let beaten = || {
-                let strength = |x: usize, y: usize| harris(values, width, x, y);
-                (0..9).filter(|&k| k != 4).any(|k| {
-                    let (i, j) = (x + k % 3 - 1, y + k / 3 - 1);
-                    let other = rows[k / 3][i];
-                    // Equal scores are common: Harris' measure decides, then reading order.
-                    other > here
-                        || other == here
-                            && match strength(i, j).total_cmp(&strength(x, y)) {
-                                Ordering::Greater => true,
-                                Ordering::Equal => k < 4,
-                                Ordering::Less => false,
-                            }
-                })
+            if here == 0 {
+                continue;
+            }
+            let others = || {
+                (0..9)
+                    .filter(|&k| k != 4)
+                    .map(|k| (k, rows[k / 3][x + k % 3 - 1]))
             };
-            if here > 0 && !beaten() {
+            // Equal scores are common: Harris' measure decides, then reading order.
+            let strength = |k: usize| harris(values, width, x + k % 3 - 1, y + k / 3 - 1);
+            let first = |k: usize| match strength(k).total_cmp(&strength(4)) {
+                Ordering::Greater => true,
+                Ordering::Equal => k < 4,
+                Ordering::Less => false,
+            };
+            let beaten = others().any(|(_, other)| other > here)
+                || others().any(|(k, other)| other == here && first(k));
+            if !beaten {
                 let at = |dx: isize, dy: isize| {
+                    let known = rows[(1 + dy) as usize][(x as isize + dx) as usize];
+                    if known > 0 {
+                        return f64::from(known);
+                    }
                     let center = (y as isize + dy) * width as isize + x as isize + dx;
                     f64::from(score(values, center as usize, &offsets))
                 };
@@ -107,21 +111,97 @@ fn vertex(before: f64, middle: f64, after: f64) -> f64 {
     }
 }
 
+/// Pixels whose scores are computed at once.
+const LANES: usize = 32;
+
 dispatched! {
-    /// Marks pixels for which two neighboring ones of the four compass points are brighter, or
-    /// darker, by more than the threshold: every arc of nine holds two such. Flag k is that of
-    /// column k + 3 in the middle of seven rows.
-    fn flag_row(rows: &[u8], width: usize, threshold: u8, flags: &mut [u8]) {
-        let n = flags.len();
-        let center = &rows[3 * width + 3..][..n];
-        let (north, south) = (&rows[3..][..n], &rows[6 * width + 3..][..n]);
-        let (west, east) = (&rows[3 * width..][..n], &rows[3 * width + 6..][..n]);
-        for k in 0..n {
-            let high = center[k].saturating_add(threshold);
-            let low = center[k].saturating_sub(threshold);
-            let bright = ((north[k] > high) | (south[k] > high)) & ((west[k] > high) | (east[k] > high));
-            let dark = ((north[k] < low) | (south[k] < low)) & ((west[k] < low) | (east[k] < low));
-            flags[k] = u8::from(bright | dark);
+    /// The scores of some columns of the middle one of seven rows; 0 unless above the threshold.
+    fn score_row(
+        rows: &[u8],
+        width: usize,
+        threshold: u8,
+        columns: Range<usize>,
+        scores: &mut [u8],
+    ) {
+        let mut x = columns.start;
+        while x < columns.end {
+            if x + LANES + 3 <= width {
+                let values = score_block::<LANES>(rows, width, threshold, x);
+                scores[x..x + LANES].copy_from_slice(&values);
+                x += LANES;
+            } else {
+                scores[x] = score_block::<1>(rows, width, threshold, x)[0];
+                x += 1;
+            }
+        }
+        // A block may reach beyond the columns that were asked for.
+        scores[columns.end..].fill(0);
+    }
+}
+
+#[inline(always)]
+fn pixels<const L: usize>(rows: &[u8], from: usize) -> &[u8; L] {
+    rows[from..from + L]
+        .try_into()
+        .expect("the slice has this length")
+}
+
+/// Pixels of the circle around some of the middle row.
+#[inline(always)]
+fn ring<const L: usize>(rows: &[u8], width: usize, x: usize, k: usize) -> &[u8; L] {
+    let (u, v) = CIRCLE_AT[k];
+    pixels(rows, v * width + x + u - 3)
+}
+
+#[inline(always)]
+fn score_block<const L: usize>(rows: &[u8], width: usize, threshold: u8, x: usize) -> [u8; L] {
+    let center = pixels::<L>(rows, 3 * width + x);
+    // Two neighboring ones of the four compass points are in every arc of nine.
+    let (north, south) = (ring::<L>(rows, width, x, 0), ring::<L>(rows, width, x, 8));
+    let (east, west) = (ring::<L>(rows, width, x, 4), ring::<L>(rows, width, x, 12));
+    let mut any = 0;
+    for i in 0..L {
+        let high = center[i].saturating_add(threshold);
+        let low = center[i].saturating_sub(threshold);
+        let bright = north[i].max(south[i]).min(east[i].max(west[i])) > high;
+        let dark = north[i].min(south[i]).max(east[i].min(west[i])) < low;
+        any |= u8::from(bright | dark);
+    }
+    if any == 0 {
+        return [0; L];
+    }
+    // How much brighter, and how much darker, each pixel of the circle is; no less than 0.
+    let (mut bright, mut dark) = ([[0u8; L]; 16], [[0u8; L]; 16]);
+    for k in 0..16 {
+        let ring = ring::<L>(rows, width, x, k);
+        for i in 0..L {
+            bright[k][i] = ring[i].saturating_sub(center[i]);
+            dark[k][i] = center[i].saturating_sub(ring[i]);
+        }
+    }
+    let mut scores = [0u8; L];
+    best_arcs(&bright, &mut scores);
+    best_arcs(&dark, &mut scores);
+    for score in &mut scores {
+        *score = if *score > threshold { *score } else { 0 };
+    }
+    scores
+}
+
+/// Raises each score to the least of the best nine in a row.
+#[inline(always)]
+fn best_arcs<const L: usize>(ring: &[[u8; L]; 16], scores: &mut [u8; L]) {
+    let mut three = [[0u8; L]; 16];
+    for k in 0..16 {
+        let (a, b, c) = (&ring[k], &ring[(k + 1) % 16], &ring[(k + 2) % 16]);
+        for i in 0..L {
+            three[k][i] = a[i].min(b[i]).min(c[i]);
+        }
+    }
+    for k in 0..16 {
+        let (a, b, c) = (&three[k], &three[(k + 3) % 16], &three[(k + ARC - 3) % 16]);
+        for i in 0..L {
+            scores[i] = scores[i].max(a[i].min(b[i]).min(c[i]));
         }
     }
 }
@@ -147,15 +227,19 @@ fn score(values: &[u8], center: usize, offsets: &[isize; 16]) -> i16 {
 
 /// Harris' measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
 fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
-    let (mut a, mut b, mut c) = (0i64, 0i64, 0i64);
+    // Each product is at most 1020², 49 of them fit.
+    let (mut a, mut b, mut c) = (0i32, 0i32, 0i32);
     for row in y - 3..=y + 3 {
-        for column in x - 3..=x + 3 {
-            let at = |dx: isize, dy: isize| {
-                let k = (row as isize + dy) * width as isize + column as isize + dx;
-                i64::from(values[k as usize])
-            };
-            let du = at(1, -1) + 2 * at(1, 0) + at(1, 1) - at(-1, -1) - 2 * at(-1, 0) - at(-1, 1);
-            let dv = at(-1, 1) + 2 * at(0, 1) + at(1, 1) - at(-1, -1) - 2 * at(0, -1) - at(1, -1);
+        let nine = |row: usize| -> [i32; 9] {
+            let values = pixels::<9>(values, row * width + x - 4);
+            values.map(i32::from)
+        };
+        let (above, here, below) = (nine(row - 1), nine(row), nine(row + 1));
+        let smooth: [i32; 9] = std::array::from_fn(|k| above[k] + 2 * here[k] + below[k]);
+        let slope: [i32; 9] = std::array::from_fn(|k| below[k] - above[k]);
+        for k in 1..8 {
+            let du = smooth[k + 1] - smooth[k - 1];
+            let dv = slope[k - 1] + 2 * slope[k] + slope[k + 1];
             a += du * du;
             b += du * dv;
             c += dv * dv;
@@ -163,7 +247,7 @@ fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
     }
     // Sobel's gain of 8 and the 49 pixels are divided out.
     let scale = 1.0 / (255.0 * 255.0 * 64.0 * 49.0);
-    let (a, b, c) = (a as f64 * scale, b as f64 * scale, c as f64 * scale);
+    let [a, b, c] = [a, b, c].map(|sum| f64::from(sum) * scale);
     (a * c - b * b - 0.04 * (a + c) * (a + c)) as f32
 }
 

@@ -1,14 +1,19 @@
 //! The pairs of places that a binary descriptor compares.
 
 use crate::math::random::Random;
+use crate::math::simd::dispatched;
 use image::GrayImage;
 
 /// All places lie in a disc of this radius, pixels.
 pub(super) const RADIUS: usize = 15;
 
-/// 256 pairs of offsets from the keypoint.
+/// Places that are compared: 256 pairs.
+const PLACES: usize = 512;
+
+/// Offsets from the keypoint; those of pair k are at 2k and 2k + 1.
 pub(super) struct Pattern {
-    pairs: Vec<[[f32; 2]; 2]>,
+    u: [f32; PLACES],
+    v: [f32; PLACES],
 }
 
 impl Pattern {
@@ -23,9 +28,14 @@ impl Pattern {
                 return [x as f32, y as f32];
             }
         };
-        Self {
-            pairs: (0..256).map(|_| [place(), place()]).collect(),
+        let mut pattern = Self {
+            u: [0.0; PLACES],
+            v: [0.0; PLACES],
+        };
+        for k in 0..PLACES {
+            [pattern.u[k], pattern.v[k]] = place();
         }
+        pattern
     }
 
     /// Bit k says whether the first place of pair k is darker than the second, the pattern turned
@@ -40,17 +50,35 @@ impl Pattern {
         let width = image.width() as isize;
         let center = y as isize * width + x as isize;
         let (sin, cos) = (libm::sinf(angle_rad), libm::cosf(angle_rad));
-        let value = |[a, b]: [f32; 2]| {
-            let u = (a * cos - b * sin).round() as isize;
-            let v = (a * sin + b * cos).round() as isize;
-            image.as_raw()[(center + v * width + u) as usize]
-        };
+        let mut offsets = [0i32; PLACES];
+        turned(self, sin, cos, width as i32, &mut offsets);
+        let value = |k: usize| image.as_raw()[(center + offsets[k] as isize) as usize];
         let mut bits = [0u64; 4];
-        for (k, &[first, second]) in self.pairs.iter().enumerate() {
-            bits[k / 64] |= u64::from(value(first) < value(second)) << (k % 64);
+        for k in 0..PLACES / 2 {
+            bits[k / 64] |= u64::from(value(2 * k) < value(2 * k + 1)) << (k % 64);
         }
         bits
     }
+}
+
+dispatched! {
+    /// The pixels of the turned pattern in an image of some width, counted from the keypoint's.
+    fn turned(pattern: &Pattern, sin: f32, cos: f32, width: i32, offsets: &mut [i32; PLACES]) {
+        for k in 0..PLACES {
+            let (a, b) = (pattern.u[k], pattern.v[k]);
+            let u = nearest(a * cos - b * sin);
+            let v = nearest(a * sin + b * cos);
+            offsets[k] = v * width + u;
+        }
+    }
+}
+
+/// `f32::round` of a small number: the nearest whole one, halves away from zero.
+#[inline(always)]
+fn nearest(x: f32) -> i32 {
+    let whole = x as i32;
+    let rest = x - whole as f32;
+    whole + i32::from(rest >= 0.5) - i32::from(rest <= -0.5)
 }
 
 #[cfg(test)]
