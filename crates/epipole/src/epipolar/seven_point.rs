@@ -109,9 +109,8 @@ mod tests {
             // With K = I, rays are pixels and F is E.
             let truth = essential_from_motion(&motion).unwrap();
             let truth = truth / truth.norm();
-            let pixels = |rays: [nalgebra::Vector3<f64>; 7]| {
-                rays.map(|r| Point2::new(r.x / r.z, r.y / r.z))
-            };
+            let pixels =
+                |rays: [nalgebra::Vector3<f64>; 7]| rays.map(|r| Point2::new(r.x / r.z, r.y / r.z));
             let solutions = fundamental_7point(&pixels(r1), &pixels(r2));
             solutions_total += solutions.len();
             let near = |f: &Matrix3<f64>| (f - truth).norm().min((f + truth).norm()) < 1e-6;
