@@ -90,11 +90,17 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// σ and the share are found for errors that fill a tenth of the threshold, and for errors beyond it.
+    /// σ and the share of inliers, whether errors are a tenth of the threshold or as large; then the
+    /// window cuts off their tail, and both come out too small.
     #[test]
     fn the_width_of_errors_is_found() {
         for dimensions in [1, 2] {
-            for sigma in [0.2, 0.6, 1.0] {
+            for (sigma, off_sigma, off_share) in [
+                (0.1, 0.04, 0.03),
+                (0.2, 0.04, 0.03),
+                (0.6, 0.04, 0.03),
+                (1.0, 0.12, 0.1),
+            ] {
                 let mut random = Random::new(3);
                 let errors_sq: Vec<f64> = (0..4000)
                     .map(|i| {
@@ -118,12 +124,11 @@ mod tests {
                     mixture.improve(&errors_sq, &mut weights);
                 }
                 assert!(mixture.has_converged());
-                let found = mixture.sigma_sq.sqrt();
+                let (found, share) = (mixture.sigma_sq.sqrt(), mixture.share);
                 assert!(
-                    (found / sigma - 1.0).abs() < 0.08,
-                    "{dimensions} {sigma}: {found}"
+                    (found / sigma - 1.0).abs() < off_sigma && (share - 0.75).abs() < off_share,
+                    "{dimensions} {sigma}: {found} {share}"
                 );
-                assert!((mixture.share - 0.75).abs() < 0.05, "{}", mixture.share);
                 assert!(weights.iter().all(|w| (0.0..=1.0).contains(w)));
             }
         }
