@@ -310,7 +310,7 @@ impl<E: Estimator> Ransac<E> {
     /// around the model, and local optimization leads some of them elsewhere.
     fn explore(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
-        let size = 2 * self.estimator.sample_size();
+        let size = 3 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
         let alike = vec![1.0; size];
         for _ in 0..EXPLORATIONS {
