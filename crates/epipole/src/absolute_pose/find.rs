@@ -76,7 +76,8 @@ impl AbsolutePoseEstimator {
     fn refined(
         &self,
         pose: &Pose,
-        inliers: &[usize],
+        used: &[usize],
+        weights: Option<&[f64]>,
         loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Pose> {
@@ -89,7 +90,8 @@ impl AbsolutePoseEstimator {
         let problem = PoseProblem {
             points: &self.points,
             pixels: &self.pixels,
-            used: inliers,
+            used,
+            weights,
             intrinsics: &self.intrinsics,
             loss,
         };
@@ -103,6 +105,10 @@ impl Estimator for AbsolutePoseEstimator {
 
     fn name(&self) -> &'static str {
         "a camera pose from points"
+    }
+
+    fn error_dimensions(&self) -> usize {
+        2
     }
 
     fn sample_size(&self) -> usize {
@@ -142,12 +148,11 @@ impl Estimator for AbsolutePoseEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px,
         };
-        self.refined(pose, inliers, loss, 4)
+        self.refined(pose, inliers, None, loss, 4)
     }
 
-    fn polish(&mut self, pose: &Pose, near: &[usize], width_px: f64) -> Option<Pose> {
-        let loss = RobustLoss::Cauchy { width: width_px };
-        self.refined(pose, near, loss, 25)
+    fn polish(&mut self, pose: &Pose, near: &[usize], weights: &[f64]) -> Option<Pose> {
+        self.refined(pose, near, Some(weights), RobustLoss::Trivial, 4)
     }
 
     fn unique(&self) -> Option<&Unique> {

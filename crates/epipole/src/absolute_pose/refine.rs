@@ -70,6 +70,7 @@ pub fn refine_absolute_pose(
         points: points_in_world,
         pixels,
         used: &used,
+        weights: None,
         intrinsics,
         loss,
     };
@@ -92,11 +93,20 @@ pub(super) struct PoseProblem<'a> {
     pub(super) points: &'a [Point3<f64>],
     pub(super) pixels: &'a [Point2<f64>],
     pub(super) used: &'a [usize],
+    /// How much each of the used points counts; alike without.
+    pub(super) weights: Option<&'a [f64]>,
     pub(super) intrinsics: &'a Intrinsics,
     pub(super) loss: RobustLoss,
 }
 
 impl PoseProblem<'_> {
+    /// The used points with the root of their weight: by that, residuals are multiplied.
+    fn used(&self) -> impl Iterator<Item = (usize, f64)> {
+        let root = |place: usize| self.weights.map_or(1.0, |weights| weights[place].sqrt());
+        let used = self.used.iter().enumerate();
+        used.map(move |(place, &index)| (index, root(place)))
+    }
+
     /// The residual, and the point in the camera frame; `None` in or behind the center plane.
     fn residual(&self, (rotation, t): &Pose, index: usize) -> Option<(Vector2<f64>, Vector3<f64>)> {
         let x = rotation * self.points[index].coords + t;
@@ -130,10 +140,11 @@ impl FixedProblem<6> for PoseProblem<'_> {
     type Parameters = Pose;
 
     fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<6>) {
-        for &index in self.used {
+        for (index, root) in self.used() {
             match self.residual(pose, index) {
                 Some((residual, x)) => {
-                    normal.add(&residual, &self.jacobian(pose, index, &x), &self.loss);
+                    let jacobian = self.jacobian(pose, index, &x) * root;
+                    normal.add(&(residual * root), &jacobian, &self.loss);
                 }
                 None => normal.cost = f64::INFINITY,
             }
@@ -142,9 +153,11 @@ impl FixedProblem<6> for PoseProblem<'_> {
 
     fn cost(&self, pose: &Pose) -> f64 {
         let mut total = 0.0;
-        for &index in self.used {
+        for (index, root) in self.used() {
             match self.residual(pose, index) {
-                Some((residual, _)) => total += 0.5 * self.loss.rho(residual.norm_squared()),
+                Some((residual, _)) => {
+                    total += 0.5 * self.loss.rho((residual * root).norm_squared());
+                }
                 None => return f64::INFINITY,
             }
         }
@@ -190,6 +203,7 @@ mod tests {
                 points: &points,
                 pixels: &pixels,
                 used: &used,
+                weights: None,
                 intrinsics: &k,
                 loss: RobustLoss::Trivial,
             };

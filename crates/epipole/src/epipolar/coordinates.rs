@@ -13,12 +13,15 @@ pub(crate) type Lanes = [f64; LANES];
 #[derive(Debug, Clone)]
 pub(crate) struct Coordinates {
     lists: [Vec<f64>; 4],
+    /// How much each match counts in least squares; empty if all count alike.
+    weights: Vec<f64>,
 }
 
 impl Coordinates {
     pub(crate) fn pixels(matches: &MatchSet) -> Self {
         Self {
             lists: matches.coordinates().map(<[f64]>::to_vec),
+            weights: Vec::new(),
         }
     }
 
@@ -32,14 +35,24 @@ impl Coordinates {
                 *x = (*x - offset) * frame.scale;
             }
         }
-        Self { lists }
+        Self {
+            lists,
+            weights: Vec::new(),
+        }
     }
 
-    /// Some of the matches.
-    pub(crate) fn subset(&self, indices: &[usize]) -> Self {
-        let lists =
-            [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect());
-        Self { lists }
+    /// Some of the matches, and how much each of them counts in least squares.
+    pub(crate) fn weighted(&self, indices: &[usize], weights: &[f64]) -> Self {
+        Self {
+            lists: [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect()),
+            weights: weights.to_vec(),
+        }
+    }
+
+    /// The weights of matches `start..`, if they have any.
+    #[inline(always)]
+    pub(crate) fn weights(&self, start: usize) -> Option<&[f64]> {
+        self.weights.get(start..).filter(|w| !w.is_empty())
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -160,7 +160,8 @@ mod tests {
     use super::*;
     use crate::camera::{Intrinsics, RigidTransform};
     use crate::epipolar::{
-        essential_from_motion, fundamental_7point, fundamental_from_essential, sampson_sq,
+        essential_from_motion, five_point, fundamental_7point, fundamental_from_essential,
+        sampson_sq,
     };
     use crate::math::random::Random;
     use nalgebra::{Point3, UnitQuaternion, Vector3};
@@ -255,6 +256,25 @@ mod tests {
                 assert_eq!(over, 0, "{num_points} {scale} {noise}: {worst}");
             }
         }
+    }
+
+    /// Problems as PoseLib's generator draws them. With K = I, rays are pixels and F is E.
+    #[test]
+    fn ten_thousand_problems() {
+        let mut random = Random::new(1);
+        let mut found = 0;
+        for _ in 0..10_000 {
+            let (motion, r1, r2) = five_point::tests::problem::<8>(&mut random);
+            let truth = essential_from_motion(&motion).unwrap();
+            let truth = truth / truth.norm();
+            let pixels = |rays: [Vector3<f64>; 8]| rays.map(|r| Point2::new(r.x / r.z, r.y / r.z));
+            found += usize::from(
+                fundamental_8point(&pixels(r1), &pixels(r2))
+                    .is_ok_and(|f| (f - truth).norm().min((f + truth).norm()) < 1e-6),
+            );
+        }
+        println!("eight points: {found} of 10000");
+        assert!(found >= 9990, "{found}");
     }
 
     #[test]

@@ -174,19 +174,17 @@ impl Estimator for FundamentalEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px * self.frame.scale,
         };
-        self.refined(model, &self.in_frame, loss, 4)
+        self.refined(model, &self.in_frame, loss, 2)
     }
 
     fn polish(
         &mut self,
         model: &Matrix3<f64>,
         near: &[usize],
-        width_px: f64,
+        weights: &[f64],
     ) -> Option<Matrix3<f64>> {
-        let loss = RobustLoss::Cauchy {
-            width: width_px * self.frame.scale,
-        };
-        self.refined(model, &self.in_frame.subset(near), loss, 25)
+        let near = self.in_frame.weighted(near, weights);
+        self.refined(model, &near, RobustLoss::Trivial, 4)
     }
 
     fn recover(

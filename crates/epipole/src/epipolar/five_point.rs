@@ -282,7 +282,7 @@ pub(crate) fn pose_in_front(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::super::essential_from_motion;
     use super::*;
     use crate::camera::RigidTransform;
@@ -290,9 +290,9 @@ mod tests {
     use nalgebra::{Point3, UnitQuaternion};
 
     /// PoseLib's generator of problems: a field of view of 75°, depths from 0.1 to 10.
-    pub(crate) fn problem(
+    pub(crate) fn problem<const N: usize>(
         random: &mut Random,
-    ) -> (RigidTransform, [Vector3<f64>; 5], [Vector3<f64>; 5]) {
+    ) -> (RigidTransform, [Vector3<f64>; N], [Vector3<f64>; N]) {
         let reach = libm::tan(37.5_f64.to_radians());
         loop {
             let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(
@@ -303,7 +303,7 @@ mod tests {
             ));
             let t = Vector3::from_fn(|_, _| random.normal()).normalize();
             let motion = RigidTransform::from_parts(t.into(), rotation);
-            let (mut r1, mut r2) = ([Vector3::z(); 5], [Vector3::z(); 5]);
+            let (mut r1, mut r2) = ([Vector3::z(); N], [Vector3::z(); N]);
             let mut count = 0;
             // Random views need not overlap.
             for _ in 0..100 {
@@ -313,7 +313,7 @@ mod tests {
                 if seen.z > 0.0 && seen.x.abs() < reach * seen.z && seen.y.abs() < reach * seen.z {
                     (r1[count], r2[count]) = (ray, seen.coords.normalize());
                     count += 1;
-                    if count == 5 {
+                    if count == N {
                         return (motion, r1, r2);
                     }
                 }

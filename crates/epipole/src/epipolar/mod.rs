@@ -12,6 +12,7 @@ mod find_essential;
 mod find_fundamental;
 mod five_point;
 mod from_cameras;
+pub(crate) mod judge;
 mod lines;
 mod normalize;
 mod plane_recovery;

@@ -1,27 +1,34 @@
 //! The Sampson error over many matches at once: for scoring and for least squares.
 
 use super::coordinates::{Coordinates, LANES, Lanes, entries, sum};
+use super::judge::{self, LaneErrors, weigh};
 use crate::math::simd::dispatched;
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
-/// `e²/T²` of eight matches; a match without any epipolar line (0/0) gives NaN.
-#[inline(always)]
-fn relative_errors(f: &[f64; 9], lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
-    let [u1, v1, u2, v2] = lanes;
-    let mut errors = [0.0; LANES];
-    for l in 0..LANES {
-        let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
-        let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
-        let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
-        let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
-        let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
-        let algebraic = u2[l] * a + v2[l] * b + c;
-        let slope_sq = (a * a + b * b) + (p * p + q * q);
-        errors[l] = algebraic * algebraic * per_threshold_sq / slope_sq;
+/// The entries of F, row by row.
+struct Sampson([f64; 9]);
+
+impl LaneErrors for Sampson {
+    /// A match without any epipolar line (0/0) gives NaN.
+    #[inline(always)]
+    fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
+        let f = &self.0;
+        let [u1, v1, u2, v2] = lanes;
+        let mut errors = [0.0; LANES];
+        for l in 0..LANES {
+            let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
+            let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
+            let c = f[6] * u1[l] + f[7] * v1[l] + f[8];
+            let p = f[0] * u2[l] + f[3] * v2[l] + f[6];
+            let q = f[1] * u2[l] + f[4] * v2[l] + f[7];
+            let algebraic = u2[l] * a + v2[l] * b + c;
+            let slope_sq = (a * a + b * b) + (p * p + q * q);
+            errors[l] = algebraic * algebraic * per_threshold_sq / slope_sq;
+        }
+        errors
     }
-    errors
 }
 
 dispatched! {
@@ -32,42 +39,7 @@ dispatched! {
         max_error: f64,
         cost_limit: f64,
     ) -> Support {
-        let f = entries(fundamental);
-        let per_threshold_sq = 1.0 / (max_error * max_error);
-        let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
-        let mut start = 0;
-        while start < coordinates.len() {
-            // The limit is looked at every 32 matches.
-            for _ in 0..4 {
-                if start >= coordinates.len() {
-                    break;
-                }
-                let (lanes, count) = coordinates.lanes(start);
-                let errors = relative_errors(&f, &lanes, per_threshold_sq);
-                if count == LANES {
-                    for l in 0..LANES {
-                        // Not a number counts as an outlier.
-                        let fits = errors[l] < 1.0;
-                        cost[l] += if fits { errors[l] } else { 1.0 };
-                        inliers[l] += if fits { 1.0 } else { 0.0 };
-                    }
-                } else {
-                    for l in 0..count {
-                        let fits = errors[l] < 1.0;
-                        cost[l] += if fits { errors[l] } else { 1.0 };
-                        inliers[l] += if fits { 1.0 } else { 0.0 };
-                    }
-                }
-                start += LANES;
-            }
-            if sum(&cost) > cost_limit {
-                break;
-            }
-        }
-        Support {
-            cost: sum(&cost),
-            num_inliers: sum(&inliers) as usize,
-        }
+        judge::support(&Sampson(entries(fundamental)), coordinates, max_error, cost_limit)
     }
 }
 
@@ -79,38 +51,18 @@ dispatched! {
         max_error: f64,
         inliers: &mut Vec<usize>,
     ) {
-        let f = entries(fundamental);
-        let per_threshold_sq = 1.0 / (max_error * max_error);
-        inliers.clear();
-        for start in (0..coordinates.len()).step_by(LANES) {
-            let (lanes, count) = coordinates.lanes(start);
-            let errors = relative_errors(&f, &lanes, per_threshold_sq);
-            for (l, error) in errors[..count].iter().enumerate() {
-                if *error < 1.0 {
-                    inliers.push(start + l);
-                }
-            }
-        }
+        judge::inliers(&Sampson(entries(fundamental)), coordinates, max_error, inliers);
     }
 }
 
 dispatched! {
-    /// `½ Σ ρ(e²)` of the Sampson errors.
+    /// `½ Σ w ρ(e²)` of the Sampson errors.
     pub(crate) fn cost(
         coordinates: &Coordinates,
         fundamental: &Matrix3<f64>,
         loss: &RobustLoss,
     ) -> f64 {
-        let f = entries(fundamental);
-        let mut total = [0.0; LANES];
-        for start in (0..coordinates.len()).step_by(LANES) {
-            let (lanes, count) = coordinates.lanes(start);
-            let errors = relative_errors(&f, &lanes, 1.0);
-            for l in 0..count {
-                total[l] += loss.rho(errors[l]);
-            }
-        }
-        0.5 * sum(&total)
+        judge::cost(&Sampson(entries(fundamental)), coordinates, loss)
     }
 }
 
@@ -138,7 +90,7 @@ dispatched! {
             let ([u1, v1, u2, v2], count) = coordinates.lanes(start);
             let mut jacobian = [[0.0; LANES]; 9];
             let mut residual = [0.0; LANES];
-            let mut weight = [0.0; LANES];
+            let mut errors_sq = [0.0; LANES];
             for l in 0..LANES {
                 let a = f[0] * u1[l] + f[1] * v1[l] + f[2];
                 let b = f[3] * u1[l] + f[4] * v1[l] + f[5];
@@ -150,6 +102,7 @@ dispatched! {
                 let per_slope = 1.0 / slope_sq.sqrt();
                 let s = algebraic * per_slope * per_slope;
                 residual[l] = algebraic * per_slope;
+                errors_sq[l] = residual[l] * residual[l];
                 jacobian[0][l] = (u2[l] * u1[l] - s * (a * u1[l] + p * u2[l])) * per_slope;
                 jacobian[1][l] = (u2[l] * v1[l] - s * (a * v1[l] + q * u2[l])) * per_slope;
                 jacobian[2][l] = (u2[l] - s * a) * per_slope;
@@ -160,11 +113,7 @@ dispatched! {
                 jacobian[7][l] = (v1[l] - s * q) * per_slope;
                 jacobian[8][l] = per_slope;
             }
-            for l in 0..count {
-                let error_sq = residual[l] * residual[l];
-                total[l] += loss.rho(error_sq);
-                weight[l] = loss.weight(error_sq);
-            }
+            let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             if count < LANES {
                 // Lanes beyond the end may hold anything, even NaN.
                 for l in count..LANES {

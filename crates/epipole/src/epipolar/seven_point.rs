@@ -95,7 +95,30 @@ pub(crate) fn seven_point_rows(rows: &[[f64; 9]; 7]) -> ([Matrix3<f64>; 3], usiz
 
 #[cfg(test)]
 mod tests {
+    use super::super::essential_from_motion;
+    use super::super::five_point::tests::problem;
     use super::*;
+    use crate::math::random::Random;
+
+    #[test]
+    fn ten_thousand_problems() {
+        let mut random = Random::new(1);
+        let (mut found, mut solutions_total) = (0, 0);
+        for _ in 0..10_000 {
+            let (motion, r1, r2) = problem::<7>(&mut random);
+            // With K = I, rays are pixels and F is E.
+            let truth = essential_from_motion(&motion).unwrap();
+            let truth = truth / truth.norm();
+            let pixels =
+                |rays: [nalgebra::Vector3<f64>; 7]| rays.map(|r| Point2::new(r.x / r.z, r.y / r.z));
+            let solutions = fundamental_7point(&pixels(r1), &pixels(r2));
+            solutions_total += solutions.len();
+            let near = |f: &Matrix3<f64>| (f - truth).norm().min((f + truth).norm()) < 1e-6;
+            found += usize::from(solutions.iter().any(near));
+        }
+        println!("seven points: {found} of 10000, {solutions_total} solutions");
+        assert!(found >= 9990, "{found}");
+    }
 
     fn points<const N: usize>(flat: &[f64]) -> [Point2<f64>; N] {
         core::array::from_fn(|i| Point2::new(flat[2 * i], flat[2 * i + 1]))

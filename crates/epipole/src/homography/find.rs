@@ -71,6 +71,10 @@ impl Estimator for HomographyEstimator {
         "a homography from matches"
     }
 
+    fn error_dimensions(&self) -> usize {
+        2
+    }
+
     fn sample_size(&self) -> usize {
         4
     }
@@ -106,19 +110,17 @@ impl Estimator for HomographyEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px * self.frame.scale,
         };
-        self.refined(model, &self.in_frame, loss, 4)
+        self.refined(model, &self.in_frame, loss, 2)
     }
 
     fn polish(
         &mut self,
         model: &Matrix3<f64>,
         near: &[usize],
-        width_px: f64,
+        weights: &[f64],
     ) -> Option<Matrix3<f64>> {
-        let loss = RobustLoss::Cauchy {
-            width: width_px * self.frame.scale,
-        };
-        self.refined(model, &self.in_frame.subset(near), loss, 25)
+        let near = self.in_frame.weighted(near, weights);
+        self.refined(model, &near, RobustLoss::Trivial, 4)
     }
 
     fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {

@@ -1,6 +1,7 @@
 //! The transfer error over many matches at once: for scoring and for least squares.
 
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
+use crate::epipolar::judge::{self, LaneErrors, weigh};
 use crate::math::simd::dispatched;
 use crate::optim::RobustLoss;
 use crate::robust::Support;
@@ -22,6 +23,21 @@ fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
     (du, dv, per_z)
 }
 
+/// The entries of H, row by row.
+struct Transfer([f64; 9]);
+
+impl LaneErrors for Transfer {
+    #[inline(always)]
+    fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
+        let (du, dv, _) = offsets(&self.0, lanes);
+        let mut errors = [0.0; LANES];
+        for l in 0..LANES {
+            errors[l] = (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq;
+        }
+        errors
+    }
+}
+
 dispatched! {
     /// The support of H among the matches; stops once the cost exceeds the limit.
     pub(crate) fn support(
@@ -30,38 +46,7 @@ dispatched! {
         max_error: f64,
         cost_limit: f64,
     ) -> Support {
-        let h = entries(homography);
-        let per_threshold_sq = 1.0 / (max_error * max_error);
-        let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
-        for (chunk, start) in (0..coordinates.len()).step_by(LANES).enumerate() {
-            let (lanes, count) = coordinates.lanes(start);
-            let (du, dv, _) = offsets(&h, &lanes);
-            let mut errors = [0.0; LANES];
-            for l in 0..LANES {
-                errors[l] = (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq;
-            }
-            if count == LANES {
-                for l in 0..LANES {
-                    // Not a number counts as an outlier.
-                    let fits = errors[l] < 1.0;
-                    cost[l] += if fits { errors[l] } else { 1.0 };
-                    inliers[l] += if fits { 1.0 } else { 0.0 };
-                }
-            } else {
-                for l in 0..count {
-                    let fits = errors[l] < 1.0;
-                    cost[l] += if fits { errors[l] } else { 1.0 };
-                    inliers[l] += if fits { 1.0 } else { 0.0 };
-                }
-            }
-            if chunk % 4 == 3 && sum(&cost) > cost_limit {
-                break;
-            }
-        }
-        Support {
-            cost: sum(&cost),
-            num_inliers: sum(&inliers) as usize,
-        }
+        judge::support(&Transfer(entries(homography)), coordinates, max_error, cost_limit)
     }
 }
 
@@ -73,34 +58,14 @@ dispatched! {
         max_error: f64,
         inliers: &mut Vec<usize>,
     ) {
-        let h = entries(homography);
-        let per_threshold_sq = 1.0 / (max_error * max_error);
-        inliers.clear();
-        for start in (0..coordinates.len()).step_by(LANES) {
-            let (lanes, count) = coordinates.lanes(start);
-            let (du, dv, _) = offsets(&h, &lanes);
-            for l in 0..count {
-                if (du[l] * du[l] + dv[l] * dv[l]) * per_threshold_sq < 1.0 {
-                    inliers.push(start + l);
-                }
-            }
-        }
+        judge::inliers(&Transfer(entries(homography)), coordinates, max_error, inliers);
     }
 }
 
 dispatched! {
-    /// `½ Σ ρ(e²)` of the transfer errors.
+    /// `½ Σ w ρ(e²)` of the transfer errors.
     pub(crate) fn cost(coordinates: &Coordinates, homography: &Matrix3<f64>, loss: &RobustLoss) -> f64 {
-        let h = entries(homography);
-        let mut total = [0.0; LANES];
-        for start in (0..coordinates.len()).step_by(LANES) {
-            let (lanes, count) = coordinates.lanes(start);
-            let (du, dv, _) = offsets(&h, &lanes);
-            for l in 0..count {
-                total[l] += loss.rho(du[l] * du[l] + dv[l] * dv[l]);
-            }
-        }
-        0.5 * sum(&total)
+        judge::cost(&Transfer(entries(homography)), coordinates, loss)
     }
 }
 
@@ -124,12 +89,11 @@ dispatched! {
             let (lanes, count) = coordinates.lanes(start);
             let (du, dv, per_z) = offsets(&h, &lanes);
             let [u1, v1, u2, v2] = lanes;
-            let mut weight = [0.0; LANES];
-            for l in 0..count {
-                let error_sq = du[l] * du[l] + dv[l] * dv[l];
-                total[l] += loss.rho(error_sq);
-                weight[l] = loss.weight(error_sq);
+            let mut errors_sq = [0.0; LANES];
+            for l in 0..LANES {
+                errors_sq[l] = du[l] * du[l] + dv[l] * dv[l];
             }
+            let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             for l in 0..LANES {
                 // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
                 let (du, dv, z) = if weight[l] > 0.0 {

@@ -1,11 +1,18 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
+use super::mixture::Mixture;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
 use crate::math::random::Random;
 use crate::{Error, Result};
+
+/// Starts around the best model that are tried at the end.
+const EXPLORATIONS: usize = 5;
+
+/// Rounds of expectation maximization at the end, at most.
+const POLISHING_ROUNDS: usize = 12;
 
 /// RANSAC, one sample at a time.
 ///
@@ -202,7 +209,7 @@ impl<E: Estimator> Ransac<E> {
             return Err(no_consensus);
         };
         if self.options.local_optimization {
-            self.improve(&mut best);
+            self.explore(&mut best);
             self.polish(&mut best);
         }
         let max_error_px = self.options.max_error_px;
@@ -299,44 +306,77 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.refine(model, &self.inliers, max_error_px)
     }
 
-    /// The last refinement, from all data within a few times the errors that inliers have. Its
-    /// result may weigh errors differently from the score, so it is kept unless it loses inliers:
-    /// one in twenty at most.
-    fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
+    /// Looks for a better optimum nearby: starts that fit a few of the inliers by least squares lie
+    /// around the model, and local optimization leads some of them elsewhere.
+    fn explore(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
-        self.estimator
-            .inliers(&candidate.model, max_error_px, &mut self.inliers);
-        if self.inliers.len() < self.estimator.sample_size() {
-            return;
-        }
-        let width_px = self.error_width_px(&candidate.model);
-        self.estimator.inliers(
-            &candidate.model,
-            max_error_px.max(2.0 * width_px),
-            &mut self.inliers,
-        );
-        let polished = self
-            .estimator
-            .polish(&candidate.model, &self.inliers, width_px);
-        if let Some(model) = polished {
-            let support = self.support(&model, f64::INFINITY);
-            if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
-                *candidate = Candidate { model, support };
-                self.refinements += 1;
+        let size = 3 * self.estimator.sample_size();
+        let mut subset = Vec::with_capacity(size);
+        let alike = vec![1.0; size];
+        for _ in 0..EXPLORATIONS {
+            self.estimator
+                .inliers(&best.model, max_error_px, &mut self.inliers);
+            if self.inliers.len() <= size {
+                return;
+            }
+            subset.clear();
+            while subset.len() < size {
+                let index = self.inliers[self.random.below(self.inliers.len())];
+                if !subset.contains(&index) {
+                    subset.push(index);
+                }
+            }
+            let Some(start) = self.estimator.polish(&best.model, &subset, &alike) else {
+                return;
+            };
+            let found = self
+                .fitted(&start, max_error_px)
+                .and_then(|model| self.fitted(&model, max_error_px));
+            if let Some(model) = found
+                && self.replace_if_better(best, model)
+            {
+                self.improve(best);
             }
         }
     }
 
-    /// How large the errors of the inliers are: two and a half times their median, between a
-    /// quarter of the threshold and the whole. The threshold is a guess of the caller's; errors a
-    /// tenth as large deserve a sharper weight, and those that fill it a wider one.
-    fn error_width_px(&self, model: &E::Model) -> f64 {
-        let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
-        let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
-        let middle = errors_sq.len() / 2;
-        let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
-        let max_error_px = self.options.max_error_px;
-        (2.5 * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
+    /// The last refinement: the most likely model if the errors of inliers are normal and those of
+    /// outliers uniform ([`Mixture`]), by expectation maximization. It weighs errors differently from
+    /// the score, so it is kept unless it loses many inliers: one in five at most.
+    fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
+        let mut mixture = Mixture::new(
+            self.estimator.error_dimensions(),
+            self.estimator.sample_size(),
+            self.options.max_error_px,
+        );
+        let mut model = candidate.model.clone();
+        let (mut errors_sq, mut weights) = (Vec::new(), Vec::new());
+        for round in 0..POLISHING_ROUNDS {
+            self.estimator
+                .inliers(&model, mixture.window_px(), &mut self.inliers);
+            if self.inliers.len() < self.estimator.sample_size() {
+                break;
+            }
+            let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
+            errors_sq.clear();
+            errors_sq.extend(self.inliers.iter().map(error_sq));
+            // The first guess of σ may be far off.
+            for _ in 0..if round == 0 { 8 } else { 1 } {
+                mixture.improve(&errors_sq, &mut weights);
+            }
+            if round > 0 && mixture.has_converged() {
+                break;
+            }
+            let Some(polished) = self.estimator.polish(&model, &self.inliers, &weights) else {
+                break;
+            };
+            model = polished;
+        }
+        let support = self.support(&model, f64::INFINITY);
+        if 5 * support.num_inliers >= 4 * candidate.support.num_inliers {
+            *candidate = Candidate { model, support };
+            self.refinements += 1;
+        }
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {

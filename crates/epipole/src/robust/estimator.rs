@@ -82,18 +82,23 @@ pub trait Estimator {
         max_error_px: f64,
     ) -> Option<Self::Model>;
 
-    /// The last refinement, of the best model, which may take longer, allocate, and weigh errors
-    /// in another way than the score; `None` if [`refine`](Estimator::refine) did all there is to do.
+    /// How many coordinates an error has: 1 for a distance from a line, 2 for one from a point.
+    fn error_dimensions(&self) -> usize {
+        1
+    }
+
+    /// Weighted least squares from the best model on, for the last refinement, which may allocate;
+    /// `None` if [`refine`](Estimator::refine) did all there is to do.
     ///
-    /// * `near`: indices of the data within the threshold, or two widths if that is more
-    /// * `width_px`: how large the errors of the inliers are
+    /// * `near`: indices of the data not too far from the model
+    /// * `weights`: how much each of them counts, in [0, 1]
     fn polish(
         &mut self,
         model: &Self::Model,
         near: &[usize],
-        width_px: f64,
+        weights: &[f64],
     ) -> Option<Self::Model> {
-        let _ = (model, near, width_px);
+        let _ = (model, near, weights);
         None
     }
 

@@ -13,6 +13,7 @@ mod engine;
 mod estimator;
 mod line;
 mod matches;
+mod mixture;
 mod options;
 mod run;
 mod sampler;

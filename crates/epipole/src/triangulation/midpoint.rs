@@ -101,6 +101,74 @@ pub fn triangulate_weighted_midpoint(
     Ok(Point3::from(on_ray1 * share1 + on_ray2 * (1.0 - share1)))
 }
 
+/// The point for which the rays need to turn least, in the frame of camera 1: it minimizes
+/// `sin² θ1 + sin² θ2`, θi being the angle between ray i and the direction to the point.
+///
+/// Exact, in closed form: the plane through both centers that the rays leave least, `min ‖A n‖` over
+/// unit normals n with the rays, less their part along the baseline, as rows of A.
+/// Angles make sense in any camera, also where pixels do not.
+///
+/// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
+///
+/// # Errors
+/// As [`triangulate_midpoint`].
+///
+/// Source: Lee & Civera 2019, "Closed-form optimal two-view triangulation based on angular errors",
+/// §4.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::triangulation::{triangulate_angular, triangulate_midpoint};
+/// use nalgebra::{Point3, Vector3};
+/// let cam2_from_cam1 = RigidTransform::translation(-2.0, 0.0, 0.0);
+/// // Up and down by the same angle: the point lies between, as far away as the rays say.
+/// let rays = [Vector3::new(1.0, 0.1, 5.0), Vector3::new(-1.0, -0.1, 5.0)];
+/// let point = triangulate_angular(&cam2_from_cam1, &rays[0], &rays[1])?;
+/// assert!((point - Point3::new(1.0, 0.0, 5.0)).norm() < 1e-12);
+/// // The rays pass each other nearest a little before.
+/// assert!((triangulate_midpoint(&cam2_from_cam1, &rays[0], &rays[1])?.z - 4.95).abs() < 1e-3);
+/// # Ok(()) }
+/// ```
+pub fn triangulate_angular(
+    cam2_from_cam1: &RigidTransform,
+    ray1: &Vector3<f64>,
+    ray2: &Vector3<f64>,
+) -> Result<Point3<f64>> {
+    // Refuses what cannot be triangulated, such as a zero baseline.
+    triangulate_midpoint(cam2_from_cam1, ray1, ray2)?;
+    let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
+    let t = cam2_from_cam1.translation.vector;
+    let along = t.normalize();
+    let (turned, ray2) = (rotation * ray1.normalize(), ray2.normalize());
+    let (along1, along2) = (turned.dot(&along), ray2.dot(&along));
+    // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 leaves the baseline
+    // least.
+    let (across1, across2) = (1.0 - along1 * along1, 1.0 - along2 * along2);
+    let both = turned.dot(&ray2) - along1 * along2;
+    let half = 0.5 * (across1 - across2);
+    let radius = (half * half + both * both).sqrt();
+    let (depth1, depth2) = if half > 0.0 {
+        (both, radius + half)
+    } else {
+        (radius - half, both)
+    };
+    let scale = t.norm() / (depth2 * along2 - depth1 * along1);
+    let (depth1, depth2) = (depth1 * scale, depth2 * scale);
+    if !(depth1.is_finite() && depth2.is_finite()) {
+        return Err(Error::PointAtInfinity);
+    }
+    if !(depth1 > 0.0 && depth2 > 0.0) {
+        return Err(Error::PointBehindCamera);
+    }
+    // What separates the rays there is shared so that both turn by what they must.
+    let gap = turned * depth1 + t - ray2 * depth2;
+    let share1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
+    Ok(Point3::from(
+        rotation.transpose() * (turned * depth1 - gap * share1),
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,7 +189,14 @@ mod tests {
         let plain = triangulate_midpoint(&relative, &ray1, &ray2).unwrap();
         assert!((plain - Point3::new(-1.0, 0.0, 5.0 * 4.0 / 4.04)).norm() < 0.02);
         assert!((plain.z - 5.0 * 4.0 / 4.04).abs() < 1e-12);
+        // What COLMAP expects, within 1e-3 of its length there.
+        let angular = triangulate_angular(&relative, &ray1, &ray2).unwrap();
+        assert!((angular - expected).norm() < 1e-12);
         let right = shift(1.0, 0.0, 0.0);
+        assert_eq!(
+            triangulate_angular(&right, &Vector3::z(), &Vector3::z()),
+            Err(Error::PointAtInfinity)
+        );
         assert_eq!(
             triangulate_midpoint(&right, &Vector3::z(), &Vector3::z()),
             Err(Error::PointAtInfinity)
@@ -153,6 +228,35 @@ mod tests {
             let (r1, r2) = (point.coords, (motion * point).coords);
             let weighted = triangulate_weighted_midpoint(&motion, &r1, &r2).unwrap();
             assert!((weighted - point).norm() < 1e-10);
+            let angular = triangulate_angular(&motion, &r1, &r2).unwrap();
+            assert!((angular - point).norm() < 1e-10);
+        }
+    }
+
+    /// No point nearby needs smaller turns of the rays.
+    #[test]
+    fn angles_are_least() {
+        let mut random = Random::new(2);
+        for _ in 0..200 {
+            let mut vector = |size: f64| Vector3::from_fn(|_, _| random.uniform(-size, size));
+            let motion = RigidTransform::new(vector(1.0), vector(0.3));
+            let truth = Point3::from(vector(1.0) + Vector3::new(0.0, 0.0, 4.0));
+            let ray1 = truth.coords.normalize() + vector(0.02);
+            let ray2 = (motion * truth).coords.normalize() + vector(0.02);
+            let Ok(point) = triangulate_angular(&motion, &ray1, &ray2) else {
+                continue;
+            };
+            let turns = |x: &Point3<f64>| {
+                let sine_sq = |a: &Vector3<f64>, b: &Vector3<f64>| {
+                    a.cross(b).norm_squared() / (a.norm_squared() * b.norm_squared())
+                };
+                sine_sq(&x.coords, &ray1) + sine_sq(&(motion * x).coords, &ray2)
+            };
+            let least = turns(&point);
+            for _ in 0..20 {
+                let step = vector(1.0) * 1e-3 * point.coords.norm();
+                assert!(turns(&(point + step)) >= least);
+            }
         }
     }
 }

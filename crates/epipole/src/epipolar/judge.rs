@@ -1,0 +1,129 @@
+//! Judging a model by its errors over many matches, eight at a time.
+//!
+//! The loops are the same whatever the error is; they are inlined into kernels that are compiled
+//! for several processors, next to each [`LaneErrors`].
+
+use super::coordinates::{Coordinates, LANES, Lanes, sum};
+use crate::optim::RobustLoss;
+use crate::robust::Support;
+
+/// A model that can tell its errors for eight matches at once.
+pub(crate) trait LaneErrors {
+    /// `e²/T²` of eight matches, where `1/T²` is given; not a number counts as an outlier.
+    fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes;
+}
+
+/// The support of a model among the matches; stops once the cost exceeds the limit.
+#[inline(always)]
+pub(crate) fn support(
+    model: &impl LaneErrors,
+    coordinates: &Coordinates,
+    max_error: f64,
+    cost_limit: f64,
+) -> Support {
+    let per_threshold_sq = 1.0 / (max_error * max_error);
+    let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
+    let mut start = 0;
+    while start < coordinates.len() {
+        // The limit is looked at every 32 matches.
+        for _ in 0..4 {
+            if start >= coordinates.len() {
+                break;
+            }
+            let (lanes, count) = coordinates.lanes(start);
+            let errors = model.relative_errors(&lanes, per_threshold_sq);
+            if count == LANES {
+                for l in 0..LANES {
+                    // Not a number counts as an outlier.
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
+            } else {
+                for l in 0..count {
+                    let fits = errors[l] < 1.0;
+                    cost[l] += if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
+            }
+            start += LANES;
+        }
+        if sum(&cost) > cost_limit {
+            break;
+        }
+    }
+    Support {
+        cost: sum(&cost),
+        num_inliers: sum(&inliers) as usize,
+    }
+}
+
+/// Fills `inliers` with the matches within the threshold.
+#[inline(always)]
+pub(crate) fn inliers(
+    model: &impl LaneErrors,
+    coordinates: &Coordinates,
+    max_error: f64,
+    inliers: &mut Vec<usize>,
+) {
+    let per_threshold_sq = 1.0 / (max_error * max_error);
+    inliers.clear();
+    for start in (0..coordinates.len()).step_by(LANES) {
+        let (lanes, count) = coordinates.lanes(start);
+        let errors = model.relative_errors(&lanes, per_threshold_sq);
+        for (l, error) in errors[..count].iter().enumerate() {
+            if *error < 1.0 {
+                inliers.push(start + l);
+            }
+        }
+    }
+}
+
+/// `½ Σ w ρ(e²)` over all matches.
+#[inline(always)]
+pub(crate) fn cost(model: &impl LaneErrors, coordinates: &Coordinates, loss: &RobustLoss) -> f64 {
+    let mut total = [0.0; LANES];
+    for start in (0..coordinates.len()).step_by(LANES) {
+        let (lanes, count) = coordinates.lanes(start);
+        let errors = model.relative_errors(&lanes, 1.0);
+        weigh(coordinates, start, count, loss, &errors, &mut total);
+    }
+    0.5 * sum(&total)
+}
+
+/// Adds `w ρ(e²)` of eight matches to the totals and returns `w ρ'(e²)`; beyond `count` zeros.
+#[inline(always)]
+pub(crate) fn weigh(
+    coordinates: &Coordinates,
+    start: usize,
+    count: usize,
+    loss: &RobustLoss,
+    errors_sq: &Lanes,
+    total: &mut Lanes,
+) -> Lanes {
+    let mut weight = [0.0; LANES];
+    match (*loss, coordinates.weights(start)) {
+        // The loss of the loop, without a branch a match.
+        (RobustLoss::Truncated { width }, None) if count == LANES => {
+            let width_sq = width * width;
+            for l in 0..LANES {
+                let far = errors_sq[l] > width_sq;
+                total[l] += if far { width_sq } else { errors_sq[l] };
+                weight[l] = if far { 0.0 } else { 1.0 };
+            }
+        }
+        (loss, None) => {
+            for l in 0..count {
+                total[l] += loss.rho(errors_sq[l]);
+                weight[l] = loss.weight(errors_sq[l]);
+            }
+        }
+        (loss, Some(given)) => {
+            for l in 0..count {
+                total[l] += given[l] * loss.rho(errors_sq[l]);
+                weight[l] = given[l] * loss.weight(errors_sq[l]);
+            }
+        }
+    }
+    weight
+}
