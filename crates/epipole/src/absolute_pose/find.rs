@@ -107,10 +107,6 @@ impl Estimator for AbsolutePoseEstimator {
         "a camera pose from points"
     }
 
-    fn error_dimensions(&self) -> usize {
-        2
-    }
-
     fn sample_size(&self) -> usize {
         3
     }

@@ -71,10 +71,6 @@ impl Estimator for HomographyEstimator {
         "a homography from matches"
     }
 
-    fn error_dimensions(&self) -> usize {
-        2
-    }
-
     fn sample_size(&self) -> usize {
         4
     }

@@ -1,7 +1,6 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
-use super::mixture::Mixture;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
@@ -11,8 +10,8 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end.
 const EXPLORATIONS: usize = 5;
 
-/// Rounds of expectation maximization at the end, at most.
-const POLISHING_ROUNDS: usize = 12;
+/// How often data are weighed anew at the end.
+const REWEIGHTINGS: usize = 6;
 
 /// RANSAC, one sample at a time.
 ///
@@ -340,43 +339,50 @@ impl<E: Estimator> Ransac<E> {
         }
     }
 
-    /// The last refinement: the most likely model if the errors of inliers are normal and those of
-    /// outliers uniform ([`Mixture`]), by expectation maximization. It weighs errors differently from
-    /// the score, so it is kept unless it loses many inliers: one in five at most.
+    /// The last refinement: least squares over all data within a few times the errors that inliers
+    /// have, with the weights that Cauchy's loss gives. It weighs errors differently from the score,
+    /// so its result is kept unless it loses inliers: one in twenty at most.
     fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
-        let mut mixture = Mixture::new(
-            self.estimator.error_dimensions(),
-            self.estimator.sample_size(),
-            self.options.max_error_px,
-        );
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&candidate.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let width_px = self.error_width_px(&candidate.model);
+        let reach_px = max_error_px.max(2.0 * width_px);
         let mut model = candidate.model.clone();
-        let (mut errors_sq, mut weights) = (Vec::new(), Vec::new());
-        for round in 0..POLISHING_ROUNDS {
-            self.estimator
-                .inliers(&model, mixture.window_px(), &mut self.inliers);
-            if self.inliers.len() < self.estimator.sample_size() {
-                break;
-            }
+        let mut weights = Vec::new();
+        for _ in 0..REWEIGHTINGS {
+            self.estimator.inliers(&model, reach_px, &mut self.inliers);
             let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
-            errors_sq.clear();
-            errors_sq.extend(self.inliers.iter().map(error_sq));
-            // The first guess of σ may be far off.
-            for _ in 0..if round == 0 { 8 } else { 1 } {
-                mixture.improve(&errors_sq, &mut weights);
-            }
-            if round > 0 && mixture.has_converged() {
-                break;
-            }
+            weights.clear();
+            weights.extend(
+                (self.inliers.iter().map(error_sq))
+                    .map(|sq| 1.0 / (1.0 + sq / (width_px * width_px))),
+            );
             let Some(polished) = self.estimator.polish(&model, &self.inliers, &weights) else {
                 break;
             };
             model = polished;
         }
         let support = self.support(&model, f64::INFINITY);
-        if 5 * support.num_inliers >= 4 * candidate.support.num_inliers {
+        if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
             *candidate = Candidate { model, support };
             self.refinements += 1;
         }
+    }
+
+    /// How large the errors of the inliers are: two and a half times their median, between a
+    /// quarter of the threshold and the whole. The threshold is a guess of the caller's; errors a
+    /// tenth as large deserve a sharper weight, and those that fill it a wider one.
+    fn error_width_px(&self, model: &E::Model) -> f64 {
+        let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
+        let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
+        let middle = errors_sq.len() / 2;
+        let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
+        let max_error_px = self.options.max_error_px;
+        (2.5 * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {

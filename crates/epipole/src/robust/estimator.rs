@@ -82,11 +82,6 @@ pub trait Estimator {
         max_error_px: f64,
     ) -> Option<Self::Model>;
 
-    /// How many coordinates an error has: 1 for a distance from a line, 2 for one from a point.
-    fn error_dimensions(&self) -> usize {
-        1
-    }
-
     /// Weighted least squares from the best model on, for the last refinement, which may allocate;
     /// `None` if [`refine`](Estimator::refine) did all there is to do.
     ///

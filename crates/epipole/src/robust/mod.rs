@@ -13,7 +13,6 @@ mod engine;
 mod estimator;
 mod line;
 mod matches;
-mod mixture;
 mod options;
 mod run;
 mod sampler;
