@@ -53,6 +53,24 @@ impl Default for StructureTensorOptions {
     }
 }
 
+impl StructureTensorOptions {
+    /// What derivatives are multiplied by; `block` as [`window_kernel`] has it.
+    pub(super) fn scale(&self, block: f32) -> f32 {
+        match self.scaling {
+            Scaling::Textbook => 1.0,
+            Scaling::OpenCv => {
+                let size = match self.derivative {
+                    DerivativeFilter::Sobel3 => 4.0,
+                    DerivativeFilter::Sobel5 => 16.0,
+                    // OpenCV halves once more for Scharr, whose kernel sums to 32.
+                    DerivativeFilter::Scharr => 8.0,
+                };
+                1.0 / (size * block)
+            }
+        }
+    }
+}
+
 /// The symmetric matrix `M = Σ w [Iᵤ² IᵤIᵥ; IᵤIᵥ Iᵥ²]` at each pixel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StructureTensor {
@@ -128,18 +146,7 @@ pub(crate) fn with_tensor<const N: usize>(
 ) -> Result<[GrayImage32; N]> {
     crate::imaging::require_finite(image)?;
     let (kernel, block) = window_kernel(options.window)?;
-    let scale = match options.scaling {
-        Scaling::Textbook => 1.0,
-        Scaling::OpenCv => {
-            let size = match options.derivative {
-                DerivativeFilter::Sobel3 => 4.0,
-                DerivativeFilter::Sobel5 => 16.0,
-                // OpenCV halves once more for Scharr, whose kernel sums to 32.
-                DerivativeFilter::Scharr => 8.0,
-            };
-            1.0 / (size * block)
-        }
-    };
+    let scale = options.scale(block);
     let (width, height) = (image.width() as usize, image.height() as usize);
     let outputs = in_bands([const { Vec::new() }; N], width, height, |rows, sink| {
         tensor_rows(image, options, scale * scale, &kernel, rows, sink, &finish);
@@ -151,7 +158,7 @@ pub(crate) fn with_tensor<const N: usize>(
 }
 
 /// The window's weights along one axis and the factor that OpenCV divides derivatives by.
-fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
+pub(super) fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
     match window {
         Window::Box(size) if (1..=255).contains(&size) => {
             let mut kernel = vec![1.0; size];

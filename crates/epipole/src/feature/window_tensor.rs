@@ -1,6 +1,7 @@
 //! The structure tensor of one window, and how much the window changes when it is shifted.
 
-use super::StructureTensor;
+use super::structure_tensor::window_kernel;
+use super::{StructureTensor, StructureTensorOptions};
 use crate::imaging::{Border, GrayImage32, require_finite};
 use crate::{Error, Result};
 use nalgebra::Vector2;
@@ -32,6 +33,86 @@ impl WindowTensor {
             uv: sum.uv + g.x * g.y,
             vv: sum.vv + g.y * g.y,
         })
+    }
+
+    /// The tensor at one pixel of an image: what [`structure_tensor`](super::structure_tensor) has
+    /// there, without those of all other pixels.
+    ///
+    /// # Errors
+    /// As [`structure_tensor`](super::structure_tensor), where only the pixels that count must be
+    /// finite; [`Error::OutOfRange`] for a pixel outside the image.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::feature::{StructureTensorOptions, WindowTensor};
+    /// use epipole::imaging::gray_from_values;
+    /// // A vertical step: Sobel answers 4 on both sides of it, a 3×3 box sums nine squares.
+    /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
+    /// let tensor = WindowTensor::at(&step, (2, 1), &StructureTensorOptions::default())?;
+    /// assert_eq!(tensor, WindowTensor { uu: 96.0, uv: 0.0, vv: 0.0 });
+    /// # Ok(()) }
+    /// ```
+    pub fn at(
+        image: &GrayImage32,
+        (u, v): (u32, u32),
+        options: &StructureTensorOptions,
+    ) -> Result<Self> {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        if u >= image.width() || v >= image.height() {
+            return Err(Error::OutOfRange {
+                what: "the pixel whose window is looked at",
+                requirement: "inside the image",
+                value: f64::from(if u >= image.width() { u } else { v }),
+            });
+        }
+        let (weights, block) = window_kernel(options.window)?;
+        let scale = f64::from(options.scale(block));
+        let (along, across) = options.derivative.kernels();
+        let (radius, reach) = (weights.len() / 2, along.len() / 2);
+        let gray = |x: isize, y: isize| {
+            let place = options
+                .border
+                .index(x, width)
+                .zip(options.border.index(y, height));
+            let inside = |(x, y): (usize, usize)| image.as_raw()[y * width + x];
+            f64::from(place.map_or(options.border.constant(), inside))
+        };
+        let derivative = |x: usize, y: usize, right: &[f32], down: &[f32]| {
+            let mut sum = 0.0;
+            for (j, b) in down.iter().enumerate() {
+                for (i, a) in right.iter().enumerate() {
+                    let place = |at: usize, k: usize| at as isize + k as isize - reach as isize;
+                    sum += f64::from(a * b) * gray(place(x, i), place(y, j));
+                }
+            }
+            sum * scale
+        };
+        // Derivatives beyond a constant border count as 0.
+        let beside = |at: u32, k: usize, length: usize| {
+            let place = at as isize + k as isize - radius as isize;
+            options.border.index(place, length)
+        };
+        let mut tensor = Self::default();
+        for (j, b) in weights.iter().enumerate() {
+            for (i, a) in weights.iter().enumerate() {
+                let place = beside(u, i, width).zip(beside(v, j, height));
+                let Some((x, y)) = place.filter(|_| a * b > 0.0) else {
+                    continue;
+                };
+                let weight = f64::from(a * b);
+                let du = derivative(x, y, along, across);
+                let dv = derivative(x, y, across, along);
+                tensor.uu += weight * du * du;
+                tensor.uv += weight * du * dv;
+                tensor.vv += weight * dv * dv;
+            }
+        }
+        if !(tensor.uu + tensor.vv).is_finite() {
+            return Err(Error::NotFinite {
+                what: "every pixel of the window",
+            });
+        }
+        Ok(tensor)
     }
 
     /// The product of the eigenvalues, `Σ Iᵤ² Σ Iᵥ² − (Σ Iᵤ Iᵥ)²`.
@@ -236,7 +317,66 @@ pub fn shift_surface(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::feature::{StructureTensorOptions, Window, harris_response, structure_tensor};
+    use crate::imaging::DerivativeFilter;
+
+    #[test]
+    fn one_pixel_alone_has_what_it_has_among_all() {
+        let image = crate::imaging::fixture::gray32("texture.npy");
+        for (derivative, window, scaling, border) in [
+            (
+                DerivativeFilter::Sobel3,
+                Window::Box(5),
+                Scaling::Textbook,
+                Border::Reflect101,
+            ),
+            (
+                DerivativeFilter::Sobel5,
+                Window::Box(4),
+                Scaling::OpenCv,
+                Border::Replicate,
+            ),
+            (
+                DerivativeFilter::Scharr,
+                Window::Gaussian(1.2),
+                Scaling::OpenCv,
+                Border::Constant(0.3),
+            ),
+        ] {
+            let options = StructureTensorOptions {
+                derivative,
+                window,
+                scaling,
+                border,
+            };
+            let all = structure_tensor(&image, &options).unwrap();
+            for (u, v) in [
+                (0, 0),
+                (1, 3),
+                (17, 11),
+                (image.width() - 1, image.height() - 1),
+            ] {
+                let want = all.at(u, v).unwrap();
+                let got = WindowTensor::at(&image, (u, v), &options).unwrap();
+                let off = |a: f64, b: f64| (a - b).abs() / want.trace();
+                let worst = off(got.uu, want.uu)
+                    .max(off(got.uv, want.uv))
+                    .max(off(got.vv, want.vv));
+                assert!(worst < 1e-5, "{options:?} at {u}, {v}: {got:?} {want:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn pixels_outside_and_pixels_without_a_value_are_refused() {
+        let options = StructureTensorOptions::default();
+        let mut image = GrayImage32::new(9, 9);
+        assert!(WindowTensor::at(&image, (9, 0), &options).is_err());
+        image.put_pixel(8, 8, image::Luma([f32::NAN]));
+        assert!(WindowTensor::at(&image, (7, 7), &options).is_err());
+        assert!(WindowTensor::at(&image, (2, 2), &options).is_ok());
+    }
+
+    use crate::feature::{Scaling, Window, harris_response, structure_tensor};
 
     /// A smooth hill with its top off the middle.
     fn hill() -> GrayImage32 {

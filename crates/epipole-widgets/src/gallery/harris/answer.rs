@@ -1,16 +1,14 @@
 //! The long computation behind `harris`: the picture, its response and the local maxima.
 
 use crate::contract::{Problem, Progress};
-use crate::scenes::square_picture;
+use crate::scenes::{self, square_picture};
 use epipole::feature::{
     StructureTensorOptions, Window, WindowTensor, harris_response, non_maximum_suppression,
-    structure_tensor,
 };
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole::synthetic::still_life_camera;
 use image::RgbImage;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 
 /// Size of the rendered photograph, pixels.
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
@@ -141,39 +139,16 @@ impl Answer {
         })
     }
 
-    /// The structure tensor at a pixel, from a piece of the picture that is just large enough.
+    /// The structure tensor at a pixel.
     pub(super) fn tensor(&self, u: u32, v: u32) -> Option<WindowTensor> {
-        let reach = self.window_px as u32 / 2 + 2;
-        let (left, top) = (u.saturating_sub(reach), v.saturating_sub(reach));
-        let right = (u + reach + 1).min(self.gray.width());
-        let bottom = (v + reach + 1).min(self.gray.height());
-        if u >= right || v >= bottom {
-            return None;
-        }
-        let piece = image::imageops::crop_imm(&self.gray, left, top, right - left, bottom - top);
-        let tensors = structure_tensor(&piece.to_image(), &options(self.window_px)).ok()?;
-        tensors.at(u - left, v - top)
+        WindowTensor::at(&self.gray, (u, v), &options(self.window_px)).ok()
     }
 }
 
 fn still_life(progress: Progress<'_>) -> Result<RgbImage, Problem> {
     let (width, height) = STILL_LIFE_SIZE;
     let camera = still_life_camera(width, height);
-    let scene = Scene::still_life();
-    let mut photograph = epipole::synthetic::Photograph::blank(width, height);
-    for first in (0..height).step_by(60) {
-        let rows = first..first + 60;
-        scene.render_rows(
-            &camera,
-            width,
-            height,
-            Sampling::Full,
-            rows,
-            &mut photograph,
-        )?;
-        if progress(0.7 * f64::from(first + 60) / f64::from(height)) == ControlFlow::Break(()) {
-            return Err(epipole::Error::Canceled.into());
-        }
-    }
-    Ok(photograph.image)
+    let photograph =
+        scenes::photograph(&camera, STILL_LIFE_SIZE, &mut |share| progress(0.7 * share));
+    Ok(photograph?)
 }

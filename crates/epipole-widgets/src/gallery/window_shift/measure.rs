@@ -2,9 +2,7 @@
 //! structure tensor.
 
 use crate::scenes::square_picture;
-use epipole::feature::{
-    ShiftSurface, StructureTensorOptions, Window, WindowTensor, shift_surface, structure_tensor,
-};
+use epipole::feature::{ShiftSurface, StructureTensorOptions, Window, WindowTensor, shift_surface};
 use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32};
 use image::RgbImage;
 use nalgebra::Vector2;
@@ -95,17 +93,11 @@ pub(super) fn find(
 ) -> epipole::Result<Found> {
     let (u, v) = (u as u32, v as u32);
     let surface = shift_surface(gray, (u, v), window_px / 2, REACH, Border::Reflect101)?;
-    // The window, and the pixels around it that derivatives and sums look at.
-    let margin = window_px as u32 + 1;
-    let (left, top) = (u.saturating_sub(margin), v.saturating_sub(margin));
-    let side = 2 * margin + 1;
-    let piece = image::imageops::crop_imm(gray, left, top, side, side).to_image();
     let options = StructureTensorOptions {
         window: Window::Box(window_px),
         ..StructureTensorOptions::default()
     };
-    let sums = structure_tensor(&piece, &options)?.at(u - left, v - top);
-    let sums = sums.unwrap_or_default();
+    let sums = WindowTensor::at(gray, (u, v), &options)?;
     let tensor = WindowTensor {
         uu: sums.uu / SOBEL_GAIN_SQ,
         uv: sums.uv / SOBEL_GAIN_SQ,
