@@ -31,7 +31,8 @@ for threads in 1 "$all_threads"; do
 done
 
 cargo build --quiet -p epipole-tests --example kernels --target wasm32-unknown-unknown --profile web
-node web/node_modules/binaryen/bin/wasm-opt -O3 --all-features \
+node web/node_modules/binaryen/bin/wasm-opt -O3 --enable-simd --enable-bulk-memory --enable-bulk-memory-opt \
+    --enable-nontrapping-float-to-int --enable-sign-ext --enable-mutable-globals --enable-reference-types --enable-multivalue \
     "$target/wasm32-unknown-unknown/web/examples/kernels.wasm" -o "$target/kernels.wasm"
 node tests/browser/opencv.mjs "$target/kernels.wasm"
 echo

@@ -7,6 +7,7 @@
 #![allow(unsafe_code, reason = "exported names must not be mangled")]
 #![allow(unreachable_pub, reason = "exports have no other user")]
 
+use epipole::epipolar::find_fundamental;
 use epipole::feature::{
     Descriptors, Neighbors, StructureTensorOptions, Window, harris_response, nearest_two,
 };
@@ -16,6 +17,8 @@ use epipole::imaging::{
     gray_from_values, separable_filter, sobel,
 };
 use epipole::robust::RansacOptions;
+use epipole::stereo::StereoSgm;
+use image::{GrayImage, Luma};
 use nalgebra::{Matrix3, Point2};
 use std::cell::RefCell;
 
@@ -30,7 +33,9 @@ struct Room {
     descriptors: Option<[Descriptors; 2]>,
     neighbors: Vec<Neighbors>,
     matches: [Vec<Point2<f64>>; 2],
-    homography: Matrix3<f64>,
+    found: Matrix3<f64>,
+    pair: [GrayImage; 2],
+    disparities: Vec<f32>,
 }
 
 thread_local! {
@@ -42,6 +47,8 @@ const GAUSSIAN: usize = 1;
 const HARRIS: usize = 2;
 const MATCH: usize = 3;
 const HOMOGRAPHY: usize = 4;
+const FUNDAMENTAL: usize = 5;
+const SEMI_GLOBAL: usize = 6;
 
 /// Room for so many numbers, and where it is.
 #[unsafe(no_mangle)]
@@ -63,7 +70,8 @@ pub extern "C" fn doubles(length: usize) -> *mut f64 {
 
 /// Takes the input of a kind of work: an image of `width` × `height` from `floats(0)`; two lists
 /// of `height` descriptors of `width` numbers from `floats(0)` and `floats(1)`; `height` matches
-/// u1 v1 u2 v2 from `doubles`. Says whether it can be used.
+/// u1 v1 u2 v2 from `doubles`; a rectified pair of gray values 0 to 255 from `floats(0)` and
+/// `floats(1)`. Says whether it can be used.
 #[unsafe(no_mangle)]
 pub extern "C" fn prepare(work: usize, width: usize, height: usize) -> bool {
     ROOM.with_borrow_mut(|room| {
@@ -79,6 +87,15 @@ pub extern "C" fn prepare(work: usize, width: usize, height: usize) -> bool {
                 list(&room.floats[0])
                     .and_then(|a| Ok([a, list(&room.floats[1])?]))
                     .map(|both| room.descriptors = Some(both))
+            }
+            SEMI_GLOBAL => {
+                let picture = |values: &Vec<f32>| {
+                    GrayImage::from_fn(width as u32, height as u32, |u, v| {
+                        Luma([values[v as usize * width + u as usize] as u8])
+                    })
+                };
+                room.pair = [picture(&room.floats[0]), picture(&room.floats[1])];
+                Ok(())
             }
             _ => {
                 let pixels = |at: usize| -> Vec<Point2<f64>> {
@@ -126,15 +143,23 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         HOMOGRAPHY => {
             let [pixels1, pixels2] = &room.matches;
-            room.homography = find_homography(pixels1, pixels2, &RansacOptions::default())?.model;
+            room.found = find_homography(pixels1, pixels2, &RansacOptions::default())?.model;
+        }
+        FUNDAMENTAL => {
+            let [pixels1, pixels2] = &room.matches;
+            room.found = find_fundamental(pixels1, pixels2, &RansacOptions::default())?.model;
+        }
+        SEMI_GLOBAL => {
+            let [left, right] = &room.pair;
+            let found = StereoSgm::default().compute(left, right)?;
+            room.disparities = found.as_raw().to_vec();
         }
         _ => {}
     }
     Ok(())
 }
 
-/// Copies what the last run found to `floats(2)`, a homography to `doubles`; says how many
-/// numbers.
+/// Copies what the last run found to `floats(2)`, a matrix to `doubles`; says how many numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn result(work: usize) -> usize {
     ROOM.with_borrow_mut(|room| {
@@ -150,9 +175,10 @@ pub extern "C" fn result(work: usize) -> usize {
                 .iter()
                 .map(|near| near.index as f32)
                 .collect(),
+            SEMI_GLOBAL => room.disparities.clone(),
             _ => {
                 // By rows, as OpenCV.
-                room.doubles = room.homography.transpose().as_slice().to_vec();
+                room.doubles = room.found.transpose().as_slice().to_vec();
                 return room.doubles.len();
             }
         };

@@ -98,8 +98,9 @@ for (const [name, space] of spaces) {
       const page = await context.newPage();
       listen(page, complaints);
       const figure = await open(page, [name]);
-      const canvas = figure.locator("canvas");
-      await canvas.evaluate((element) => element.scrollIntoView({ block: "end" }));
+      // The space in the upper part of the window, so that there is room to scroll either way.
+      const [, below] = await inSpace(figure, name, space, 0.5, 0.2);
+      await page.evaluate((y) => scrollBy(0, y - 150), below);
       const [x, y] = await inSpace(figure, name, space, 0.5, 0.2);
       const touch = await context.newCDPSession(page);
       const send = (type, ...points) =>

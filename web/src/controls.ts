@@ -82,6 +82,8 @@ function sliderRow(control: Control & Slider, send: Send): Row {
       if (now.kind !== "slider") return;
       shown = now;
       const value = now.value.toFixed(now.digits);
+      // First: a browser cuts a value at the range that there is.
+      if (Number(input.max) !== now.max) input.max = String(now.max);
       if (Number(input.value) !== now.value) input.value = value;
       const share = (now.value - now.min) / (now.max - now.min || 1);
       input.style.setProperty("--share", `${(100 * share).toFixed(2)}%`);

@@ -5,6 +5,8 @@ mod fonts;
 mod scripts;
 mod wasm;
 
+pub(crate) use wasm::Modules;
+
 use crate::page::Page;
 use crate::site::Options;
 use anyhow::{Context, Result, bail};
@@ -99,22 +101,33 @@ fn math_italic(letter: char) -> Option<char> {
     }
 }
 
-/// Makes everything.
+/// The figures for the browser, if the project has figures: what takes longest.
 ///
 /// # Errors
 /// A tool that is missing or fails, named with the remedy.
-pub fn make(options: &Options, letters: &Letters) -> Result<Assets> {
+pub(crate) fn modules(options: &Options) -> Result<Option<Modules>> {
+    let manifest = options.project.join("crates/epipole-web/Cargo.toml");
+    if !manifest.is_file() {
+        return Ok(None);
+    }
+    wasm::make(&Tools::find(&options.project)?, options.live).map(Some)
+}
+
+/// Makes everything else, and puts the figures to it.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub(crate) fn make(
+    options: &Options,
+    letters: &Letters,
+    modules: Option<&Modules>,
+) -> Result<Assets> {
     let tools = Tools::find(&options.project)?;
     let mut assets = Assets::default();
     fonts::add(&tools, letters, &mut assets)?;
     scripts::add_pages(&tools, options.live, &mut assets)?;
-    if options
-        .project
-        .join("crates/epipole-web/Cargo.toml")
-        .is_file()
-    {
-        let modules = wasm::make(&tools, options.live)?;
-        scripts::add_elements(&tools, &modules, options.live, &mut assets)?;
+    if let Some(modules) = modules {
+        scripts::add_elements(&tools, modules, options.live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);

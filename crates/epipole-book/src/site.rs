@@ -12,7 +12,7 @@ use crate::problems::{Problem, Problems, name_list};
 use crate::shared::{PAGE_OF_REFERENCES, Shared, resolve};
 use crate::source::Source;
 use crate::template::{Nav, Template};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem, Chapter};
 use mdbook_driver::config::Config;
@@ -20,6 +20,7 @@ use mdbook_renderer::RenderContext;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::thread::ScopedJoinHandle;
 
 /// What to build, and how.
 #[derive(Debug, Clone)]
@@ -57,6 +58,24 @@ pub enum Outcome {
 /// A missing tool or an unreadable folder. What is wrong in the content is not an error but
 /// [`Outcome::Problems`].
 pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
+    std::thread::scope(|scope| {
+        // The modules take longest and need nothing of the pages.
+        let wanted = options.assets && !options.check;
+        let modules = wanted.then(|| scope.spawn(|| assets::modules(options)));
+        let modules = || match modules.map(ScopedJoinHandle::join) {
+            None => Ok(None),
+            Some(Ok(modules)) => modules,
+            Some(Err(_)) => bail!("the figures could not be built for the browser"),
+        };
+        build_pages(options, gallery, modules)
+    })
+}
+
+fn build_pages(
+    options: &Options,
+    gallery: &dyn Gallery,
+    modules: impl FnOnce() -> Result<Option<assets::Modules>>,
+) -> Result<Outcome> {
     let content = options.project.join("content");
     let problems = Problems::default();
     let posters = assets::target_folder(&options.project).join("book-work/posters");
@@ -114,7 +133,7 @@ pub fn build(options: &Options, gallery: &dyn Gallery) -> Result<Outcome> {
     let mut files = shared.take_files();
     let assets = if options.assets {
         let used = assets::used_letters(&pages);
-        assets::make(options, &used)?
+        assets::make(options, &used, modules()?.as_ref())?
     } else {
         Assets::default()
     };

@@ -22,7 +22,7 @@ const FEATURES: &[&str] = &[
 ];
 
 /// A module and the script that loads it.
-pub(super) struct Module {
+pub(crate) struct Module {
     /// The optimized module.
     pub(super) wasm: Vec<u8>,
     /// The generated script.
@@ -30,7 +30,7 @@ pub(super) struct Module {
 }
 
 /// What the elements load.
-pub(super) struct Modules {
+pub(crate) struct Modules {
     /// What a page calls; the elements import its script as `epipole-web`.
     pub(super) figures: Module,
     /// What a worker calls; it imports the script as `epipole-jobs`.

@@ -66,11 +66,11 @@ pub(super) const SEED: Slider = Slider {
     visible: true,
 };
 pub(super) const KNOBS: &[Knob] = &[
-    Knob::Slider(&STEPS),
     Knob::Slider(&DISTURBANCE),
     Knob::Slider(&NOISE),
     Knob::Choice(&LOSS),
     Knob::Slider(&DAMPING),
+    Knob::Slider(&STEPS),
     Knob::Slider(&SEED),
     Knob::Slider(&ZOOM),
 ];

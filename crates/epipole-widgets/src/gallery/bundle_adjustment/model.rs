@@ -10,8 +10,8 @@ use super::run::{self, MAX_STEPS};
 use super::scene::{SIZE, Scene};
 use super::words;
 use crate::contract::{
-    Challenge, Control, Event, Handle, Job, JobResult, Model, Problem, Progress, Readout, Settings,
-    Space, Value, format_number, round_to_digits,
+    Challenge, Control, ControlKind, Event, Handle, Job, JobResult, Model, Problem, Progress,
+    Readout, Settings, Space, Value, format_number, round_to_digits,
 };
 use crate::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::running::{RESTART, RUN, STEP};
@@ -154,6 +154,19 @@ impl Model for BundleAdjustment {
         if let Some(answer) = &self.answer {
             for control in controls.iter_mut().filter(|control| control.id == STEPS.id) {
                 control.value_text = format!("{} of {}", self.num_taken(), answer.num_steps());
+                // The slider ends where the loop has ended.
+                let end = answer.num_steps().max(1) as f64;
+                if let ControlKind::Slider {
+                    value,
+                    max,
+                    default,
+                    ..
+                } = &mut control.kind
+                {
+                    *max = end;
+                    *value = value.min(end);
+                    *default = default.min(end);
+                }
             }
         }
         let can_run = self.answer.is_some();

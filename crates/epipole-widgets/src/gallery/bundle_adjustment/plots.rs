@@ -75,10 +75,13 @@ fn draw_axes(panel: &Panel, [low, high]: [i32; 2], title: &str, canvas: &mut Can
         let y = panel.canvas_from_world((0.0, f64::from(decade))).1;
         canvas.line((rect.x + 1.0, y), (rect.right() - 1.0, y), grid);
         let text = match decade {
+            // The font has no raised minus.
+            -6 => "1e−6",
             -3 => "0.001",
             0 => "1",
             3 => "1000",
             6 => "10⁶",
+            9 => "10⁹",
             _ => "",
         };
         canvas.label((rect.x - 6.0, y), text, muted.end());
