@@ -306,7 +306,10 @@ impl<E: Estimator> Ransac<E> {
     }
 
     /// Looks for a better optimum nearby: starts that fit a few of the inliers by least squares lie
-    /// around the model, and local optimization leads some of them elsewhere.
+    /// around the model, and local optimization leads some of them elsewhere. Where there are too
+    /// few inliers for that, or the estimator has no such fit, the model alone is improved.
+    ///
+    /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
     fn explore(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         let size = 3 * self.estimator.sample_size();
@@ -316,6 +319,7 @@ impl<E: Estimator> Ransac<E> {
             self.estimator
                 .inliers(&best.model, max_error_px, &mut self.inliers);
             if self.inliers.len() <= size {
+                self.improve(best);
                 return;
             }
             subset.clear();
@@ -326,6 +330,7 @@ impl<E: Estimator> Ransac<E> {
                 }
             }
             let Some(start) = self.estimator.polish(&best.model, &subset, &alike) else {
+                self.improve(best);
                 return;
             };
             let found = self
@@ -342,6 +347,9 @@ impl<E: Estimator> Ransac<E> {
     /// The last refinement: least squares over all data within a few times the errors that inliers
     /// have, with the weights that Cauchy's loss gives. It weighs errors differently from the score,
     /// so its result is kept unless it loses inliers: one in twenty at most.
+    ///
+    /// Source: Holland & Welsch 1977, "Robust regression using iteratively reweighted
+    /// least-squares" (Cauchy's weights).
     fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         self.estimator

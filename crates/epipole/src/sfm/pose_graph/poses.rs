@@ -87,7 +87,10 @@ fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
 }
 
 /// Error and Jacobians for similarities; a rigid transform is one with scale 1.
-#[allow(clippy::type_complexity)]
+#[allow(
+    clippy::type_complexity,
+    reason = "a tuple of what one edge gives, used once"
+)]
 fn similarity_terms(
     a: &Similarity3<f64>,
     b: &Similarity3<f64>,
