@@ -3,7 +3,8 @@
 PORT ?= 8000
 VENV := .venv
 PYTHON := $(VENV)/bin/python
-BOOK := cargo run --quiet -p epipole-book --
+# Without -p: so that dependencies have the features that the tests compile them with.
+BOOK := cargo run --quiet --bin epipole-book --
 
 .PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless new-figure clean
 

@@ -36,7 +36,7 @@ node web/node_modules/binaryen/bin/wasm-opt -O3 --enable-simd --enable-bulk-memo
     "$target/wasm32-unknown-unknown/web/examples/kernels.wasm" -o "$target/kernels.wasm"
 node tests/browser/opencv.mjs "$target/kernels.wasm"
 echo
-cargo run --quiet -p epipole-book -- build >/dev/null
+cargo run --quiet --bin epipole-book -- build >/dev/null
 node tests/browser/bench.mjs
 echo
 

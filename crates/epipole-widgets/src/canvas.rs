@@ -5,10 +5,14 @@
 //! costly pixel masks are needed.
 
 mod clip;
+mod coverage;
 mod glyphs;
+mod lines;
 mod marks;
 mod photograph;
 mod picture;
+mod polygons;
+mod strokes;
 mod style;
 mod text;
 
@@ -18,11 +22,10 @@ pub use text::{paragraph_height, text_width};
 
 use crate::contract::{Problem, Rect};
 use crate::theme::{Rgb, Role, Theme};
-use clip::{clip_polygon, clip_segment};
-use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke as SkiaStroke,
-    StrokeDash, Transform,
-};
+use clip::clip_polygon;
+use coverage::Coverage;
+use strokes::At;
+use tiny_skia::{Color, Pixmap};
 
 /// A place on the picture, CSS pixels.
 pub type Place = (f64, f64);
@@ -30,6 +33,7 @@ pub type Place = (f64, f64);
 /// A picture being drawn.
 pub struct Canvas {
     pixmap: Pixmap,
+    coverage: Coverage,
     scale: f64,
     theme: Theme,
     clip: Rect,
@@ -62,15 +66,17 @@ impl Canvas {
         }
         let size = (device_width as u32, device_height as u32);
         let reused = buffer
-            .0
+            .pixmap
             .filter(|pixmap| (pixmap.width(), pixmap.height()) == size);
         let mut pixmap = match reused {
             Some(pixmap) => pixmap,
             None => Pixmap::new(size.0, size.1).ok_or(bad)?,
         };
-        pixmap.fill(skia_color(theme.color(Role::Background), 1.0));
+        let [r, g, b] = theme.color(Role::Background);
+        pixmap.fill(Color::from_rgba8(r, g, b, 255));
         Ok(Self {
             pixmap,
+            coverage: buffer.coverage.sized(size.0 as usize, size.1 as usize),
             scale,
             theme,
             clip: Rect::new(0.0, 0.0, width, height),
@@ -79,7 +85,10 @@ impl Canvas {
 
     /// The finished picture.
     pub fn finish(self) -> Picture {
-        Picture(Some(self.pixmap))
+        Picture {
+            pixmap: Some(self.pixmap),
+            coverage: self.coverage,
+        }
     }
 
     /// The reader's colors.
@@ -159,146 +168,47 @@ impl Canvas {
         }
     }
 
-    /// A rectangle's border, inside it.
-    pub fn stroke_rect(&mut self, rect: Rect, stroke: Stroke) {
-        let r = rect.inset(stroke.width / 2.0);
-        let corners = [
-            (r.x, r.y),
-            (r.right(), r.y),
-            (r.right(), r.bottom()),
-            (r.x, r.bottom()),
-        ];
-        self.polygon_outline(&corners, stroke);
-    }
-
     /// A panel: surface and border.
     pub fn panel(&mut self, rect: Rect) {
         self.fill_rect(rect, Role::Surface, 1.0);
         self.stroke_rect(rect, Stroke::solid(Role::Edge, 1.0));
     }
 
-    /// A straight line between two places.
-    pub fn line(&mut self, from: Place, to: Place, stroke: Stroke) {
-        if let Some((from, to)) = clip_segment(from, to, self.clip) {
-            let mut builder = PathBuilder::new();
-            builder.move_to(from.0 as f32, from.1 as f32);
-            builder.line_to(to.0 as f32, to.1 as f32);
-            self.stroke_path(builder.finish(), stroke);
-        }
-    }
-
-    /// Straight lines from place to place.
-    pub fn polyline(&mut self, places: &[Place], stroke: Stroke) {
-        let mut builder = PathBuilder::new();
-        let mut pen: Option<Place> = None;
-        for pair in places.windows(2) {
-            match clip_segment(pair[0], pair[1], self.clip) {
-                Some((from, to)) => {
-                    if pen != Some(from) {
-                        builder.move_to(from.0 as f32, from.1 as f32);
-                    }
-                    builder.line_to(to.0 as f32, to.1 as f32);
-                    pen = Some(to);
-                }
-                None => pen = None,
-            }
-        }
-        self.stroke_path(builder.finish(), stroke);
-    }
-
-    /// The outline of a polygon.
-    pub fn polygon_outline(&mut self, places: &[Place], stroke: Stroke) {
-        let mut closed = places.to_vec();
-        closed.extend(places.first());
-        self.polyline(&closed, stroke);
-    }
-
     /// A filled polygon, convex or not, cut at the clip rectangle.
     pub fn polygon(&mut self, places: &[Place], role: Role, opacity: f64) {
-        let inside = clip_polygon(places, self.clip);
-        let mut builder = PathBuilder::new();
-        for (index, &(x, y)) in inside.iter().enumerate() {
-            if index == 0 {
-                builder.move_to(x as f32, y as f32);
-            } else {
-                builder.line_to(x as f32, y as f32);
-            }
-        }
-        builder.close();
-        self.fill_path(builder.finish(), role, opacity);
+        self.fill_polygon(places, self.theme.color(role), opacity);
     }
 
-    /// A circle's outline, drawn whole if its center is inside the clip rectangle.
-    pub fn circle(&mut self, center: Place, radius: f64, stroke: Stroke) {
-        if self.clip.contains(center) {
-            let path = PathBuilder::from_circle(center.0 as f32, center.1 as f32, radius as f32);
-            self.stroke_path(path, stroke);
-        }
+    /// A filled polygon in a color of a scale or of the world.
+    pub fn polygon_color(&mut self, places: &[Place], color: Rgb) {
+        self.fill_polygon(places, color, 1.0);
+    }
+
+    fn fill_polygon(&mut self, places: &[Place], color: Rgb, opacity: f64) {
+        let inside = clip_polygon(places, self.clip);
+        let corners: Vec<At> = inside.into_iter().map(|place| self.device(place)).collect();
+        self.coverage.add_polygon(&corners);
+        self.coverage.blend(self.pixmap.data_mut(), color, opacity);
     }
 
     /// A filled disk, drawn whole if its center is inside the clip rectangle.
     pub fn disk(&mut self, center: Place, radius: f64, role: Role, opacity: f64) {
         if self.clip.contains(center) {
-            let path = PathBuilder::from_circle(center.0 as f32, center.1 as f32, radius as f32);
-            self.fill_path(path, role, opacity);
+            let (at, radius) = (self.device(center), (radius * self.scale) as f32);
+            self.cover(role, opacity, |coverage| coverage.add_disk(at, radius));
         }
     }
 
-    fn transform(&self) -> Transform {
-        Transform::from_scale(self.scale as f32, self.scale as f32)
+    fn device(&self, place: Place) -> At {
+        ((place.0 * self.scale) as f32, (place.1 * self.scale) as f32)
     }
 
-    fn paint(&self, role: Role, opacity: f64) -> Paint<'static> {
-        let mut paint = Paint::default();
-        paint.set_color(skia_color(self.theme.color(role), opacity));
-        paint.anti_alias = true;
-        paint
+    /// Blends the color of a role wherever `add` covers the picture.
+    fn cover(&mut self, role: Role, opacity: f64, add: impl FnOnce(&mut Coverage)) {
+        add(&mut self.coverage);
+        let color = self.theme.color(role);
+        self.coverage.blend(self.pixmap.data_mut(), color, opacity);
     }
-
-    fn fill_path(&mut self, path: Option<Path>, role: Role, opacity: f64) {
-        if let Some(path) = path {
-            let paint = self.paint(role, opacity);
-            self.pixmap
-                .fill_path(&path, &paint, FillRule::Winding, self.transform(), None);
-        }
-    }
-
-    fn stroke_path(&mut self, path: Option<Path>, stroke: Stroke) {
-        let Some(path) = path else { return };
-        if stroke.cased {
-            self.stroke_plain(&path, Role::Halo, stroke.width + 2.5, Dash::Solid);
-        }
-        self.stroke_plain(&path, stroke.role, stroke.width, stroke.dash);
-    }
-
-    fn stroke_plain(&mut self, path: &Path, role: Role, width: f64, dash: Dash) {
-        let width = width as f32;
-        let pattern = match dash {
-            Dash::Solid => None,
-            Dash::Dashed => StrokeDash::new(vec![6.0 + width, 4.0 + width], 0.0),
-            Dash::Dotted => StrokeDash::new(vec![1.2 * width, 2.5 + 1.5 * width], 0.0),
-        };
-        // Round ends on every dot would cost more than the rest of the picture.
-        let cap = if dash == Dash::Solid {
-            LineCap::Round
-        } else {
-            LineCap::Butt
-        };
-        let skia_stroke = SkiaStroke {
-            width,
-            line_cap: cap,
-            line_join: LineJoin::Round,
-            dash: pattern,
-            ..SkiaStroke::default()
-        };
-        let paint = self.paint(role, 1.0);
-        self.pixmap
-            .stroke_path(path, &paint, &skia_stroke, self.transform(), None);
-    }
-}
-
-fn skia_color([r, g, b]: Rgb, opacity: f64) -> Color {
-    Color::from_rgba8(r, g, b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
 #[cfg(test)]
@@ -311,7 +221,7 @@ mod tests {
         canvas.fill_rect(Rect::new(1.1, 0.9, 2.0, 50.0), Role::Ink, 1.0);
         canvas.fill_rect(Rect::new(4.0, 0.0, 1.0, 1.0), Role::Ink, 0.5);
         canvas.fill_rect(Rect::new(f64::NAN, 0.0, 1.0, f64::INFINITY), Role::Ink, 1.0);
-        let pixmap = canvas.finish().0.unwrap();
+        let pixmap = canvas.finish().pixmap.unwrap();
         let red = |x, y| pixmap.pixel(x, y).unwrap().red();
         let [ink, behind] = [Role::Ink, Role::Background].map(|role| Theme::Dark.color(role)[0]);
         assert_eq!([red(1, 5), red(2, 1), red(6, 5)], [behind; 3]);

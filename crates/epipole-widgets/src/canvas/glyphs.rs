@@ -4,6 +4,7 @@
 //! characters in every frame. So each is rasterized once for a size and a quarter of a pixel, and
 //! then only blended. What is kept changes no pixel: a glyph is the same whenever it is made.
 
+use super::coverage::blend_row;
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
 use std::cell::RefCell;
@@ -140,18 +141,7 @@ fn blend(pixmap: &mut Pixmap, coverage: &Coverage, x: i32, y: i32, color: Rgb) {
         }
         let start = ((row * width + left + from) * 4) as usize;
         let alphas = &alphas[from as usize..to as usize];
-        let pixels = data[start..][..alphas.len() * 4].chunks_exact_mut(4);
-        for (pixel, &alpha) in pixels.zip(alphas) {
-            if alpha == 0 {
-                continue;
-            }
-            let alpha = u32::from(alpha);
-            for (byte, channel) in pixel.iter_mut().zip(color) {
-                let sum = u32::from(channel) * alpha + u32::from(*byte) * (255 - alpha);
-                // The nearest whole number to sum / 255.
-                *byte = (((sum + 128) * 257) >> 16) as u8;
-            }
-        }
+        blend_row(&mut data[start..][..alphas.len() * 4], alphas, color);
     }
 }
 

@@ -23,21 +23,23 @@ impl Canvas {
         let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
         let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
         let stride = photo_width as usize * 3;
-        let mut source = vec![0u32; photo_width as usize];
-        let mut across = |row: usize, stretched: &mut [u8]| {
+        let mut source = vec![0u64; photo_width as usize];
+        let mut across = |row: usize, stretched: &mut [u16]| {
             let bytes = &photograph.as_raw()[row * stride..][..stride];
             for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
-                *pixel = u32::from_le_bytes([rgb[0], rgb[1], rgb[2], 255]);
+                let [r, g, b] = [rgb[0], rgb[1], rgb[2]].map(u64::from);
+                *pixel = r | g << 16 | b << 32 | 255 << 48;
             }
             for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
                 let (a, b) = (source[column.first], source[column.second]);
-                pixel.copy_from_slice(&blend(a, b, column.weight_256.into()).to_le_bytes());
+                let mixed = blend(a, b, column.weight_256.into());
+                pixel.copy_from_slice(&[0, 16, 32, 48].map(|bits| (mixed >> bits) as u16));
             }
         };
         // Two neighboring rows of the photograph, stretched to the target's width and kept while
         // they last, then blended: the inner loop runs along memory.
         let length = columns.taps.len() * 4;
-        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u8; length]));
+        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u16; length]));
         let target_stride = self.pixmap.width() as usize * 4;
         let target = self.pixmap.data_mut();
         for (y, tap) in rows.taps.iter().enumerate() {
@@ -55,21 +57,20 @@ impl Canvas {
             let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
             let bytes = &mut target[start..][..length];
             for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
-                let sum = u16::from(a) * (256 - weight) + u16::from(b) * weight;
+                let sum = a * (256 - weight) + b * weight;
                 *byte = ((sum + 128) >> 8) as u8;
             }
         }
     }
 }
 
-/// `(a (256 − weight) + b weight) / 256` of each of four bytes, rounded. Sixteen bits hold
-/// 255 · 256, so two bytes are blended at once.
+/// `(a (256 − weight) + b weight) / 256`, rounded, of four numbers of sixteen bits at once: these
+/// hold 255 · 256.
 #[inline]
-fn blend(a: u32, b: u32, weight_256: u32) -> u32 {
-    const EVEN: u32 = 0x00ff_00ff;
-    const HALF: u32 = 0x0080_0080;
-    let mix = |a: u32, b: u32| (a & EVEN) * (256 - weight_256) + (b & EVEN) * weight_256 + HALF;
-    ((mix(a, b) >> 8) & EVEN) | (mix(a >> 8, b >> 8) & !EVEN)
+fn blend(a: u64, b: u64, weight_256: u64) -> u64 {
+    const LOW: u64 = 0x00ff_00ff_00ff_00ff;
+    const HALF: u64 = 0x0080_0080_0080_0080;
+    ((a * (256 - weight_256) + b * weight_256 + HALF) >> 8) & LOW
 }
 
 /// Where each device pixel along one side takes its color from.
@@ -117,7 +118,7 @@ mod tests {
             RgbImage::from_fn(7, 5, |x, y| image::Rgb([x as u8 * 30, y as u8 * 40, 9]));
         let mut canvas = Canvas::new(9.0, 7.0, 1.0, Theme::Light, Picture::default()).unwrap();
         canvas.photograph(Rect::new(1.0, 1.0, 7.0, 5.0), &photograph);
-        let pixmap = canvas.finish().0.unwrap();
+        let pixmap = canvas.finish().pixmap.unwrap();
         for (x, y, pixel) in photograph.enumerate_pixels() {
             let drawn = pixmap.pixel(x + 1, y + 1).unwrap();
             assert_eq!([drawn.red(), drawn.green(), drawn.blue()], pixel.0);
@@ -129,7 +130,7 @@ mod tests {
         let photograph = RgbImage::from_pixel(8, 8, image::Rgb([10, 20, 30]));
         let mut canvas = Canvas::new(6.0, 6.0, 2.0, Theme::Light, Picture::default()).unwrap();
         canvas.photograph(Rect::new(-3.0, -3.0, 20.0, 6.0), &photograph);
-        let pixmap = canvas.finish().0.unwrap();
+        let pixmap = canvas.finish().pixmap.unwrap();
         let drawn = pixmap.pixel(0, 0).unwrap();
         assert_eq!([drawn.red(), drawn.green(), drawn.blue()], [10, 20, 30]);
     }

@@ -1,25 +1,30 @@
 //! What is left when drawing has ended.
 
+use super::coverage::Coverage;
 use tiny_skia::Pixmap;
 
 /// A finished picture: opaque RGBA, 8 bits a channel, rows from top to bottom. Empty by default.
 #[derive(Default)]
-pub struct Picture(pub(super) Option<Pixmap>);
+pub struct Picture {
+    pub(super) pixmap: Option<Pixmap>,
+    /// Memory for the next drawing.
+    pub(super) coverage: Coverage,
+}
 
 impl Picture {
     /// Width, device pixels.
     pub fn width(&self) -> u32 {
-        self.0.as_ref().map_or(0, Pixmap::width)
+        self.pixmap.as_ref().map_or(0, Pixmap::width)
     }
 
     /// Height, device pixels.
     pub fn height(&self) -> u32 {
-        self.0.as_ref().map_or(0, Pixmap::height)
+        self.pixmap.as_ref().map_or(0, Pixmap::height)
     }
 
     /// `width * height * 4` bytes. Every pixel is opaque, so premultiplied or not is the same.
     pub fn rgba(&self) -> &[u8] {
-        self.0.as_ref().map_or(&[], Pixmap::data)
+        self.pixmap.as_ref().map_or(&[], Pixmap::data)
     }
 
     /// FNV-1a hash of size and pixels, to compare pictures across platforms.

@@ -188,6 +188,7 @@ fn mesh(canvas: &mut Canvas, rect: Rect, model: &WindowShift, found: &Found) {
         )
     };
     let corner = |du: i32, dv: i32| project(f64::from(du), f64::from(dv), found.change(du, dv));
+    let [surface, change] = [Role::Surface, Role::Candidate].map(|role| canvas.theme().color(role));
     // Far cells first, so that near ones cover them.
     for diagonal in -2 * reach..2 * reach {
         for du in (-reach).max(diagonal - reach + 1)..reach.min(diagonal + reach + 1) {
@@ -196,10 +197,18 @@ fn mesh(canvas: &mut Canvas, rect: Rect, model: &WindowShift, found: &Found) {
             let places = cell.map(|(x, y)| corner(du + x, dv + y));
             let changes = cell.map(|(x, y)| found.change(du + x, dv + y));
             let mean = changes.iter().sum::<f64>() / 4.0;
-            canvas.polygon(&places, Role::Surface, 1.0);
             let share = (mean.sqrt() / 150.0).min(1.0);
-            canvas.polygon(&places, Role::Candidate, 0.1 + 0.6 * share);
-            canvas.polygon_outline(&places, Stroke::solid(Role::Ink, 0.5));
+            canvas.polygon_color(&places, mix(surface, change, 0.1 + 0.6 * share));
+            // The sides towards the viewer are drawn with the cells that lie there.
+            let [back, right, front, left] = places;
+            let mut sides = vec![left, back, right];
+            if du == reach - 1 {
+                sides.push(front);
+            }
+            if dv == reach - 1 {
+                sides.insert(0, front);
+            }
+            canvas.polyline(&sides, Stroke::solid(Role::Ink, 0.5));
         }
     }
     let style = TextStyle::new(Role::Ink, SMALL);
@@ -226,39 +235,44 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     let reach = REACH as i32;
     let side = (2 * REACH + 1) * FINE;
     let limit = f64::from(reach);
-    let change = |u: usize, v: usize| {
-        let at = |pixel: usize| {
-            ((pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit).clamp(-limit, limit - 1e-9)
-        };
-        let (du, dv) = (at(u), at(v));
-        let (left, above) = (du.floor(), dv.floor());
-        let (right, below) = (du - left, dv - above);
-        let corner = |x: i32, y: i32| found.change(left as i32 + x, above as i32 + y);
+    // The whole shift before each pixel of the map, and how far the pixel is beyond it.
+    let places: Vec<(i32, f64)> = (0..side)
+        .map(|pixel| {
+            let at = (pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit;
+            let at = at.clamp(-limit, limit - 1e-9);
+            (at.floor() as i32, at - at.floor())
+        })
+        .collect();
+    let level = |u: usize, v: usize| {
+        let ((left, right), (above, below)) = (places[u], places[v]);
+        let corner = |x: i32, y: i32| found.change(left + x, above + y);
         let upper = corner(0, 0) * (1.0 - right) + corner(1, 0) * right;
         let lower = corner(0, 1) * (1.0 - right) + corner(1, 1) * right;
-        (upper * (1.0 - below) + lower * below).sqrt()
+        ((upper * (1.0 - below) + lower * below).sqrt() / LEVEL) as usize
     };
-    let changes: Vec<f64> = (0..side * side)
-        .map(|index| change(index % side, index / side))
+    let levels: Vec<usize> = (0..side * side)
+        .map(|index| level(index % side, index / side))
         .collect();
-    let level = |u: usize, v: usize| (changes[v * side + u] / LEVEL) as u32;
+    let most = levels.iter().copied().max().unwrap_or(0);
+    let colors: Vec<[Rgb; 2]> = (0..=most)
+        .map(|level| {
+            let change = level as f64 * LEVEL;
+            let share = if change < CHANGE {
+                0.0
+            } else {
+                0.3 + 0.6 * (change / 150.0).min(1.0)
+            };
+            let color = mix(pale, strong, share);
+            [color, mix(color, line, 0.45)]
+        })
+        .collect();
+    let at = |u: usize, v: usize| levels[v * side + u];
     RgbImage::from_fn(side as u32, side as u32, |u, v| {
         let (u, v) = (u as usize, v as usize);
-        let here = level(u, v);
-        let next = level((u + 1).min(side - 1), v).max(level(u, (v + 1).min(side - 1)));
-        let before = level(u.saturating_sub(1), v).max(level(u, v.saturating_sub(1)));
-        let share = if f64::from(here) * LEVEL < CHANGE {
-            0.0
-        } else {
-            0.3 + 0.6 * (f64::from(here) * LEVEL / 150.0).min(1.0)
-        };
-        let color = mix(pale, strong, share);
-        let is_line = here != next || here < before;
-        image::Rgb(if is_line {
-            mix(color, line, 0.45)
-        } else {
-            color
-        })
+        let here = at(u, v);
+        let next = at((u + 1).min(side - 1), v).max(at(u, (v + 1).min(side - 1)));
+        let before = at(u.saturating_sub(1), v).max(at(u, v.saturating_sub(1)));
+        image::Rgb(colors[here][usize::from(here != next || here < before)])
     })
 }
 
