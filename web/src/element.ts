@@ -12,8 +12,8 @@ import { linkTo, parametersIn } from "./permalink.js";
 import { defineProperties } from "./properties.js";
 import { Session } from "./session.js";
 import { Shell } from "./shell.js";
-import { themeOf, watchTheme } from "./theme.js";
-import { pageIsCalm, watchVisibility } from "./visibility.js";
+import { askTheme, watchTheme } from "./theme.js";
+import { myTurn, watchVisibility } from "./visibility.js";
 
 export class EpipoleFigure extends HTMLElement {
   static readonly observedAttributes = ["name", "theme"];
@@ -58,6 +58,9 @@ export class EpipoleFigure extends HTMLElement {
   /** Somebody has done something; what comes by itself while the page loads is not announced. */
   #touched = false;
   #near = false;
+  #inSight = false;
+  /** Width for the picture, CSS pixels. */
+  #room = 0;
   /** Somebody has pointed at the figure or gone into it. */
   #interested = false;
   #opening = 0;
@@ -65,7 +68,11 @@ export class EpipoleFigure extends HTMLElement {
 
   connectedCallback(): void {
     this.#shell.role = this.closest("figure") ? "group" : "figure";
-    const resized = new ResizeObserver(() => this.#session?.resize(this.#shell.picture.element.clientWidth));
+    // What observers tell is remembered: to ask would make the browser lay the page out at once.
+    const resized = new ResizeObserver(([entry]) => {
+      this.#room = entry?.contentRect.width ?? 0;
+      this.#session?.resize(this.#room);
+    });
     resized.observe(this.#shell.picture.element);
     const attributes = new MutationObserver((records) => this.#onAttributes(records));
     attributes.observe(this, { attributes: true });
@@ -99,16 +106,18 @@ export class EpipoleFigure extends HTMLElement {
       watchVisibility(this, {
         near: (near) => {
           this.#near = near;
-          if (near) void pageIsCalm().then(() => this.#begin());
+          if (near) void myTurn().then(() => this.#begin());
         },
-        seen: (inSight) => this.#session?.setInSight(inSight),
+        seen: (inSight) => {
+          this.#inSight = inSight;
+          this.#session?.setInSight(inSight);
+        },
       }),
     ];
     for (const type of ["pointerdown", "keydown", "input"]) {
       this.addEventListener(type, () => (this.#touched = true), { once: true, capture: true });
     }
     this.#recolor();
-    this.#session?.resize(this.#shell.picture.element.clientWidth);
     if (this.#snapshot) this.#shell.jobs.follow(this.#snapshot.waiting);
     if (this.#isLinked()) void this.#open(true);
   }
@@ -204,9 +213,10 @@ export class EpipoleFigure extends HTMLElement {
   }
 
   #recolor(): void {
-    const theme = themeOf(this);
-    this.#shell.theme = theme;
-    this.#session?.recolor(theme);
+    askTheme(this, (theme) => {
+      this.#shell.theme = theme;
+      this.#session?.recolor(theme);
+    });
   }
 
   /** Whether the page's address speaks of this figure. */
@@ -268,12 +278,11 @@ export class EpipoleFigure extends HTMLElement {
     // The poster is this very picture; photographs are rendered once somebody takes an interest.
     const isShown = withAddress && !linked && problems.length === 0 && this.querySelector("img");
     if (isShown && !this.#interested) this.#session.hold();
-    this.#recolor();
+    this.#session.recolor(this.#shell.theme);
     this.#shell.speaker.warn([]);
     this.#warn(problems);
-    this.#session.resize(this.#shell.picture.element.clientWidth);
-    const box = this.getBoundingClientRect();
-    this.#session.setInSight(box.bottom >= 0 && box.top <= innerHeight);
+    this.#session.resize(this.#room);
+    this.#session.setInSight(this.#inSight);
   }
 
   #drawn(snapshot: Snapshot | undefined, painted: boolean, linked: boolean): void {
@@ -288,10 +297,7 @@ export class EpipoleFigure extends HTMLElement {
   }
 
   #endJob(work: (engine: Engine) => boolean): void {
-    this.#session?.act((engine) => {
-      work(engine);
-      return undefined;
-    });
+    this.#session?.learn((engine) => void work(engine));
   }
 
   #becomeReady(linked: boolean): void {

@@ -92,6 +92,14 @@ export class Session {
     this.#want();
   }
 
+  /** Tells the figure what it was waiting for; where the poster shows it already, that stays. */
+  learn(work: (engine: Engine) => void): void {
+    this.#guard(() => work(this.engine));
+    if (this.#ended) return;
+    this.#changed = this.#stale = this.#rough = true;
+    this.#want();
+  }
+
   /** Asks the figure something. */
   ask<T>(work: (engine: Engine) => T): T | undefined {
     return this.#guard(() => work(this.engine));

@@ -35,6 +35,7 @@ export class Shell {
   readonly #title = make("p", { id: "title", class: "title" });
   readonly #description = make("p", { class: "description" });
   readonly #panel = make("div", { class: "panel", hidden: true });
+  #theme: Theme = "light";
   readonly #root = make("div", {
     class: "root",
     "aria-labelledby": "title",
@@ -81,7 +82,12 @@ export class Shell {
     setAttribute(this.#root, "role", role);
   }
 
+  get theme(): Theme {
+    return this.#theme;
+  }
+
   set theme(theme: Theme) {
+    this.#theme = theme;
     setAttribute(this.#root, "data-theme", theme);
   }
 

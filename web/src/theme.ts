@@ -8,7 +8,7 @@ const queries = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "(f
  * The theme for a figure: its `theme` attribute; else high contrast where the reader asks for it;
  * else what `data-theme` around it says, else its `color-scheme`, else how dark the page behind it is.
  */
-export function themeOf(element: HTMLElement): Theme {
+function themeOf(element: HTMLElement): Theme {
   const wish = element.getAttribute("theme");
   if (wish === "light" || wish === "dark" || wish === "high-contrast") return wish;
   if (queries.slice(1).some((query) => matchMedia(query).matches)) return "high-contrast";
@@ -21,6 +21,23 @@ export function themeOf(element: HTMLElement): Theme {
   if (light && dark) return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   if (light || dark) return dark ? "dark" : "light";
   return behindIsDark(element) ? "dark" : "light";
+}
+
+const asking = new Map<HTMLElement, (theme: Theme) => void>();
+
+/**
+ * Tells the theme of an element before anything is painted. Those of all who ask together are found
+ * before any is told: finding it needs a layout of the page, and taking it makes that layout stale.
+ */
+export function askTheme(element: HTMLElement, tell: (theme: Theme) => void): void {
+  if (asking.size === 0) {
+    queueMicrotask(() => {
+      const told = [...asking].map(([asker, answer]) => [answer, themeOf(asker)] as const);
+      asking.clear();
+      for (const [answer, theme] of told) answer(theme);
+    });
+  }
+  asking.set(element, tell);
 }
 
 /** Whether the first opaque background around an element is a dark one; a bare page is white. */

@@ -33,7 +33,7 @@ export function watchVisibility(element: Element, callbacks: { near: Seen; seen:
 let calm: Promise<void> | undefined;
 
 /** Resolves when the page has loaded and the browser has a moment: text and pictures come first. */
-export function pageIsCalm(): Promise<void> {
+function pageIsCalm(): Promise<void> {
   calm ??= new Promise((resolve) => {
     const wait = () => {
       // Safari has no requestIdleCallback.
@@ -44,4 +44,12 @@ export function pageIsCalm(): Promise<void> {
     else addEventListener("load", wait, { once: true });
   });
   return calm;
+}
+
+let turn = Promise.resolve();
+
+/** Resolves in a task of its own, after the page is calm, for one caller after the other. */
+export function myTurn(): Promise<void> {
+  turn = turn.then(pageIsCalm).then(() => new Promise((resolve) => setTimeout(resolve)));
+  return turn;
 }

@@ -4,8 +4,9 @@
 //! cargo run --release -p epipole-widgets --example frames [-- NAME]
 //! ```
 //!
-//! Of one figure or of all, every slider and the first handle are dragged through their ranges, and a frame is
-//! drawn after every event, as on a page. Then the picture settles, slice by slice.
+//! Of one figure or of all, every slider and the first handle are dragged through their ranges, and
+//! a frame is drawn after every event, as on a page. What long computations find is there from the
+//! start.
 
 use epipole_widgets::contract::{ControlKind, Event, Problem, Value};
 use epipole_widgets::gallery::FIGURES;
@@ -22,6 +23,7 @@ fn main() -> Result<(), Problem> {
     let is_wanted = |name: &str| wanted.as_ref().is_none_or(|wanted| wanted == name);
     for entry in FIGURES.iter().filter(|entry| is_wanted(entry.name)) {
         let mut figure = Figure::new(entry.name)?;
+        figure.finish_job();
         figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
         let slices = settle(&mut figure);
         report(entry.name, "a slice of refining", slices);

@@ -12,7 +12,7 @@ use epipole::synthetic::{Photograph, Sampling, Scene};
 use image::RgbImage;
 
 /// Pixels of a draft for every pixel of the full picture, along each side.
-const DRAFT_FACTOR: f64 = 0.25;
+const DRAFT_FACTOR: f64 = 1.0 / 6.0;
 
 /// Rows of the full picture that one slice renders.
 const ROWS_PER_SLICE: u32 = 16;

@@ -116,7 +116,7 @@ fn optimize(tools: &Tools, bound: Bound, fast: bool) -> Result<Module> {
         tools.run(
             Command::new("node")
                 .arg(tools.modules.join("binaryen/bin/wasm-opt"))
-                .arg("-O3")
+                .arg("-O2")
                 .args(FEATURES)
                 .arg(&wasm)
                 .arg("-o")

@@ -62,6 +62,11 @@ impl Coverage {
         &mut self.alpha[row * self.width..][columns]
     }
 
+    /// How much of each pixel is covered.
+    pub(super) fn into_alpha(self) -> Vec<u8> {
+        self.alpha
+    }
+
     /// Blends a color where the picture is covered, and covers nothing again.
     pub(super) fn blend(&mut self, pixels: &mut [u8], color: Rgb, opacity: f64) {
         let opacity = (opacity.clamp(0.0, 1.0) * 256.0).round() as u32;

@@ -4,20 +4,18 @@
 //! characters in every frame. So each is rasterized once for a size and a quarter of a pixel, and
 //! then only blended. What is kept changes no pixel: a glyph is the same whenever it is made.
 
-use super::coverage::blend_row;
+use super::stamp::{STEPS, Stamp, pixel_and_step};
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// Steps of the horizontal place within a pixel.
-const STEPS: f64 = 4.0;
 /// Glyphs kept before all are forgotten: a page that is zoomed needs new ones each time.
 const MOST_KEPT: usize = 2048;
 
 thread_local! {
-    static KEPT: RefCell<BTreeMap<Key, Coverage>> = const { RefCell::new(BTreeMap::new()) };
+    static KEPT: RefCell<BTreeMap<Key, Stamp>> = const { RefCell::new(BTreeMap::new()) };
 }
 
 /// What a glyph looks like, in device pixels.
@@ -30,14 +28,6 @@ struct Key {
     casing: u32,
     /// Place within the pixel, in steps.
     step: u8,
-}
-
-/// How much of each pixel a glyph covers.
-struct Coverage {
-    left: i32,
-    top: i32,
-    width: usize,
-    alpha: Vec<u8>,
 }
 
 /// Draws text; everything in device pixels.
@@ -63,36 +53,30 @@ pub(super) fn draw(
         }
         let mut pen_x = left;
         for character in text.chars() {
-            let whole = (pen_x * STEPS).round() as i64;
+            let (x, step) = pixel_and_step(pen_x);
             let key = Key {
                 character,
                 size: (size as f32).to_bits(),
                 casing: (casing as f32).to_bits(),
-                step: whole.rem_euclid(STEPS as i64) as u8,
+                step,
             };
-            let coverage = kept.entry(key).or_insert_with(|| rasterize(key));
-            let x = whole.div_euclid(STEPS as i64) as i32;
-            blend(pixmap, coverage, x, y, color);
+            let stamp = kept.entry(key).or_insert_with(|| rasterize(key));
+            stamp.blend(pixmap, (x, y), color);
             pen_x += font::width(character.encode_utf8(&mut [0; 4])) * size;
         }
     });
 }
 
-fn rasterize(key: Key) -> Coverage {
+fn rasterize(key: Key) -> Stamp {
     outline(key)
         .and_then(|path| cover(&path))
-        .unwrap_or(Coverage {
-            left: 0,
-            top: 0,
-            width: 0,
-            alpha: Vec::new(),
-        })
+        .unwrap_or_default()
 }
 
 fn outline(key: Key) -> Option<Path> {
     let mut pen = PathPen(PathBuilder::new());
     let (size, casing) = (f32::from_bits(key.size), f32::from_bits(key.casing));
-    let x = f64::from(key.step) / STEPS;
+    let x = f64::from(key.step) / f64::from(STEPS);
     let text = key.character.encode_utf8(&mut [0; 4]).to_owned();
     font::draw(&text, x, 0.0, f64::from(size), &mut pen);
     let path = pen.0.finish()?;
@@ -108,7 +92,7 @@ fn outline(key: Key) -> Option<Path> {
     path.stroke(&stroke, 1.0)
 }
 
-fn cover(path: &Path) -> Option<Coverage> {
+fn cover(path: &Path) -> Option<Stamp> {
     let bounds = path.bounds();
     let (left, top) = (bounds.left().floor() - 1.0, bounds.top().floor() - 1.0);
     let width = (bounds.right() - left).ceil() + 1.0;
@@ -116,33 +100,12 @@ fn cover(path: &Path) -> Option<Coverage> {
     let mut mask = Mask::new(width as u32, height as u32)?;
     let shift = Transform::from_translate(-left, -top);
     mask.fill_path(path, FillRule::Winding, true, shift);
-    Some(Coverage {
+    Some(Stamp {
         left: left as i32,
         top: top as i32,
         width: width as usize,
         alpha: mask.data().to_vec(),
     })
-}
-
-fn blend(pixmap: &mut Pixmap, coverage: &Coverage, x: i32, y: i32, color: Rgb) {
-    if coverage.width == 0 {
-        return;
-    }
-    let (width, height) = (pixmap.width() as i64, pixmap.height() as i64);
-    let left = i64::from(x) + i64::from(coverage.left);
-    let top = i64::from(y) + i64::from(coverage.top);
-    let from = (-left).clamp(0, coverage.width as i64);
-    let to = (width - left).clamp(from, coverage.width as i64);
-    let data = pixmap.data_mut();
-    for (row, alphas) in coverage.alpha.chunks_exact(coverage.width).enumerate() {
-        let row = top + row as i64;
-        if !(0..height).contains(&row) || from == to {
-            continue;
-        }
-        let start = ((row * width + left + from) * 4) as usize;
-        let alphas = &alphas[from as usize..to as usize];
-        blend_row(&mut data[start..][..alphas.len() * 4], alphas, color);
-    }
 }
 
 struct PathPen(PathBuilder);

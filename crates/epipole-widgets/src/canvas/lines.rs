@@ -115,7 +115,7 @@ fn cut(
         pen = Some(to);
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = libm::hypot(dx, dy);
-        if !(length > 0.0) {
+        if length == 0.0 {
             continue;
         }
         let at = |s: f64| (from.0 + dx * s / length, from.1 + dy * s / length);

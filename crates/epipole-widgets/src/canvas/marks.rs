@@ -1,7 +1,6 @@
 //! Marks of one place: arrows, markers, grips and the dots of clouds.
 
-use super::strokes::Cap;
-use super::{Canvas, Place, Shape, Stroke};
+use super::{Canvas, Place, Shape, Stroke, markers};
 use crate::theme::{Rgb, Role};
 
 impl Canvas {
@@ -64,46 +63,9 @@ impl Canvas {
             (radius * 0.45).clamp(1.25, 2.5)
         };
         if cased {
-            self.mark_outline(center, radius, shape, Role::Halo, width + 3.0);
+            markers::draw(self, center, radius, shape, width + 3.0, Role::Halo);
         }
-        match (filled, shape) {
-            (false, _) => self.mark_outline(center, radius, shape, role, width),
-            (true, Shape::Disk) => self.disk(center, radius, role, 1.0),
-            (true, _) => {
-                let corners = corners(center, radius, shape).into_iter();
-                let corners: Vec<_> = corners.map(|place| self.device(place)).collect();
-                self.cover(role, 1.0, |coverage| coverage.add_polygon(&corners));
-            }
-        }
-    }
-
-    fn mark_outline(&mut self, center: Place, radius: f64, shape: Shape, role: Role, width: f64) {
-        let places = corners(center, radius, shape);
-        match (shape, places.as_slice()) {
-            (Shape::Disk | Shape::Ring, _) => self.ring(center, radius, role, width),
-            (Shape::Cross | Shape::Plus, &[a, b, c, d]) => {
-                self.stroke_whole(&[(a, c), (b, d)], role, width);
-            }
-            (_, places) => {
-                let after = places.iter().cycle().skip(1);
-                let sides: Vec<_> = places.iter().copied().zip(after.copied()).collect();
-                self.stroke_whole(&sides, role, width);
-            }
-        }
-    }
-
-    /// Straight strokes that no clip rectangle cuts.
-    fn stroke_whole(&mut self, strokes: &[(Place, Place)], role: Role, width: f64) {
-        let width = (width * self.scale) as f32;
-        let strokes = strokes
-            .iter()
-            .map(|&(from, to)| (self.device(from), self.device(to)));
-        let strokes: Vec<_> = strokes.collect();
-        self.cover(role, 1.0, |coverage| {
-            for (from, to) in strokes {
-                coverage.add_segment(from, to, width, Cap::Round);
-            }
-        });
+        markers::draw(self, center, radius, shape, width, role);
     }
 
     /// The mark of something that can be dragged: a disk in a ring.
@@ -153,18 +115,4 @@ impl Canvas {
             }
         }
     }
-}
-
-/// The corners of a shape in turn; none for those that are round.
-fn corners(center: Place, radius: f64, shape: Shape) -> Vec<Place> {
-    let unit: &[Place] = match shape {
-        Shape::Disk | Shape::Ring => &[],
-        Shape::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
-        Shape::Diamond => &[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)],
-        Shape::Triangle => &[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)],
-        Shape::Cross => &[(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)],
-        Shape::Plus => &[(-1.1, 0.0), (0.0, -1.1), (1.1, 0.0), (0.0, 1.1)],
-    };
-    let place = |&(x, y): &Place| (center.0 + radius * x, center.1 + radius * y);
-    unit.iter().map(place).collect()
 }

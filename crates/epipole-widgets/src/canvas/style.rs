@@ -63,7 +63,7 @@ pub enum Dash {
 }
 
 /// The shape of a marker.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shape {
     /// A filled disk.
     Disk,
