@@ -85,7 +85,7 @@ if (wanted.length === 0) {
   }
   const script = { figure: "ransac-race", width: 760, scale: 1, theme: "light", calls };
   const scripts = [script, script, script, script, script];
-  execFileSync("cargo", ["build", "--quiet", "--release", "--package", "epipole-web", "--example", "trace"], {
+  execFileSync("cargo", ["build", "--quiet", "--release", "--example", "trace"], {
     cwd: root,
     stdio: "ignore",
   });

@@ -51,7 +51,8 @@ export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
 /** What the figures answer natively; with `--time`, the milliseconds of each script. */
 export function playNatively(scripts, ...flags) {
   const profile = flags.includes("--time") ? ["--release"] : [];
-  const run = ["run", "--quiet", "--package", "epipole-web", "--example", "trace", ...profile];
+  // Without --package: so that dependencies have the features that the tests compile them with.
+  const run = ["run", "--quiet", "--example", "trace", ...profile];
   const output = execFileSync("cargo", [...run, "--", ...flags], {
     cwd: root,
     input: JSON.stringify(scripts),
