@@ -182,6 +182,9 @@ fn a_wall_without_texture_gives_valid_files() {
         json(&[&base[..], &["--method", "bm"]].concat())["density"],
         0.0
     );
+    // Paths answer from smoothness, and it is said.
+    let said = String::from_utf8(common::epipole(&base).stderr).unwrap();
+    assert_eq!(said.matches("shows no texture").count(), 2, "{said}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, fill_gaps, point_cloud, q_from_rig};
+use image::GrayImage;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -74,6 +75,14 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Photo::read(&arguments.right)?,
     ];
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
+    for (picture, path) in [(&left, &arguments.left), (&right, &arguments.right)] {
+        if is_flat(picture) {
+            context.warn(&format!(
+                "{} shows no texture: what is answered there is a guess from smoothness",
+                path.display()
+            ));
+        }
+    }
     let progress = Progress::new(context, "stereo");
     let mut watch = |share: f32| {
         progress.set(f64::from(share));
@@ -124,6 +133,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         files::write(path, &cloud.to_ply())?;
     }
     Ok(report(&disparity, arguments))
+}
+
+/// Whether all gray levels are next to each other: nothing can be matched.
+fn is_flat(picture: &GrayImage) -> bool {
+    let levels = || picture.pixels().map(|pixel| pixel.0[0]);
+    let (darkest, brightest) = (levels().min(), levels().max());
+    brightest.unwrap_or(0).abs_diff(darkest.unwrap_or(0)) <= 2
 }
 
 fn report(disparity: &DisparityImage, arguments: &Arguments) -> Report {
