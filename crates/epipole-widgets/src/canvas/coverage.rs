@@ -38,12 +38,12 @@ impl Coverage {
         self.touched.len()
     }
 
-    /// The whole rows whose centers are within `reach` of `low..=high`.
+    /// The rows whose centers are within `low..=high`, pixels.
     pub(super) fn rows_within(&self, low: f32, high: f32) -> Range<usize> {
         centers_within(low, high, self.height())
     }
 
-    /// The whole columns whose centers are within `low..=high`.
+    /// The columns whose centers are within `low..=high`, pixels.
     pub(super) fn columns_within(&self, low: f32, high: f32) -> Range<usize> {
         centers_within(low, high, self.width)
     }

@@ -2,20 +2,16 @@
 //!
 //! Outlines are costly to fill and far more costly to stroke, and a figure shows the same few
 //! characters in every frame. So each is rasterized once for a size and a quarter of a pixel, and
-//! then only blended. What is kept changes no pixel: a glyph is the same whenever it is made.
+//! then only blended.
 
-use super::stamp::{STEPS, Stamp, pixel_and_step};
+use super::stamp::{Kept, STEPS, Stamp, pixel_and_step};
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// Glyphs kept before all are forgotten: a page that is zoomed needs new ones each time.
-const MOST_KEPT: usize = 2048;
-
 thread_local! {
-    static KEPT: RefCell<BTreeMap<Key, Stamp>> = const { RefCell::new(BTreeMap::new()) };
+    static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
 }
 
 /// What a glyph looks like, in device pixels.
@@ -48,9 +44,6 @@ pub(super) fn draw(
     }
     let y = baseline.round() as i32;
     KEPT.with_borrow_mut(|kept| {
-        if kept.len() > MOST_KEPT {
-            kept.clear();
-        }
         let mut pen_x = left;
         for character in text.chars() {
             let (x, step) = pixel_and_step(pen_x);
@@ -60,8 +53,7 @@ pub(super) fn draw(
                 casing: (casing as f32).to_bits(),
                 step,
             };
-            let stamp = kept.entry(key).or_insert_with(|| rasterize(key));
-            stamp.blend(pixmap, (x, y), color);
+            kept.stamp(key, rasterize).blend(pixmap, (x, y), color);
             pen_x += font::width(character.encode_utf8(&mut [0; 4])) * size;
         }
     });
@@ -142,7 +134,7 @@ mod tests {
     #[test]
     fn a_kept_glyph_is_the_same_as_a_new_one() {
         let first = drawn("e₂ = 0", (3.3, 20.0), 0.0);
-        KEPT.with_borrow_mut(BTreeMap::clear);
+        KEPT.with_borrow_mut(Kept::forget);
         assert_eq!(first, drawn("e₂ = 0", (3.3, 20.0), 0.0));
         assert_eq!(first, drawn("e₂ = 0", (3.3, 20.0), 0.0));
         assert!(first.iter().any(|&byte| byte < 40));

@@ -1,24 +1,20 @@
 //! Markers, drawn from shapes that are covered once.
 //!
 //! A figure shows hundreds of a few kinds of markers. Each kind is covered once for a quarter of a
-//! pixel both ways and then only blended. What is kept changes no pixel: a marker is the same
-//! whenever it is made.
+//! pixel both ways and then only blended.
 
 use super::coverage::Coverage;
-use super::stamp::{STEPS, Stamp, pixel_and_step};
+use super::stamp::{Kept, STEPS, Stamp, pixel_and_step};
 use super::strokes::{At, Cap};
 use super::{Canvas, Place, Shape};
 use crate::theme::Role;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
-/// Shapes kept before all are forgotten: a page that is zoomed needs new ones each time.
-const MOST_KEPT: usize = 1024;
-/// A larger marker is not drawn, device pixels: nobody asks for one.
-const LARGEST: f64 = 200.0;
+/// Half the size from which a marker is not worth keeping, device pixels.
+const LARGE: f32 = 64.0;
 
 thread_local! {
-    static KEPT: RefCell<BTreeMap<Key, Stamp>> = const { RefCell::new(BTreeMap::new()) };
+    static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
 }
 
 /// What a marker looks like, in device pixels.
@@ -43,24 +39,28 @@ pub(super) fn draw(
     role: Role,
 ) {
     let scale = canvas.scale;
-    let (x, y, radius, width) = (x * scale, y * scale, radius * scale, width * scale);
-    if !(x.is_finite() && y.is_finite() && radius + width < LARGEST) {
+    let (radius, width) = ((radius * scale) as f32, (width * scale) as f32);
+    if !(x.is_finite() && y.is_finite() && radius.is_finite() && width.is_finite()) {
         return;
     }
-    let ((x, step_x), (y, step_y)) = (pixel_and_step(x), pixel_and_step(y));
+    if radius + width > LARGE {
+        let center = canvas.device((x, y));
+        canvas.cover(role, 1.0, |coverage| {
+            add(coverage, center, radius, shape, width)
+        });
+        return;
+    }
+    let ((x, step_x), (y, step_y)) = (pixel_and_step(x * scale), pixel_and_step(y * scale));
     let key = Key {
         shape,
-        radius: (radius as f32).to_bits(),
-        width: (width as f32).to_bits(),
+        radius: radius.to_bits(),
+        width: width.to_bits(),
         step: (step_x, step_y),
     };
     let color = canvas.theme.color(role);
     KEPT.with_borrow_mut(|kept| {
-        if kept.len() > MOST_KEPT {
-            kept.clear();
-        }
-        let stamp = kept.entry(key).or_insert_with(|| cover(key));
-        stamp.blend(&mut canvas.pixmap, (x, y), color);
+        kept.stamp(key, cover)
+            .blend(&mut canvas.pixmap, (x, y), color);
     });
 }
 
@@ -72,8 +72,19 @@ fn cover(key: Key) -> Stamp {
     let middle = |step: u8| margin as f32 + f32::from(step) / STEPS as f32;
     let center = (middle(key.step.0), middle(key.step.1));
     let mut coverage = Coverage::default().sized(side, side);
-    let corners = corners(center, radius, key.shape);
-    match (key.shape, corners.as_slice()) {
+    add(&mut coverage, center, radius, key.shape, width);
+    Stamp {
+        left: -margin,
+        top: -margin,
+        width: side,
+        alpha: coverage.into_alpha(),
+    }
+}
+
+/// Covers a shape, or its outline if `width` is not 0; everything in device pixels.
+fn add(coverage: &mut Coverage, center: At, radius: f32, shape: Shape, width: f32) {
+    let corners = corners(center, radius, shape);
+    match (shape, corners.as_slice()) {
         (Shape::Disk, _) if width == 0.0 => coverage.add_disk(center, radius),
         (Shape::Disk | Shape::Ring, _) => coverage.add_ring(center, radius, width),
         (Shape::Cross | Shape::Plus, &[a, b, c, d]) => {
@@ -86,12 +97,6 @@ fn cover(key: Key) -> Stamp {
                 coverage.add_segment(from, to, width, Cap::Round);
             }
         }
-    }
-    Stamp {
-        left: -margin,
-        top: -margin,
-        width: side,
-        alpha: coverage.into_alpha(),
     }
 }
 
@@ -137,7 +142,7 @@ mod tests {
         let empty = drawn(Shape::Disk, (f64::NAN, 3.0));
         for shape in SHAPES {
             let first = drawn(shape, (20.1, 15.3));
-            KEPT.with_borrow_mut(BTreeMap::clear);
+            KEPT.with_borrow_mut(Kept::forget);
             assert_eq!(first, drawn(shape, (20.1, 15.3)), "{shape:?}");
             assert_eq!(first, drawn(shape, (20.1, 15.3)), "{shape:?}");
             let covered = first.chunks(4).zip(empty.chunks(4)).enumerate();
@@ -153,6 +158,26 @@ mod tests {
             let below = if shape == Shape::Triangle { 1.6 } else { 0.0 };
             let off = (x - 40.2, y - 30.6 - below);
             assert!(off.0.abs() < 0.5 && off.1.abs() < 0.5, "{shape:?} {off:?}");
+        }
+    }
+
+    #[test]
+    fn a_large_marker_is_drawn_as_well() {
+        let inked = |radius: f64| {
+            let mut canvas =
+                Canvas::new(300.0, 300.0, 1.0, Theme::Light, Picture::default()).unwrap();
+            canvas.marker((150.0, 150.0), radius, Shape::Diamond, Role::Ink, false);
+            let picture = canvas.finish();
+            let paper = picture.rgba()[0];
+            picture
+                .rgba()
+                .chunks(4)
+                .filter(|pixel| pixel[0] != paper)
+                .count() as f64
+        };
+        for radius in [30.0, 100.0] {
+            let area = 2.0 * (1.2 * radius) * (1.2 * radius);
+            assert!((inked(radius) / area - 1.0).abs() < 0.05, "{radius}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::coverage::blend_row;
 use crate::theme::Rgb;
+use std::collections::BTreeMap;
 use tiny_skia::Pixmap;
 
 /// Steps of a place within a pixel.
@@ -11,6 +12,30 @@ pub(super) const STEPS: i32 = 4;
 pub(super) fn pixel_and_step(at: f64) -> (i32, u8) {
     let steps = (at * f64::from(STEPS)).round() as i32;
     (steps.div_euclid(STEPS), steps.rem_euclid(STEPS) as u8)
+}
+
+/// Stamps kept before all are forgotten: a page that is zoomed needs new ones each time.
+const MOST_KEPT: usize = 2048;
+
+/// Stamps by what they show. What is kept changes no pixel: a stamp is the same whenever it is made.
+pub(super) struct Kept<K>(BTreeMap<K, Stamp>);
+
+impl<K: Copy + Ord> Kept<K> {
+    pub(super) const fn new() -> Self {
+        Self(BTreeMap::new())
+    }
+
+    /// The stamp of a key, made if it is not there.
+    pub(super) fn stamp(&mut self, key: K, make: impl FnOnce(K) -> Stamp) -> &Stamp {
+        if self.0.len() > MOST_KEPT {
+            self.forget();
+        }
+        self.0.entry(key).or_insert_with(|| make(key))
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.0.clear();
+    }
 }
 
 /// How much of each pixel a shape covers.
