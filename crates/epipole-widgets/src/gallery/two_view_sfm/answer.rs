@@ -103,8 +103,8 @@ pub(super) struct Motion {
     translation: [f64; 3],
     /// How many inliers each of the four poses of E puts in front of both cameras, most first.
     pub(super) num_in_front: [usize; 4],
-    /// Mean distance of a point's projection from its feature, pixels, before and after the
-    /// adjustment of all.
+    /// Root mean square of the distances of projections from their features, pixels, before and
+    /// after the adjustment of all.
     pub(super) error_px: [f64; 2],
     /// The cloud.
     pub(super) points: Vec<CloudPoint>,

@@ -285,7 +285,7 @@ fn reconstruct(pair: &Pair, colors: &[[u8; 3]]) -> Result<Option<Motion>, Error>
     if indices.len() < MIN_NUM_MATCHES {
         return Ok(None);
     }
-    let before_px = mean_error_px(&bundle, 0..indices.len());
+    let before_px = rms_error_px(&bundle, 0..indices.len());
     let options = BundleOptions {
         loss: RobustLoss::Huber { width: 2.0 },
         ..BundleOptions::default()
@@ -297,7 +297,7 @@ fn reconstruct(pair: &Pair, colors: &[[u8; 3]]) -> Result<Option<Motion>, Error>
     if kept.len() < MIN_NUM_MATCHES {
         return Ok(None);
     }
-    let after_px = mean_error_px(&bundle, kept.iter().copied());
+    let after_px = rms_error_px(&bundle, kept.iter().copied());
     // The unit of length is the baseline.
     let refined = bundle.cameras[1].cam_from_world;
     let baseline = refined.translation.vector.norm();
@@ -349,18 +349,23 @@ fn is_good(bundle: &Bundle, point: usize) -> bool {
     in_front && near(2 * point) && near(2 * point + 1)
 }
 
-fn mean_error_px(bundle: &Bundle, points: impl Iterator<Item = usize>) -> f64 {
+/// Root mean square of the reprojection errors of some points, pixels.
+fn rms_error_px(bundle: &Bundle, points: impl Iterator<Item = usize>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for point in points {
         for observation in [2 * point, 2 * point + 1] {
             let error_px = bundle.residual_px(observation).norm();
             if error_px.is_finite() {
-                sum += error_px;
+                sum += error_px * error_px;
                 count += 1.0;
             }
         }
     }
-    if count > 0.0 { sum / count } else { 0.0 }
+    if count > 0.0 {
+        (sum / count).sqrt()
+    } else {
+        0.0
+    }
 }
 
 /// The angle of the true rotation of a rendered pair, degrees.

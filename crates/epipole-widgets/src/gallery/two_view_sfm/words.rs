@@ -107,7 +107,7 @@ fn awaited(model: &TwoViewSfm, readouts: &mut Vec<Readout>) {
         (Stage::Pose, "truth", "True rotation"),
         (Stage::Pose, "in-front", "In front, four poses"),
         (Stage::Cloud, "points", "Points"),
-        (Stage::Cloud, "error", "Mean error"),
+        (Stage::Cloud, "error", "Error, RMS"),
         (Stage::Cloud, "error-before", "Before adjustment"),
     ];
     for (stage, id, label) in rows {
@@ -154,7 +154,7 @@ fn stages(model: &TwoViewSfm, answer: &Answer, readouts: &mut Vec<Readout>) {
     if stage == Stage::Cloud {
         readouts.push(Readout::count("points", "Points", motion.points.len()));
         let [before_px, after_px] = motion.error_px;
-        readouts.push(Readout::number("error", "Mean error", after_px, 3, "px"));
+        readouts.push(Readout::number("error", "Error, RMS", after_px, 3, "px"));
         readouts.push(Readout::number(
             "error-before",
             "Before adjustment",
@@ -201,8 +201,8 @@ pub(super) fn describe(model: &TwoViewSfm) -> String {
             )
         }
         (_, _, Some(motion)) => format!(
-            "{} points in color and the two cameras, seen from {}. On average a point's projections \
-             miss its features by {} px.{}",
+            "{} points in color and the two cameras, seen from {}. Projections miss their \
+             features by {} px (RMS).{}",
             motion.points.len(),
             model.orbit().words(),
             format_number(motion.error_px[1], 2),
