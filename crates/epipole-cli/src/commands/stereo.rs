@@ -75,12 +75,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Photo::read(&arguments.right)?,
     ];
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
+    let outcome = match arguments.method {
+        Method::Sgm => "answers come from smoothness alone",
+        Method::Bm => "there will hardly be an answer",
+    };
     for (picture, path) in [(&left, &arguments.left), (&right, &arguments.right)] {
         if is_flat(picture) {
-            context.warn(&format!(
-                "{} shows no texture: what is answered there is a guess from smoothness",
-                path.display()
-            ));
+            context.warn(&format!("{} shows no texture: {outcome}", path.display()));
         }
     }
     let progress = Progress::new(context, "stereo");
