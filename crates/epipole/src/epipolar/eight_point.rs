@@ -2,7 +2,7 @@
 
 use super::from_cameras::unit_norm;
 use super::{Normalization, epipolar_row};
-use crate::math::null_space::right_singular_vectors;
+use crate::math::null_space::{Reflections, right_singular_vectors};
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
@@ -57,6 +57,9 @@ pub fn fundamental_8point(
         Normalization::new(check(pixels1, pixels2)?.0)?,
         Normalization::new(pixels2)?,
     );
+    if let Some(f) = exact(pixels1, pixels2, &n1, &n2) {
+        return f;
+    }
     Ok(solve(pixels1, pixels2, &n1, &n2)?.fundamental)
 }
 
@@ -125,6 +128,32 @@ fn check<'a>(pixels1: &'a [Point2<f64>], pixels2: &'a [Point2<f64>]) -> Result<P
         });
     }
     Ok((pixels1, pixels2))
+}
+
+/// F from exactly eight matches: the vector orthogonal to the rows, in a tenth of the time that
+/// singular values take. `None` for more matches, and where a row is so nearly a combination of
+/// those before it that only singular values can tell whether the matches leave F open.
+fn exact(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    n1: &Normalization,
+    n2: &Normalization,
+) -> Option<Result<Matrix3<f64>>> {
+    let (pixels1, pixels2): (&[_; 8], &[_; 8]) =
+        (pixels1.try_into().ok()?, pixels2.try_into().ok()?);
+    let rows =
+        core::array::from_fn(|i| epipolar_row(&n1.apply(&pixels1[i]), &n2.apply(&pixels2[i])));
+    let reflections = Reflections::<8, 9>::new(rows);
+    let most = reflections
+        .left
+        .iter()
+        .fold(0.0, |most: f64, &x| most.max(x));
+    if !reflections.left.iter().all(|&left| left > 1e-4 * most) {
+        return None;
+    }
+    let [solution]: [[f64; 9]; 1] = reflections.null_space();
+    let f = enforce_rank2(&Matrix3::from_row_slice(&solution));
+    Some(unit_norm(&(n2.matrix().transpose() * f * n1.matrix())))
 }
 
 fn solve(
@@ -295,6 +324,28 @@ mod tests {
     }
 
     #[test]
+    fn both_ways_to_solve_for_eight_agree() {
+        let mut random = Random::new(4);
+        let mut exact_ones = 0;
+        for trial in 0..1000 {
+            let (_, p1, p2) = problem(&mut random, 8, 1.0, 1.0);
+            let n = [&p1, &p2].map(|p| Normalization::new(p).unwrap());
+            let Some(exact) = exact(&p1, &p2, &n[0], &n[1]) else {
+                continue;
+            };
+            exact_ones += 1;
+            let (exact, explained) = (
+                exact.unwrap(),
+                fundamental_8point_explained(&p1, &p2).unwrap(),
+            );
+            let f = explained.fundamental;
+            let off = (exact - f).norm().min((exact + f).norm());
+            assert!(off < 1e-13 * explained.condition_number, "{trial}: {off:e}");
+        }
+        assert!(exact_ones > 900, "{exact_ones}");
+    }
+
+    #[test]
     fn normalization_improves_the_condition() {
         let (_, p1, p2) = problem(&mut Random::new(5), 50, 1.0, 0.0);
         let with = fundamental_8point_explained(&p1, &p2).unwrap();
@@ -320,8 +371,10 @@ mod tests {
         let same = vec![Point2::new(1.0, 2.0); 20];
         for p2 in [&plane, &p1, &same] {
             assert!(fundamental_8point(&p1, p2).is_err());
+            assert!(fundamental_8point(&p1[..8], &p2[..8]).is_err());
         }
         assert!(fundamental_8point(&line, &line).is_err());
+        assert!(fundamental_8point(&line[..8], &line[..8]).is_err());
         assert!(fundamental_8point(&p1[..7], &plane[..7]).is_err());
         assert!(fundamental_8point(&p1, &plane[..9]).is_err());
         let mut bad = p1.clone();

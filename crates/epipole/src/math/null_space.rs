@@ -8,41 +8,65 @@
 ///
 /// Source: Householder triangularization, Golub & Van Loan 2013, §5.2.
 pub(crate) fn null_space<const K: usize, const N: usize, const D: usize>(
-    mut rows: [[f64; N]; K],
+    rows: [[f64; N]; K],
 ) -> [[f64; N]; D] {
-    const { assert!(K + D == N, "rows and basis vectors must fill the space") };
-    let mut scales = [0.0; K];
-    for j in 0..K {
-        let (done, rest) = rows.split_at_mut(j + 1);
-        let v = &mut done[j];
-        let mut norm_sq = 0.0;
-        for x in &v[j..] {
-            norm_sq += x * x;
+    Reflections::new(rows).null_space()
+}
+
+/// Householder reflections that turn rows into a triangle: `rows = L Q` with L lower triangular.
+pub(crate) struct Reflections<const K: usize, const N: usize> {
+    vectors: [[f64; N]; K],
+    scales: [f64; K],
+    /// How much of each row the rows before it leave: the size of the diagonal of L.
+    pub(crate) left: [f64; K],
+}
+
+impl<const K: usize, const N: usize> Reflections<K, N> {
+    pub(crate) fn new(mut rows: [[f64; N]; K]) -> Self {
+        let (mut scales, mut left) = ([0.0; K], [0.0; K]);
+        for j in 0..K {
+            let (done, rest) = rows.split_at_mut(j + 1);
+            let v = &mut done[j];
+            let mut norm_sq = 0.0;
+            for x in &v[j..] {
+                norm_sq += x * x;
+            }
+            let norm = norm_sq.sqrt();
+            left[j] = norm;
+            let first = v[j];
+            scales[j] = if norm_sq > 0.0 {
+                1.0 / (norm_sq + first.abs() * norm)
+            } else {
+                0.0
+            };
+            v[j] = if first < 0.0 {
+                first - norm
+            } else {
+                first + norm
+            };
+            for row in rest {
+                reflect(v, scales[j], j, row);
+            }
         }
-        let norm = norm_sq.sqrt();
-        let first = v[j];
-        scales[j] = if norm_sq > 0.0 {
-            1.0 / (norm_sq + first.abs() * norm)
-        } else {
-            0.0
-        };
-        v[j] = if first < 0.0 {
-            first - norm
-        } else {
-            first + norm
-        };
-        for row in rest {
-            reflect(v, scales[j], j, row);
+        Self {
+            vectors: rows,
+            scales,
+            left,
         }
     }
-    let mut basis = [[0.0; N]; D];
-    for (d, vector) in basis.iter_mut().enumerate() {
-        vector[K + d] = 1.0;
-        for j in (0..K).rev() {
-            reflect(&rows[j], scales[j], j, vector);
+
+    /// An orthonormal basis of the vectors orthogonal to all rows.
+    pub(crate) fn null_space<const D: usize>(&self) -> [[f64; N]; D] {
+        const { assert!(K + D == N, "rows and basis vectors must fill the space") };
+        let mut basis = [[0.0; N]; D];
+        for (d, vector) in basis.iter_mut().enumerate() {
+            vector[K + d] = 1.0;
+            for j in (0..K).rev() {
+                reflect(&self.vectors[j], self.scales[j], j, vector);
+            }
         }
+        basis
     }
-    basis
 }
 
 #[inline(always)]
