@@ -207,14 +207,24 @@ pub fn minimize<S: System>(
             system.step(parameters, &mut candidate);
             let cost = system.cost(&candidate);
             let improves = cost < report.final_cost;
-            if improves || (cost.is_finite() && steps_away < options.patience) {
+            if improves && report.final_cost - cost <= options.cost_tolerance * report.final_cost {
+                converged = Some(Termination::SmallCostChange);
+            }
+            if improves && (converged.is_some() || report.iterations == options.max_iterations) {
+                // The last step: what the derivatives are there is of no use.
+                std::mem::swap(parameters, &mut candidate);
+                report.final_cost = cost;
+                report.accepted += 1;
+                accepted = true;
+                best = None;
+                steps_away = 0;
+            } else if improves || (cost.is_finite() && steps_away < options.patience) {
                 let there = system.linearize(&candidate);
                 if there.cost.is_finite() && there.gradient_max.is_finite() {
                     std::mem::swap(parameters, &mut candidate);
                     let decrease = here.cost - there.cost;
                     here = there;
                     if improves {
-                        let best_before = report.final_cost;
                         report.final_cost = here.cost;
                         report.accepted += 1;
                         accepted = true;
@@ -226,8 +236,6 @@ pub fn minimize<S: System>(
                         raise = 2.0;
                         if here.gradient_max <= options.gradient_tolerance {
                             converged = Some(Termination::SmallGradient);
-                        } else if best_before - here.cost <= options.cost_tolerance * best_before {
-                            converged = Some(Termination::SmallCostChange);
                         }
                     } else {
                         // The place that was left is now in `candidate`.
