@@ -32,16 +32,18 @@ export function followSections(): void {
   for (const link of document.querySelectorAll<HTMLAnchorElement>(".sections a")) {
     links.set(decodeURIComponent(link.hash.slice(1)), link);
   }
-  const headings = [...document.querySelectorAll<HTMLElement>("article h2[id]")].filter((heading) =>
-    links.has(heading.id),
-  );
-  if (headings.length === 0) return;
+  // Not the headings: to ask for the place of what a section holds would have it laid out.
+  const sections = new Map<HTMLElement, string>();
+  for (const { id, parentElement: section } of document.querySelectorAll("article h2[id]")) {
+    if (section && links.has(id)) sections.set(section, id);
+  }
+  if (sections.size === 0) return;
   let scheduled = false;
   const update = () => {
     scheduled = false;
     const line = innerHeight / 3;
-    const passed = headings.filter((heading) => heading.getBoundingClientRect().top < line);
-    const current = passed.at(-1)?.id;
+    const passed = [...sections].filter(([section]) => section.getBoundingClientRect().top < line);
+    const current = passed.at(-1)?.[1];
     for (const [id, link] of links) {
       if (id === current) link.setAttribute("aria-current", "location");
       else link.removeAttribute("aria-current");

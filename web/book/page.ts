@@ -1,9 +1,11 @@
 // What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
 import { followSections, revealCurrentChapter } from "./contents";
 import { makeScrollersReachable } from "./scrollers";
+import { settleSections } from "./sections";
 import { startTheme } from "./theme";
 
 startTheme();
+settleSections();
 revealCurrentChapter();
 followSections();
 makeScrollersReachable();

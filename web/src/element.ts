@@ -13,7 +13,7 @@ import { defineProperties } from "./properties.js";
 import { Session } from "./session.js";
 import { Shell } from "./shell.js";
 import { askTheme, watchTheme } from "./theme.js";
-import { myTurn, watchVisibility } from "./visibility.js";
+import { myTurn, pageIsCalm, watchVisibility } from "./visibility.js";
 
 export class EpipoleFigure extends HTMLElement {
   static readonly observedAttributes = ["name", "theme"];
@@ -106,7 +106,7 @@ export class EpipoleFigure extends HTMLElement {
       watchVisibility(this, {
         near: (near) => {
           this.#near = near;
-          if (near) void myTurn().then(() => this.#begin());
+          if (near) void pageIsCalm().then(() => this.#begin());
         },
         seen: (inSight) => {
           this.#inSight = inSight;
@@ -235,6 +235,8 @@ export class EpipoleFigure extends HTMLElement {
     let memory: WebAssembly.Memory;
     try {
       ({ memory } = await loadModule());
+      // Figures that wait for the module would all open in one long task.
+      if (!this.#interested) await myTurn();
     } catch {
       if (attempt === this.#opening) {
         this.#fail("The interactive part of this figure could not be loaded.", true);

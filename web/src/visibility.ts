@@ -33,7 +33,7 @@ export function watchVisibility(element: Element, callbacks: { near: Seen; seen:
 let calm: Promise<void> | undefined;
 
 /** Resolves when the page has loaded and the browser has a moment: text and pictures come first. */
-function pageIsCalm(): Promise<void> {
+export function pageIsCalm(): Promise<void> {
   calm ??= new Promise((resolve) => {
     const wait = () => {
       // Safari has no requestIdleCallback.
@@ -48,8 +48,8 @@ function pageIsCalm(): Promise<void> {
 
 let turn = Promise.resolve();
 
-/** Resolves in a task of its own, after the page is calm, for one caller after the other. */
+/** Resolves in a task of its own, for one caller after the other, each after a frame of the display. */
 export function myTurn(): Promise<void> {
-  turn = turn.then(pageIsCalm).then(() => new Promise((resolve) => setTimeout(resolve)));
+  turn = turn.then(() => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve))));
   return turn;
 }

@@ -13,7 +13,7 @@ use crate::problems::Place;
 use crate::shared::Shared;
 use crate::source::Source;
 use pulldown_cmark::{
-    Alignment, BlockQuoteKind, CodeBlockKind, CowStr, Event, Parser, Tag, TagEnd,
+    Alignment, BlockQuoteKind, CodeBlockKind, CowStr, Event, HeadingLevel, Parser, Tag, TagEnd,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -85,7 +85,16 @@ impl<'a> Renderer<'a> {
             inserts: &inserts,
             footnotes,
         };
-        self.events(&events, &text, inline)
+        if inline {
+            return self.events(&events, &text, true);
+        }
+        let starts = section_starts(&events);
+        let mut html = self.events(&events[..starts[0]], &text, false);
+        for bounds in starts.windows(2) {
+            let section = self.events(&events[bounds[0]..bounds[1]], &text, false);
+            html.push_str(&format!("<section>\n{section}</section>\n"));
+        }
+        html
     }
 
     fn directive(&mut self, source: &Source, directive: &Directive) -> Insert {
@@ -453,6 +462,25 @@ fn end_of(events: &[Located], start: usize) -> usize {
         }
     }
     events.len()
+}
+
+/// Where the sections of a text start, each with a heading of the second level, and the text's end.
+fn section_starts(events: &[Located]) -> Vec<usize> {
+    let mut starts = Vec::new();
+    let mut at = 0;
+    while at < events.len() {
+        match &events[at].0 {
+            Event::Start(tag) => {
+                if matches!(tag, Tag::Heading { level, .. } if *level == HeadingLevel::H2) {
+                    starts.push(at);
+                }
+                at = end_of(events, at);
+            }
+            _ => at += 1,
+        }
+    }
+    starts.push(events.len());
+    starts
 }
 
 /// Takes the definitions of footnotes out of the events: they become margin notes.
