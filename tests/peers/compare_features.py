@@ -6,12 +6,15 @@
 DATA holds folders with img1.png, img2.png, ... and H_1_2.txt, .... For each pair and each N both
 detectors give at most N features (0: as many as OpenCV finds by itself). Columns:
 repeatability at 3 px in the shared part, mean matching accuracy of mutual nearest neighbors at
-1, 3 and 5 px, matches with ratio 0.8 and their precision at 3 px, and the mean error over the
-overlap of a homography that OpenCV's USAC_MAGSAC (3 px, 0.999, 10000) fits to those matches.
+1, 3 and 5 px, matches with ratio 0.8 and their precision at 3 px, and how far a homography from
+those matches is off, in the mean over the overlap and over the corners of image 1: as OpenCV's
+USAC_MAGSAC (3 px) fits it, and PoseLib (1.5 px), in the mean over ten orders of the matches. They
+differ because the wall of graf is not quite flat: the first settles for a plane between its parts.
 """
 import glob, os, re, subprocess, sys
 import cv2
 import numpy as np
+import poselib
 
 cv2.setNumThreads(1)
 root, binary = sys.argv[1], sys.argv[2]
@@ -60,20 +63,32 @@ def evaluate(H, size1, size2, one, two):
     e = error(mutual)
     good = [m for m, n in near if m.distance < 0.8 * n.distance]
     g = error(good)
-    cv2.setRNGSeed(0)
-    He, _ = cv2.findHomography(p1[[m.queryIdx for m in good]], p2[[m.trainIdx for m in good]], cv2.USAC_MAGSAC, 3, maxIters=10000, confidence=0.999)
     grid = np.stack(np.meshgrid(np.linspace(0, size1[0] - 1, 40), np.linspace(0, size1[1] - 1, 40)), -1).reshape(-1, 2)
-    q = move(H, grid)
-    k = inside(q, size2)
-    fit = np.linalg.norm(move(He, grid[k]) - q[k], axis=1).mean() if He is not None else np.inf
+    grid = grid[inside(move(H, grid), size2)]
     corners = np.array([[0, 0], [size1[0] - 1, 0], [0, size1[1] - 1], [size1[0] - 1, size1[1] - 1]], float)
-    corner = np.linalg.norm(move(He, corners) - move(H, corners), axis=1).mean() if He is not None else np.inf
-    return [repeatability, *[(e < t).mean() for t in (1, 3, 5)], len(good), (g < 3).mean(), (g < 3).sum(), fit, corner]
+    x1, x2 = (p[index].astype(float) for p, index in ((p1, [m.queryIdx for m in good]), (p2, [m.trainIdx for m in good])))
+    fits = {magsac: [], with_poselib: []}
+    for seed in range(10):
+        order = np.random.default_rng(seed).permutation(len(good))
+        for fit, off in fits.items():
+            He = fit(x1[order].copy(), x2[order].copy(), seed)
+            off.append([np.linalg.norm(move(He, p) - move(H, p), axis=1).mean() for p in (grid, corners)] if He is not None else [np.inf] * 2)
+    off = [np.mean(off, axis=0) for off in fits.values()]
+    return [repeatability, *[(e < t).mean() for t in (1, 3, 5)], len(good), (g < 3).mean(), (g < 3).sum(), *off[0], *off[1]]
 
 
-NAMES = ["repeat@3", "MMA@1", "MMA@3", "MMA@5", "ratio", "prec@3", "right", "overlap", "corner"]
+def magsac(x1, x2, seed):
+    return cv2.findHomography(x1, x2, cv2.USAC_MAGSAC, 3, maxIters=10000, confidence=0.999)[0]
+
+
+def with_poselib(x1, x2, seed):
+    options = {"max_reproj_error": 1.5, "success_prob": 0.999, "max_iterations": 10000, "seed": seed}
+    return poselib.estimate_homography(x1, x2, options, {})[0]
+
+
+NAMES = ["repeat@3", "MMA@1", "MMA@3", "MMA@5", "ratio", "prec@3", "right", "magsac", "corners", "poselib", "corners"]
 print(f"{'pair':10} {'N':>5} {'who':7}", *[f"{n:>8}" for n in NAMES])
-rows = []
+rows, kinds = [], {}
 for n in counts:
     for folder in sorted(glob.glob(root + "/*/")):
         for hf in sorted(glob.glob(folder + "H_1_*.txt")):
@@ -86,8 +101,9 @@ for n in counts:
             item = os.path.basename(folder[:-1]) + "_1_" + i
             r = [evaluate(H, s1, s2, *x) for x in (mine, theirs)]
             rows.append(r)
+            kinds.setdefault(item, []).append(r)
             for who, x, k in (("ours", r[0], mine), ("opencv", r[1], theirs)):
                 print(f"{item:10} {len(k[0][0]):5} {who:7}", *[f"{v:8.3f}" if isinstance(v, float) or v != int(v) else f"{v:8d}" for v in x])
-rows = np.array(rows, float)
-for k, who in enumerate(("ours", "opencv")):
-    print(f"{'mean':10} {'':5} {who:7}", *[f"{v:8.3f}" for v in rows[:, k].mean(0)])
+for item, found in [*kinds.items(), ("mean", rows)]:
+    for k, who in enumerate(("ours", "opencv")):
+        print(f"{item:10} {'all':>5} {who:7}", *[f"{v:8.3f}" for v in np.array(found, float)[:, k].mean(0)])
