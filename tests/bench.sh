@@ -11,7 +11,8 @@ export EPIPOLE_DATA
 all_threads=$($python -c 'import os; print(os.cpu_count())')
 
 cargo build --quiet --release -p epipole \
-    --example features_time --example features_dump --example geometry_time --example depth_time
+    --example features_time --example features_dump --example geometry_time --example geometry_fit \
+    --example depth_time
 examples=$target/release/examples
 for threads in 1 "$all_threads"; do
     $python tests/peers/time_features.py "$examples/features_time" "$threads"
@@ -25,13 +26,19 @@ fi
 echo
 $python tests/peers/time_geometry.py "$examples/geometry_time"
 echo
+if [ -d "$EPIPOLE_DATA" ]; then
+    $python tests/peers/compare_geometry.py "$EPIPOLE_DATA" "$examples/geometry_fit"
+else
+    echo "quality of geometry: left out, $EPIPOLE_DATA is not there"
+fi
+echo
 for threads in 1 "$all_threads"; do
     $python tests/peers/time_depth.py "$examples/depth_time" "$threads"
     echo
 done
 
 cargo build --quiet -p epipole-tests --example kernels --target wasm32-unknown-unknown --profile web
-node web/node_modules/binaryen/bin/wasm-opt -O3 --enable-simd --enable-bulk-memory --enable-bulk-memory-opt \
+node web/node_modules/binaryen/bin/wasm-opt -O2 --enable-simd --enable-bulk-memory --enable-bulk-memory-opt \
     --enable-nontrapping-float-to-int --enable-sign-ext --enable-mutable-globals --enable-reference-types --enable-multivalue \
     "$target/wasm32-unknown-unknown/web/examples/kernels.wasm" -o "$target/kernels.wasm"
 node tests/browser/opencv.mjs "$target/kernels.wasm"
