@@ -28,15 +28,12 @@ fn confidence(text: &str) -> Result<f64, String> {
 
 impl RobustArguments {
     pub(crate) fn options(&self, context: &Context) -> RansacOptions {
-        let default = RansacOptions::default();
-        let max_iterations = self.max_iterations as usize;
         RansacOptions {
             max_error_px: self.max_error_px,
             confidence: self.confidence,
-            max_iterations,
-            min_iterations: default.min_iterations.min(max_iterations),
+            max_iterations: self.max_iterations as usize,
             seed: context.seed,
-            ..default
+            ..RansacOptions::default()
         }
     }
 }

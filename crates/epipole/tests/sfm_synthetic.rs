@@ -465,9 +465,18 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
         places.len() >= 4 && result.keyframes.is_sorted(),
         "{places:?}"
     );
-    let (distance, angle_deg) = errors(&world, &result.reconstruction.cameras);
+    let (distance, _) = errors(&world, &result.reconstruction.cameras);
+    // The path is short and nearly straight, so its centers leave open how it is rolled: the
+    // cameras are compared with the first one, which is at rest in both.
+    let angle_deg = (result.reconstruction.cameras.iter().flatten())
+        .zip(&world.cameras)
+        .map(|(got, want)| {
+            let turned = got.cam_from_world.rotation;
+            turned.angle_to(&want.cam_from_world.rotation).to_degrees()
+        })
+        .fold(0.0, f64::max);
     // One percent of the four meters.
-    assert!(distance < 0.04 && angle_deg < 0.2, "{distance} {angle_deg}");
+    assert!(distance < 0.04 && angle_deg < 0.02, "{distance} {angle_deg}");
 }
 
 #[test]
