@@ -1,6 +1,7 @@
 // What goes wrong becomes a sentence in the figure; the poster stays, and other figures go on.
 
 import { expect, figures, hear, heard, ready, test, told } from "./fixtures.mjs";
+import { jobsWasm } from "./places.mjs";
 
 const { name } = figures[0];
 
@@ -25,6 +26,27 @@ test("a module that cannot be loaded leaves the poster and a way to try again", 
   await figure.getByRole("button", { name: "Try again" }).click();
   await ready(figure);
   await expect(figure.locator(".notice")).toBeHidden();
+});
+
+test("a long computation whose module cannot be loaded says so, and is tried again", async ({
+  page,
+  open,
+  complaints,
+}) => {
+  let broken = true;
+  await page.route(`**/${jobsWasm}`, (route) => (broken ? route.fulfill({ status: 404 }) : route.continue()));
+  const figure = await open(page, ["disparity-map"]);
+  const root = figure.locator(".root");
+  await figure.evaluate((element) => element.flush());
+  await expect(root).toContainText("could not be loaded");
+  await expect(figure.locator(".job")).toBeHidden();
+  expect(complaints.every((complaint) => complaint.includes("404"))).toBe(true);
+  complaints.length = 0;
+
+  broken = false;
+  await figure.getByRole("button", { name: "Reset" }).click();
+  await expect(root).not.toContainText("could not be loaded");
+  await expect(root).not.toHaveAttribute("aria-busy");
 });
 
 test("an unknown figure is named together with those that exist", async ({ page, open }) => {

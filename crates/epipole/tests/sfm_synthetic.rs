@@ -476,7 +476,10 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
         })
         .fold(0.0, f64::max);
     // One percent of the four meters.
-    assert!(distance < 0.04 && angle_deg < 0.02, "{distance} {angle_deg}");
+    assert!(
+        distance < 0.04 && angle_deg < 0.02,
+        "{distance} {angle_deg}"
+    );
 }
 
 #[test]

@@ -63,7 +63,7 @@ const THRESHOLD: Slider = Slider {
 };
 const FOCAL: Slider = Slider {
     id: "focal",
-    label: "Focal length assumed, longer sides",
+    label: "Focal length ÷ longer side",
     unit: "",
     min: 0.4,
     max: 3.0,
