@@ -72,8 +72,31 @@ for (const name of pages) {
       listen(page, complaints);
       await page.goto(`${library}/${name}`);
       await wake(page);
+      // What is not laid out yet has no width.
+      await expect(page.locator("article > section:not(.settled)")).toHaveCount(0);
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
       await context.close();
     });
   });
 }
+
+test("on a narrow page a link to a section lands on it", async ({ page, library }) => {
+  const top = (id) => page.locator(`[id="${id}"]`).evaluate((heading) => heading.getBoundingClientRect().top);
+  await page.setViewportSize({ width: 390, height: 844 });
+  const [chapter] = pages.filter((name) => name.startsWith("epipolar"));
+  test.skip(!chapter, "what is tested is not the book");
+  await page.goto(`${library}/${chapter}`);
+  const ids = await page.locator("article > section > h2").evaluateAll((list) => list.map(({ id }) => id));
+  const last = ids.at(-2);
+  // From the page, before and after it has settled, and from elsewhere.
+  await page.evaluate((id) => (location.hash = id), last);
+  await expect.poll(() => top(last)).toBeLessThan(200);
+  await expect(page.locator("article > section:not(.settled)")).toHaveCount(0);
+  await expect.poll(() => top(last)).toBeLessThan(200);
+  expect(await top(last)).toBeGreaterThanOrEqual(0);
+  await page.goto("about:blank");
+  await page.goto(`${library}/${chapter}#${ids[4]}`);
+  await page.waitForLoadState("networkidle");
+  await expect.poll(() => top(ids[4])).toBeLessThan(200);
+  expect(await top(ids[4])).toBeGreaterThanOrEqual(0);
+});

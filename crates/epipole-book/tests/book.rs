@@ -143,9 +143,9 @@ fn a_tiny_chapter_as_html() {
         "<h1 id=\"a-title\"><span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter \
          </span>0</span> A <em>title</em></h1>\n\
          <p>Is it <span class=\"value\">70</span>? “Yes”.</p>\n\
-         <h2 id=\"next\">Next part <a class=\"anchor\" href=\"#next\" \
+         <section>\n<h2 id=\"next\">Next part <a class=\"anchor\" href=\"#next\" \
          aria-label=\"Link to the section Next part\">#</a></h2>\n\
-         <p><a href=\"#next\">Up</a> and <code>a &lt; b</code>.</p>"
+         <p><a href=\"#next\">Up</a> and <code>a &lt; b</code>.</p>\n</section>"
     );
     let page = book.page("one.html");
     assert!(page.contains("<title>One · Tiny</title>"), "{page}");
