@@ -1,6 +1,6 @@
 // What every figure of the gallery must do in a browser.
 
-import { expect, expectAccessible, figures, gripOf, hear, heard, listen, middle, ready, test, told } from "./fixtures.mjs";
+import { expect, expectAccessible, figures, gripOf, hear, heard, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
 
 test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
@@ -140,7 +140,7 @@ for (const { name, title, help } of figures) {
       await grip.focus();
       await page.keyboard.press("ArrowLeft");
       await page.keyboard.press("ArrowDown");
-      await expect(figure.locator("[aria-busy]")).toHaveCount(0);
+      await settled(figure);
       const before = await told(figure);
       expect(Object.keys(before.state).length).toBeGreaterThan(0);
       const link = await figure.evaluate((element) => element.permalink);
@@ -287,7 +287,7 @@ for (const { name, title, help } of figures) {
       const both = await open(page, [name, name]);
       await ready(both.nth(1));
       await ready(both.nth(0));
-      const idle = () => expect(both.locator("[aria-busy]")).toHaveCount(0);
+      const idle = () => settled(both);
       await idle();
       const untouched = await told(both.nth(1));
       const slider = both.nth(0).locator("input[type=range]").first();

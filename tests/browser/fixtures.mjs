@@ -79,6 +79,12 @@ export async function ready(figure) {
   await figure.dispatchEvent("pointerenter");
 }
 
+/** Waits for what the figures compute. What they wait for shows with their next frame, so that is drawn. */
+export async function settled(some) {
+  await some.evaluateAll((elements) => elements.forEach((element) => element.flush()));
+  await expect(some.locator("[aria-busy]")).toHaveCount(0);
+}
+
 /** State, readouts and description of a figure, as its element tells them. */
 export function told(figure) {
   return figure.evaluate((element) => {

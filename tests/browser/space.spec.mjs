@@ -1,7 +1,7 @@
 // Figures in three dimensions: turned, moved and enlarged by mouse, keys and fingers.
 
 import { Buffer } from "node:buffer";
-import { expect, figures, listen, ready, test, told } from "./fixtures.mjs";
+import { expect, figures, listen, ready, settled, test, told } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
@@ -174,7 +174,7 @@ test("one's own photographs bring their focal length, or it is guessed", async (
   // 28 mm · √(400² + 300²) / (√(36² + 24²) · 400) = 0.81, on the slider 0.80.
   await expect.poll(words).toContain("0.80 (as 29 mm), from the file");
   await ready(figure);
-  await expect(figure.locator("[aria-busy]")).toHaveCount(0);
+  await settled(figure);
   // Twice the same picture: the camera did not move at all.
   await expect.poll(async () => (await told(figure)).description).toContain("did not move");
 });
