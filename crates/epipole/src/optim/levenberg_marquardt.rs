@@ -101,7 +101,8 @@ pub enum Termination {
     SmallStep,
     /// Converged: the cost hardly decreased.
     SmallCostChange,
-    /// The permitted number of iterations is used up.
+    /// The permitted number of iterations is used up. Whether the gradient vanished with the last
+    /// of them is not looked at.
     MaxIterations,
     /// The observer asked to stop; the parameters are the best so far.
     Cancelled,
@@ -214,10 +215,7 @@ pub fn minimize<S: System>(
                 // The last step: what the derivatives are there is of no use.
                 std::mem::swap(parameters, &mut candidate);
                 report.final_cost = cost;
-                report.accepted += 1;
                 accepted = true;
-                best = None;
-                steps_away = 0;
             } else if improves || (cost.is_finite() && steps_away < options.patience) {
                 let there = system.linearize(&candidate);
                 if there.cost.is_finite() && there.gradient_max.is_finite() {
@@ -226,10 +224,7 @@ pub fn minimize<S: System>(
                     here = there;
                     if improves {
                         report.final_cost = here.cost;
-                        report.accepted += 1;
                         accepted = true;
-                        best = None;
-                        steps_away = 0;
                         let gain = decrease / step.predicted_decrease.max(f64::MIN_POSITIVE);
                         let slope = 2.0 * gain - 1.0;
                         damping *= (1.0 - slope * slope * slope).clamp(1.0 / 3.0, 2.0);
@@ -247,7 +242,11 @@ pub fn minimize<S: System>(
                     system.linearize(parameters);
                 }
             }
-            if !accepted && (steps_away == 0 || steps_away == options.patience) {
+            if accepted {
+                report.accepted += 1;
+                best = None;
+                steps_away = 0;
+            } else if steps_away == 0 || steps_away == options.patience {
                 if let Some(place) = best.take() {
                     *parameters = place;
                     here = system.linearize(parameters);

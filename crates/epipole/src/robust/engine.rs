@@ -10,9 +10,10 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end.
 const EXPLORATIONS: usize = 15;
 
-/// A start whose first fit costs so much more than the best model, as a share, leads nowhere; one
-/// within so much of it leads back to it.
+/// A start whose first fit costs more than the best model by this share of its cost is left off.
 const FAR_OFF: f64 = 0.02;
+
+/// A start whose first fit costs the same up to this share leads back to the best model.
 const SAME: f64 = 1e-3;
 
 /// How often data are weighed anew at the end.
