@@ -235,14 +235,14 @@ export class EpipoleFigure extends HTMLElement {
     let memory: WebAssembly.Memory;
     try {
       ({ memory } = await loadModule());
-      // Figures that wait for the module would all open in one long task.
-      if (!this.#interested) await myTurn();
     } catch {
       if (attempt === this.#opening) {
         this.#fail("The interactive part of this figure could not be loaded.", true);
       }
       return;
     }
+    // Figures that have waited for the module would all open in one long task.
+    if (!this.#interested) await myTurn();
     if (attempt !== this.#opening) return;
     this.#session?.end();
     this.#session = undefined;
