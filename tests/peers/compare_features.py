@@ -88,7 +88,7 @@ def with_poselib(x1, x2, seed):
 
 NAMES = ["repeat@3", "MMA@1", "MMA@3", "MMA@5", "ratio", "prec@3", "right", "magsac", "corners", "poselib", "corners"]
 print(f"{'pair':10} {'N':>5} {'who':7}", *[f"{n:>8}" for n in NAMES])
-rows, kinds = [], {}
+rows, by_pair = [], {}
 for n in counts:
     for folder in sorted(glob.glob(root + "/*/")):
         for hf in sorted(glob.glob(folder + "H_1_*.txt")):
@@ -101,9 +101,9 @@ for n in counts:
             item = os.path.basename(folder[:-1]) + "_1_" + i
             r = [evaluate(H, s1, s2, *x) for x in (mine, theirs)]
             rows.append(r)
-            kinds.setdefault(item, []).append(r)
+            by_pair.setdefault(item, []).append(r)
             for who, x, k in (("ours", r[0], mine), ("opencv", r[1], theirs)):
                 print(f"{item:10} {len(k[0][0]):5} {who:7}", *[f"{v:8.3f}" if isinstance(v, float) or v != int(v) else f"{v:8d}" for v in x])
-for item, found in [*kinds.items(), ("mean", rows)]:
+for item, found in [*by_pair.items(), ("mean", rows)]:
     for k, who in enumerate(("ours", "opencv")):
         print(f"{item:10} {'all':>5} {who:7}", *[f"{v:8.3f}" for v in np.array(found, float)[:, k].mean(0)])
