@@ -8,6 +8,10 @@
 //! the model row by row (F and H, or \[R t\] for E), and 1 or 0 for each match, an inlier or not;
 //! separated by tabs, the last two empty if there is no model.
 
+#[path = "timing/clock.rs"]
+mod clock;
+
+use clock::now;
 use epipole::camera::Intrinsics;
 use epipole::robust::{RansacOptions, RansacReport};
 use epipole::{estimate_relative_pose, find_fundamental, find_homography};
@@ -65,19 +69,6 @@ fn fit(p: &Problem) -> epipole::Result<RansacReport<Vec<f64>>> {
         }
         _ => find_homography(a, b, options)?.map(rows_of),
     })
-}
-
-/// Milliseconds that this thread had a processor, so that other work on the machine disturbs less,
-/// where Linux tells it; else since some fixed moment.
-fn now(start: &Instant) -> f64 {
-    // The scheduler brings its count up to date when a thread gives way.
-    std::thread::yield_now();
-    std::fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|text| text.split(' ').next()?.parse::<f64>().ok())
-        .map_or(start.elapsed().as_secs_f64() * 1e3, |nanoseconds| {
-            nanoseconds * 1e-6
-        })
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
