@@ -37,11 +37,11 @@ pub use gradient::{
     DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
     gaussian_derivative, scharr, sobel,
 };
-pub(crate) use gray::require_finite;
 pub use gray::{
     BT601_WEIGHTS, BT709_WEIGHTS, GrayImage32, gray_from_values, gray_to_f32, gray_to_u8,
     is_finite, rgb_to_gray, rgb_to_gray_f32,
 };
+pub(crate) use gray::{from_vec, require_finite};
 pub use integral::{IntegralImage, box_filter};
 pub use pyramid::{
     from_laplacian_pyramid, gaussian_pyramid, laplacian_pyramid, pyramid_down, pyramid_up,

@@ -115,6 +115,10 @@ pub(crate) fn in_bands<const N: usize>(
         return images;
     }
     for image in &mut images {
+        if image.capacity() < size {
+            // The system hands out zeros, each page when it is first written to.
+            *image = vec![0.0; size];
+        }
         image.resize(size, 0.0);
     }
     let band = |rows: Range<usize>, mut pieces: [&mut [f32]; N]| {

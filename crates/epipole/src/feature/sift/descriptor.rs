@@ -30,7 +30,7 @@ pub(super) fn histogram(
     scratch: &mut Samples,
 ) -> [f32; 128] {
     // One cell of margin all around takes what is shared outwards.
-    let mut sums = [0.0f32; NUM_SUMS];
+    let mut sums = Aligned([0.0f32; NUM_SUMS]);
     let cell = CELL_SIGMAS * sigma;
     let (cos, sin) = (libm::cosf(angle_rad) / cell, libm::sinf(angle_rad) / cell);
     // Half the side of the square that can contribute, in cells.
@@ -53,11 +53,11 @@ pub(super) fn histogram(
     });
     scratch.polar(falloff);
     scratch.place(cos, sin, angle_rad);
-    scratch.scatter(&mut sums);
+    scratch.scatter(&mut sums.0);
     let mut out = [0.0; 128];
     for (k, value) in out.iter_mut().enumerate() {
         let (row, column, bin) = (k / 32, k / 8 % 4, k % 8);
-        *value = sums[((row + 1) * (CELLS + 2) + column + 1) * BINS + bin];
+        *value = sums.0[((row + 1) * (CELLS + 2) + column + 1) * BINS + bin];
     }
     out
 }
@@ -184,28 +184,31 @@ impl Samples {
 
     fn scatter(&self, sums: &mut [f32; NUM_SUMS]) {
         let n = self.dx.len();
-        let (weight, cell, bin) = (&self.weight[..n], &self.cell[..n], &self.bin[..n]);
-        let (right, down, ahead) = (&self.right[..n], &self.down[..n], &self.ahead[..n]);
-        for k in 0..n {
-            let (b, next) = (bin[k] as usize & 7, (bin[k] as usize + 1) & 7);
-            let lower = weight[k] * down[k];
-            let upper = weight[k] - lower;
-            let from = cell[k] as usize;
-            let (top, bottom) = sums[from..from + STRIDE + 2 * BINS].split_at_mut(STRIDE);
-            for (cells, share) in [(top, upper), (bottom, lower)] {
-                let cells: &mut [f32; 2 * BINS] =
-                    (&mut cells[..2 * BINS]).try_into().expect("two cells");
-                let r = share * right[k];
-                let l = share - r;
-                let (la, ra) = (l * ahead[k], r * ahead[k]);
-                cells[b] += l - la;
-                cells[next] += la;
-                cells[BINS + b] += r - ra;
-                cells[BINS + next] += ra;
-            }
-        }
+        let shares = [&self.right[..n], &self.down[..n], &self.ahead[..n]];
+        scatter(
+            &self.weight[..n],
+            &self.cell[..n],
+            &self.bin[..n],
+            shares,
+            sums,
+        );
     }
 }
+
+/// Cells that do not straddle lines of the cache.
+#[repr(align(32))]
+struct Aligned<T>(T);
+
+/// 1 for one direction of a cell, 0 for the others.
+static ONE_OF: Aligned<[[f32; BINS]; BINS]> = {
+    let mut table = [[0.0; BINS]; BINS];
+    let mut k = 0;
+    while k < BINS {
+        table[k][k] = 1.0;
+        k += 1;
+    }
+    Aligned(table)
+};
 
 /// The whole number below x and what is left, for x in [0, 8]. A whole x may come as x − 1 and 1,
 /// which shares a sample in the same way. Adding 1.5 · 2²³ rounds without a call.
@@ -260,6 +263,44 @@ dispatched! {
             let turned = (angle[k] - from) * (BINS as f32 / TAU);
             let turned = if turned < 0.0 { turned + BINS as f32 } else { turned };
             (bin[k], ahead[k]) = whole_and_rest(turned);
+        }
+    }
+}
+dispatched! {
+    /// Adds each sample to its four cells: all directions of a cell at once, most of them by 0.
+    fn scatter(
+        weight: &[f32], cell: &[u32], bin: &[u32], shares: [&[f32]; 3], sums: &mut [f32; NUM_SUMS],
+    ) {
+        let n = weight.len();
+        let [right, down, ahead] = shares;
+        let (cell, bin) = (&cell[..n], &bin[..n]);
+        let (right, down, ahead) = (&right[..n], &down[..n], &ahead[..n]);
+        for k in 0..n {
+            let b = bin[k] as usize;
+            let (here, next) = (&ONE_OF.0[b % BINS], &ONE_OF.0[(b + 1) % BINS]);
+            let mut directions = [0.0f32; BINS];
+            for i in 0..BINS {
+                directions[i] = here[i] * (1.0 - ahead[k]) + next[i] * ahead[k];
+            }
+            let lower = weight[k] * down[k];
+            let upper = weight[k] - lower;
+            let from = cell[k] as usize;
+            let around = &mut sums[from..from + STRIDE + 2 * BINS];
+            let (top, bottom) = around.split_at_mut(STRIDE);
+            let (lr, ur) = (lower * right[k], upper * right[k]);
+            let (ll, ul) = (lower - lr, upper - ur);
+            for i in 0..BINS {
+                top[i] += ul * directions[i];
+            }
+            for i in 0..BINS {
+                top[BINS + i] += ur * directions[i];
+            }
+            for i in 0..BINS {
+                bottom[i] += ll * directions[i];
+            }
+            for i in 0..BINS {
+                bottom[BINS + i] += lr * directions[i];
+            }
         }
     }
 }

@@ -63,13 +63,12 @@ fn find_in_rows(
         flag_extrema(above, here, below, threshold, &mut flags);
         let inner = &flags[MARGIN - 1..width - MARGIN - 1];
         for (k, piece) in inner.chunks(8).enumerate() {
-            if piece.iter().all(|&f| f == 0) {
-                continue;
-            }
-            for x in (0..piece.len())
-                .filter(|&i| piece[i] != 0)
-                .map(|i| 8 * k + i + MARGIN)
-            {
+            let mut bytes = [0; 8];
+            bytes[..piece.len()].copy_from_slice(piece);
+            let mut flagged = u64::from_le_bytes(bytes);
+            while flagged != 0 {
+                let x = 8 * k + flagged.trailing_zeros() as usize / 8 + MARGIN;
+                flagged &= flagged - 1;
                 if differences.is_extreme_across(x, y, here[x]) {
                     found.extend(locate(&differences, octave, layer, options, x, y));
                 }
@@ -136,13 +135,28 @@ impl<'a> Differences<'a> {
 
     /// Whether no sample of the two layers beside exceeds `value`.
     fn is_extreme_across(&self, x: usize, y: usize, value: f32) -> bool {
-        let mut others = [0, 2]
-            .into_iter()
-            .flat_map(|layer| (0..9).map(move |k| (layer, x + k % 3 - 1, y + k / 3 - 1)));
+        let neighbors = |layer: usize, row: usize| {
+            let from = row * self.width + x - 1;
+            let lower = &self.gaussians[layer][from..from + 3];
+            let upper = &self.gaussians[layer + 1][from..from + 3];
+            [
+                upper[0] - lower[0],
+                upper[1] - lower[1],
+                upper[2] - lower[2],
+            ]
+        };
+        let places = [
+            (0, y),
+            (2, y),
+            (0, y - 1),
+            (0, y + 1),
+            (2, y - 1),
+            (2, y + 1),
+        ];
         if value > 0.0 {
-            others.all(|(layer, x, y)| self.at(layer, x, y) <= value)
+            (places.iter()).all(|&(layer, row)| neighbors(layer, row).iter().all(|&d| d <= value))
         } else {
-            others.all(|(layer, x, y)| self.at(layer, x, y) >= value)
+            (places.iter()).all(|&(layer, row)| neighbors(layer, row).iter().all(|&d| d >= value))
         }
     }
 }

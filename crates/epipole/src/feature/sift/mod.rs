@@ -10,6 +10,7 @@ use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::{Error, Result};
+use descriptor::Samples;
 use extrema::Extremum;
 use scale_space::{Octave, OctaveGrid};
 
@@ -159,8 +160,9 @@ pub fn detect_sift_with_progress(
             }
             let mut extrema = extrema::find(&octave, layer, options);
             strongest.keep(&mut extrema);
-            let described =
-                parallel::map(&extrema, |extremum| describe(&octave, extremum, options));
+            let described = parallel::map_with(&extrema, Samples::default, |samples, extremum| {
+                describe(&octave, extremum, options, samples)
+            });
             found.extend(described.into_iter().flatten());
             done += share;
             tell(done)?;
@@ -176,14 +178,14 @@ fn describe(
     octave: &Octave,
     extremum: &Extremum,
     options: &SiftOptions,
+    scratch: &mut Samples,
 ) -> Vec<(Keypoint, [u8; 128])> {
     let layer = octave.layer(extremum.layer);
     let (center, sigma) = ((extremum.x, extremum.y), extremum.sigma);
-    let mut scratch = descriptor::Samples::default();
     let angles = if options.upright {
         vec![0.0]
     } else {
-        orientation::directions(layer, center, sigma, options, &mut scratch)
+        orientation::directions(layer, center, sigma, options, scratch)
     };
     let grid = octave.grid();
     angles
@@ -197,7 +199,7 @@ fn describe(
                 response: extremum.response,
                 octave: grid.octave,
             };
-            let sums = descriptor::histogram(layer, center, sigma, angle_rad, &mut scratch);
+            let sums = descriptor::histogram(layer, center, sigma, angle_rad, scratch);
             (keypoint, descriptor::normalize(sums, options.normalization))
         })
         .collect()

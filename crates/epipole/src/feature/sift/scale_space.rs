@@ -8,8 +8,8 @@
 //! shift all keypoints by a quarter.
 
 use super::SiftOptions;
-use crate::imaging::separable::filter_into;
-use crate::imaging::{Border, GrayImage32, gaussian_kernel};
+use crate::imaging::separable::{filter_into, in_bands};
+use crate::imaging::{Border, GrayImage32, from_vec, gaussian_kernel};
 
 /// Octaves with fewer samples along an axis hold no extremum far enough from their edge.
 const SMALLEST_SIDE: u32 = 2 * super::extrema::MARGIN as u32 + 2;
@@ -177,39 +177,31 @@ fn blurred(image: &GrayImage32, sigma: f64, target: &mut GrayImage32) {
 /// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.
 fn doubled(image: &GrayImage32) -> GrayImage32 {
     let (w, h) = (image.width() as usize, image.height() as usize);
-    let (width, height) = (2 * w - 1, 2 * h - 1);
-    let mut values = Vec::with_capacity(width * height);
-    let spread = |row: &[f32], values: &mut Vec<f32>| {
-        for pair in row.windows(2) {
-            values.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
-        }
-        values.push(row[w - 1]);
-    };
-    let mut between = vec![0.0; w];
-    for (v, row) in image.as_raw().chunks_exact(w).enumerate() {
-        if v > 0 {
-            let above = &image.as_raw()[(v - 1) * w..v * w];
-            for ((mean, a), b) in between.iter_mut().zip(above).zip(row) {
+    let source = |v: usize| &image.as_raw()[v * w..(v + 1) * w];
+    row_by_row(2 * w - 1, 2 * h - 1, w, |y, between, out| {
+        let from = if y % 2 == 0 {
+            source(y / 2)
+        } else {
+            let pairs = source(y / 2).iter().zip(source(y / 2 + 1));
+            for (mean, (a, b)) in between.iter_mut().zip(pairs) {
                 *mean = 0.5 * (a + b);
             }
-            spread(&between, &mut values);
+            &*between
+        };
+        out[2 * w - 2] = from[w - 1];
+        for (pair, two) in from.windows(2).zip(out.as_chunks_mut::<2>().0) {
+            *two = [pair[0], 0.5 * (pair[0] + pair[1])];
         }
-        spread(row, &mut values);
-    }
-    GrayImage32::from_raw(width as u32, height as u32, values)
-        .expect("one value was computed for each sample")
+    })
 }
 
 /// Half as many samples along each axis, symmetrically.
 fn halved(image: &GrayImage32) -> GrayImage32 {
     let (w, h) = (image.width() as usize, image.height() as usize);
-    let (width, height) = (w.div_ceil(2), h.div_ceil(2));
-    let mut values = Vec::with_capacity(width * height);
     // The cubic through four samples, half way between the middle two.
     let middle = |a: f32, b: f32, c: f32, d: f32| 0.5625 * (b + c) - 0.0625 * (a + d);
     let at = |k: isize, size: usize| k.clamp(0, size as isize - 1) as usize;
-    let mut row = vec![0.0; w];
-    for y in 0..height {
+    row_by_row(w.div_ceil(2), h.div_ceil(2), w, |y, row, out| {
         let source = |k: isize| {
             let v = at(2 * y as isize + k, h);
             &image.as_raw()[v * w..(v + 1) * w]
@@ -222,15 +214,30 @@ fn halved(image: &GrayImage32) -> GrayImage32 {
                 row[x] = middle(a[x], b[x], c[x], d[x]);
             }
         }
-        if w % 2 == 1 {
-            values.extend(row.iter().step_by(2));
-        } else {
-            values.extend((0..width).map(|x| {
-                let tap = |k: isize| row[at(2 * x as isize + k, w)];
+        for (x, out) in out.iter_mut().enumerate() {
+            let tap = |k: isize| row[at(2 * x as isize + k, w)];
+            *out = if w % 2 == 1 {
+                row[2 * x]
+            } else {
                 middle(tap(-1), tap(0), tap(1), tap(2))
-            }));
+            };
         }
-    }
-    GrayImage32::from_raw(width as u32, height as u32, values)
-        .expect("one value was computed for each sample")
+    })
+}
+
+/// An image whose rows are made by `fill(y, memory, row)`, each from its number alone; `memory` holds
+/// `memory_len` numbers that other rows left.
+fn row_by_row(
+    width: usize,
+    height: usize,
+    memory_len: usize,
+    fill: impl Fn(usize, &mut [f32], &mut [f32]) + Sync,
+) -> GrayImage32 {
+    let [values] = in_bands([Vec::new()], width, height, |rows, sink| {
+        let mut memory = vec![0.0; memory_len];
+        for y in rows {
+            sink(&mut |[mut row]| fill(y, &mut memory, row.columns(0..width)));
+        }
+    });
+    from_vec(width as u32, height as u32, values)
 }
