@@ -7,13 +7,17 @@ use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReaso
 use crate::math::random::Random;
 use crate::{Error, Result};
 
-/// Starts around the best model that are tried at the end.
-const EXPLORATIONS: usize = 15;
+/// Starts around the best model that are tried at the end, at most.
+const EXPLORATIONS: usize = 30;
+
+/// So many starts that lead back to the best model show that there is hardly another one nearby.
+const RETURNS: usize = 3;
 
 /// A start whose first fit costs more than the best model by this share of its cost is left off.
 const FAR_OFF: f64 = 0.02;
 
-/// A start whose first fit costs the same up to this share leads back to the best model.
+/// A start whose first fit costs the same up to this share, or this much of one datum, leads back
+/// to the best model.
 const SAME: f64 = 1e-3;
 
 /// How often data are weighed anew at the end.
@@ -313,7 +317,8 @@ impl<E: Estimator> Ransac<E> {
 
     /// Looks for a better optimum nearby: starts that fit a few of the inliers by least squares lie
     /// around the model, and local optimization leads some of them elsewhere. Where there are too
-    /// few inliers for that, or the estimator has no such fit, the model alone is improved.
+    /// few inliers for that, or the estimator has no such fit, the model alone is improved. Where
+    /// several lead back, the search ends early.
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
     fn explore(&mut self, best: &mut Candidate<E::Model>) {
@@ -321,6 +326,7 @@ impl<E: Estimator> Ransac<E> {
         let size = 2 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
         let alike = vec![1.0; size];
+        let mut returns = 0;
         for _ in 0..EXPLORATIONS {
             self.estimator
                 .inliers(&best.model, max_error_px, &mut self.inliers);
@@ -344,7 +350,14 @@ impl<E: Estimator> Ransac<E> {
             };
             let known = best.support.cost;
             let cost = self.support(&first, (1.0 + FAR_OFF) * known).cost;
-            if cost > (1.0 + FAR_OFF) * known || (cost - known).abs() < SAME * known {
+            if (cost - known).abs() < SAME * known.max(1.0) {
+                returns += 1;
+                if returns == RETURNS {
+                    return;
+                }
+                continue;
+            }
+            if cost > (1.0 + FAR_OFF) * known {
                 continue;
             }
             if let Some(model) = self.fitted(&first, max_error_px)
