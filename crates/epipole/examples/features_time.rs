@@ -7,6 +7,10 @@
 //! the time of long work is that on the processor, where Linux tells it, so that other work on the
 //! machine disturbs less; else it is the time that passed.
 
+#[path = "timing/clock.rs"]
+mod clock;
+
+use clock::now;
 use epipole::feature::{
     Descriptors, OrbOptions, Scaling, SiftOptions, StructureTensorOptions, Window, detect_orb,
     detect_sift, harris_response, nearest_two,
@@ -24,16 +28,6 @@ const DIMENSION: usize = 128;
 /// Longer work is interrupted by other work on the machine, so its time on the processor counts.
 const LONG_MS: f64 = 20.0;
 
-/// Milliseconds that this thread has had a processor, where Linux tells it and there is only one.
-fn on_processor() -> Option<f64> {
-    std::env::var("RAYON_NUM_THREADS")
-        .ok()
-        .filter(|n| n == "1")?;
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
-    Some(nanoseconds * 1e-6)
-}
-
 /// Times some work and returns what it found.
 fn time<T>(
     name: &str,
@@ -41,14 +35,18 @@ fn time<T>(
     mut work: impl FnMut() -> T,
     note: impl Fn(&T) -> String,
 ) -> T {
+    let epoch = Instant::now();
     let mut last = work();
     let mut times: Vec<f64> = (0..rounds)
         .map(|_| {
-            let (before, start) = (on_processor(), Instant::now());
+            let (before, start) = (now(&epoch), Instant::now());
             last = work();
             let passed = start.elapsed().as_secs_f64() * 1e3;
-            let used = before.zip(on_processor()).map(|(from, to)| to - from);
-            used.filter(|_| passed > LONG_MS).unwrap_or(passed)
+            if passed > LONG_MS {
+                now(&epoch) - before
+            } else {
+                passed
+            }
         })
         .collect();
     times.sort_by(f64::total_cmp);
