@@ -15,6 +15,7 @@ import glob, os, re, subprocess, sys
 import cv2
 import numpy as np
 import poselib
+from planes import inside, move, shared_grid
 
 cv2.setNumThreads(1)
 root, binary = sys.argv[1], sys.argv[2]
@@ -41,15 +42,9 @@ def opencv(path, n):
     return np.array([[*keypoints[i].pt, keypoints[i].size / 2, 0, keypoints[i].response] for i in order]), d[order]
 
 
-def move(H, p):
-    q = np.c_[p, np.ones(len(p))] @ H.T
-    return q[:, :2] / q[:, 2:]
-
-
 def evaluate(H, size1, size2, one, two):
     (k1, d1), (k2, d2) = one, two
     p1, p2 = k1[:, :2], k2[:, :2]
-    inside = lambda p, s: (p >= 0).all(1) & (p[:, 0] <= s[0] - 1) & (p[:, 1] <= s[1] - 1)
     a, b = move(H, p1), p2
     a = np.unique(a[inside(a, size2)].round(3), axis=0)
     b = np.unique(b[inside(move(np.linalg.inv(H), b), size1)].round(3), axis=0)
@@ -63,8 +58,7 @@ def evaluate(H, size1, size2, one, two):
     e = error(mutual)
     good = [m for m, n in near if m.distance < 0.8 * n.distance]
     g = error(good)
-    grid = np.stack(np.meshgrid(np.linspace(0, size1[0] - 1, 40), np.linspace(0, size1[1] - 1, 40)), -1).reshape(-1, 2)
-    grid = grid[inside(move(H, grid), size2)]
+    grid = shared_grid(H, size1, size2)
     corners = np.array([[0, 0], [size1[0] - 1, 0], [0, size1[1] - 1], [size1[0] - 1, size1[1] - 1]], float)
     x1, x2 = (p[index].astype(float) for p, index in ((p1, [m.queryIdx for m in good]), (p2, [m.trainIdx for m in good])))
     fits = {magsac: [], with_poselib: []}
