@@ -10,6 +10,10 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end, at most.
 const EXPLORATIONS: usize = 30;
 
+/// A start fits some of the data within so many thresholds of the best model. Those just outside
+/// are what another model would claim.
+const START_REACH: f64 = 1.5;
+
 /// So many starts that lead back to the best model show that there is hardly another one nearby.
 const RETURNS: usize = 3;
 
@@ -315,10 +319,10 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.refine(model, &self.inliers, max_error_px)
     }
 
-    /// Looks for a better optimum nearby: starts that fit a few of the inliers by least squares lie
-    /// around the model, and local optimization leads some of them elsewhere. Where there are too
-    /// few inliers for that, or the estimator has no such fit, the model alone is improved. Where
-    /// several lead back, the search ends early.
+    /// Looks for a better optimum nearby: starts that fit a few of the nearest data by least squares
+    /// lie around the model, and local optimization leads some of them elsewhere. Where there are too
+    /// few such data, or the estimator has no such fit, the model alone is improved. Where several
+    /// lead back, the search ends early.
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
     fn explore(&mut self, best: &mut Candidate<E::Model>) {
@@ -328,8 +332,9 @@ impl<E: Estimator> Ransac<E> {
         let alike = vec![1.0; size];
         let mut returns = 0;
         for _ in 0..EXPLORATIONS {
+            let reach_px = START_REACH * max_error_px;
             self.estimator
-                .inliers(&best.model, max_error_px, &mut self.inliers);
+                .inliers(&best.model, reach_px, &mut self.inliers);
             if self.inliers.len() <= size {
                 self.improve(best);
                 return;
