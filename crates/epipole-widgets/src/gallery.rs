@@ -12,6 +12,7 @@ pub mod harris;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
+mod scale_drift;
 mod stereo_slider;
 mod two_view_sfm;
 pub mod window_shift;
@@ -56,6 +57,7 @@ figures![
     four_poses::View,
     two_view_sfm::View,
     bundle_adjustment::View,
+    scale_drift::View,
     ransac_race::View,
 ];
 

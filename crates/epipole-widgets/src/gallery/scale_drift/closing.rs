@@ -1,0 +1,123 @@
+//! Closing the loop: what the camera sees again at home, and how the path gives way to it.
+
+use super::drive::Drive;
+use epipole::Result;
+use epipole::camera::RigidTransform;
+use epipole::math::random::Random;
+use epipole::optim::{Iteration, LmOptions, RobustLoss};
+use epipole::sfm::{AlignmentKind, Edge, Graph, LoopClosure, align_points, close_loops};
+use nalgebra::{Isometry3, Point3, SMatrix, Similarity3, Vector3};
+use std::ops::ControlFlow;
+
+/// Points at home that both visits know.
+const NUM_POINTS: usize = 20;
+/// How much the loop weighs beside one step: it is measured from many points at once.
+const WEIGHT: f64 = 1e4;
+
+/// What a closed loop may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Place and direction of each frame.
+    Rigid,
+    /// Its scale, too.
+    Similarity,
+}
+
+/// The path after the loop was closed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Closed {
+    pub(super) world_from_cam: Vec<RigidTransform>,
+    /// By how much lengths around each frame are multiplied.
+    pub(super) correction: Vec<f64>,
+}
+
+/// What the camera sees of home when it starts and when it returns: the points of the return in
+/// the frame of the start, each visit in its own unit.
+pub(super) fn recognize(drive: &Drive, noise: f64, seed: u64) -> Result<Similarity3<f64>> {
+    let mut random = Random::new(seed ^ 0x5eed);
+    let (mut then, mut now) = (Vec::new(), Vec::new());
+    let scale = drive.scale[drive.last()];
+    for _ in 0..NUM_POINTS {
+        let place = Point3::new(
+            random.uniform(-3.0, 3.0),
+            random.uniform(-1.5, 0.5),
+            random.uniform(2.0, 6.0),
+        );
+        let mut seen = || place + place.coords.norm() * noise * normal(&mut random);
+        then.push(seen());
+        now.push(seen() * scale);
+    }
+    align_points(&now, &then, AlignmentKind::Similarity)
+}
+
+fn normal(random: &mut Random) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| random.normal())
+}
+
+/// Closes the loop between the first frame and the last one.
+pub(super) fn close(
+    drive: &Drive,
+    first_from_last: Similarity3<f64>,
+    kind: Kind,
+) -> Result<Closed> {
+    match kind {
+        Kind::Similarity => {
+            let closure = LoopClosure {
+                from: 0,
+                to: drive.last(),
+                from_from_to: first_from_last,
+                weight: WEIGHT,
+            };
+            let closed = close_loops(&drive.believed, &[closure], RobustLoss::Trivial, &mut go_on)?;
+            Ok(Closed {
+                world_from_cam: closed.world_from_cam,
+                correction: closed.scale,
+            })
+        }
+        Kind::Rigid => close_rigidly(drive, first_from_last.isometry),
+    }
+}
+
+/// As [`close_loops`] does it, with nodes and edges that know no scale.
+fn close_rigidly(drive: &Drive, first_from_last: RigidTransform) -> Result<Closed> {
+    let path = &drive.believed;
+    let steps: Vec<RigidTransform> = path
+        .windows(2)
+        .map(|pair| pair[0].inv_mul(&pair[1]))
+        .collect();
+    let lengths = steps.iter().map(|step| step.translation.vector.norm());
+    let mean_step = lengths.sum::<f64>() / steps.len() as f64;
+    let mut information = SMatrix::<f64, 6, 6>::identity();
+    for i in 0..3 {
+        information[(i, i)] = 1.0 / (mean_step * mean_step);
+    }
+    let edge = |from, to, from_from_to, weight: f64| Edge {
+        from,
+        to,
+        from_from_to,
+        information: information * weight,
+    };
+    let mut edges: Vec<_> = (steps.iter().enumerate())
+        .map(|(i, step)| edge(i, i + 1, *step, 1.0))
+        .collect();
+    edges.push(edge(0, drive.last(), first_from_last, WEIGHT));
+    let mut graph = Graph::<Isometry3<f64>, 6> {
+        ids: (0..path.len() as u64).collect(),
+        vertices: path.clone(),
+        edges,
+        fixed: vec![0],
+    };
+    let options = LmOptions {
+        max_iterations: 100,
+        ..LmOptions::default()
+    };
+    graph.optimize(&options, RobustLoss::Trivial, &mut go_on)?;
+    Ok(Closed {
+        correction: vec![1.0; path.len()],
+        world_from_cam: graph.vertices,
+    })
+}
+
+fn go_on(_: &Iteration) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
