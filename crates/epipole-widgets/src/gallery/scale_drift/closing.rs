@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Point3, SMatrix, Similarity3, Vector3};
 use std::ops::ControlFlow;
 
 /// Points at home that both visits know.
-const NUM_POINTS: usize = 20;
+const NUM_POINTS: usize = 100;
 /// How much the loop weighs beside one step: it is measured from many points at once.
 const WEIGHT: f64 = 1e4;
 

@@ -184,7 +184,8 @@ fn draw_map(model: &ScaleDrift, map: &Panel, canvas: &mut Canvas) {
         }
     });
     draw_rule(map, canvas);
-    draw_labels(model, map, [&truth, &before], canvas);
+    let after = after.map_or_else(Vec::new, |after| places(&after.poses));
+    draw_labels(model, map, [&truth, &before, &after], canvas);
 }
 
 /// Every few frames the camera, as an arrowhead as large as things around it come out.
@@ -233,13 +234,13 @@ fn rule_style() -> TextStyle {
 fn draw_labels(
     model: &ScaleDrift,
     map: &Panel,
-    [truth, before]: [&[Place]; 2],
+    [truth, before, after]: [&[Place]; 3],
     canvas: &mut Canvas,
 ) {
     let (start, end) = (truth[0], before[before.len() - 1]);
     let path = &model.answer().before;
     let mut labels = Labels::new(map.rect.inset(4.0));
-    for path in [truth, before] {
+    for path in [truth, before, after] {
         for pair in path.windows(2) {
             labels.keep_line_free(pair[0], pair[1]);
         }
