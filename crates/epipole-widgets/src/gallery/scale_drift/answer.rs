@@ -1,7 +1,8 @@
 //! What follows from the state: the drive, the closed path, and how far each is off.
 
-use super::closing::{Kind, close, recognize};
+use super::closing::{Closed, recognize};
 use super::drive::{Drive, Errors, centers};
+use epipole::camera::RigidTransform;
 use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
 use nalgebra::Point3;
 
@@ -11,7 +12,7 @@ pub(super) struct Answer {
     pub(super) drive: Drive,
     /// Of what odometry believes.
     pub(super) before: Judged,
-    /// Of the closed path; an error is a sentence.
+    /// Of the closed path, once it is known; an error is a sentence.
     pub(super) after: Option<Result<Judged, String>>,
     /// How many times as large the places at home look on the return, as measured there.
     pub(super) seen: Option<f64>,
@@ -20,7 +21,7 @@ pub(super) struct Answer {
 /// A path and how far it is off.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
-    pub(super) poses: Vec<epipole::camera::RigidTransform>,
+    pub(super) poses: Vec<RigidTransform>,
     /// How many times too large everything around each frame comes out.
     pub(super) scale: Vec<f64>,
     /// Root mean square of the distances to the true places after the best similarity, in true
@@ -29,11 +30,7 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    fn new(
-        poses: &[epipole::camera::RigidTransform],
-        scale: Vec<f64>,
-        truth: &[Point3<f64>],
-    ) -> Self {
+    fn new(poses: &[RigidTransform], scale: Vec<f64>, truth: &[Point3<f64>]) -> Self {
         let judged = absolute_trajectory_error(&centers(poses), truth, AlignmentKind::Similarity);
         Self {
             poses: poses.to_vec(),
@@ -63,47 +60,38 @@ impl Judged {
     }
 }
 
-/// Drives `traveled` of `num_steps` steps; whoever comes home closes the loop.
-pub(super) fn compute(
-    num_steps: usize,
-    traveled: usize,
-    errors: &Errors,
-    kind: Option<Kind>,
-) -> Answer {
-    let drive = Drive::new(num_steps, errors);
-    let truth = centers(&drive.truth[..=traveled]);
-    let before = Judged::new(
-        &drive.believed[..=traveled],
-        drive.scale[..=traveled].to_vec(),
-        &truth,
-    );
-    let (mut after, mut seen) = (None, None);
-    if traveled == num_steps {
-        let recognized = recognize(&drive, errors.noise, errors.seed);
-        seen = recognized
-            .as_ref()
-            .ok()
+impl Answer {
+    /// Drives `traveled` of `num_steps` steps; the loop is still open.
+    pub(super) fn new(num_steps: usize, traveled: usize, errors: &Errors) -> Self {
+        let drive = Drive::new(num_steps, errors);
+        let before = Judged::new(
+            &drive.believed[..=traveled],
+            drive.scale[..=traveled].to_vec(),
+            &centers(&drive.truth[..=traveled]),
+        );
+        let recognized = (traveled == num_steps).then(|| recognize(&drive, errors).ok());
+        let seen = recognized
+            .flatten()
             .map(|first_from_last| 1.0 / first_from_last.scaling());
-        after = kind.map(|kind| {
-            let closed = recognized.and_then(|seen| close(&drive, seen, kind));
-            let judge = |closed: super::closing::Closed| {
-                let scales = drive.scale.iter().zip(&closed.correction);
-                let scale = scales.map(|(scale, factor)| scale * factor).collect();
-                Judged::new(&closed.world_from_cam, scale, &truth)
-            };
-            closed.map(judge).map_err(|error| error.to_string())
-        });
+        Self {
+            drive,
+            before,
+            after: None,
+            seen,
+        }
     }
-    Answer {
-        drive,
-        before,
-        after,
-        seen,
+
+    /// The closed path of this drive.
+    pub(super) fn judge(&self, closed: &Closed) -> Judged {
+        let scales = self.drive.scale.iter().zip(&closed.correction);
+        let scale = scales.map(|(scale, factor)| scale * factor).collect();
+        Judged::new(&closed.world_from_cam, scale, &centers(&self.drive.truth))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::closing::{Kind, close};
     use super::*;
 
     fn closed(rate: f64, noise: f64, is_metric: bool, kind: Kind) -> (Judged, Judged) {
@@ -113,8 +101,9 @@ mod tests {
             is_metric,
             seed: 7,
         };
-        let answer = compute(80, 80, &errors, Some(kind));
-        let after = answer.after.unwrap().unwrap();
+        let answer = Answer::new(80, 80, &errors);
+        let seen = recognize(&answer.drive, &errors).unwrap();
+        let after = answer.judge(&close(&answer.drive, seen, kind).unwrap());
         (answer.before, after)
     }
 
@@ -171,11 +160,11 @@ mod tests {
             is_metric: false,
             seed: 1,
         };
-        let answer = compute(80, 40, &errors, Some(Kind::Similarity));
+        let answer = Answer::new(80, 40, &errors);
         assert_eq!((answer.after, answer.seen), (None, None));
         assert_eq!(answer.before.poses.len(), 41);
         assert!(answer.before.error.is_some());
-        let straight = compute(80, 3, &errors, Some(Kind::Similarity));
+        let straight = Answer::new(80, 3, &errors);
         assert_eq!(straight.before.error, None);
     }
 }

@@ -1,12 +1,13 @@
 //! Closing the loop: what the camera sees again at home, and how the path gives way to it.
 
-use super::drive::Drive;
+use super::drive::{Drive, Errors};
 use epipole::Result;
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use epipole::optim::{Iteration, LmOptions, RobustLoss};
 use epipole::sfm::{AlignmentKind, Edge, Graph, LoopClosure, align_points, close_loops};
 use nalgebra::{Isometry3, Point3, SMatrix, Similarity3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// Points at home that both visits know.
@@ -15,7 +16,7 @@ const NUM_POINTS: usize = 100;
 const WEIGHT: f64 = 1e4;
 
 /// What a closed loop may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Kind {
     /// Place and direction of each frame.
     Rigid,
@@ -33,8 +34,8 @@ pub(super) struct Closed {
 
 /// What the camera sees of home when it starts and when it returns: the points of the return in
 /// the frame of the start, each visit in its own unit.
-pub(super) fn recognize(drive: &Drive, noise: f64, seed: u64) -> Result<Similarity3<f64>> {
-    let mut random = Random::new(seed ^ 0x5eed);
+pub(super) fn recognize(drive: &Drive, errors: &Errors) -> Result<Similarity3<f64>> {
+    let mut random = Random::new(errors.seed ^ 0x5eed);
     let (mut then, mut now) = (Vec::new(), Vec::new());
     let scale = drive.scale[drive.last()];
     for _ in 0..NUM_POINTS {
@@ -43,7 +44,7 @@ pub(super) fn recognize(drive: &Drive, noise: f64, seed: u64) -> Result<Similari
             random.uniform(-1.5, 0.5),
             random.uniform(2.0, 6.0),
         );
-        let mut seen = || place + place.coords.norm() * noise * normal(&mut random);
+        let mut seen = || place + place.coords.norm() * errors.noise * normal(&mut random);
         then.push(seen());
         now.push(seen() * scale);
     }

@@ -3,6 +3,7 @@
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use nalgebra::{Point3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// Steps that a corner of the block takes, at most.
@@ -11,7 +12,7 @@ const CORNER: usize = 5;
 const ASPECT: f64 = 1.5;
 
 /// What odometry does wrong in each step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Errors {
     /// By which share each step comes out longer than the last.
     pub(super) rate: f64,

@@ -7,6 +7,7 @@ mod drive;
 mod knobs;
 mod model;
 mod plot;
+mod request;
 mod view;
 mod words;
 

@@ -1,14 +1,15 @@
 //! A drive around a block: how its scale drifts, how far it has come, and how its loop is closed.
 
-use super::answer::{Answer, compute};
+use super::answer::Answer;
 use super::closing::Kind;
 use super::drive::Errors;
 use super::knobs::{CLOSURE, DRIFT, KNOBS, NOISE, SEED, STEPS, STEREO};
+use super::request::{self, Request};
 use super::words;
 use crate::contract::{
-    Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Value,
+    Challenge, Control, Event, Handle, Job, JobResult, Model, Problem, Progress, Readout, Settings,
+    Value,
 };
-use std::cell::OnceCell;
 
 /// The fewest steps that can be looked at.
 const FEWEST: usize = 2;
@@ -18,21 +19,32 @@ pub(crate) struct ScaleDrift {
     settings: Settings,
     /// Steps that the reader has gone back to; `None` all the way home, however long that is.
     stop: Option<usize>,
-    answer: OnceCell<Answer>,
+    answer: Answer,
+    pending: Option<Job>,
 }
 
 impl ScaleDrift {
-    /// What follows from the state.
+    /// What follows from the state. While the job is out, the closed path is the last one.
     pub(super) fn answer(&self) -> &Answer {
-        self.answer.get_or_init(|| {
-            let errors = Errors {
-                rate: self.drift_percent() / 100.0,
-                noise: self.settings.number(&NOISE) / 100.0,
-                is_metric: self.is_metric(),
-                seed: self.settings.count(&SEED) as u64,
-            };
-            compute(self.num_steps(), self.traveled(), &errors, self.kind())
-        })
+        &self.answer
+    }
+
+    /// Drives anew, and asks for the loop to be closed if there is one.
+    fn refresh(&mut self) {
+        let errors = errors_of(&self.settings);
+        let kind = self.kind().filter(|_| self.is_home());
+        let last = self.answer.after.take().filter(|_| kind.is_some());
+        self.answer = Answer::new(self.num_steps(), self.traveled(), &errors);
+        self.answer.after = last;
+        self.pending = kind.map(|kind| {
+            let num_steps = self.num_steps();
+            Request {
+                num_steps,
+                errors,
+                kind,
+            }
+            .job()
+        });
     }
 
     pub(super) fn drift_percent(&self) -> f64 {
@@ -72,6 +84,15 @@ impl ScaleDrift {
     }
 }
 
+fn errors_of(settings: &Settings) -> Errors {
+    Errors {
+        rate: settings.number(&DRIFT) / 100.0,
+        noise: settings.number(&NOISE) / 100.0,
+        is_metric: settings.flag(&STEREO),
+        seed: settings.count(&SEED) as u64,
+    }
+}
+
 impl Model for ScaleDrift {
     const NAME: &'static str = "scale-drift";
     const TITLE: &'static str = "Coming home with the wrong scale";
@@ -79,11 +100,16 @@ impl Model for ScaleDrift {
         marked frame in the plot back and forth to drive around the block.";
 
     fn new() -> Self {
-        Self {
-            settings: Settings::new(KNOBS),
+        let settings = Settings::new(KNOBS);
+        let num_steps = settings.count(&STEPS);
+        let mut model = Self {
+            answer: Answer::new(num_steps, num_steps, &errors_of(&settings)),
+            settings,
             stop: None,
-            answer: OnceCell::new(),
-        }
+            pending: None,
+        };
+        model.refresh();
+        model
     }
 
     fn controls(&self) -> Vec<Control> {
@@ -126,8 +152,26 @@ impl Model for ScaleDrift {
             Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => self.go_to(*x),
             _ => return Ok(()),
         }
-        self.answer = OnceCell::new();
+        self.refresh();
         Ok(())
+    }
+
+    fn job(&self) -> Option<Job> {
+        self.pending.clone()
+    }
+
+    fn compute(request: &[u8], _: Progress<'_>) -> JobResult {
+        request::compute(request)
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.pending = None;
+        let closed = match result.map(|bytes| request::read(&bytes)) {
+            Ok(Some(closed)) => Ok(self.answer.judge(&closed)),
+            Ok(None) => Err(words::NO_ANSWER.to_owned()),
+            Err(problem) => Err(format!("The loop stays open: {problem}.")),
+        };
+        self.answer.after = Some(closed);
     }
 
     fn readouts(&self) -> Vec<Readout> {
@@ -208,11 +252,16 @@ fn set(id: &str, value: Value) -> Event {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ops::ControlFlow;
 
     fn after(events: &[Event]) -> ScaleDrift {
         let mut model = ScaleDrift::new();
         for event in events {
             model.update(event).unwrap();
+        }
+        if let Some(job) = model.job() {
+            let result = ScaleDrift::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            model.job_done(result);
         }
         model
     }
@@ -224,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_default_shows_what_closing_the_loop_repairs() {
-        let model = ScaleDrift::new();
+        let model = after(&[]);
         let before = &model.answer().before;
         assert!((2.0..2.6).contains(&before.scale_at_end()));
         let (before, after) = (before.error.unwrap(), model.error_after().unwrap());
@@ -247,7 +296,7 @@ mod tests {
         let there = [set(DRIFT.id, Value::Number(-2.0)), stop_at(20.0)];
         let back = [set(DRIFT.id, Value::Number(1.0)), stop_at(80.0)];
         let model = after(&[there, back].concat());
-        let fresh = ScaleDrift::new();
+        let fresh = after(&[]);
         assert_eq!(model.answer(), fresh.answer());
         assert_eq!(model.readouts(), fresh.readouts());
     }

@@ -3,7 +3,11 @@
 use super::answer::{Answer, Judged};
 use super::closing::Kind;
 use super::model::ScaleDrift;
+use super::request::WAITING;
 use crate::contract::{Readout, format_number};
+
+/// What is said if a worker's answer makes no sense.
+pub(super) const NO_ANSWER: &str = "The loop could not be closed.";
 
 fn steps(length: f64) -> String {
     format!("{} steps", format_number(length, 2))
@@ -113,6 +117,7 @@ pub(super) fn describe(model: &ScaleDrift) -> String {
     };
     let ending = match (&answer.after, model.kind()) {
         (Some(Err(problem)), _) => problem.clone(),
+        (None, Some(_)) => format!("{WAITING}."),
         (Some(Ok(after)), Some(kind)) => {
             let means = match kind {
                 Kind::Rigid => "rigid motions",
