@@ -65,6 +65,7 @@ fn find_in_rows(
         for (k, piece) in inner.chunks(8).enumerate() {
             let mut bytes = [0; 8];
             bytes[..piece.len()].copy_from_slice(piece);
+            // Each byte is 0 or 1.
             let mut flagged = u64::from_le_bytes(bytes);
             while flagged != 0 {
                 let x = 8 * k + flagged.trailing_zeros() as usize / 8 + MARGIN;
