@@ -1,10 +1,8 @@
 //! What follows from the state: the drive, the closed path, and how far each is off.
 
-use super::closing::{Closed, recognize};
-use super::drive::{Drive, Errors, centers};
+use super::drive::{Drive, Errors};
+use super::request::Told;
 use epipole::camera::RigidTransform;
-use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
-use nalgebra::Point3;
 
 /// A drive up to some step, with what closing its loop made of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,21 +22,11 @@ pub(super) struct Judged {
     pub(super) poses: Vec<RigidTransform>,
     /// How many times too large everything around each frame comes out.
     pub(super) scale: Vec<f64>,
-    /// Root mean square of the distances to the true places after the best similarity, in true
-    /// steps; `None` while the path is a straight line, which no alignment can turn.
+    /// Trajectory error, in true steps; `None` where there is none, or it is not known yet.
     pub(super) error: Option<f64>,
 }
 
 impl Judged {
-    fn new(poses: &[RigidTransform], scale: Vec<f64>, truth: &[Point3<f64>]) -> Self {
-        let judged = absolute_trajectory_error(&centers(poses), truth, AlignmentKind::Similarity);
-        Self {
-            poses: poses.to_vec(),
-            scale,
-            error: judged.ok().map(|(statistics, _)| statistics.rmse),
-        }
-    }
-
     /// From the first place to the last one, in first steps.
     pub(super) fn gap(&self) -> f64 {
         let ends = (self.poses.first(), self.poses.last());
@@ -61,38 +49,54 @@ impl Judged {
 }
 
 impl Answer {
-    /// Drives `traveled` of `num_steps` steps; the loop is still open.
-    pub(super) fn new(num_steps: usize, traveled: usize, errors: &Errors) -> Self {
+    /// Drives `traveled` of `num_steps` steps; nothing is judged, and the loop is open.
+    pub(super) fn open(num_steps: usize, traveled: usize, errors: &Errors) -> Self {
         let drive = Drive::new(num_steps, errors);
-        let before = Judged::new(
-            &drive.believed[..=traveled],
-            drive.scale[..=traveled].to_vec(),
-            &centers(&drive.truth[..=traveled]),
-        );
-        let recognized = (traveled == num_steps).then(|| recognize(&drive, errors).ok());
-        let seen = recognized
-            .flatten()
-            .map(|first_from_last| 1.0 / first_from_last.scaling());
+        let before = Judged {
+            poses: drive.believed[..=traveled].to_vec(),
+            scale: drive.scale[..=traveled].to_vec(),
+            error: None,
+        };
         Self {
             drive,
             before,
             after: None,
-            seen,
+            seen: None,
         }
     }
 
-    /// The closed path of this drive.
-    pub(super) fn judge(&self, closed: &Closed) -> Judged {
-        let scales = self.drive.scale.iter().zip(&closed.correction);
-        let scale = scales.map(|(scale, factor)| scale * factor).collect();
-        Judged::new(&closed.world_from_cam, scale, &centers(&self.drive.truth))
+    /// Takes what a worker told about this drive.
+    pub(super) fn take(&mut self, told: &Told) {
+        self.before.error = told.error;
+        self.seen = told.seen;
+        self.after = told.closed().map(|(closed, error)| {
+            let scales = self.drive.scale.iter().zip(&closed.correction);
+            Ok(Judged {
+                scale: scales.map(|(scale, factor)| scale * factor).collect(),
+                poses: closed.world_from_cam,
+                error,
+            })
+        });
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::closing::{Kind, close};
+    use super::super::closing::Kind;
+    use super::super::request::{Request, compute, read};
     use super::*;
+
+    fn answered(traveled: usize, errors: Errors, kind: Kind) -> Answer {
+        let request = Request {
+            num_steps: 80,
+            traveled,
+            errors,
+            kind: Some(kind),
+        };
+        let mut answer = Answer::open(80, traveled, &errors);
+        answer.take(&read(&compute(&request.job().request).unwrap()).unwrap());
+        answer
+    }
 
     fn closed(rate: f64, noise: f64, is_metric: bool, kind: Kind) -> (Judged, Judged) {
         let errors = Errors {
@@ -101,9 +105,8 @@ mod tests {
             is_metric,
             seed: 7,
         };
-        let answer = Answer::new(80, 80, &errors);
-        let seen = recognize(&answer.drive, &errors).unwrap();
-        let after = answer.judge(&close(&answer.drive, seen, kind).unwrap());
+        let answer = answered(80, errors, kind);
+        let after = answer.after.unwrap().unwrap();
         (answer.before, after)
     }
 
@@ -160,11 +163,11 @@ mod tests {
             is_metric: false,
             seed: 1,
         };
-        let answer = Answer::new(80, 40, &errors);
+        let answer = answered(40, errors, Kind::Similarity);
         assert_eq!((answer.after, answer.seen), (None, None));
         assert_eq!(answer.before.poses.len(), 41);
         assert!(answer.before.error.is_some());
-        let straight = Answer::new(80, 3, &errors);
+        let straight = answered(3, errors, Kind::Similarity);
         assert_eq!(straight.before.error, None);
     }
 }

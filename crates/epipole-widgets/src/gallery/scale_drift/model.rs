@@ -24,27 +24,34 @@ pub(crate) struct ScaleDrift {
 }
 
 impl ScaleDrift {
-    /// What follows from the state. While the job is out, the closed path is the last one.
+    /// What follows from the state. While the job is out, errors and the closed path are the last.
     pub(super) fn answer(&self) -> &Answer {
         &self.answer
     }
 
-    /// Drives anew, and asks for the loop to be closed if there is one.
+    /// Whether the job is out.
+    pub(super) fn is_waiting(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// Drives anew, and asks for the path to be judged and its loop to be closed.
     fn refresh(&mut self) {
         let errors = errors_of(&self.settings);
-        let kind = self.kind().filter(|_| self.is_home());
-        let last = self.answer.after.take().filter(|_| kind.is_some());
-        self.answer = Answer::new(self.num_steps(), self.traveled(), &errors);
-        self.answer.after = last;
-        self.pending = kind.map(|kind| {
-            let num_steps = self.num_steps();
-            Request {
-                num_steps,
-                errors,
-                kind,
-            }
-            .job()
-        });
+        let (num_steps, traveled) = (self.num_steps(), self.traveled());
+        let last = Answer::open(num_steps, traveled, &errors);
+        let last = std::mem::replace(&mut self.answer, last);
+        self.answer.before.error = last.before.error;
+        if self.is_home() {
+            self.answer.seen = last.seen;
+            self.answer.after = last.after.filter(|_| self.kind().is_some());
+        }
+        let request = Request {
+            num_steps,
+            traveled,
+            errors,
+            kind: self.kind(),
+        };
+        self.pending = Some(request.job());
     }
 
     pub(super) fn drift_percent(&self) -> f64 {
@@ -103,7 +110,7 @@ impl Model for ScaleDrift {
         let settings = Settings::new(KNOBS);
         let num_steps = settings.count(&STEPS);
         let mut model = Self {
-            answer: Answer::new(num_steps, num_steps, &errors_of(&settings)),
+            answer: Answer::open(num_steps, num_steps, &errors_of(&settings)),
             settings,
             stop: None,
             pending: None,
@@ -166,12 +173,13 @@ impl Model for ScaleDrift {
 
     fn job_done(&mut self, result: JobResult) {
         self.pending = None;
-        let closed = match result.map(|bytes| request::read(&bytes)) {
-            Ok(Some(closed)) => Ok(self.answer.judge(&closed)),
-            Ok(None) => Err(words::NO_ANSWER.to_owned()),
-            Err(problem) => Err(format!("The loop stays open: {problem}.")),
-        };
-        self.answer.after = Some(closed);
+        match result.map(|bytes| request::read(&bytes)) {
+            Ok(Some(told)) => self.answer.take(&told),
+            Ok(None) => self.answer.after = Some(Err(words::NO_ANSWER.to_owned())),
+            Err(problem) => {
+                self.answer.after = Some(Err(format!("The path cannot be judged: {problem}.")));
+            }
+        }
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -7,7 +7,7 @@ use super::request::WAITING;
 use crate::contract::{Readout, format_number};
 
 /// What is said if a worker's answer makes no sense.
-pub(super) const NO_ANSWER: &str = "The loop could not be closed.";
+pub(super) const NO_ANSWER: &str = "The path could not be judged.";
 
 fn steps(length: f64) -> String {
     format!("{} steps", format_number(length, 2))
@@ -25,9 +25,10 @@ fn percent(share: f64) -> String {
     )
 }
 
-fn error(judged: &Judged) -> String {
+fn error(model: &ScaleDrift, judged: &Judged) -> String {
     match judged.error {
         Some(error) => steps(error),
+        None if model.is_waiting() => "…".to_owned(),
         None => "none yet on a straight line".to_owned(),
     }
 }
@@ -48,6 +49,7 @@ pub(super) fn readouts(model: &ScaleDrift) -> Vec<Readout> {
         false => "not home yet".to_owned(),
     };
     let loop_says = match (answer.seen, model.kind()) {
+        (None, _) if model.is_home() => "…".to_owned(),
         (None, _) => "not home yet".to_owned(),
         (Some(_), None) => "not asked".to_owned(),
         (Some(seen), Some(Kind::Similarity)) => {
@@ -65,7 +67,7 @@ pub(super) fn readouts(model: &ScaleDrift) -> Vec<Readout> {
         Readout::words(
             "error",
             "Trajectory error (aligned, RMS)",
-            pair(answer, error),
+            pair(answer, |judged| error(model, judged)),
         ),
         Readout::words(
             "worst",
@@ -126,14 +128,14 @@ pub(super) fn describe(model: &ScaleDrift) -> String {
             format!(
                 "Closing the loop with {means} takes the trajectory error from {} to {} (RMS) and \
                  leaves the scale of the last frame at {}.",
-                error(before),
-                error(after),
+                error(model, before),
+                error(model, after),
                 format_number(after.scale_at_end(), 2)
             )
         }
         _ => format!(
             "The loop stays open, with a trajectory error of {} (RMS).",
-            error(before)
+            error(model, before)
         ),
     };
     format!("{who} goes {all} steps around a block. Back home, {home}. {ending}")
