@@ -10,8 +10,8 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end, at most.
 const EXPLORATIONS: usize = 30;
 
-/// A start fits some of the data within so many thresholds of the best model. Those just outside
-/// are what another model would claim.
+/// A start fits some of the data within so many thresholds of the best model: those just outside of
+/// one threshold are what another model would claim.
 const START_REACH: f64 = 1.5;
 
 /// So many starts that lead back to the best model show that there is hardly another one nearby.
@@ -330,9 +330,9 @@ impl<E: Estimator> Ransac<E> {
         let size = 2 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
         let alike = vec![1.0; size];
+        let reach_px = START_REACH * max_error_px;
         let mut returns = 0;
         for _ in 0..EXPLORATIONS {
-            let reach_px = START_REACH * max_error_px;
             self.estimator
                 .inliers(&best.model, reach_px, &mut self.inliers);
             if self.inliers.len() <= size {

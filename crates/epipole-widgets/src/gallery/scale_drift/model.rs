@@ -79,8 +79,11 @@ impl ScaleDrift {
         [None, Some(Kind::Rigid), Some(Kind::Similarity)][self.settings.chosen(&CLOSURE)]
     }
 
-    /// The trajectory error of the closed path.
+    /// The trajectory error of the closed path, once it is that of this state.
     fn error_after(&self) -> Option<f64> {
+        if self.is_waiting() {
+            return None;
+        }
         let after = self.answer().after.as_ref()?;
         after.as_ref().ok()?.error
     }
@@ -286,6 +289,18 @@ mod tests {
         assert!((2.0..2.6).contains(&before.scale_at_end()));
         let (before, after) = (before.error.unwrap(), model.error_after().unwrap());
         assert!(after < 0.1 * before, "{before} to {after}");
+    }
+
+    #[test]
+    fn an_answer_to_an_older_state_solves_nothing() {
+        let mut model = after(&[]);
+        let before = model.error_after().unwrap();
+        assert!(before < 0.1, "{before}");
+        let rigid = set(CLOSURE.id, Value::from("rigid"));
+        model.update(&rigid).unwrap();
+        assert_eq!(model.error_after(), None);
+        assert!(!model.describe().contains("takes the trajectory error"));
+        assert!(after(&[rigid]).error_after().unwrap() > 0.5);
     }
 
     #[test]

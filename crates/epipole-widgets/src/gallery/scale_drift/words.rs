@@ -118,8 +118,8 @@ pub(super) fn describe(model: &ScaleDrift) -> String {
         false => format!("{size}, and the path misses the start by {gap}"),
     };
     let ending = match (&answer.after, model.kind()) {
+        _ if model.is_waiting() => format!("{WAITING}."),
         (Some(Err(problem)), _) => problem.clone(),
-        (None, Some(_)) => format!("{WAITING}."),
         (Some(Ok(after)), Some(kind)) => {
             let means = match kind {
                 Kind::Rigid => "rigid motions",
