@@ -347,37 +347,50 @@ fn grid_of_outlier_shares() {
     }
 }
 
-/// F stays right when 90 or 95 % of the true matches lie on one plane.
+/// F stays right when up to 95 % of the true matches lie on one plane, also where the errors fill
+/// the threshold: noise of half a pixel against one pixel.
 #[test]
 fn a_dominant_plane_does_not_mislead() {
-    for share_on_plane in [0.5, 0.9, 0.95] {
-        for share_true in [1.0, 0.8] {
-            let mut wrong = Vec::new();
-            for seed in 0..25 {
-                let mut random = Random::new(seed);
-                let pair = cameras(&mut random);
-                let shape = Shape::Mostly(share_on_plane);
-                let s = scene(&mut random, pair, shape, 300, share_true, 0.3);
-                let report = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
-                let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
-                // Points anywhere in space, not only those that were matched.
-                let mut errors: Vec<f64> = (0..200)
-                    .filter_map(|_| {
-                        let mut near = |size: f64| random.uniform(-size, size);
-                        let x = Point3::new(near(1.6), near(1.2), near(1.5));
-                        let (a, b) = (s.cam1.project(&x).ok()?, s.cam2.project(&x).ok()?);
-                        assert!(sampson_px(&truth, &a, &b) < 1e-6);
-                        Some(sampson_px(&report.model, &a, &b))
-                    })
-                    .collect();
-                errors.sort_by(f64::total_cmp);
-                if errors[errors.len() / 2] > 1.0 {
-                    wrong.push((seed, errors[errors.len() / 2]));
-                }
+    let (all, most) = (1.0, 0.8);
+    for (share_on_plane, count, share_true, noise_px) in [
+        (0.5, 300, most, 0.3),
+        (0.9, 300, all, 0.3),
+        (0.9, 300, most, 0.3),
+        (0.9, 300, most, 0.5),
+        (0.95, 200, all, 0.3),
+        (0.95, 200, all, 0.5),
+        (0.95, 300, all, 0.3),
+        (0.95, 300, all, 0.5),
+        (0.95, 300, most, 0.3),
+        (0.95, 300, most, 0.5),
+    ] {
+        let mut wrong = Vec::new();
+        for seed in 0..40 {
+            let mut random = Random::new(seed);
+            let pair = cameras(&mut random);
+            let shape = Shape::Mostly(share_on_plane);
+            let s = scene(&mut random, pair, shape, count, share_true, noise_px);
+            let report = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+            let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
+            // Points anywhere in space, not only those that were matched.
+            let mut errors: Vec<f64> = (0..200)
+                .filter_map(|_| {
+                    let mut near = |size: f64| random.uniform(-size, size);
+                    let x = Point3::new(near(1.6), near(1.2), near(1.5));
+                    let (a, b) = (s.cam1.project(&x).ok()?, s.cam2.project(&x).ok()?);
+                    assert!(sampson_px(&truth, &a, &b) < 1e-6);
+                    Some(sampson_px(&report.model, &a, &b))
+                })
+                .collect();
+            errors.sort_by(f64::total_cmp);
+            if errors[errors.len() / 2] > 1.0 {
+                wrong.push((seed, errors[errors.len() / 2]));
             }
-            println!("{share_on_plane} on the plane, {share_true} true: wrong {wrong:?}");
-            assert!(wrong.is_empty(), "{share_on_plane} {share_true}: {wrong:?}");
         }
+        assert!(
+            wrong.is_empty(),
+            "{share_on_plane} of {count} on the plane, {share_true} true, {noise_px} px: {wrong:?}"
+        );
     }
 }
 

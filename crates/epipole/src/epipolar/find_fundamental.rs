@@ -202,6 +202,41 @@ impl Estimator for FundamentalEstimator {
         unit_norm(&self.frame.fundamental_to_pixels(&recovered)).ok()
     }
 
+    fn settle(
+        &mut self,
+        model: &Matrix3<f64>,
+        inliers: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<Matrix3<f64>> {
+        let f = self.frame.fundamental_to_frame(model);
+        let max_error = max_error_px * self.frame.scale;
+        let alternatives =
+            self.recovery
+                .alternatives(&self.in_frame, &f, inliers, max_error, random);
+        let mut best = f;
+        for start in alternatives {
+            let start = unit_norm(&self.frame.fundamental_to_pixels(&start)).ok()?;
+            let Some(refined) = self.refine(&start, &[], 2.0 * max_error_px) else {
+                continue;
+            };
+            let Some(refined) = self.refine(&refined, &[], max_error_px) else {
+                continue;
+            };
+            let refined = self.frame.fundamental_to_frame(&refined);
+            if self
+                .recovery
+                .fits_more_off_plane(&self.in_frame, &refined, &best, max_error)
+            {
+                best = refined;
+            }
+        }
+        if best == f {
+            return None;
+        }
+        unit_norm(&self.frame.fundamental_to_pixels(&best)).ok()
+    }
+
     fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {
         sampson::support(&self.pixels, model, max_error_px, cost_limit)
     }

@@ -2,11 +2,12 @@
 
 use super::coordinates::Coordinates;
 use super::sampson::support;
+use super::sampson_sq;
 use crate::camera::cross_matrix;
 use crate::math::null_space::right_singular_vectors;
 use crate::math::random::Random;
 use crate::math::svd3;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Replaces fundamental matrices from samples that lie mostly on a plane.
 ///
@@ -27,6 +28,25 @@ const TRIPLES: [[usize; 3]; 5] = [[0, 1, 2], [3, 4, 5], [0, 1, 6], [3, 4, 6], [2
 
 /// Pairs off the plane that are tried at most.
 const MAX_PAIRS: usize = 400;
+
+/// A plane dominates with this share of the inliers, at least.
+const DOMINANT_SHARE: f64 = 0.75;
+
+/// Triples of inliers that are tried in search of a dominant plane: the chance that none of them
+/// lies on it is one in ten thousand.
+const TRIPLES_TRIED: usize = 20;
+
+/// Inliers that a plane through a triple is tried on.
+const INLIERS_TRIED: usize = 200;
+
+/// Pairs off a dominant plane that are tried at most, at the end.
+const MAX_LAST_PAIRS: usize = 4000;
+
+/// Epipoles from the best pairs that are refined.
+const REFINED_EPIPOLES: usize = 8;
+
+/// So many more matches off the plane, in MSAC's counting, must fit a matrix that replaces another.
+const CLEARLY_MORE: f64 = 1.0;
 
 impl PlaneRecovery {
     pub(crate) fn new(num_matches: usize) -> Self {
@@ -55,14 +75,127 @@ impl PlaneRecovery {
             (on_plane >= 5).then_some(h)
         })?;
         let homography = self.fit_plane(matches, homography, max_error)?;
-        // Matches off the plane by so little say next to nothing about the epipole.
+        self.find_off_plane(matches, &homography, max_error);
+        self.best_epipole(matches, &homography, max_error, random)
+    }
+
+    /// Fundamental matrices that fit a dominant plane as `f` does and more of the matches off it; all
+    /// in one frame, without a refinement. Empty where no plane dominates.
+    ///
+    /// The matches on the plane fit `[e2]ₓ H` whatever e2 is. By how much they miss its lines depends on
+    /// e2, though, and hundreds of them weigh more than the few matches off the plane that tell where
+    /// e2 is: the best of all sums belongs to an e2 that happens to suit the noise. So the plane's
+    /// matches have no vote here.
+    pub(crate) fn alternatives(
+        &mut self,
+        matches: &Coordinates,
+        f: &Matrix3<f64>,
+        inliers: &[usize],
+        max_error: f64,
+        random: &mut Random,
+    ) -> Vec<Matrix3<f64>> {
+        let Some(homography) = self.dominant_plane(matches, f, inliers, max_error, random) else {
+            return Vec::new();
+        };
+        self.find_off_plane(matches, &homography, max_error);
+        let num_off = self.off_plane.len();
+        if num_off < 2 {
+            return Vec::new();
+        }
+        let mut ranked: Vec<(f64, Matrix3<f64>)> = Vec::new();
+        let mut try_pair = |first: usize, second: usize| {
+            let pair = [self.off_plane[first], self.off_plane[second]];
+            if let Some(f) = through_pair(matches, &homography, pair) {
+                // Two noisy matches place the epipole badly: look twice as far.
+                let cost = self.cost_off_plane(matches, &f, 2.0 * max_error);
+                let place = ranked.partition_point(|(other, _)| *other <= cost);
+                if place < REFINED_EPIPOLES {
+                    ranked.insert(place, (cost, f));
+                    ranked.truncate(REFINED_EPIPOLES);
+                }
+            }
+        };
+        if num_off * (num_off - 1) / 2 <= MAX_LAST_PAIRS {
+            for first in 1..num_off {
+                (0..first).for_each(|second| try_pair(first, second));
+            }
+        } else {
+            for _ in 0..MAX_LAST_PAIRS {
+                let first = random.below(num_off);
+                try_pair(first, (first + 1 + random.below(num_off - 1)) % num_off);
+            }
+        }
+        ranked.into_iter().map(|(_, f)| f).collect()
+    }
+
+    /// Whether `other` fits clearly more of the matches off the plane that was found last.
+    pub(crate) fn fits_more_off_plane(
+        &self,
+        matches: &Coordinates,
+        other: &Matrix3<f64>,
+        than: &Matrix3<f64>,
+        max_error: f64,
+    ) -> bool {
+        self.cost_off_plane(matches, other, max_error) + CLEARLY_MORE
+            < self.cost_off_plane(matches, than, max_error)
+    }
+
+    /// MSAC's cost of the matches off the plane.
+    fn cost_off_plane(&self, matches: &Coordinates, f: &Matrix3<f64>, max_error: f64) -> f64 {
+        let per_threshold_sq = 1.0 / (max_error * max_error);
+        let cost = |&i: &usize| {
+            let [u1, v1, u2, v2] = matches.at(i);
+            let (x1, x2) = (Point2::new(u1, v1), Point2::new(u2, v2));
+            (sampson_sq(f, &x1, &x2) * per_threshold_sq).min(1.0)
+        };
+        self.off_plane.iter().map(cost).sum()
+    }
+
+    /// The homography of a plane that holds most of the inliers of `f`.
+    fn dominant_plane(
+        &mut self,
+        matches: &Coordinates,
+        f: &Matrix3<f64>,
+        inliers: &[usize],
+        max_error: f64,
+        random: &mut Random,
+    ) -> Option<Matrix3<f64>> {
+        let near = |h: &Matrix3<f64>, i: usize| {
+            transfer_error_sq(h, matches.at(i)) < 4.0 * max_error * max_error
+        };
+        let tried = inliers.len().min(INLIERS_TRIED);
+        let mut best: Option<(usize, Matrix3<f64>)> = None;
+        let epipole2 = svd3(f).u.column(2).into_owned();
+        for _ in 0..TRIPLES_TRIED {
+            let triple = [(); 3].map(|()| inliers[random.below(inliers.len())]);
+            let Some(h) = homography_of_triple(matches, f, &epipole2, triple) else {
+                continue;
+            };
+            let count = (0..tried)
+                .filter(|k| near(&h, inliers[k * inliers.len() / tried]))
+                .count();
+            if best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, h));
+            }
+        }
+        // Three matches give a rough plane; the fit will find more.
+        let (count, h) = best?;
+        if (count as f64) < 0.5 * DOMINANT_SHARE * tried as f64 {
+            return None;
+        }
+        let h = self.fit_plane(matches, h, max_error)?;
+        let count = inliers.iter().filter(|&&i| near(&h, i)).count();
+        (count as f64 >= DOMINANT_SHARE * inliers.len() as f64).then_some(h)
+    }
+
+    /// Matches off the plane by so little say next to nothing about the epipole: they are left out.
+    fn find_off_plane(&mut self, matches: &Coordinates, homography: &Matrix3<f64>, max_error: f64) {
         self.off_plane.clear();
         for i in 0..matches.len() {
-            if transfer_error_sq(&homography, matches.at(i)) > 9.0 * max_error * max_error {
+            if transfer_error_sq(homography, matches.at(i)) > 9.0 * max_error * max_error {
                 self.off_plane.push(i);
             }
         }
-        self.best_epipole(matches, &homography, max_error, random)
     }
 
     /// Least squares over the matches near the plane, twice.
@@ -108,10 +241,6 @@ impl PlaneRecovery {
         if num_off < 2 {
             return None;
         }
-        let line = |i: usize| {
-            let [u1, v1, u2, v2] = matches.at(i);
-            (h * Vector3::new(u1, v1, 1.0)).cross(&Vector3::new(u2, v2, 1.0))
-        };
         let mut best = None;
         let mut best_cost = f64::INFINITY;
         let mut needed = MAX_PAIRS;
@@ -120,11 +249,10 @@ impl PlaneRecovery {
             tried += 1;
             let first = random.below(num_off);
             let second = (first + 1 + random.below(num_off - 1)) % num_off;
-            let epipole2 = line(self.off_plane[first]).cross(&line(self.off_plane[second]));
-            let Some(epipole2) = epipole2.try_normalize(1e-300) else {
+            let pair = [self.off_plane[first], self.off_plane[second]];
+            let Some(f) = through_pair(matches, h, pair) else {
                 continue;
             };
-            let f = cross_matrix(&epipole2) * h;
             let found = support(matches, &f, max_error, best_cost);
             if found.cost < best_cost {
                 best_cost = found.cost;
@@ -139,6 +267,16 @@ impl PlaneRecovery {
         }
         best
     }
+}
+
+/// `[e2]ₓ H`, with the epipole where two matches off the plane put it.
+fn through_pair(matches: &Coordinates, h: &Matrix3<f64>, pair: [usize; 2]) -> Option<Matrix3<f64>> {
+    let [first, second] = pair.map(|i| {
+        let [u1, v1, u2, v2] = matches.at(i);
+        (h * Vector3::new(u1, v1, 1.0)).cross(&Vector3::new(u2, v2, 1.0))
+    });
+    let epipole2 = first.cross(&second).try_normalize(1e-300)?;
+    Some(cross_matrix(&epipole2) * h)
 }
 
 /// The homography of the plane through three matches that agrees with F:

@@ -24,6 +24,13 @@ const FAR_OFF: f64 = 0.02;
 /// to the best model.
 const SAME: f64 = 1e-3;
 
+/// At the end, models are compared within so many medians of the errors that inliers have: two
+/// standard deviations, if errors of one dimension are Gaussian.
+const SHARP_MEDIANS: f64 = 3.0;
+
+/// The width of the last loss, in the same medians.
+const WIDTH_MEDIANS: f64 = 2.5;
+
 /// How often data are weighed anew at the end.
 const REWEIGHTINGS: usize = 6;
 
@@ -71,6 +78,9 @@ pub struct Ransac<E: Estimator> {
     required: u64,
     log_miss: f64,
     stop: Option<StopReason>,
+    /// The threshold within which models are compared and improved: the caller's while samples are
+    /// drawn, the inliers' own at the end.
+    judge_px: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -109,6 +119,7 @@ impl<E: Estimator> Ransac<E> {
             required: u64::MAX,
             log_miss: libm::log1p(-options.confidence),
             stop: None,
+            judge_px: options.max_error_px,
             estimator,
             options,
         })
@@ -222,7 +233,8 @@ impl<E: Estimator> Ransac<E> {
             return Err(no_consensus);
         };
         if self.options.local_optimization {
-            self.explore(&mut best);
+            self.explore_sharply(&mut best);
+            self.settle(&mut best);
             self.polish(&mut best);
         }
         let max_error_px = self.options.max_error_px;
@@ -287,7 +299,7 @@ impl<E: Estimator> Ransac<E> {
     /// A model straight from a sample is rough: the first fit looks twice as far, and counts only
     /// together with a second one at the right distance.
     fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
-        let max_error_px = self.options.max_error_px;
+        let max_error_px = self.judge_px;
         let wide = self
             .fitted(&candidate.model.clone(), 2.0 * max_error_px)
             .and_then(|model| self.fitted(&model, max_error_px));
@@ -319,6 +331,26 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.refine(model, &self.inliers, max_error_px)
     }
 
+    /// Looks for a better optimum nearby, and judges by the errors that the inliers really have: where
+    /// they are far smaller than the caller's threshold, that threshold lets in wrong matches by the
+    /// dozen and cannot tell which model the right ones fit best.
+    fn explore_sharply(&mut self, best: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        if self.inliers.is_empty() {
+            return;
+        }
+        // A count of inliers is about the threshold that the caller gave.
+        if self.options.score == ScoreKind::Msac {
+            self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS);
+        }
+        best.support = self.support(&best.model, f64::INFINITY);
+        self.explore(best);
+        self.judge_px = max_error_px;
+        best.support = self.support(&best.model, f64::INFINITY);
+    }
+
     /// Looks for a better optimum nearby: starts that fit a few of the nearest data by least squares
     /// lie around the model, and local optimization leads some of them elsewhere. Where there are too
     /// few such data, or the estimator has no such fit, the model alone is improved. Where several
@@ -326,7 +358,7 @@ impl<E: Estimator> Ransac<E> {
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
     fn explore(&mut self, best: &mut Candidate<E::Model>) {
-        let max_error_px = self.options.max_error_px;
+        let max_error_px = self.judge_px;
         let size = 2 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
         let alike = vec![1.0; size];
@@ -373,6 +405,24 @@ impl<E: Estimator> Ransac<E> {
         }
     }
 
+    /// Hears the estimator's objections to the best model.
+    fn settle(&mut self, best: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let settled =
+            self.estimator
+                .settle(&best.model, &self.inliers, max_error_px, &mut self.random);
+        if let Some(model) = settled {
+            let support = self.support(&model, f64::INFINITY);
+            *best = Candidate { model, support };
+            self.refinements += 1;
+        }
+    }
+
     /// The last refinement: least squares over all data within a few times the errors that inliers
     /// have, with the weights that Cauchy's loss gives. It weighs errors differently from the score,
     /// so its result is kept unless it loses inliers: one in twenty at most.
@@ -386,7 +436,7 @@ impl<E: Estimator> Ransac<E> {
         if self.inliers.len() < self.estimator.sample_size() {
             return;
         }
-        let width_px = self.error_width_px(&candidate.model);
+        let width_px = self.medians_of_errors_px(&candidate.model, WIDTH_MEDIANS);
         let reach_px = max_error_px.max(2.0 * width_px);
         let mut model = candidate.model.clone();
         let mut weights = Vec::new();
@@ -410,16 +460,16 @@ impl<E: Estimator> Ransac<E> {
         }
     }
 
-    /// How large the errors of the inliers are: two and a half times their median, between a
-    /// quarter of the threshold and the whole. The threshold is a guess of the caller's; errors a
-    /// tenth as large deserve a sharper weight, and those that fill it a wider one.
-    fn error_width_px(&self, model: &E::Model) -> f64 {
+    /// How large the errors of the inliers are: so many times their median, between a quarter of the
+    /// threshold and the whole. The threshold is a guess of the caller's; errors a tenth as large
+    /// deserve a sharper weight, and those that fill it a wider one.
+    fn medians_of_errors_px(&self, model: &E::Model, medians: f64) -> f64 {
         let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
         let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
         let middle = errors_sq.len() / 2;
         let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
         let max_error_px = self.options.max_error_px;
-        (2.5 * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
+        (medians * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
     }
 
     fn replace_if_better(&mut self, candidate: &mut Candidate<E::Model>, model: E::Model) -> bool {
@@ -436,7 +486,7 @@ impl<E: Estimator> Ransac<E> {
         let by_count = self.options.score == ScoreKind::InlierCount;
         // The limit is about squared errors, which say nothing about a count of inliers.
         let limit = if by_count { f64::INFINITY } else { cost_limit };
-        let max_error_px = self.options.max_error_px;
+        let max_error_px = self.judge_px;
         let mut support = self.estimator.support(model, max_error_px, limit);
         if by_count {
             support.cost = (self.estimator.num_data() - support.num_inliers) as f64;

@@ -111,6 +111,22 @@ pub trait Estimator {
         None
     }
 
+    /// A model to prefer to the best one although its score may be lower, if there is such a one.
+    ///
+    /// Called once, at the end; may allocate.
+    ///
+    /// * `inliers`: indices of the data within the threshold of `model`
+    fn settle(
+        &mut self,
+        model: &Self::Model,
+        inliers: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<Self::Model> {
+        let _ = (model, inliers, max_error_px, random);
+        None
+    }
+
     /// How well the data support a model. May stop once the cost exceeds `cost_limit`.
     fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
         let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
