@@ -4,7 +4,7 @@ use super::p3p::solve;
 use super::refine::{Pose, PoseProblem, refine};
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, ransac};
+use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
 
@@ -149,6 +149,10 @@ impl Estimator for AbsolutePoseEstimator {
 
     fn polish(&mut self, pose: &Pose, near: &[usize], weights: &[f64]) -> Option<Pose> {
         self.refined(pose, near, Some(weights), RobustLoss::Trivial, 4)
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(chance_near_point(&self.pixels, max_error_px))
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -151,6 +151,10 @@ impl Estimator for EssentialEstimator {
         sampson::inliers(&self.pixels, &pose.fundamental, max_error_px, inliers);
     }
 
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(self.matches.chance_near_lines(max_error_px))
+    }
+
     fn unique(&self) -> Option<&Unique> {
         Some(self.matches.unique())
     }

@@ -127,6 +127,10 @@ impl Estimator for HomographyEstimator {
         sums::inliers(&self.pixels, model, max_error_px, inliers);
     }
 
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(self.matches.chance_near_point2(max_error_px))
+    }
+
     fn unique(&self) -> Option<&Unique> {
         Some(self.matches.unique())
     }

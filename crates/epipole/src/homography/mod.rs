@@ -8,6 +8,7 @@ mod find;
 mod four_point;
 mod linear;
 mod refine;
+mod sampson;
 mod sums;
 
 pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
@@ -15,3 +16,4 @@ pub use find::{HomographyEstimator, find_homography};
 pub use four_point::homography_4point;
 pub use linear::{fit_homography, transfer, transfer_error_px, transfer_error_sq};
 pub use refine::refine_homography;
+pub use sampson::{homography_sampson_px, homography_sampson_sq};

@@ -1,6 +1,7 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
+use super::chance::log10_false_alarms;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
@@ -244,6 +245,15 @@ impl<E: Estimator> Ransac<E> {
             return Err(no_consensus);
         }
         self.required = self.required_for(self.inliers.len());
+        let log10_false_alarms = self.estimator.chance(max_error_px).map(|chance| {
+            log10_false_alarms(
+                self.inliers.len(),
+                self.estimator.num_data(),
+                self.estimator.sample_size(),
+                self.estimator.max_models(),
+                chance,
+            )
+        });
         let mut fits = vec![false; self.estimator.num_data()];
         for &index in &self.inliers {
             fits[index] = true;
@@ -259,6 +269,7 @@ impl<E: Estimator> Ransac<E> {
             iterations: self.iterations,
             required_iterations: self.required,
             score: self.estimator.num_data() as f64 - best.support.cost,
+            log10_false_alarms,
             refinements: self.refinements,
             stop: self.stop.unwrap_or(StopReason::Cancelled),
             model: best.model,

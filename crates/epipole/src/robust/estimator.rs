@@ -159,6 +159,13 @@ pub trait Estimator {
         );
     }
 
+    /// The probability that a datum which has nothing to do with a model is within the threshold of it,
+    /// where that is known: for [`RansacReport::log10_false_alarms`](super::RansacReport).
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        let _ = max_error_px;
+        None
+    }
+
     /// How the indices relate to the data that the caller gave, if repetitions were left out.
     fn unique(&self) -> Option<&Unique> {
         None

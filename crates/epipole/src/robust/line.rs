@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Estimator, Unique};
+use super::{Estimator, Unique, chance_near_line};
 use crate::math::Line2;
 use crate::{Error, Result};
 use nalgebra::Point2;
@@ -181,6 +181,10 @@ impl Estimator for LineEstimator<'_> {
 
     fn refine(&mut self, _: &Line2, inliers: &[usize], _: f64) -> Option<Line2> {
         fit(inliers.len(), |i| *self.point(inliers[i])).ok()
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(chance_near_line(self.points.iter(), max_error_px))
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -1,6 +1,6 @@
 //! Matches between two images, laid out for speed.
 
-use super::Unique;
+use super::{Unique, chance_near_line, chance_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -98,6 +98,26 @@ impl MatchSet {
     /// The coordinates `[u1, v1, u2, v2]`, one slice each.
     pub fn coordinates(&self) -> [&[f64]; 4] {
         [&self.u1, &self.v1, &self.u2, &self.v2]
+    }
+
+    /// The probability that a pixel anywhere in image 2 is nearer than so much to a given one.
+    pub(crate) fn chance_near_point2(&self, radius_px: f64) -> f64 {
+        chance_near_point(&self.points([&self.u2, &self.v2]), radius_px)
+    }
+
+    /// The probability that pixels anywhere in both images have a smaller Sampson error than this.
+    ///
+    /// With lines that move alike in both images, the error is the distance from a line by √2.
+    pub(crate) fn chance_near_lines(&self, max_error_px: f64) -> f64 {
+        let distance_px = core::f64::consts::SQRT_2 * max_error_px;
+        [[&self.u1, &self.v1], [&self.u2, &self.v2]]
+            .map(|image| chance_near_line(&self.points(image), distance_px))
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    fn points(&self, [u, v]: [&Vec<f64>; 2]) -> Vec<Point2<f64>> {
+        u.iter().zip(v).map(|(&u, &v)| Point2::new(u, v)).collect()
     }
 
     /// How these matches relate to the ones given.

@@ -9,6 +9,7 @@
 //! & Kittler 2003 (local optimization).
 
 mod budget;
+mod chance;
 mod engine;
 mod estimator;
 mod line;
@@ -21,6 +22,8 @@ mod step;
 mod unique;
 
 pub use budget::{num_trials_with_replacement, num_trials_without_replacement};
+pub use chance::log10_false_alarms;
+pub(crate) use chance::{chance_near_line, chance_near_point};
 pub use engine::Ransac;
 pub use estimator::{Estimator, Support};
 pub use line::{LineEstimator, fit_line_total_least_squares};

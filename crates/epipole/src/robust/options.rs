@@ -155,13 +155,43 @@ pub struct RansacReport<M> {
     pub required_iterations: u64,
     /// The model's score over different data, as [`ScoreKind`] defines it.
     pub score: f64,
+    /// How many models with so many inliers data without any structure would give, as a decimal
+    /// logarithm ([`log10_false_alarms`](super::log10_false_alarms)): below 0, or the support says
+    /// nothing. `None` if the estimator does not know the chance of a datum.
+    pub log10_false_alarms: Option<f64>,
     /// How many times a model was improved from its inliers.
     pub refinements: usize,
     /// Why the loop ended.
     pub stop: StopReason,
 }
 
+/// Support that unrelated data would show less often than this, as a decimal logarithm, is no chance.
+const HARDLY_CHANCE: f64 = -2.0;
+
 impl<M> RansacReport<M> {
+    /// Whether data that have nothing to do with one another might have shown as much support: then the
+    /// model means nothing. False if the estimator does not know the chance of a datum.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::find_fundamental;
+    /// use epipole::math::random::Random;
+    /// use epipole::robust::RansacOptions;
+    /// use nalgebra::Point2;
+    /// let mut random = Random::new(1);
+    /// let mut anywhere = || -> Vec<_> {
+    ///     (0..100).map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0))).collect()
+    /// };
+    /// // Matches without any rhyme or reason; some of them agree nevertheless.
+    /// let report = find_fundamental(&anywhere(), &anywhere(), &RansacOptions::default())?;
+    /// assert!(report.num_inliers > 7 && report.could_be_chance());
+    /// # Ok(()) }
+    /// ```
+    pub fn could_be_chance(&self) -> bool {
+        self.log10_false_alarms
+            .is_some_and(|log| log > HARDLY_CHANCE)
+    }
+
     /// The same report with another form of the model.
     pub fn map<N>(self, into: impl FnOnce(M) -> N) -> RansacReport<N> {
         RansacReport {
@@ -172,6 +202,7 @@ impl<M> RansacReport<M> {
             iterations: self.iterations,
             required_iterations: self.required_iterations,
             score: self.score,
+            log10_false_alarms: self.log10_false_alarms,
             refinements: self.refinements,
             stop: self.stop,
         }

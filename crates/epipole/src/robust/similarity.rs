@@ -165,6 +165,10 @@ impl Estimator for SimilarityEstimator {
         fit(inliers.len(), |i| self.matches.pair(inliers[i]))
     }
 
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(self.matches.chance_near_point2(max_error_px))
+    }
+
     fn unique(&self) -> Option<&Unique> {
         Some(self.matches.unique())
     }

@@ -1,10 +1,10 @@
 //! The model that two views deserve.
 
 use super::find_rotation;
-use super::motion::{median_angle, planar_pose, pose_of_fundamental};
+use super::motion::{median_angle, planar_motions, pose_of_fundamental};
 use crate::camera::{Intrinsics, RigidTransform};
-use crate::epipolar::{RelativePose, estimate_relative_pose, find_fundamental, sampson_sq};
-use crate::homography::{find_homography, transfer_error_sq};
+use crate::epipolar::{RelativePose, estimate_relative_pose, find_fundamental, sampson_px};
+use crate::homography::{find_homography, homography_sampson_px, homography_sampson_sq};
 use crate::robust::{RansacOptions, RansacReport};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion};
@@ -19,7 +19,7 @@ pub enum Configuration {
     /// A camera that only turned, or hardly moved: H says all; depth cannot be told. Without
     /// intrinsics this cannot be told from a plane and is reported as [`Planar`](Configuration::Planar).
     Panoramic,
-    /// Too few matches agree on anything.
+    /// No more matches agree on anything than wrong matches might by chance.
     Degenerate,
 }
 
@@ -41,8 +41,8 @@ pub struct TwoViewOptions {
     pub ransac: RansacOptions,
     /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
     pub min_num_inliers: usize,
-    /// A homography with at least this share of the epipolar inliers means a plane or a turn.
-    /// 0.8.
+    /// A homography that explains at least this share of the epipolar inliers means a plane or a
+    /// turn. 0.8.
     pub max_homography_share: f64,
     /// E is preferred to F if it has at least this share of F's inliers. 0.95.
     pub min_essential_share: f64,
@@ -59,6 +59,53 @@ impl Default for TwoViewOptions {
     }
 }
 
+/// A match misses a homography in two dimensions, an epipolar line in one. With Gaussian noise, so
+/// many times the distance holds the same share of the right matches: 2.45 against 1.96 standard
+/// deviations for 95 %.
+const TWO_DIMENSIONS: f64 = 1.25;
+
+impl TwoViewOptions {
+    /// Whether every field is in its range.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] naming the first field that is not; as [`RansacOptions::check`].
+    pub fn check(&self) -> Result<()> {
+        self.ransac.check()?;
+        for (what, value) in [
+            (
+                "the share of inliers that a homography must explain",
+                self.max_homography_share,
+            ),
+            (
+                "the share of F's inliers that E must have",
+                self.min_essential_share,
+            ),
+        ] {
+            if !(value >= 0.0) {
+                return Err(Error::OutOfRange {
+                    what,
+                    requirement: "0 or more",
+                    value,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// For models whose errors are distances in image 2, which have the noise of both images.
+    fn in_two_dimensions(&self) -> RansacOptions {
+        RansacOptions {
+            max_error_px: TWO_DIMENSIONS * core::f64::consts::SQRT_2 * self.ransac.max_error_px,
+            ..self.ransac
+        }
+    }
+
+    fn fits_homography(&self, h: &Matrix3<f64>, p1: &Point2<f64>, p2: &Point2<f64>) -> bool {
+        let reach_px = TWO_DIMENSIONS * self.ransac.max_error_px;
+        homography_sampson_sq(h, p1, p2) < reach_px * reach_px
+    }
+}
+
 /// What was found out about two views.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewReport {
@@ -70,8 +117,12 @@ pub struct TwoViewReport {
     pub fundamental: Option<Matrix3<f64>>,
     /// H, if one was found.
     pub homography: Option<Matrix3<f64>>,
-    /// The motion, for calibrated views; |t| = 1, or 0 for [`Configuration::Panoramic`].
+    /// The motion, for calibrated views; |t| = 1, or 0 for [`Configuration::Panoramic`]. `None` for
+    /// [`Configuration::Degenerate`].
     pub cam2_from_cam1: Option<RigidTransform>,
+    /// Of a plane: another motion that explains the matches as well, if there is one. Which of the two
+    /// is right, a plane alone does not tell.
+    pub other_cam2_from_cam1: Option<RigidTransform>,
     /// For each match given, whether it fits `model`.
     pub inliers: Vec<bool>,
     /// How many do.
@@ -84,59 +135,65 @@ pub struct TwoViewReport {
 
 /// Chooses between F and H for two views of unknown intrinsics.
 ///
-/// Both are estimated; if H explains nearly as many matches as F does, the scene is a plane or the
+/// Both are estimated; if H explains nearly all matches that F does, the scene is a plane or the
 /// camera only turned.
 ///
 /// # Errors
-/// As [`find_fundamental`] and [`find_homography`] if neither finds a model.
+/// As [`TwoViewOptions::check`], and as [`find_fundamental`] and [`find_homography`] if neither finds a
+/// model.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view};
+/// use nalgebra::Point2;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// // A step to the right past a wall that stands straight ahead: everything moves by 12 pixels.
+/// let wall: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
+/// let report = estimate_two_view(&p1, &wall, &TwoViewOptions::default())?;
+/// assert_eq!(report.configuration, Configuration::Planar);
+/// // With depth, near things move more than far ones.
+/// let depth: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
+/// let report = estimate_two_view(&p1, &depth, &TwoViewOptions::default())?;
+/// assert_eq!(report.configuration, Configuration::General);
+/// # Ok(()) }
+/// ```
 pub fn estimate_two_view(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &TwoViewOptions,
 ) -> Result<TwoViewReport> {
+    options.check()?;
+    let pairs = Pairs { pixels1, pixels2 };
     let fundamental = find_fundamental(pixels1, pixels2, &options.ransac);
-    let homography = find_homography(pixels1, pixels2, &options.ransac);
+    let homography = find_homography(pixels1, pixels2, &options.in_two_dimensions());
     let iterations = count_iterations(&fundamental) + count_iterations(&homography);
     let homography_wins = match (&fundamental, &homography) {
         (Err(error), Err(_)) => return Err(error.clone()),
         (Err(_), Ok(_)) => true,
         (Ok(_), Err(_)) => false,
-        (Ok(f), Ok(h)) => is_homography(h.num_unique_inliers, f.num_unique_inliers, options),
+        (Ok(f), Ok(h)) => {
+            f.could_be_chance() && !h.could_be_chance()
+                || pairs.explained_share(&h.model, &f.inliers, options)
+                    >= options.max_homography_share
+        }
     };
-    let f = fundamental.as_ref().ok().map(|report| report.model);
-    let h = homography.as_ref().ok().map(|report| report.model);
-    let (model, report, configuration) = if homography_wins {
+    let mut found = TwoViewReport::nothing(iterations);
+    found.homography = homography.as_ref().ok().map(|report| report.model);
+    found.fundamental = fundamental.as_ref().ok().map(|report| report.model);
+    if homography_wins {
         let report = homography?;
-        (
-            TwoViewModel::Homography(report.model),
-            report,
-            Configuration::Planar,
-        )
+        found.model = TwoViewModel::Homography(report.model);
+        found.configuration = Configuration::Planar;
+        pairs.take_homography(&mut found, &report, options);
     } else {
         let report = fundamental?;
-        (
-            TwoViewModel::Fundamental(report.model),
-            report,
-            Configuration::General,
-        )
-    };
-    Ok(TwoViewReport {
-        configuration: if report.num_unique_inliers < options.min_num_inliers {
-            Configuration::Degenerate
-        } else {
-            configuration
-        },
-        model,
-        fundamental: f,
-        homography: h,
-        cam2_from_cam1: None,
-        num_inliers: report.num_inliers,
-        inliers: report.inliers,
-        iterations,
-        median_triangulation_angle_rad: None,
-    })
+        found.model = TwoViewModel::Fundamental(report.model);
+        found.configuration = Configuration::General;
+        found.take(report.inliers.clone(), &report, options);
+    }
+    Ok(found)
 }
 
 /// Chooses among E, F and H for two views of known intrinsics, and finds the motion.
@@ -144,15 +201,35 @@ pub fn estimate_two_view(
 /// * `k1`, `k2`: intrinsics of the cameras. If they are wrong, F explains more matches than E and
 ///   is chosen
 ///
-/// A camera that only turned is recognized by a rotation that explains as many matches as the best
-/// other model. Where F is chosen, the motion is still that of E, if enough matches support it: it is
-/// the best that agrees with the intrinsics. For a plane the motion is taken from E or from the decomposition of H, whichever
-/// fits more matches with the points in front of both cameras.
+/// A camera that only turned is recognized by a rotation that explains nearly all matches that the best
+/// other model does. Where F is chosen, the motion is still that of E, if enough matches support it: it
+/// is the best that agrees with the intrinsics. For a plane the motion is taken from E or from the
+/// decomposition of H, whichever fits more matches with the points in front of both cameras; often two
+/// motions do equally well.
 ///
 /// # Errors
-/// As [`estimate_relative_pose`] and [`find_homography`] if no model is found.
+/// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`find_homography`] if no model
+/// is found.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
+/// use nalgebra::{Point2, Rotation3, Vector3};
+/// let k = Intrinsics::centered(600.0, 640, 480)?;
+/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = p1.iter().map(|p| {
+///     let x = k.matrix() * (turn * k.ray(p));
+///     Point2::new(x.x / x.z, x.y / x.z)
+/// }).collect();
+/// let report = estimate_two_view_calibrated(&p1, &p2, &k, &k, &TwoViewOptions::default())?;
+/// assert_eq!(report.configuration, Configuration::Panoramic);
+/// assert!((report.cam2_from_cam1.unwrap().rotation.angle() - 0.1).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn estimate_two_view_calibrated(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -160,92 +237,144 @@ pub fn estimate_two_view_calibrated(
     k2: &Intrinsics,
     options: &TwoViewOptions,
 ) -> Result<TwoViewReport> {
+    options.check()?;
+    let pairs = Pairs { pixels1, pixels2 };
+    let in_two_dimensions = options.in_two_dimensions();
     let essential = estimate_relative_pose(pixels1, pixels2, k1, k2, &options.ransac);
     let fundamental = find_fundamental(pixels1, pixels2, &options.ransac);
-    let homography = find_homography(pixels1, pixels2, &options.ransac);
-    let rotation = find_rotation(pixels1, pixels2, k1, k2, &options.ransac);
-    let iterations = count_iterations(&essential)
-        + count_iterations(&fundamental)
-        + count_iterations(&homography)
-        + count_iterations(&rotation);
-
-    let (num_e, num_f, num_h, num_r) = (
-        support(&essential),
-        support(&fundamental),
-        support(&homography),
-        support(&rotation),
+    let homography = find_homography(pixels1, pixels2, &in_two_dimensions);
+    let rotation = find_rotation(pixels1, pixels2, k1, k2, &in_two_dimensions);
+    let mut found = TwoViewReport::nothing(
+        count_iterations(&essential)
+            + count_iterations(&fundamental)
+            + count_iterations(&homography)
+            + count_iterations(&rotation),
     );
-    let num_epipolar = num_e.max(num_f);
-    let best = num_epipolar.max(num_h).max(num_r);
-    let h = homography.as_ref().ok().map(|report| report.model);
-    let mut found = TwoViewReport {
-        configuration: Configuration::Degenerate,
-        model: TwoViewModel::Homography(Matrix3::identity() / 3.0_f64.sqrt()),
-        fundamental: None,
-        homography: h,
-        cam2_from_cam1: None,
-        inliers: Vec::new(),
-        num_inliers: 0,
-        iterations,
-        median_triangulation_angle_rad: None,
+    found.homography = homography.as_ref().ok().map(|report| report.model);
+    let (num_e, num_f) = (support(&essential), support(&fundamental));
+    let epipolar = if num_e > num_f {
+        essential.as_ref().ok().map(|report| &report.inliers)
+    } else {
+        fundamental.as_ref().ok().map(|report| &report.inliers)
     };
-    let share = |num: usize| num as f64 >= options.max_homography_share * best as f64;
-    if let Ok(turn) = &rotation
-        && num_r >= 3
-        && share(num_r)
-    {
+    let explains = |matrix: &Matrix3<f64>| {
+        epipolar.is_none_or(|inliers| {
+            pairs.explained_share(matrix, inliers, options) >= options.max_homography_share
+        })
+    };
+    if let Ok(turn) = &rotation {
         let matrix = k2.matrix() * turn.model * k1.inverse_matrix();
-        found.model = TwoViewModel::Homography(matrix / matrix.norm());
-        found.configuration = Configuration::Panoramic;
-        found.cam2_from_cam1 = Some(RigidTransform::from_parts(
-            nalgebra::Translation3::identity(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn.model)),
-        ));
-        take_inliers(&mut found, turn, options);
-        return Ok(found);
+        // A homography may explain what a rotation does not, even where nothing epipolar was found.
+        let num_needed = options.max_homography_share * support(&homography) as f64;
+        if turn.num_unique_inliers >= 3
+            && turn.num_unique_inliers as f64 >= num_needed
+            && explains(&matrix)
+        {
+            found.model = TwoViewModel::Homography(matrix / matrix.norm());
+            found.configuration = Configuration::Panoramic;
+            found.cam2_from_cam1 = Some(RigidTransform::from_parts(
+                nalgebra::Translation3::identity(),
+                UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn.model)),
+            ));
+            pairs.take_homography(&mut found, turn, options);
+            return Ok(found);
+        }
     }
-    let planar = is_homography(num_h, num_epipolar, options);
-    if planar && let Ok(report) = &homography {
+    if let Ok(report) = &homography
+        && explains(&report.model)
+    {
         found.model = TwoViewModel::Homography(report.model);
         found.configuration = Configuration::Planar;
-        take_inliers(&mut found, report, options);
-        let pose = planar_pose(
-            pixels1,
-            pixels2,
+        let [best, other] = planar_motions(
+            &pairs,
             k1,
             k2,
             report,
             essential.as_ref().ok(),
             options.ransac.max_error_px,
         );
-        found.cam2_from_cam1 = pose.as_ref().map(RelativePose::cam2_from_cam1);
-        found.fundamental = pose.map(|pose| pose.fundamental);
+        found.cam2_from_cam1 = best.as_ref().map(RelativePose::cam2_from_cam1);
+        found.other_cam2_from_cam1 = other.as_ref().map(RelativePose::cam2_from_cam1);
+        found.fundamental = best.map(|pose| pose.fundamental);
+        pairs.take_homography(&mut found, report, options);
     } else if num_e as f64 >= options.min_essential_share * num_f as f64
         && let Ok(report) = &essential
     {
         found.model = TwoViewModel::Essential(report.model.essential());
         found.configuration = Configuration::General;
-        take_inliers(&mut found, report, options);
         found.cam2_from_cam1 = Some(report.model.cam2_from_cam1());
         found.fundamental = Some(report.model.fundamental);
+        found.take(report.inliers.clone(), report, options);
     } else {
         let report = fundamental?;
         found.model = TwoViewModel::Fundamental(report.model);
         found.configuration = Configuration::General;
-        take_inliers(&mut found, &report, options);
         found.fundamental = Some(report.model);
         // E's motion was fitted with the intrinsics. F's, made to respect them afterwards, is far
         // less exact, all the more where F has bent to wrong matches that E refused.
         found.cam2_from_cam1 = match &essential {
-            Ok(report) if num_e >= options.min_num_inliers => Some(report.model.cam2_from_cam1()),
-            _ => pose_of_fundamental(pixels1, pixels2, k1, k2, &report),
+            Ok(essential) if num_e >= options.min_num_inliers && !essential.could_be_chance() => {
+                Some(essential.model.cam2_from_cam1())
+            }
+            _ => pose_of_fundamental(&pairs, k1, k2, &report),
         };
+        found.take(report.inliers.clone(), &report, options);
     }
     if let Some(motion) = &found.cam2_from_cam1 {
-        found.median_triangulation_angle_rad =
-            median_angle(pixels1, pixels2, k1, k2, motion, &found.inliers);
+        found.median_triangulation_angle_rad = median_angle(&pairs, k1, k2, motion, &found.inliers);
     }
     Ok(found)
+}
+
+/// Matches as the caller gave them.
+pub(super) struct Pairs<'a> {
+    pub(super) pixels1: &'a [Point2<f64>],
+    pub(super) pixels2: &'a [Point2<f64>],
+}
+
+impl<'a> Pairs<'a> {
+    /// The matches of a mask.
+    pub(super) fn among<'b>(
+        &self,
+        mask: &'b [bool],
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, 'b> {
+        let pairs = self.pixels1.iter().zip(self.pixels2);
+        pairs
+            .zip(mask)
+            .filter(|(_, kept)| **kept)
+            .map(|(pair, _)| pair)
+    }
+
+    /// The share of some inliers that fit a homography.
+    fn explained_share(
+        &self,
+        homography: &Matrix3<f64>,
+        inliers: &[bool],
+        options: &TwoViewOptions,
+    ) -> f64 {
+        let (mut fit, mut count) = (0.0, 0.0_f64);
+        for (p1, p2) in self.among(inliers) {
+            count += 1.0;
+            if options.fits_homography(homography, p1, p2) {
+                fit += 1.0;
+            }
+        }
+        fit / count.max(1.0)
+    }
+
+    /// Fills in the matches that fit the homography of the report.
+    fn take_homography<M>(
+        &self,
+        found: &mut TwoViewReport,
+        report: &RansacReport<M>,
+        options: &TwoViewOptions,
+    ) {
+        if let TwoViewModel::Homography(h) = found.model {
+            let pairs = self.pixels1.iter().zip(self.pixels2);
+            let inliers = pairs.map(|(p1, p2)| options.fits_homography(&h, p1, p2));
+            found.take(inliers.collect(), report, options);
+        }
+    }
 }
 
 fn count_iterations<M>(report: &Result<RansacReport<M>>) -> usize {
@@ -262,31 +391,43 @@ fn support<M>(report: &Result<RansacReport<M>>) -> usize {
         .map_or(0, |report| report.num_unique_inliers)
 }
 
-fn is_homography(num_homography: usize, num_epipolar: usize, options: &TwoViewOptions) -> bool {
-    num_homography as f64 >= options.max_homography_share * num_epipolar as f64
-}
-
-fn take_inliers<M>(found: &mut TwoViewReport, report: &RansacReport<M>, options: &TwoViewOptions) {
-    found.inliers = report.inliers.clone();
-    found.num_inliers = report.num_inliers;
-    if report.num_unique_inliers < options.min_num_inliers {
-        found.configuration = Configuration::Degenerate;
-    }
-}
-
 impl TwoViewReport {
-    /// The mean error of the inliers, pixels: Sampson for F and E, transfer for H. `None` without
-    /// inliers, or if the pair has no F to measure by.
+    fn nothing(iterations: usize) -> Self {
+        Self {
+            configuration: Configuration::Degenerate,
+            model: TwoViewModel::Homography(Matrix3::identity() / 3.0_f64.sqrt()),
+            fundamental: None,
+            homography: None,
+            cam2_from_cam1: None,
+            other_cam2_from_cam1: None,
+            inliers: Vec::new(),
+            num_inliers: 0,
+            iterations,
+            median_triangulation_angle_rad: None,
+        }
+    }
+
+    /// Fills in the inliers of the model; without enough of them nothing is said of the motion.
+    fn take<M>(&mut self, inliers: Vec<bool>, report: &RansacReport<M>, options: &TwoViewOptions) {
+        self.num_inliers = inliers.iter().filter(|&&inlier| inlier).count();
+        self.inliers = inliers;
+        if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {
+            self.configuration = Configuration::Degenerate;
+            self.cam2_from_cam1 = None;
+            self.other_cam2_from_cam1 = None;
+        }
+    }
+
+    /// The mean Sampson error of the inliers, pixels. `None` without inliers, or if the pair has no F
+    /// to measure by.
     pub fn mean_error_px(&self, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Option<f64> {
         let (mut total, mut count) = (0.0, 0);
-        for ((p1, p2), inlier) in pixels1.iter().zip(pixels2).zip(&self.inliers) {
-            if *inlier {
-                total += match &self.model {
-                    TwoViewModel::Homography(h) => transfer_error_sq(h, p1, p2).sqrt(),
-                    _ => sampson_sq(self.fundamental.as_ref()?, p1, p2).sqrt(),
-                };
-                count += 1;
-            }
+        for (p1, p2) in (Pairs { pixels1, pixels2 }).among(&self.inliers) {
+            total += match &self.model {
+                TwoViewModel::Homography(h) => homography_sampson_px(h, p1, p2),
+                _ => sampson_px(self.fundamental.as_ref()?, p1, p2),
+            };
+            count += 1;
         }
         (count > 0).then(|| total / f64::from(count))
     }

@@ -1,100 +1,91 @@
 //! Motions from models.
 
+use super::choice::Pairs;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::{RelativePose, decompose_essential, sampson_sq, select_pose, signed_depths};
 use crate::homography::decompose_homography;
 use crate::robust::RansacReport;
-use nalgebra::{Matrix3, Point2};
-
-fn chosen(pixels: &[Point2<f64>], inliers: &[bool]) -> Vec<Point2<f64>> {
-    pixels
-        .iter()
-        .zip(inliers)
-        .filter(|(_, inlier)| **inlier)
-        .map(|(p, _)| *p)
-        .collect()
-}
+use nalgebra::{Matrix3, Point2, Rotation3};
 
 pub(super) fn pose_of_fundamental(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
+    pairs: &Pairs<'_>,
     k1: &Intrinsics,
     k2: &Intrinsics,
     report: &RansacReport<Matrix3<f64>>,
 ) -> Option<RigidTransform> {
     let essential = k2.matrix().transpose() * report.model * k1.matrix();
     let motions = decompose_essential(&essential).ok()?;
-    let (in1, in2) = (
-        chosen(pixels1, &report.inliers),
-        chosen(pixels2, &report.inliers),
-    );
+    let (in1, in2): (Vec<Point2<f64>>, Vec<Point2<f64>>) = pairs.among(&report.inliers).unzip();
     select_pose(&motions, &in1, &in2, k1, k2)
         .ok()
         .map(|selected| selected.cam2_from_cam1)
 }
 
-/// The motion past a plane with the most matches that fit and lie in front of both cameras.
-pub(super) fn planar_pose(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
+/// A motion explains the matches as well as the best one if it fits this share of as many.
+const AS_WELL: f64 = 0.95;
+
+/// Motions nearer than this are one: both of the rotations, radians, and of the directions.
+const SAME_MOTION: f64 = 0.05;
+
+/// The motion past a plane with the most matches that fit and lie in front of both cameras, and
+/// another one that does as well, if any.
+pub(super) fn planar_motions(
+    pairs: &Pairs<'_>,
     k1: &Intrinsics,
     k2: &Intrinsics,
     homography: &RansacReport<Matrix3<f64>>,
     essential: Option<&RansacReport<RelativePose>>,
     max_error_px: f64,
-) -> Option<RelativePose> {
+) -> [Option<RelativePose>; 2] {
     let max_error_sq = max_error_px * max_error_px;
     let score = |pose: &RelativePose| {
-        pixels1
-            .iter()
-            .zip(pixels2)
-            .filter(|(p1, p2)| {
-                let (d1, d2) =
-                    signed_depths(&pose.rotation, &pose.direction, &k1.ray(p1), &k2.ray(p2));
-                sampson_sq(&pose.fundamental, p1, p2) < max_error_sq && d1 > 0.0 && d2 > 0.0
-            })
-            .count()
+        let fits = |(p1, p2): &(&Point2<f64>, &Point2<f64>)| {
+            let (d1, d2) = signed_depths(&pose.rotation, &pose.direction, &k1.ray(p1), &k2.ray(p2));
+            sampson_sq(&pose.fundamental, p1, p2) < max_error_sq && d1 > 0.0 && d2 > 0.0
+        };
+        pairs.pixels1.iter().zip(pairs.pixels2).filter(fits).count()
     };
-    let mut best: Option<(usize, RelativePose)> = None;
-    let mut offer = |pose: RelativePose| {
-        let count = score(&pose);
-        if best.is_none_or(|(most, _)| count > most) {
-            best = Some((count, pose));
+    let mut motions: Vec<RelativePose> = essential.iter().map(|report| report.model).collect();
+    for motion in decompose_homography(&homography.model, k1, k2).unwrap_or_default() {
+        // Points of the plane must be in front of camera 1, n · x < 0 for the inliers' rays: most of
+        // them, as an inlier may be wrong.
+        let (mut in_front, mut count) = (0, 0);
+        for (p1, _) in pairs.among(&homography.inliers) {
+            in_front += usize::from(motion.normal_in_cam1.dot(&k1.ray(p1)) < 0.0);
+            count += 1;
         }
-    };
-    if let Some(report) = essential {
-        offer(report.model);
-    }
-    for motion in decompose_homography(&homography.model, k1, k2).ok()? {
-        // Points of the plane must be in front of camera 1: n · x < 0 for the inliers' rays.
-        let in_front = pixels1
-            .iter()
-            .zip(&homography.inliers)
-            .filter(|(_, inlier)| **inlier)
-            .all(|(p, _)| motion.normal_in_cam1.dot(&k1.ray(p)) < 0.0);
         let t = motion.cam2_from_cam1.translation.vector;
-        if let (true, Some(direction)) = (in_front, t.try_normalize(1e-12)) {
+        if let (true, Some(direction)) = (2 * in_front > count, t.try_normalize(1e-12)) {
             let rotation = motion.cam2_from_cam1.rotation.to_rotation_matrix();
-            offer(RelativePose::new(rotation.into_inner(), direction, k1, k2));
+            motions.push(RelativePose::new(rotation.into_inner(), direction, k1, k2));
         }
     }
-    best.map(|(_, pose)| pose)
+    let scores: Vec<usize> = motions.iter().map(score).collect();
+    // The first of equals: E comes before the decompositions.
+    let best = (0..motions.len()).rev().max_by_key(|&i| scores[i]);
+    let other = best.and_then(|best| {
+        let rival = |&i: &usize| {
+            let turn = motions[i].rotation * motions[best].rotation.transpose();
+            let turn_rad = Rotation3::from_matrix_unchecked(turn).angle();
+            let apart = (motions[i].direction - motions[best].direction).norm();
+            scores[i] as f64 >= AS_WELL * scores[best] as f64
+                && (turn_rad > SAME_MOTION || apart > SAME_MOTION)
+        };
+        (0..motions.len()).filter(rival).max_by_key(|&i| scores[i])
+    });
+    [best, other].map(|place| place.map(|i| motions[i]))
 }
 
 pub(super) fn median_angle(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
+    pairs: &Pairs<'_>,
     k1: &Intrinsics,
     k2: &Intrinsics,
     motion: &RigidTransform,
     inliers: &[bool],
 ) -> Option<f64> {
-    let mut angles: Vec<f64> = pixels1
-        .iter()
-        .zip(pixels2)
-        .zip(inliers)
-        .filter(|(_, inlier)| **inlier)
-        .map(|((p1, p2), _)| {
+    let mut angles: Vec<f64> = pairs
+        .among(inliers)
+        .map(|(p1, p2)| {
             let (r1, r2) = (motion.rotation * k1.ray(p1), k2.ray(p2));
             libm::atan2(r1.cross(&r2).norm(), r1.dot(&r2))
         })
