@@ -9,7 +9,7 @@ use epipole::epipolar::{
 };
 use epipole::homography::{homography_from_motion, transfer, transfer_error_px};
 use epipole::math::random::Random;
-use epipole::robust::{RansacOptions, StopReason, find_similarity};
+use epipole::robust::{RansacOptions, SamplerKind, StopReason, find_similarity};
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
 };
@@ -677,6 +677,50 @@ fn nothing_but_outliers() {
     assert!(report.required_iterations > 100_000);
     let report = find_homography(&a, &b, &options).unwrap();
     assert!(report.num_inliers < 15);
+}
+
+/// Matches in order of quality: PROSAC finds F in a small share of the samples, and in the reversed
+/// order it still finds it.
+#[test]
+fn a_good_order_saves_samples() {
+    let mut drawn = [0; 2];
+    for seed in 0..10 {
+        let mut random = Random::new(seed);
+        let pair = cameras(&mut random);
+        // The right ones come first, with some wrong ones between.
+        let mut s = scene(&mut random, pair, Shape::Volume, 400, 0.35, 0.3);
+        for i in (0..140).step_by(5) {
+            s.p1.swap(i, 399 - i);
+            s.p2.swap(i, 399 - i);
+        }
+        let run = |p1: &[Point2<f64>], p2: &[Point2<f64>], sampler| {
+            let options = RansacOptions {
+                sampler,
+                min_iterations: 1,
+                max_iterations: 100_000,
+                ..options(seed)
+            };
+            find_fundamental(p1, p2, &options).unwrap()
+        };
+        for (count, sampler) in drawn
+            .iter_mut()
+            .zip([SamplerKind::Uniform, SamplerKind::Prosac])
+        {
+            let report = run(&s.p1, &s.p2, sampler);
+            assert!(report.num_inliers > 130, "{sampler:?} {seed}");
+            assert_eq!(report.stop, StopReason::Confident);
+            *count += report.iterations;
+        }
+        s.p1.reverse();
+        s.p2.reverse();
+        assert!(
+            run(&s.p1, &s.p2, SamplerKind::Prosac).num_inliers > 130,
+            "{seed}"
+        );
+    }
+    let [uniform, prosac] = drawn;
+    println!("samples: {uniform} uniform, {prosac} with PROSAC");
+    assert!(10 * prosac < uniform, "{prosac} of {uniform}");
 }
 
 #[test]

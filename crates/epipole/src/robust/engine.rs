@@ -2,6 +2,7 @@
 
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
 use super::chance::log10_false_alarms;
+use super::options::HARDLY_CHANCE;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
 use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
@@ -31,6 +32,9 @@ const SHARP_MEDIANS: f64 = 3.0;
 
 /// The width of the last loss, in the same medians.
 const WIDTH_MEDIANS: f64 = 2.5;
+
+/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
+const UNKNOWN_CHANCE: f64 = 0.05;
 
 /// How often data are weighed anew at the end.
 const REWEIGHTINGS: usize = 6;
@@ -244,11 +248,14 @@ impl<E: Estimator> Ransac<E> {
         if self.inliers.len() < self.estimator.sample_size() {
             return Err(no_consensus);
         }
-        self.required = self.required_for(self.inliers.len());
+        let num_data = self.estimator.num_data();
+        if !self.sampler.is_ordered() {
+            self.required = self.required_for(self.inliers.len(), num_data);
+        }
         let log10_false_alarms = self.estimator.chance(max_error_px).map(|chance| {
             log10_false_alarms(
                 self.inliers.len(),
-                self.estimator.num_data(),
+                num_data,
                 self.estimator.sample_size(),
                 self.estimator.max_models(),
                 chance,
@@ -299,7 +306,7 @@ impl<E: Estimator> Ransac<E> {
         if known {
             return (false, None);
         }
-        self.required = self.required_for(candidate.support.num_inliers);
+        self.require(&candidate);
         let refined = changed.then(|| candidate.model.clone());
         self.best = Some(candidate);
         (true, refined)
@@ -508,8 +515,48 @@ impl<E: Estimator> Ransac<E> {
         support
     }
 
-    fn required_for(&self, num_inliers: usize) -> u64 {
-        let (num_data, size) = (self.estimator.num_data(), self.estimator.sample_size());
+    /// How many samples the new best model asks for.
+    ///
+    /// Where the data come in order of quality, the samples of the best of them are enough as soon as
+    /// all-inlier samples of these are as likely as asked. Any first part of the data will do in which
+    /// the model has more inliers than chance would give it; samples need not come from beyond the part
+    /// that needs the fewest.
+    ///
+    /// Source: Chum & Matas 2005, "Matching with PROSAC", §2.2 (maximality and non-randomness).
+    fn require(&mut self, best: &Candidate<E::Model>) {
+        let num_data = self.estimator.num_data();
+        self.required = self.required_for(best.support.num_inliers, num_data);
+        if !self.sampler.is_ordered() {
+            return;
+        }
+        let max_error_px = self.options.max_error_px;
+        let size = self.estimator.sample_size();
+        let chance = self.estimator.chance(max_error_px);
+        let chance = chance.unwrap_or(UNKNOWN_CHANCE);
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        let mut limit = num_data;
+        for (place, index) in self.inliers.iter().enumerate() {
+            let (num_inliers, front) = (place + 1, index + 1);
+            let required = self.required_for(num_inliers, front);
+            if required < self.required
+                && log10_false_alarms(
+                    num_inliers,
+                    front,
+                    size,
+                    self.estimator.max_models(),
+                    chance,
+                ) < HARDLY_CHANCE
+            {
+                self.required = required;
+                limit = front;
+            }
+        }
+        self.sampler.keep_to(limit);
+    }
+
+    fn required_for(&self, num_inliers: usize, num_data: usize) -> u64 {
+        let size = self.estimator.sample_size();
         let probability = match self.options.budget {
             Budget::WithReplacement => ratio_to_the(num_inliers as f64 / num_data as f64, size),
             Budget::WithoutReplacement => all_inlier_probability(num_inliers, num_data, size),

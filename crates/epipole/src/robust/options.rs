@@ -8,7 +8,8 @@ pub enum SamplerKind {
     /// Every subset of the data is equally likely.
     Uniform,
     /// Good data first: the data are ordered by quality, best first, and samples come from a
-    /// growing share of the front.
+    /// growing share of the front. The run ends once a front of the data has more inliers than chance
+    /// would give and was sampled often enough.
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC".
     Prosac,
@@ -151,7 +152,8 @@ pub struct RansacReport<M> {
     pub num_unique_inliers: usize,
     /// Samples drawn.
     pub iterations: usize,
-    /// Samples that the final share of inliers asks for; `u64::MAX` if no number is enough.
+    /// Samples that the final share of inliers asks for, with [`SamplerKind::Prosac`] that among the
+    /// best data; `u64::MAX` if no number is enough.
     pub required_iterations: u64,
     /// The model's score over different data, as [`ScoreKind`] defines it.
     pub score: f64,
@@ -166,7 +168,7 @@ pub struct RansacReport<M> {
 }
 
 /// Support that unrelated data would show less often than this, as a decimal logarithm, is no chance.
-const HARDLY_CHANCE: f64 = -2.0;
+pub(super) const HARDLY_CHANCE: f64 = -2.0;
 
 impl<M> RansacReport<M> {
     /// Whether data that have nothing to do with one another might have shown as much support: then the

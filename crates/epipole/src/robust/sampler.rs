@@ -9,6 +9,8 @@ pub(super) struct Sampler {
     num_data: usize,
     size: usize,
     growth: Option<Growth>,
+    /// PROSAC's pool grows no further than to so many data.
+    limit: usize,
 }
 
 /// The state of PROSAC: samples come from the `pool` best data, which grows.
@@ -52,7 +54,18 @@ impl Sampler {
             num_data,
             size,
             growth,
+            limit: num_data,
         }
+    }
+
+    /// Whether samples come from the best data first.
+    pub(super) fn is_ordered(&self) -> bool {
+        self.growth.is_some()
+    }
+
+    /// Draws from the best `limit` data from now on, or from as many as the pool already has.
+    pub(super) fn keep_to(&mut self, limit: usize) {
+        self.limit = limit.max(self.size);
     }
 
     /// Fills `sample` with different indices.
@@ -64,7 +77,7 @@ impl Sampler {
             return;
         };
         growth.drawn += 1.0;
-        while growth.drawn > growth.until && growth.pool < self.num_data {
+        while growth.drawn > growth.until && growth.pool < self.limit {
             let n = growth.pool as f64;
             let next = growth.expected * (n + 1.0) / (n + 1.0 - size as f64);
             growth.until += (next - growth.expected).ceil().max(1.0);
