@@ -1,7 +1,7 @@
 //! Closing loops: what a camera sees again tells how far its path has drifted, in scale too.
 
 use super::alignment::{AlignmentKind, align_points};
-use super::pose_graph::{Edge, Graph, PoseGraphReport};
+use super::pose_graph::{Edge, Graph, GraphPose, PoseGraphReport};
 use crate::camera::RigidTransform;
 use crate::optim::{Iteration, LmOptions, RobustLoss};
 use crate::{Error, Result};
@@ -127,11 +127,23 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
     }
 }
 
-/// Spreads the error of closed loops over a path, by a graph of similarities: each step of the
-/// path is one edge, each loop another.
+/// What closing a loop may change about the frames of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LoopMotion {
+    /// Position and orientation, SE(3): right where the scale is measured, as by a stereo rig.
+    Rigid,
+    /// Position, orientation and scale, Sim(3), as for what one moving camera sees.
+    #[default]
+    Similarity,
+}
+
+/// Spreads the error of closed loops over a path, by a graph of poses: each step of the path is one
+/// edge, each loop another.
 ///
 /// * `world_from_cam`: the path, frame after frame
 /// * `loops`: which frames meet again, and how
+/// * `motion`: what may change; [`LoopMotion::Rigid`] leaves every scale at 1 and does not read that
+///   of the loops
 /// * `loss`: robust to wrong loops; its width is in standard deviations of a step
 /// * `observer`: as in [`Graph::optimize`]
 ///
@@ -141,9 +153,44 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
 /// [`Error::TooFew`] for fewer than two frames or no loop, and as [`Graph::optimize`].
 ///
 /// Source: Strasdat, Montiel & Davison 2010, "Scale drift-aware large scale monocular SLAM".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::optim::RobustLoss;
+/// use epipole::sfm::{LoopClosure, LoopMotion, close_loops};
+/// use nalgebra::{Similarity3, Vector3};
+/// use std::ops::ControlFlow;
+/// // Two steps straight ahead, of which the second seems twice as long as the first.
+/// let path = [0.0, 1.0, 3.0].map(|z| RigidTransform::translation(0.0, 0.0, z));
+/// // The last frame is really 2 ahead of the first, and what it sees comes out 4 times too large.
+/// let closure = LoopClosure {
+///     from: 0,
+///     to: 2,
+///     from_from_to: Similarity3::new(Vector3::new(0.0, 0.0, 2.0), Vector3::zeros(), 0.25),
+///     weight: 1e6,
+/// };
+/// let close = |motion| {
+///     let mut go_on = |_: &_| ControlFlow::Continue(());
+///     close_loops(&path, &[closure], motion, RobustLoss::Trivial, &mut go_on)
+/// };
+/// // Rigid motions shorten both steps by the same length, similarities halve the scale twice.
+/// for (motion, z, scale) in [
+///     (LoopMotion::Rigid, [0.0, 0.5, 2.0], [1.0, 1.0, 1.0]),
+///     (LoopMotion::Similarity, [0.0, 1.0, 2.0], [1.0, 0.5, 0.25]),
+/// ] {
+///     let closed = close(motion)?;
+///     for i in 0..3 {
+///         assert!((closed.world_from_cam[i].translation.z - z[i]).abs() < 1e-5);
+///         assert!((closed.scale[i] - scale[i]).abs() < 1e-5);
+///     }
+/// }
+/// # Ok(()) }
+/// ```
 pub fn close_loops(
     world_from_cam: &[RigidTransform],
     loops: &[LoopClosure],
+    motion: LoopMotion,
     loss: RobustLoss,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<ClosedPath> {
@@ -169,6 +216,38 @@ pub fn close_loops(
             value: bad.weight,
         });
     }
+    match motion {
+        LoopMotion::Rigid => {
+            let mut graph = graph_of_path(world_from_cam, loops, |pose| pose.isometry);
+            let report = optimize(&mut graph, loss, observer)?;
+            Ok(ClosedPath {
+                scale: vec![1.0; graph.vertices.len()],
+                world_from_cam: graph.vertices,
+                report,
+            })
+        }
+        LoopMotion::Similarity => {
+            let mut graph = graph_of_path(world_from_cam, loops, |pose| pose);
+            let report = optimize(&mut graph, loss, observer)?;
+            let (world_from_cam, scale) = (graph.vertices.iter())
+                .map(|vertex| (vertex.isometry, vertex.scaling()))
+                .unzip();
+            Ok(ClosedPath {
+                world_from_cam,
+                scale,
+                report,
+            })
+        }
+    }
+}
+
+/// The graph whose vertices are the frames; `vertex` makes a pose of a graph from one with a scale.
+fn graph_of_path<T: GraphPose<D>, const D: usize>(
+    world_from_cam: &[RigidTransform],
+    loops: &[LoopClosure],
+    vertex: impl Fn(Similarity3<f64>) -> T,
+) -> Graph<T, D> {
+    let unscaled = |pose: &RigidTransform| vertex(Similarity3::from_isometry(*pose, 1.0));
     let steps: Vec<RigidTransform> = world_from_cam
         .windows(2)
         .map(|pair| pair[0].inv_mul(&pair[1]))
@@ -178,52 +257,42 @@ pub fn close_loops(
         .map(|s| s.translation.vector.norm())
         .sum::<f64>()
         / steps.len() as f64;
-    let mut information = SMatrix::<f64, 7, 7>::identity();
+    let mut information = SMatrix::<f64, D, D>::identity();
     if mean_step > 0.0 {
         for i in 0..3 {
             information[(i, i)] = 1.0 / (mean_step * mean_step);
         }
     }
-    let mut graph = Graph::<Similarity3<f64>, 7> {
+    let steps = steps.iter().enumerate().map(|(i, step)| Edge {
+        from: i,
+        to: i + 1,
+        from_from_to: unscaled(step),
+        information,
+    });
+    let closures = loops.iter().map(|l| Edge {
+        from: l.from,
+        to: l.to,
+        from_from_to: vertex(l.from_from_to),
+        information: information * l.weight,
+    });
+    Graph {
         ids: (0..world_from_cam.len() as u64).collect(),
-        vertices: world_from_cam
-            .iter()
-            .map(|pose| Similarity3::from_isometry(*pose, 1.0))
-            .collect(),
-        edges: steps
-            .iter()
-            .enumerate()
-            .map(|(i, step)| Edge {
-                from: i,
-                to: i + 1,
-                from_from_to: Similarity3::from_isometry(*step, 1.0),
-                information,
-            })
-            .collect(),
+        vertices: world_from_cam.iter().map(unscaled).collect(),
+        edges: steps.chain(closures).collect(),
         fixed: vec![0],
-    };
-    for l in loops {
-        graph.edges.push(Edge {
-            from: l.from,
-            to: l.to,
-            from_from_to: l.from_from_to,
-            information: information * l.weight,
-        });
     }
+}
+
+fn optimize<T: GraphPose<D>, const D: usize>(
+    graph: &mut Graph<T, D>,
+    loss: RobustLoss,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<PoseGraphReport> {
     let options = LmOptions {
         max_iterations: 100,
         ..LmOptions::default()
     };
-    let report = graph.optimize(&options, loss, observer)?;
-    Ok(ClosedPath {
-        world_from_cam: graph
-            .vertices
-            .iter()
-            .map(|vertex| vertex.isometry)
-            .collect(),
-        scale: graph.vertices.iter().map(Similarity3::scaling).collect(),
-        report,
-    })
+    graph.optimize(&options, loss, observer)
 }
 
 #[cfg(test)]
@@ -236,8 +305,8 @@ mod tests {
         ControlFlow::Continue(())
     }
 
-    /// A round trip whose scale grows by 1 % a step and whose heading drifts.
-    fn drifted(count: usize) -> (Vec<RigidTransform>, Vec<RigidTransform>) {
+    /// A round trip whose scale is multiplied by `growth` in each step and whose heading drifts.
+    fn drifted(count: usize, growth: f64) -> (Vec<RigidTransform>, Vec<RigidTransform>) {
         let turn = std::f64::consts::TAU / count as f64;
         let mut truth = vec![RigidTransform::identity()];
         let mut path = truth.clone();
@@ -248,39 +317,79 @@ mod tests {
             };
             truth.push(truth[i - 1] * step(1.0, turn));
             path.push(path[i - 1] * step(length, turn * 1.01));
-            length *= 1.01;
+            length *= growth;
         }
         (truth, path)
     }
 
-    #[test]
-    fn a_drifted_round_trip_is_closed() {
-        let count = 40;
-        let (truth, path) = drifted(count);
-        let last = count - 1;
-        // What the last frame reconstructs is larger than what the first one does.
-        let drift = 1.01f64.sqrt() * (1..count - 1).fold(1.0, |s, _| s * 1.01);
+    fn mean_error(path: &[RigidTransform], truth: &[RigidTransform]) -> f64 {
+        let apart = |(a, b): (&RigidTransform, &RigidTransform)| {
+            (a.translation.vector - b.translation.vector).norm()
+        };
+        path.iter().zip(truth).map(apart).sum::<f64>() / truth.len() as f64
+    }
+
+    /// Closes the loop between the first frame and the last one, which is `drift` times too large.
+    fn close(
+        path: &[RigidTransform],
+        truth: &[RigidTransform],
+        drift: f64,
+        motion: LoopMotion,
+    ) -> ClosedPath {
+        let last = truth.len() - 1;
         let closure = LoopClosure {
             from: 0,
             to: last,
             from_from_to: Similarity3::from_isometry(truth[last], 1.0 / drift),
             weight: 1e4,
         };
-        let closed = close_loops(&path, &[closure], RobustLoss::Trivial, &mut go_on).unwrap();
-        let mean_error = |path: &[RigidTransform]| {
-            let apart = |(a, b): (&RigidTransform, &RigidTransform)| {
-                (a.translation.vector - b.translation.vector).norm()
-            };
-            path.iter().zip(&truth).map(apart).sum::<f64>() / count as f64
-        };
-        let (before, after) = (mean_error(&path), mean_error(&closed.world_from_cam));
-        assert!(after < 0.2 * before, "{before} to {after}");
+        close_loops(path, &[closure], motion, RobustLoss::Trivial, &mut go_on).unwrap()
+    }
+
+    #[test]
+    fn a_round_trip_that_drifts_in_scale_is_closed_by_similarities() {
+        let count = 40;
+        let (truth, path) = drifted(count, 1.01);
+        let last = count - 1;
+        // What the last frame reconstructs is larger than what the first one does.
+        let drift = 1.01f64.sqrt() * (1..last).fold(1.0, |s, _| s * 1.01);
+        let similar = close(&path, &truth, drift, LoopMotion::Similarity);
+        let rigid = close(&path, &truth, drift, LoopMotion::Rigid);
+        let before = mean_error(&path, &truth);
+        let [rigid_error, similar_error] =
+            [&rigid, &similar].map(|closed| mean_error(&closed.world_from_cam, &truth));
+        assert!(similar_error < 0.2 * before, "{before} to {similar_error}");
         assert!(
-            (closed.scale[last] * drift - 1.0).abs() < 0.01,
+            (similar.scale[last] * drift - 1.0).abs() < 0.01,
             "{:?}",
-            closed.scale
+            similar.scale
         );
-        assert_eq!(closed.world_from_cam[0], path[0]);
+        // The ends meet as well, but the way between them keeps its wrong lengths.
+        assert!(
+            rigid_error > 3.0 * similar_error,
+            "{rigid_error}, {similar_error}"
+        );
+        assert_eq!(rigid.scale, vec![1.0; count]);
+        for closed in [rigid, similar] {
+            let gap =
+                closed.world_from_cam[last].translation.vector - truth[last].translation.vector;
+            assert!(gap.norm() < 0.01, "{gap}");
+            assert_eq!(closed.world_from_cam[0], path[0]);
+        }
+    }
+
+    #[test]
+    fn a_round_trip_that_drifts_in_heading_alone_is_closed_by_both() {
+        let (truth, path) = drifted(40, 1.0);
+        let before = mean_error(&path, &truth);
+        for motion in [LoopMotion::Rigid, LoopMotion::Similarity] {
+            let closed = close(&path, &truth, 1.0, motion);
+            let after = mean_error(&closed.world_from_cam, &truth);
+            assert!(after < 0.05 * before, "{motion:?}: {before} to {after}");
+            for scale in closed.scale {
+                assert!((scale - 1.0).abs() < 0.01, "{motion:?}: {scale}");
+            }
+        }
     }
 
     #[test]
@@ -307,15 +416,17 @@ mod tests {
 
     #[test]
     fn bad_loops_are_refused() {
-        let (truth, _) = drifted(6);
+        let (truth, _) = drifted(6, 1.01);
         let good = LoopClosure {
             from: 0,
             to: 5,
             from_from_to: Similarity3::identity(),
             weight: 1.0,
         };
-        let attempt =
-            |loops: &[LoopClosure]| close_loops(&truth, loops, RobustLoss::Trivial, &mut go_on);
+        let attempt = |loops: &[LoopClosure]| {
+            let motion = LoopMotion::Similarity;
+            close_loops(&truth, loops, motion, RobustLoss::Trivial, &mut go_on)
+        };
         assert!(attempt(&[good]).is_ok());
         assert!(matches!(attempt(&[]), Err(Error::TooFew { .. })));
         let bad = LoopClosure { to: 6, ..good };

@@ -39,7 +39,9 @@ pub use bundle::{
 };
 pub use export::ColmapModel;
 pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
-pub use loop_closure::{ClosedPath, LoopClosure, close_loops, find_similarity_of_points};
+pub use loop_closure::{
+    ClosedPath, LoopClosure, LoopMotion, close_loops, find_similarity_of_points,
+};
 pub use odometry::{
     OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
 };

@@ -4,9 +4,9 @@ use super::drive::{Drive, Errors};
 use epipole::Result;
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
-use epipole::optim::{Iteration, LmOptions, RobustLoss};
-use epipole::sfm::{AlignmentKind, Edge, Graph, LoopClosure, align_points, close_loops};
-use nalgebra::{Isometry3, Point3, SMatrix, Similarity3, Vector3};
+use epipole::optim::{Iteration, RobustLoss};
+use epipole::sfm::{AlignmentKind, LoopClosure, LoopMotion, align_points, close_loops};
+use nalgebra::{Point3, Similarity3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -61,61 +61,21 @@ pub(super) fn close(
     first_from_last: Similarity3<f64>,
     kind: Kind,
 ) -> Result<Closed> {
-    match kind {
-        Kind::Similarity => {
-            let closure = LoopClosure {
-                from: 0,
-                to: drive.last(),
-                from_from_to: first_from_last,
-                weight: WEIGHT,
-            };
-            let closed = close_loops(&drive.believed, &[closure], RobustLoss::Trivial, &mut go_on)?;
-            Ok(Closed {
-                world_from_cam: closed.world_from_cam,
-                correction: closed.scale,
-            })
-        }
-        Kind::Rigid => close_rigidly(drive, first_from_last.isometry),
-    }
-}
-
-/// As [`close_loops`] does it, with nodes and edges that know no scale.
-fn close_rigidly(drive: &Drive, first_from_last: RigidTransform) -> Result<Closed> {
+    let closure = LoopClosure {
+        from: 0,
+        to: drive.last(),
+        from_from_to: first_from_last,
+        weight: WEIGHT,
+    };
+    let motion = match kind {
+        Kind::Rigid => LoopMotion::Rigid,
+        Kind::Similarity => LoopMotion::Similarity,
+    };
     let path = &drive.believed;
-    let steps: Vec<RigidTransform> = path
-        .windows(2)
-        .map(|pair| pair[0].inv_mul(&pair[1]))
-        .collect();
-    let lengths = steps.iter().map(|step| step.translation.vector.norm());
-    let mean_step = lengths.sum::<f64>() / steps.len() as f64;
-    let mut information = SMatrix::<f64, 6, 6>::identity();
-    for i in 0..3 {
-        information[(i, i)] = 1.0 / (mean_step * mean_step);
-    }
-    let edge = |from, to, from_from_to, weight: f64| Edge {
-        from,
-        to,
-        from_from_to,
-        information: information * weight,
-    };
-    let mut edges: Vec<_> = (steps.iter().enumerate())
-        .map(|(i, step)| edge(i, i + 1, *step, 1.0))
-        .collect();
-    edges.push(edge(0, drive.last(), first_from_last, WEIGHT));
-    let mut graph = Graph::<Isometry3<f64>, 6> {
-        ids: (0..path.len() as u64).collect(),
-        vertices: path.clone(),
-        edges,
-        fixed: vec![0],
-    };
-    let options = LmOptions {
-        max_iterations: 100,
-        ..LmOptions::default()
-    };
-    graph.optimize(&options, RobustLoss::Trivial, &mut go_on)?;
+    let closed = close_loops(path, &[closure], motion, RobustLoss::Trivial, &mut go_on)?;
     Ok(Closed {
-        correction: vec![1.0; path.len()],
-        world_from_cam: graph.vertices,
+        world_from_cam: closed.world_from_cam,
+        correction: closed.scale,
     })
 }
 
