@@ -3,8 +3,8 @@
 import type { Readout } from "./contract.js";
 import { make, setText } from "./dom.js";
 
-/** Longer texts take the room of two. */
-const LONG = 22;
+/** Longer texts do not fit into the narrowest column: they take the room of two. */
+const LONG = 18;
 
 export class Readouts {
   readonly element = make("dl", { class: "readouts" });

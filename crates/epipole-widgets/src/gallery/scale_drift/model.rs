@@ -107,7 +107,7 @@ impl Model for ScaleDrift {
     const NAME: &'static str = "scale-drift";
     const TITLE: &'static str = "Coming home with the wrong scale";
     const HELP: &'static str = "Change how much the scale drifts, and how the loop is closed. Drag the \
-        marked frame in the plot back and forth to drive around the block.";
+        handle below the plot back and forth to drive around the block.";
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -135,7 +135,7 @@ impl Model for ScaleDrift {
         let (traveled, all) = (self.traveled(), self.num_steps());
         vec![Handle {
             id: "traveled".to_owned(),
-            panel: "plot",
+            panel: "track",
             label: "Steps traveled".to_owned(),
             value_text: match self.is_home() {
                 true => format!("all {all} steps, home again"),
@@ -198,7 +198,7 @@ impl Model for ScaleDrift {
             Challenge {
                 id: "unnoticed",
                 goal: "Stop on the way where everything comes out one and a half times as large.",
-                hint: "Drag the marked frame in the plot. Does anything on the way tell you?",
+                hint: "Drag the handle below the plot. Does anything on the way tell you?",
                 check: |model| {
                     let scale = model.answer().before.scale_at_end();
                     !model.is_home() && (1.45..1.55).contains(&scale)

@@ -1,4 +1,5 @@
-//! The scale of each frame on a logarithmic axis, where an even drift is a straight line.
+//! The scale of each frame on a logarithmic axis, where an even drift is a straight line, above the
+//! track of the grip that says how far the camera has come.
 
 use super::model::ScaleDrift;
 use super::view::{after_stroke, before_stroke, truth_stroke};
@@ -11,6 +12,8 @@ const SMALL: f64 = 12.0;
 /// Room for the labels of the vertical axis and of the horizontal one.
 const LEFT: f64 = 36.0;
 const BELOW: f64 = 38.0;
+/// Height of the track of the grip, which runs between the plot and the numbers of the frames.
+const TRACK: f64 = 22.0;
 const TITLE: f64 = 24.0;
 /// Room for the number of a frame.
 const LABEL: f64 = 30.0;
@@ -31,8 +34,9 @@ const LEAST: f64 = 2.0;
 /// Space above and below the curves, in powers of ten.
 const MARGIN: f64 = 0.06;
 
-/// The plot within `rect`; its vertical axis is the logarithm of the scale to base 10.
-pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
+/// The plot within `rect`, and below it the track on which the grip runs, out of the way of the curves.
+/// The vertical axis of the plot is the logarithm of the scale to base 10.
+pub(super) fn panels(model: &ScaleDrift, rect: Rect) -> [Panel; 2] {
     let answer = model.answer();
     // All of the drive, so that the axes stay while the camera moves.
     let scales = answer.drive.scale.iter().copied();
@@ -43,13 +47,13 @@ pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
         (low.min(decade), high.max(decade))
     });
     let steps = model.num_steps() as f64;
-    Panel {
+    let plot = Panel {
         id: "plot",
         rect: Rect::new(
             rect.x + LEFT,
             rect.y + TITLE,
             (rect.width - LEFT - 8.0).max(1.0),
-            (rect.height - TITLE - BELOW).max(1.0),
+            (rect.height - TITLE - TRACK - BELOW).max(1.0),
         ),
         x_axis: Axis {
             start: -0.03 * steps,
@@ -60,16 +64,27 @@ pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
             end: low - MARGIN,
         },
         clickable: true,
-    }
+    };
+    let track = Panel {
+        id: "track",
+        rect: Rect::new(plot.rect.x, plot.rect.bottom(), plot.rect.width, TRACK),
+        x_axis: plot.x_axis,
+        y_axis: Axis {
+            start: 1.0,
+            end: -1.0,
+        },
+        clickable: true,
+    };
+    [plot, track]
 }
 
 fn decade(scale: f64) -> f64 {
     libm::log10(scale.max(1e-9))
 }
 
-pub(super) fn draw(model: &ScaleDrift, plot: &Panel, canvas: &mut Canvas) {
+pub(super) fn draw(model: &ScaleDrift, [plot, track]: [&Panel; 2], canvas: &mut Canvas) {
     let answer = model.answer();
-    draw_axes(model, plot, canvas);
+    draw_axes(model, [plot, track], canvas);
     let places = |scales: &[f64]| -> Vec<Place> {
         let place =
             |(frame, scale): (usize, &f64)| plot.canvas_from_world((frame as f64, decade(*scale)));
@@ -91,11 +106,14 @@ pub(super) fn draw(model: &ScaleDrift, plot: &Panel, canvas: &mut Canvas) {
         if let Some(end) = before.last() {
             canvas.marker(*end, 5.0, Shape::Square, Role::Series(1), true);
         }
-        canvas.grip(plot.canvas_from_world((traveled, 0.0)), Role::Grip);
     });
+    let way = [0.0, model.num_steps() as f64];
+    let [from, to] = way.map(|frame| track.canvas_from_world((frame, 0.0)));
+    canvas.line(from, to, Stroke::solid(Role::Muted, 1.5));
+    canvas.grip(track.canvas_from_world((traveled, 0.0)), Role::Grip);
 }
 
-fn draw_axes(model: &ScaleDrift, plot: &Panel, canvas: &mut Canvas) {
+fn draw_axes(model: &ScaleDrift, [plot, track]: [&Panel; 2], canvas: &mut Canvas) {
     let rect = plot.rect;
     canvas.panel(rect);
     let ink = TextStyle::new(Role::Ink, TEXT);
@@ -115,8 +133,8 @@ fn draw_axes(model: &ScaleDrift, plot: &Panel, canvas: &mut Canvas) {
     for frame in (0..=model.num_steps()).step_by(stride) {
         let x = plot.canvas_from_world((frame as f64, 0.0)).0;
         let text = frame.to_string();
-        canvas.label((x, rect.bottom() + 11.0), &text, muted.middle());
+        canvas.label((x, track.rect.bottom() + 11.0), &text, muted.middle());
     }
-    let place = (rect.center().0, rect.bottom() + 27.0);
+    let place = (rect.center().0, track.rect.bottom() + 27.0);
     canvas.label(place, "frame", muted.middle());
 }

@@ -68,7 +68,7 @@ impl View for ScaleDriftView {
         let (map, plot) = if width < NARROW {
             let map = Rect::new(0.0, TITLE, width, (width * 0.78).max(1.0));
             let top = map.bottom() + 6.0 + legend_height(width);
-            (map, Rect::new(0.0, top, width, 190.0))
+            (map, Rect::new(0.0, top, width, 212.0))
         } else {
             let left = MAP_SHARE * width;
             let height = (left * 0.82).min(460.0);
@@ -79,30 +79,29 @@ impl View for ScaleDriftView {
         };
         let (x_axis, y_axis) = map_axes(model, map);
         let height = map.bottom().max(plot.bottom()) + 2.0;
+        let map = Panel {
+            id: "map",
+            rect: map,
+            x_axis,
+            y_axis,
+            clickable: false,
+        };
+        let [plot, track] = plot::panels(model, plot);
         Layout {
             width,
             height,
-            panels: vec![
-                Panel {
-                    id: "map",
-                    rect: map,
-                    x_axis,
-                    y_axis,
-                    clickable: false,
-                },
-                plot::panel(model, plot),
-            ],
+            panels: vec![map, plot, track],
         }
     }
 
     fn draw(&mut self, model: &ScaleDrift, layout: &Layout, canvas: &mut Canvas) {
-        let [map, plot] = ["map", "plot"].map(|id| layout.panel(id));
+        let [map, plot, track] = ["map", "plot", "track"].map(|id| layout.panel(id));
         canvas.panel(map.rect);
         let place = (map.rect.x + 2.0, map.rect.y - TITLE / 2.0);
         let title = "Around a block, seen from above";
         canvas.label(place, title, TextStyle::new(Role::Ink, TEXT));
         draw_map(model, map, canvas);
-        plot::draw(model, plot, canvas);
+        plot::draw(model, [plot, track], canvas);
         if layout.width < NARROW {
             let top = map.rect.bottom() + 4.0;
             legend::draw(canvas, &legend_entries(), layout.width, 2.0, top);
