@@ -27,6 +27,7 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         Theme::Dark,
     ),
     ("ransac-race", "", "ransac-race.png", Theme::Light),
+    ("scale-drift", "", "scale-drift.png", Theme::Light),
     ("stereo-slider", "", "stereo-slider.png", Theme::Light),
     (
         "stereo-slider",
