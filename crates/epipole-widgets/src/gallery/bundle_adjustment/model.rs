@@ -14,7 +14,7 @@ use crate::contract::{
     Readout, Settings, Space, Value, format_number, round_to_digits,
 };
 use crate::orbit::{Orbit, RECENTER, SPACE, ZOOM};
-use crate::running::{RESTART, RUN, STEP};
+use crate::running::Running;
 
 const STEPS_PER_SECOND: f64 = 1.5;
 /// The dragged feature's place is kept to a tenth of a pixel.
@@ -32,8 +32,7 @@ pub(crate) struct BundleAdjustment {
     answer: Option<Answer>,
     pending: Option<Job>,
     problem: Option<String>,
-    running: bool,
-    since_step_s: f64,
+    running: Running,
 }
 
 impl BundleAdjustment {
@@ -109,7 +108,7 @@ impl BundleAdjustment {
     fn go_to(&mut self, steps: usize) -> Result<(), Problem> {
         let value = Value::Number(steps.min(MAX_STEPS) as f64);
         self.settings.set(STEPS.id, &value)?;
-        self.running &= !self.is_finished();
+        self.running.stop_if(self.is_finished());
         Ok(())
     }
 }
@@ -142,8 +141,7 @@ impl Model for BundleAdjustment {
             answer: None,
             pending: None,
             problem: None,
-            running: false,
-            since_step_s: 0.0,
+            running: Running::at(STEPS_PER_SECOND),
         };
         model.ask();
         model
@@ -169,13 +167,9 @@ impl Model for BundleAdjustment {
                 }
             }
         }
-        let can_run = self.answer.is_some();
-        controls.extend([
-            RUN.control(can_run, self.running),
-            STEP.control(can_run && !self.is_finished(), false),
-            RESTART.control(self.num_taken() > 0, false),
-            RECENTER.control(true, false),
-        ]);
+        let (can_run, taken) = (self.answer.is_some(), self.num_taken());
+        controls.extend(self.running.controls(can_run, taken, self.is_finished()));
+        controls.push(RECENTER.control(true, false));
         controls
     }
 
@@ -215,7 +209,7 @@ impl Model for BundleAdjustment {
             Event::Set { id, value } => {
                 let changed = self.settings.set(id, value)? == Some(true);
                 if id == STEPS.id {
-                    self.running = false;
+                    self.running.stop();
                 } else if changed {
                     self.ask();
                 }
@@ -225,32 +219,18 @@ impl Model for BundleAdjustment {
                 self.ask();
             }
             Event::Clicked { panel, x, .. } if panel == "cost" || panel == "damping" => {
-                self.running = false;
+                self.running.stop();
                 self.go_to(x.round().max(0.0) as usize)?;
             }
-            Event::Press { id } => match &**id {
-                "run" if self.running => self.running = false,
-                "run" => {
-                    if self.is_finished() {
-                        self.go_to(0)?;
-                    }
-                    self.running = !self.is_finished();
-                    self.since_step_s = 0.0;
+            Event::Press { id } => {
+                let (taken, finished) = (self.num_taken(), self.is_finished());
+                if let Some(steps) = self.running.press(id, taken, finished) {
+                    self.go_to(steps)?;
                 }
-                "step" => {
-                    self.running = false;
-                    self.go_to(self.num_taken() + 1)?;
-                }
-                _ => {
-                    self.running = false;
-                    self.go_to(0)?;
-                }
-            },
+            }
             Event::Tick { dt_s } => {
-                self.since_step_s += dt_s;
-                if self.since_step_s >= 1.0 / STEPS_PER_SECOND {
-                    self.since_step_s = 0.0;
-                    self.go_to(self.num_taken() + 1)?;
+                if let Some(steps) = self.running.tick(*dt_s, self.num_taken()) {
+                    self.go_to(steps)?;
                 }
             }
             _ => {}
@@ -259,7 +239,7 @@ impl Model for BundleAdjustment {
     }
 
     fn is_running(&self) -> bool {
-        self.running
+        self.running.is_running()
     }
 
     fn job(&self) -> Option<Job> {
@@ -278,7 +258,7 @@ impl Model for BundleAdjustment {
             Ok(None) => self.problem = Some(words::NO_ANSWER.to_owned()),
             Err(problem) => self.problem = Some(format!("No adjustment: {problem}.")),
         }
-        self.running &= !self.is_finished();
+        self.running.stop_if(self.is_finished());
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -11,7 +11,7 @@ use crate::contract::{
     Challenge, Control, Event, Handle, Job, JobResult, Model, PhotoSlot, Problem, Progress,
     Readout, Settings, Slider, Value, format_number, refuse_small,
 };
-use crate::running::{RESTART, RUN, STEP};
+use crate::running::Running;
 use image::RgbImage;
 
 /// Smaller photographs have no features to speak of.
@@ -34,8 +34,7 @@ pub struct RansacEpipolar {
     pending: Option<Job>,
     run: Option<Run>,
     problem: Option<String>,
-    running: bool,
-    since_sample_s: f64,
+    running: Running,
     /// A place in photograph 1 whose epipolar line is drawn, pixels.
     probe: (f64, f64),
 }
@@ -152,7 +151,8 @@ impl RansacEpipolar {
         if let Some(run) = &mut self.run {
             run.draw_to(iterations);
         }
-        self.running &= self.run.is_some() && !self.is_finished();
+        self.running
+            .stop_if(self.run.is_none() || self.is_finished());
     }
 
     /// Draws to so many samples in all. The number asked for is kept: another question may need
@@ -195,8 +195,7 @@ impl Model for RansacEpipolar {
             pending: None,
             run: None,
             problem: None,
-            running: false,
-            since_sample_s: 0.0,
+            running: Running::at(SAMPLES_PER_SECOND),
             probe: PROBE,
         };
         model.ask();
@@ -204,13 +203,9 @@ impl Model for RansacEpipolar {
     }
 
     fn controls(&self) -> Vec<Control> {
-        let can_run = self.run.is_some();
+        let (can_run, drawn) = (self.run.is_some(), self.iterations());
         let mut controls = self.settings.controls();
-        controls.extend([
-            RUN.control(can_run, self.running),
-            STEP.control(can_run && !self.is_finished(), false),
-            RESTART.control(self.iterations() > 0, false),
-        ]);
+        controls.extend(self.running.controls(can_run, drawn, self.is_finished()));
         controls
     }
 
@@ -244,7 +239,7 @@ impl Model for RansacEpipolar {
                 match &**id {
                     _ if !has_changed => {}
                     id if id == SOURCE.id => {
-                        self.running = false;
+                        self.running.stop();
                         self.ask();
                     }
                     id if id == RATIO.id => {
@@ -254,29 +249,15 @@ impl Model for RansacEpipolar {
                     _ => self.draw(),
                 }
             }
-            Event::Press { id } => match &**id {
-                "run" if self.running => self.running = false,
-                "run" => {
-                    if self.is_finished() {
-                        self.draw_to(0)?;
-                    }
-                    self.running = true;
-                    self.since_sample_s = 0.0;
+            Event::Press { id } => {
+                let (drawn, finished) = (self.iterations(), self.is_finished());
+                if let Some(iterations) = self.running.press(id, drawn, finished) {
+                    self.draw_to(iterations)?;
                 }
-                "step" => {
-                    self.running = false;
-                    self.draw_to(self.iterations() + 1)?;
-                }
-                _ => {
-                    self.running = false;
-                    self.draw_to(0)?;
-                }
-            },
+            }
             Event::Tick { dt_s } => {
-                self.since_sample_s += dt_s;
-                if self.since_sample_s >= 1.0 / SAMPLES_PER_SECOND {
-                    self.since_sample_s -= 1.0 / SAMPLES_PER_SECOND;
-                    self.draw_to(self.iterations() + 1)?;
+                if let Some(iterations) = self.running.tick(*dt_s, self.iterations()) {
+                    self.draw_to(iterations)?;
                 }
             }
             _ => {}
@@ -285,7 +266,7 @@ impl Model for RansacEpipolar {
     }
 
     fn is_running(&self) -> bool {
-        self.running
+        self.running.is_running()
     }
 
     fn job(&self) -> Option<Job> {
@@ -318,7 +299,7 @@ impl Model for RansacEpipolar {
         self.own[index] = Some(photo);
         self.settings
             .set(SOURCE.id, &Value::from(SOURCE.options[OWN].0))?;
-        self.running = false;
+        self.running.stop();
         self.ask();
         Ok(())
     }

@@ -12,7 +12,7 @@ use crate::contract::{
     Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Value, format_number,
     round_to_digits,
 };
-use crate::running::{RESTART, RUN, STEP};
+use crate::running::Running;
 use epipole::math::{Line2, random::Random};
 use nalgebra::Point2;
 
@@ -42,8 +42,7 @@ pub struct RansacRace {
     truth: Line2,
     data: Vec<Datum>,
     outcome: Outcome,
-    running: bool,
-    since_sample_s: f64,
+    running: Running,
 }
 
 impl RansacRace {
@@ -159,7 +158,7 @@ impl RansacRace {
         let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
         self.settings.set(ITERATIONS.id, &value)?;
         self.compute();
-        self.running &= !self.outcome.finished;
+        self.running.stop_if(self.outcome.finished);
         Ok(())
     }
 
@@ -216,8 +215,7 @@ impl Model for RansacRace {
             },
             data: Vec::new(),
             outcome: Outcome::default(),
-            running: false,
-            since_sample_s: 0.0,
+            running: Running::at(SAMPLES_PER_SECOND),
         };
         model.scatter();
         model.compute();
@@ -225,13 +223,10 @@ impl Model for RansacRace {
     }
 
     fn controls(&self) -> Vec<Control> {
-        let can_step = !self.outcome.finished && self.outcome.problem.is_none();
+        let (drawn, finished) = (self.outcome.iterations, self.outcome.finished);
+        let can_run = self.outcome.problem.is_none();
         let mut controls = self.settings.controls();
-        controls.extend([
-            RUN.control(self.outcome.problem.is_none(), self.running),
-            STEP.control(can_step, false),
-            RESTART.control(self.outcome.iterations > 0, false),
-        ]);
+        controls.extend(self.running.controls(can_run, drawn, finished));
         controls
     }
 
@@ -267,24 +262,12 @@ impl Model for RansacRace {
                     self.run_to(iterations)?;
                 }
             }
-            Event::Press { id } => match &**id {
-                "run" if self.running => self.running = false,
-                "run" => {
-                    if self.outcome.finished {
-                        self.run_to(0)?;
-                    }
-                    self.running = true;
-                    self.since_sample_s = 0.0;
+            Event::Press { id } => {
+                let (drawn, finished) = (self.outcome.iterations, self.outcome.finished);
+                if let Some(iterations) = self.running.press(id, drawn, finished) {
+                    self.run_to(iterations)?;
                 }
-                "step" => {
-                    self.running = false;
-                    self.run_to(self.outcome.iterations + 1)?;
-                }
-                _ => {
-                    self.running = false;
-                    self.run_to(0)?;
-                }
-            },
+            }
             Event::HandleMoved { id, x, y } => {
                 let number = number_of(id);
                 if let Some(datum) = self.data.iter_mut().find(|d| Some(d.number) == number) {
@@ -307,10 +290,8 @@ impl Model for RansacRace {
                 self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
             }
             Event::Tick { dt_s } => {
-                self.since_sample_s += dt_s;
-                if self.since_sample_s >= 1.0 / SAMPLES_PER_SECOND {
-                    self.since_sample_s -= 1.0 / SAMPLES_PER_SECOND;
-                    self.run_to(self.outcome.iterations + 1)?;
+                if let Some(iterations) = self.running.tick(*dt_s, self.outcome.iterations) {
+                    self.run_to(iterations)?;
                 }
             }
             Event::Reset => {}
@@ -326,7 +307,7 @@ impl Model for RansacRace {
     }
 
     fn is_running(&self) -> bool {
-        self.running
+        self.running.is_running()
     }
 
     fn readouts(&self) -> Vec<Readout> {
