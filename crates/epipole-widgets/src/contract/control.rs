@@ -140,6 +140,21 @@ pub enum ControlKind {
 }
 
 impl Slider {
+    /// The seed of whatever a figure draws at random.
+    pub const fn seed(default: f64) -> Self {
+        Self {
+            id: "seed",
+            label: "Seed",
+            unit: "",
+            min: 1.0,
+            max: 99.0,
+            step: 1.0,
+            default,
+            digits: 0,
+            visible: true,
+        }
+    }
+
     /// The nearest value on the slider's grid.
     pub fn snap(&self, value: f64) -> f64 {
         let steps = ((value.clamp(self.min, self.max) - self.min) / self.step).round();

@@ -54,17 +54,7 @@ pub(super) const DAMPING: Slider = Slider {
     digits: 0,
     visible: true,
 };
-pub(super) const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 4.0,
-    digits: 0,
-    visible: true,
-};
+pub(super) const SEED: Slider = Slider::seed(4.0);
 pub(super) const KNOBS: &[Knob] = &[
     Knob::Slider(&DISTURBANCE),
     Knob::Slider(&NOISE),

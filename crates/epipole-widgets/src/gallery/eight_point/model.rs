@@ -49,17 +49,7 @@ const RANK2: Toggle = Toggle {
     label: "Enforce rank 2",
     default: true,
 };
-const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 1.0,
-    digits: 0,
-    visible: true,
-};
+const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = &[
     Knob::Slider(&COUNT),
     Knob::Slider(&NOISE),

@@ -47,17 +47,7 @@ pub(super) const LOCAL: Toggle = Toggle {
     label: "Local optimization",
     default: false,
 };
-pub(super) const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 1.0,
-    digits: 0,
-    visible: true,
-};
+pub(super) const SEED: Slider = Slider::seed(1.0);
 /// Asked for; the loop ends before when enough have been drawn.
 pub(super) const ITERATIONS: Slider = Slider {
     id: "iterations",

@@ -36,17 +36,7 @@ pub(super) const COUNT: Slider = Slider {
     digits: 0,
     visible: true,
 };
-pub(super) const SEED: Slider = Slider {
-    id: "seed",
-    label: "Seed",
-    unit: "",
-    min: 1.0,
-    max: 99.0,
-    step: 1.0,
-    default: 7.0,
-    digits: 0,
-    visible: true,
-};
+pub(super) const SEED: Slider = Slider::seed(7.0);
 pub(super) const ITERATIONS: Slider = Slider {
     id: "iterations",
     label: "Samples drawn",
