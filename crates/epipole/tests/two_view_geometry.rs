@@ -723,6 +723,55 @@ fn a_good_order_saves_samples() {
     assert!(10 * prosac < uniform, "{prosac} of {uniform}");
 }
 
+/// Matches that lead to one pixel by the dozen, as of a nearest neighbor for everything, do not draw
+/// the epipole there.
+#[test]
+fn a_crowded_pixel_has_one_vote() {
+    for (share_crowded, seed) in (0..10).flat_map(|seed| [(0.3, seed), (0.5, seed), (0.6, seed)]) {
+        let mut random = Random::new(seed);
+        let pair = cameras(&mut random);
+        let mut s = scene(
+            &mut random,
+            pair,
+            Shape::Volume,
+            200,
+            1.0 - share_crowded,
+            0.5,
+        );
+        let num_true = s.truth.iter().filter(|&&is_true| is_true).count();
+        for (p2, is_true) in s.p2.iter_mut().zip(&s.truth) {
+            if !is_true {
+                *p2 = Point2::new(300.0, 200.0);
+            }
+        }
+        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let f = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        for inliers in [&f.inliers, &e.inliers] {
+            let found = inliers.iter().zip(&s.truth).filter(|(a, b)| **a && **b);
+            let found = found.count();
+            assert!(10 * found > 8 * num_true, "{share_crowded} {seed}: {found}");
+        }
+        assert!(f.num_unique_inliers <= num_true + 1 && !f.could_be_chance());
+    }
+    // OpenCV's issue 19639: seven matches, of which three share a pixel and two another one.
+    let u = [
+        941.0, 890.0, 596.0, 940.0, 898.0, 941.0, 894.0, 933.0, 586.0, 938.0, 902.0, 933.0, 887.0,
+        935.0,
+    ];
+    let v = [
+        1416.0, 806.0, 1157.0, 852.0, 1380.0, 855.0, 1378.0, 843.0, 1145.0, 849.0, 1378.0, 843.0,
+        1378.0, 843.0,
+    ];
+    let points =
+        |list: &[f64]| -> Vec<_> { list.chunks(2).map(|p| Point2::new(p[0], p[1])).collect() };
+    let report = find_fundamental(&points(&u), &points(&v), &RansacOptions::default());
+    assert!(
+        matches!(report, Err(Error::NoConsensus { .. })),
+        "{report:?}"
+    );
+}
+
 #[test]
 fn equal_seeds_give_equal_bits() {
     let mut random = Random::new(17);

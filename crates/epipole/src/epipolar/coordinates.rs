@@ -13,7 +13,7 @@ pub(crate) type Lanes = [f64; LANES];
 #[derive(Debug, Clone)]
 pub(crate) struct Coordinates {
     lists: [Vec<f64>; 4],
-    /// How much each match counts in least squares; empty if all count alike.
+    /// How much each match counts; empty if all count alike.
     weights: Vec<f64>,
 }
 
@@ -22,6 +22,14 @@ impl Coordinates {
         Self {
             lists: matches.coordinates().map(<[f64]>::to_vec),
             weights: Vec::new(),
+        }
+    }
+
+    /// As [`pixels`](Self::pixels), where matches that meet in a pixel share a vote.
+    pub(crate) fn voting(matches: &MatchSet) -> Self {
+        Self {
+            weights: matches.votes().unwrap_or_default().to_vec(),
+            ..Self::pixels(matches)
         }
     }
 
@@ -37,15 +45,20 @@ impl Coordinates {
         }
         Self {
             lists,
-            weights: Vec::new(),
+            weights: self.weights.clone(),
         }
     }
 
-    /// Some of the matches, and how much each of them counts in least squares.
+    /// Some of the matches, and how much each of them counts, besides what it counted before.
     pub(crate) fn weighted(&self, indices: &[usize], weights: &[f64]) -> Self {
         Self {
             lists: [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect()),
-            weights: weights.to_vec(),
+            weights: match self.weights(0) {
+                None => weights.to_vec(),
+                Some(votes) => (indices.iter().zip(weights))
+                    .map(|(&i, weight)| votes[i] * weight)
+                    .collect(),
+            },
         }
     }
 

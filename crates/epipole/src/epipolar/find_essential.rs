@@ -46,7 +46,7 @@ impl EssentialEstimator {
             });
         }
         refuse_collinear(&matches, "an essential matrix from matches")?;
-        let pixels = Coordinates::pixels(&matches);
+        let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);
         let rays = (0..matches.len())
             .map(|i| {
@@ -105,6 +105,9 @@ impl Estimator for EssentialEstimator {
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {
+        if self.matches.have_shared_pixel(sample) {
+            return;
+        }
         let rays1 = core::array::from_fn(|i| self.rays[sample[i]][0]);
         let rays2 = core::array::from_fn(|i| self.rays[sample[i]][1]);
         let mut solutions = [Matrix3::zeros(); 10];
@@ -153,6 +156,14 @@ impl Estimator for EssentialEstimator {
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         Some(self.matches.chance_near_lines(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -47,7 +47,7 @@ impl FundamentalEstimator {
             });
         }
         refuse_collinear(&matches, "a fundamental matrix from matches")?;
-        let pixels = Coordinates::pixels(&matches);
+        let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);
         let in_frame = pixels.mapped(&frame);
         Ok(Self {
@@ -149,6 +149,9 @@ impl Estimator for FundamentalEstimator {
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
+        if self.matches.have_shared_pixel(sample) {
+            return;
+        }
         let points: [[f64; 4]; 7] = core::array::from_fn(|i| self.in_frame.at(sample[i]));
         let rows =
             points.map(|[u1, v1, u2, v2]| epipolar_row(&Point2::new(u1, v1), &Point2::new(u2, v2)));
@@ -247,6 +250,14 @@ impl Estimator for FundamentalEstimator {
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         Some(self.matches.chance_near_lines(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
     }
 
     fn unique(&self) -> Option<&Unique> {

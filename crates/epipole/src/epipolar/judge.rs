@@ -32,7 +32,13 @@ pub(crate) fn support(
             }
             let (lanes, count) = coordinates.lanes(start);
             let errors = model.relative_errors(&lanes, per_threshold_sq);
-            if count == LANES {
+            if let Some(votes) = coordinates.weights(start) {
+                for l in 0..count {
+                    let fits = errors[l] < 1.0;
+                    cost[l] += votes[l] * if fits { errors[l] } else { 1.0 };
+                    inliers[l] += if fits { 1.0 } else { 0.0 };
+                }
+            } else if count == LANES {
                 for l in 0..LANES {
                     // Not a number counts as an outlier.
                     let fits = errors[l] < 1.0;

@@ -35,7 +35,7 @@ impl HomographyEstimator {
                 got: matches.len(),
             });
         }
-        let pixels = Coordinates::pixels(&matches);
+        let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);
         Ok(Self {
             in_frame: pixels.mapped(&frame),
@@ -80,6 +80,9 @@ impl Estimator for HomographyEstimator {
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
+        if self.matches.have_shared_pixel(sample) {
+            return;
+        }
         let points: [[f64; 4]; 4] = core::array::from_fn(|i| self.in_frame.at(sample[i]));
         let (p1, p2) = (
             points.map(|[u1, v1, _, _]| [u1, v1]),
@@ -129,6 +132,14 @@ impl Estimator for HomographyEstimator {
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         Some(self.matches.chance_near_point2(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -154,7 +154,6 @@ impl<E: Estimator> Ransac<E> {
                 trial_best = Some((place, support));
             }
         }
-        let num_data = self.estimator.num_data() as f64;
         let (mut model, mut score, mut num_inliers) = (None, 0.0, 0);
         let (mut is_best, mut refined) = (false, None);
         if let Some((place, support)) = trial_best {
@@ -163,7 +162,7 @@ impl<E: Estimator> Ransac<E> {
                 support,
             };
             model = Some(candidate.model.clone());
-            score = (num_data - support.cost).max(0.0);
+            score = self.score(&support);
             num_inliers = support.num_inliers;
             if support.cost < self.best_sample_cost {
                 self.best_sample_cost = support.cost;
@@ -192,12 +191,9 @@ impl<E: Estimator> Ransac<E> {
 
     /// The best model so far and its score.
     pub fn best(&self) -> Option<(&E::Model, f64)> {
-        self.best.as_ref().map(|best| {
-            (
-                &best.model,
-                self.estimator.num_data() as f64 - best.support.cost,
-            )
-        })
+        self.best
+            .as_ref()
+            .map(|best| (&best.model, self.score(&best.support)))
     }
 
     /// Samples drawn so far.
@@ -245,7 +241,8 @@ impl<E: Estimator> Ransac<E> {
         let max_error_px = self.options.max_error_px;
         self.estimator
             .inliers(&best.model, max_error_px, &mut self.inliers);
-        if self.inliers.len() < self.estimator.sample_size() {
+        let num_distinct = self.estimator.num_distinct(&self.inliers);
+        if num_distinct < self.estimator.sample_size() {
             return Err(no_consensus);
         }
         let num_data = self.estimator.num_data();
@@ -254,7 +251,7 @@ impl<E: Estimator> Ransac<E> {
         }
         let log10_false_alarms = self.estimator.chance(max_error_px).map(|chance| {
             log10_false_alarms(
-                self.inliers.len(),
+                num_distinct,
                 num_data,
                 self.estimator.sample_size(),
                 self.estimator.max_models(),
@@ -271,11 +268,11 @@ impl<E: Estimator> Ransac<E> {
         };
         Ok(RansacReport {
             num_inliers: inliers.iter().filter(|&&inlier| inlier).count(),
-            num_unique_inliers: self.inliers.len(),
+            num_unique_inliers: num_distinct,
             inliers,
             iterations: self.iterations,
             required_iterations: self.required,
-            score: self.estimator.num_data() as f64 - best.support.cost,
+            score: self.score(&best.support),
             log10_false_alarms,
             refinements: self.refinements,
             stop: self.stop.unwrap_or(StopReason::Cancelled),
@@ -498,6 +495,14 @@ impl<E: Estimator> Ransac<E> {
             self.refinements += 1;
         }
         better
+    }
+
+    /// What a support is worth, as [`ScoreKind`] defines it.
+    fn score(&self, support: &Support) -> f64 {
+        match self.options.score {
+            ScoreKind::InlierCount => support.num_inliers as f64,
+            ScoreKind::Msac => (self.estimator.num_votes() - support.cost).max(0.0),
+        }
     }
 
     fn support(&self, model: &E::Model, cost_limit: f64) -> Support {

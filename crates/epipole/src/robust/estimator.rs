@@ -166,6 +166,16 @@ pub trait Estimator {
         None
     }
 
+    /// The cost of a model that nothing fits: one for each datum, unless some count less.
+    fn num_votes(&self) -> f64 {
+        self.num_data() as f64
+    }
+
+    /// How many of these data can be right at the same time, at most; may allocate.
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        inliers.len()
+    }
+
     /// How the indices relate to the data that the caller gave, if repetitions were left out.
     fn unique(&self) -> Option<&Unique> {
         None

@@ -14,6 +14,16 @@ pub struct MatchSet {
     u2: Vec<f64>,
     v2: Vec<f64>,
     unique: Unique,
+    crowds: Option<Crowds>,
+}
+
+/// Which matches meet in one pixel of an image.
+#[derive(Debug, Clone, PartialEq)]
+struct Crowds {
+    /// For each match, the number of its pixel in images 1 and 2.
+    pixels: [Vec<usize>; 2],
+    /// For each match, its part of one vote.
+    votes: Vec<f64>,
 }
 
 impl MatchSet {
@@ -68,11 +78,14 @@ impl MatchSet {
                 .map(|&i| coordinate(i))
                 .collect()
         };
+        let (u1, v1) = (gather(&|i| pixels1[i].x), gather(&|i| pixels1[i].y));
+        let (u2, v2) = (gather(&|i| pixels2[i].x), gather(&|i| pixels2[i].y));
         Ok(Self {
-            u1: gather(&|i| pixels1[i].x),
-            v1: gather(&|i| pixels1[i].y),
-            u2: gather(&|i| pixels2[i].x),
-            v2: gather(&|i| pixels2[i].y),
+            crowds: Crowds::new([[&u1, &v1], [&u2, &v2]]),
+            u1,
+            v1,
+            u2,
+            v2,
             unique,
         })
     }
@@ -120,9 +133,74 @@ impl MatchSet {
         u.iter().zip(v).map(|(&u, &v)| Point2::new(u, v)).collect()
     }
 
+    /// How much each match counts where models are judged; `None` if all count alike.
+    ///
+    /// At most one of the matches that meet in a pixel can be right, so together they have one vote.
+    /// Counted one by one, those of a pixel that half of all matches lead to would outvote everything:
+    /// each F with its epipole there fits them all.
+    pub(crate) fn votes(&self) -> Option<&[f64]> {
+        self.crowds.as_ref().map(|crowds| &*crowds.votes)
+    }
+
+    /// All votes together.
+    pub(crate) fn num_votes(&self) -> f64 {
+        let count = || self.len() as f64;
+        self.votes().map_or_else(count, |votes| votes.iter().sum())
+    }
+
+    /// Whether two of these matches have a pixel in common: no more than one of them can be right.
+    pub(crate) fn have_shared_pixel(&self, indices: &[usize]) -> bool {
+        let Some(Crowds { pixels, .. }) = &self.crowds else {
+            return false;
+        };
+        pixels.iter().any(|pixel| {
+            let twice = |(place, &i): (usize, &usize)| {
+                indices[..place].iter().any(|&j| pixel[i] == pixel[j])
+            };
+            indices.iter().enumerate().any(twice)
+        })
+    }
+
+    /// How many of these matches can be right at most: their different pixels, of the image with
+    /// fewer.
+    ///
+    /// Source: Schönberger & Frahm 2016, COLMAP's support by unique inliers.
+    pub(crate) fn num_distinct(&self, indices: &[usize]) -> usize {
+        let Some(Crowds { pixels, .. }) = &self.crowds else {
+            return indices.len();
+        };
+        let count = |pixel: &Vec<usize>| {
+            let mut seen = vec![false; pixel.len()];
+            indices.iter().for_each(|&i| seen[pixel[i]] = true);
+            seen.into_iter().filter(|&seen| seen).count()
+        };
+        pixels.iter().map(count).min().unwrap_or(0)
+    }
+
     /// How these matches relate to the ones given.
     pub fn unique(&self) -> &Unique {
         &self.unique
+    }
+}
+
+impl Crowds {
+    fn new(images: [[&Vec<f64>; 2]; 2]) -> Option<Self> {
+        let different = images.map(|[u, v]| Unique::new(u.len(), |i| [u[i], v[i]]));
+        let num_matches = images[0][0].len();
+        if different.iter().all(|pixels| pixels.len() == num_matches) {
+            return None;
+        }
+        let pixels = different.map(|pixels| pixels.places().to_vec());
+        let sizes = [0, 1].map(|image: usize| {
+            let mut sizes = vec![0_usize; num_matches];
+            pixels[image].iter().for_each(|&pixel| sizes[pixel] += 1);
+            sizes
+        });
+        let vote = |i: usize| 1.0 / sizes[0][pixels[0][i]].max(sizes[1][pixels[1][i]]) as f64;
+        Some(Self {
+            votes: (0..num_matches).map(vote).collect(),
+            pixels,
+        })
     }
 }
 
@@ -144,6 +222,23 @@ mod tests {
             assert!(MatchSet::new(&q, &p).is_err());
         }
         assert!(MatchSet::new(&[], &[]).unwrap().is_empty());
+    }
+
+    #[test]
+    fn matches_of_one_pixel_share_a_vote() {
+        let point = |u: f64| Point2::new(u, 0.0);
+        let p = [0.0, 1.0, 2.0, 3.0, 3.0].map(point);
+        let q = [7.0, 7.0, 7.0, 8.0, 9.0].map(point);
+        let set = MatchSet::new(&p, &q).unwrap();
+        let third = 1.0 / 3.0;
+        assert_eq!(set.votes(), Some(&[third, third, third, 0.5, 0.5][..]));
+        assert!(set.have_shared_pixel(&[0, 3, 1]) && set.have_shared_pixel(&[4, 3]));
+        assert!(!set.have_shared_pixel(&[2, 4]));
+        assert_eq!(set.num_distinct(&[0, 1, 2, 3, 4]), 3);
+        assert_eq!(set.num_distinct(&[3, 4]), 1);
+        let set = MatchSet::new(&p[..4], &p[..4]).unwrap();
+        assert_eq!(set.votes(), None);
+        assert_eq!(set.num_distinct(&[1, 2]), 2);
     }
 
     #[test]

@@ -147,7 +147,7 @@ pub struct RansacReport<M> {
     pub inliers: Vec<bool>,
     /// How many of `inliers` are true.
     pub num_inliers: usize,
-    /// The same, with equal data counted once. This number, not `num_inliers`, says how well the
+    /// The same, with equal data counted once, and matches that meet in a pixel of an image, too. This number, not `num_inliers`, says how well the
     /// model is supported.
     pub num_unique_inliers: usize,
     /// Samples drawn.
