@@ -726,7 +726,7 @@ fn a_good_order_saves_samples() {
 /// Matches that lead to one pixel by the dozen, as of a nearest neighbor for everything, do not draw
 /// the epipole there.
 #[test]
-fn a_crowded_pixel_has_one_vote() {
+fn a_crowded_pixel_has_few_votes() {
     for (share_crowded, seed) in (0..10).flat_map(|seed| [(0.3, seed), (0.5, seed), (0.6, seed)]) {
         let mut random = Random::new(seed);
         let pair = cameras(&mut random);

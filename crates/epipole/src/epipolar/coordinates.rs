@@ -25,7 +25,7 @@ impl Coordinates {
         }
     }
 
-    /// As [`pixels`](Self::pixels), where matches that meet in a pixel share a vote.
+    /// As [`pixels`](Self::pixels), where matches that meet in a pixel share its votes.
     pub(crate) fn voting(matches: &MatchSet) -> Self {
         Self {
             weights: matches.votes().unwrap_or_default().to_vec(),

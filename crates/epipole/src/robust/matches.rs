@@ -17,12 +17,16 @@ pub struct MatchSet {
     crowds: Option<Crowds>,
 }
 
+/// Votes of all the matches that meet in a pixel. Two, and not one: pairs are common, do no harm, and
+/// half a vote for the right one of them would.
+const VOTES_OF_PIXEL: f64 = 2.0;
+
 /// Which matches meet in one pixel of an image.
 #[derive(Debug, Clone, PartialEq)]
 struct Crowds {
     /// For each match, the number of its pixel in images 1 and 2.
     pixels: [Vec<usize>; 2],
-    /// For each match, its part of one vote.
+    /// For each match, its part of the pixel's votes, at most 1.
     votes: Vec<f64>,
 }
 
@@ -135,7 +139,7 @@ impl MatchSet {
 
     /// How much each match counts where models are judged; `None` if all count alike.
     ///
-    /// At most one of the matches that meet in a pixel can be right, so together they have one vote.
+    /// At most one of the matches that meet in a pixel can be right, so together they have few votes.
     /// Counted one by one, those of a pixel that half of all matches lead to would outvote everything:
     /// each F with its epipole there fits them all.
     pub(crate) fn votes(&self) -> Option<&[f64]> {
@@ -196,7 +200,8 @@ impl Crowds {
             pixels[image].iter().for_each(|&pixel| sizes[pixel] += 1);
             sizes
         });
-        let vote = |i: usize| 1.0 / sizes[0][pixels[0][i]].max(sizes[1][pixels[1][i]]) as f64;
+        let size = |i: usize| sizes[0][pixels[0][i]].max(sizes[1][pixels[1][i]]) as f64;
+        let vote = |i: usize| (VOTES_OF_PIXEL / size(i)).min(1.0);
         Some(Self {
             votes: (0..num_matches).map(vote).collect(),
             pixels,
@@ -225,13 +230,13 @@ mod tests {
     }
 
     #[test]
-    fn matches_of_one_pixel_share_a_vote() {
+    fn matches_of_one_pixel_share_its_votes() {
         let point = |u: f64| Point2::new(u, 0.0);
         let p = [0.0, 1.0, 2.0, 3.0, 3.0].map(point);
         let q = [7.0, 7.0, 7.0, 8.0, 9.0].map(point);
         let set = MatchSet::new(&p, &q).unwrap();
-        let third = 1.0 / 3.0;
-        assert_eq!(set.votes(), Some(&[third, third, third, 0.5, 0.5][..]));
+        let part = 2.0 / 3.0;
+        assert_eq!(set.votes(), Some(&[part, part, part, 1.0, 1.0][..]));
         assert!(set.have_shared_pixel(&[0, 3, 1]) && set.have_shared_pixel(&[4, 3]));
         assert!(!set.have_shared_pixel(&[2, 4]));
         assert_eq!(set.num_distinct(&[0, 1, 2, 3, 4]), 3);
