@@ -223,12 +223,15 @@ impl<E: Estimator> Ransac<E> {
     ///
     /// # Errors
     /// [`Error::NoConsensus`] if no sample gave a model that the data of one sample, at least,
-    /// support.
+    /// support; [`Error::Canceled`] if the run was ended before one did.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
-        let no_consensus = Error::NoConsensus {
-            needed: self.estimator.sample_size(),
-            got: self.estimator.num_data(),
-            iterations: self.iterations,
+        let no_consensus = match self.stop {
+            Some(StopReason::Cancelled) => Error::Canceled,
+            _ => Error::NoConsensus {
+                needed: self.estimator.sample_size(),
+                got: self.estimator.num_data(),
+                iterations: self.iterations,
+            },
         };
         let Some(mut best) = self.best.take() else {
             return Err(no_consensus);

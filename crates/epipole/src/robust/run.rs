@@ -3,6 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, Trial};
+#[cfg(doc)]
+use crate::Error;
 use crate::Result;
 
 /// Runs [`Ransac`] to its end.
@@ -19,7 +21,8 @@ pub fn ransac<E: Estimator>(
 }
 
 /// Runs [`Ransac`] and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
+/// [`ControlFlow::Break`]; the report is then about the best model so far, and [`Error::Canceled`] says
+/// that there is none yet.
 ///
 /// # Errors
 /// As [`Ransac::new`] and [`Ransac::finish`].
