@@ -1,5 +1,8 @@
 //! Equal data, found once and counted once.
 
+/// As many as any datum has: a point and its pixel.
+const MAX_COORDINATES: usize = 5;
+
 /// Which data are repetitions of others.
 ///
 /// A match that occurs ten times is one observation, not ten: counted ten times it outvotes
@@ -18,17 +21,29 @@ impl Unique {
     /// Different data keep the order in which they first occur.
     pub fn new<const D: usize>(num_data: usize, datum: impl Fn(usize) -> [f64; D]) -> Self {
         // Adding zero makes −0 and 0 the same bits.
-        let bits = |i: usize| datum(i).map(|x| (x + 0.0).to_bits());
-        let mut order: Vec<usize> = (0..num_data).collect();
+        let key = |i: usize| {
+            let mut key = [0; MAX_COORDINATES];
+            for (bits, x) in key.iter_mut().zip(datum(i)) {
+                *bits = (x + 0.0).to_bits();
+            }
+            (key, i)
+        };
+        const { assert!(D <= MAX_COORDINATES) }
+        Self::of_keys((0..num_data).map(key).collect())
+    }
+
+    /// Apart from [`new`](Self::new), so that there is one sort for data of every kind.
+    fn of_keys(mut order: Vec<([u64; MAX_COORDINATES], usize)>) -> Self {
+        let num_data = order.len();
         // Sorting by (bits, index) puts the first occurrence at the front of its group.
-        order.sort_unstable_by(|&i, &j| bits(i).cmp(&bits(j)).then(i.cmp(&j)));
+        order.sort_unstable();
         let mut leader = vec![0; num_data];
         let mut current = 0;
-        for (rank, &i) in order.iter().enumerate() {
-            if rank == 0 || bits(order[rank - 1]) != bits(i) {
-                current = i;
+        for (rank, (bits, i)) in order.iter().enumerate() {
+            if rank == 0 || order[rank - 1].0 != *bits {
+                current = *i;
             }
-            leader[i] = current;
+            leader[*i] = current;
         }
         let mut first = Vec::with_capacity(num_data);
         let mut place = vec![0; num_data];
