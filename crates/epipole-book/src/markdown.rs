@@ -1,28 +1,20 @@
-//! A chapter's Markdown to HTML. Directives become stand-ins of private-use characters before
-//! Markdown is parsed, and their HTML takes the stand-ins' place afterwards: so Markdown cannot
-//! mangle it, and every event still knows its file and line.
+//! A chapter's Markdown to HTML. Directives become stand-ins before Markdown is parsed, and their
+//! HTML takes the stand-ins' place afterwards.
 
 use crate::directives::{Directive, Piece, markdown_options, split};
+use crate::events::{Located, end_of, section_starts, take_footnotes};
 use crate::expand::Insert;
-use crate::highlight::highlight;
 use crate::html::{escape, forbidden_inline, slug};
 use crate::links;
+use crate::listing::listing;
 use crate::math::{Layout, mathml};
 use crate::page::{Heading, Page};
 use crate::problems::Place;
 use crate::shared::Shared;
 use crate::source::Source;
-use pulldown_cmark::{
-    Alignment, BlockQuoteKind, CodeBlockKind, CowStr, Event, HeadingLevel, Parser, Tag, TagEnd,
-};
+use crate::stand_ins::{self, Part, parts, substitute};
+use pulldown_cmark::{Alignment, BlockQuoteKind, CowStr, Event, Parser, Tag, TagEnd};
 use std::collections::HashMap;
-use std::ops::Range;
-
-const OPEN: char = '\u{E000}';
-const CLOSE: char = '\u{E001}';
-
-type Located<'a> = (Event<'a>, Range<usize>);
-
 /// Renders one chapter; its page grows as it goes.
 pub(crate) struct Renderer<'a> {
     pub(crate) shared: &'a Shared<'a>,
@@ -71,7 +63,7 @@ impl<'a> Renderer<'a> {
                 Piece::Directive(directive) => {
                     let place = source.place(directive.span.start);
                     let insert = self.directive(source, &directive);
-                    expanded.push(&format!("{OPEN}{}{CLOSE}", inserts.len()), place);
+                    expanded.push(&stand_ins::of(inserts.len()), place);
                     inserts.push(insert);
                 }
             }
@@ -251,8 +243,7 @@ impl<'a> Renderer<'a> {
                 _ => return None,
             }
         }
-        let digits = words.trim().strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
-        match text.inserts.get(digits.parse::<usize>().ok()?)? {
+        match text.inserts.get(stand_ins::index_of(words.trim())?)? {
             Insert::Block { html } => Some(html.clone()),
             _ => None,
         }
@@ -376,7 +367,7 @@ impl<'a> Renderer<'a> {
                         continue;
                     };
                     if let Insert::Block { .. } = insert {
-                        let at = text.source.text().find(&format!("{OPEN}{index}{CLOSE}"));
+                        let at = text.source.text().find(&stand_ins::of(index));
                         let place = text.source.place(at.unwrap_or(0));
                         self.report(place, "this must stand in a paragraph of its own");
                         continue;
@@ -393,44 +384,6 @@ impl<'a> Renderer<'a> {
     }
 }
 
-enum Part<'a> {
-    Words(&'a str),
-    Insert(usize),
-}
-
-fn parts(words: &str) -> Vec<Part<'_>> {
-    let mut parts = Vec::new();
-    let mut rest = words;
-    while let Some(open) = rest.find(OPEN) {
-        let Some(close) = rest[open..].find(CLOSE) else {
-            break;
-        };
-        if open > 0 {
-            parts.push(Part::Words(&rest[..open]));
-        }
-        let digits = &rest[open + OPEN.len_utf8()..open + close];
-        if let Ok(index) = digits.parse() {
-            parts.push(Part::Insert(index));
-        }
-        rest = &rest[open + close + CLOSE.len_utf8()..];
-    }
-    if !rest.is_empty() {
-        parts.push(Part::Words(rest));
-    }
-    parts
-}
-
-fn substitute(words: &str, inserts: &[Insert], form: fn(&Insert) -> String) -> String {
-    let mut text = String::new();
-    for part in parts(words) {
-        match part {
-            Part::Words(words) => text.push_str(words),
-            Part::Insert(index) => text.push_str(&inserts.get(index).map(form).unwrap_or_default()),
-        }
-    }
-    text
-}
-
 /// The words of a run of events, without marks.
 fn plain(events: &[Located], text: &Text) -> String {
     let mut words = String::new();
@@ -444,101 +397,6 @@ fn plain(events: &[Located], text: &Text) -> String {
         }
     }
     words.trim().to_owned()
-}
-
-/// The index after the end of the element that starts at `start`.
-fn end_of(events: &[Located], start: usize) -> usize {
-    let mut depth = 0_usize;
-    for (at, (event, _)) in events.iter().enumerate().skip(start) {
-        match event {
-            Event::Start(_) => depth += 1,
-            Event::End(_) => {
-                depth = depth.saturating_sub(1);
-                if depth == 0 {
-                    return at + 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    events.len()
-}
-
-/// Where the sections of a text start, each with a heading of the second level, and the text's end.
-fn section_starts(events: &[Located]) -> Vec<usize> {
-    let mut starts = Vec::new();
-    let mut at = 0;
-    while at < events.len() {
-        match &events[at].0 {
-            Event::Start(tag) => {
-                if matches!(tag, Tag::Heading { level, .. } if *level == HeadingLevel::H2) {
-                    starts.push(at);
-                }
-                at = end_of(events, at);
-            }
-            _ => at += 1,
-        }
-    }
-    starts.push(events.len());
-    starts
-}
-
-/// Takes the definitions of footnotes out of the events: they become margin notes.
-fn take_footnotes<'a>(events: &mut Vec<Located<'a>>) -> HashMap<CowStr<'a>, Vec<Located<'a>>> {
-    let mut footnotes = HashMap::new();
-    let mut at = 0;
-    while at < events.len() {
-        if let Event::Start(Tag::FootnoteDefinition(label)) = &events[at].0 {
-            let label = label.clone();
-            let end = end_of(events, at);
-            let mut definition: Vec<Located> = events.drain(at..end).collect();
-            definition.remove(0);
-            definition.pop();
-            footnotes.insert(label, definition);
-        } else {
-            at += 1;
-        }
-    }
-    footnotes
-}
-
-fn listing(code: &str, kind: &CodeBlockKind) -> String {
-    let language = match kind {
-        CodeBlockKind::Fenced(info) => info.split([' ', ',']).next().unwrap_or("").to_owned(),
-        CodeBlockKind::Indented => String::new(),
-    };
-    let shown = if language == "rust" {
-        without_hidden_lines(code)
-    } else {
-        code.to_owned()
-    };
-    let class = if language.is_empty() {
-        String::new()
-    } else {
-        format!(" class=\"language-{}\"", escape(&language))
-    };
-    let label = match language.as_str() {
-        "python" => "Python",
-        "rust" => "Rust",
-        "html" => "HTML",
-        "sh" | "console" | "bash" => "Command line",
-        _ => "Listing",
-    };
-    format!(
-        "<pre data-language=\"{label}\"><code{class}>{}</code></pre>\n",
-        highlight(&shown, &language)
-    )
-}
-
-/// As in Rust's own documentation, a line that starts with `# ` is run but not shown.
-fn without_hidden_lines(code: &str) -> String {
-    let hidden = |line: &&str| {
-        let line = line.trim_start();
-        line.trim_end() == "#" || line.starts_with("# ")
-    };
-    code.split_inclusive('\n')
-        .filter(|line| !hidden(line))
-        .collect()
 }
 
 fn callout(kind: BlockQuoteKind, html: &str) -> String {

@@ -26,6 +26,7 @@ mod shading;
 mod shape;
 mod still_life;
 mod texture;
+mod view;
 mod wares;
 mod worlds;
 

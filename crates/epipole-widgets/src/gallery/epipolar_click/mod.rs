@@ -1,5 +1,6 @@
 //! `epipolar-click`: a point in one photograph, its epipolar line in the other.
 
+mod knobs;
 mod model;
 mod view;
 mod words;

@@ -1,10 +1,10 @@
 //! State and mathematics of `epipolar-click`: points of one photograph, their epipolar lines and
 //! true matches in another.
 
+use super::knobs::{ADD, BASELINE, FORWARD, KNOBS, MAX_POINTS, REMOVE, SELECTED, TURN};
 use super::words;
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings,
-    Slider, Value,
+    Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Slider, Value,
 };
 use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life_pair};
 use epipole::camera::Camera;
@@ -15,69 +15,6 @@ use epipole::math::Line2;
 use epipole::synthetic::Transfer;
 use nalgebra::{Matrix3, Point2};
 
-pub(super) const BASELINE: Slider = Slider {
-    id: "baseline",
-    label: "Camera 2 to the right",
-    unit: "m",
-    min: 0.0,
-    max: 0.8,
-    step: 0.02,
-    default: 0.5,
-    digits: 2,
-    visible: true,
-};
-pub(super) const FORWARD: Slider = Slider {
-    id: "forward",
-    label: "Camera 2 forward",
-    unit: "m",
-    min: -0.6,
-    max: 0.4,
-    step: 0.02,
-    default: -0.4,
-    digits: 2,
-    visible: true,
-};
-pub(super) const TURN: Slider = Slider {
-    id: "turn",
-    label: "Camera 2 turned left",
-    unit: "°",
-    min: -15.0,
-    max: 30.0,
-    step: 1.0,
-    default: 14.0,
-    digits: 0,
-    visible: true,
-};
-/// The point that the readouts speak of; 0 stands for the last one, until one is touched.
-const SELECTED: Slider = Slider {
-    id: "selected",
-    label: "Selected point",
-    unit: "",
-    min: 0.0,
-    max: MAX_POINTS as f64,
-    step: 1.0,
-    default: 0.0,
-    digits: 0,
-    visible: false,
-};
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&BASELINE),
-    Knob::Slider(&FORWARD),
-    Knob::Slider(&TURN),
-    Knob::Slider(&SELECTED),
-];
-const ADD: Button = Button {
-    id: "add",
-    label: "Add a point",
-    role: ButtonRole::Action,
-};
-const REMOVE: Button = Button {
-    id: "remove",
-    label: "Remove the last point",
-    role: ButtonRole::Action,
-};
-
-pub(super) const MAX_POINTS: usize = 6;
 /// Where points begin, pixels: the first [`NUM_AT_START`] at the start, the others when added. They
 /// are on the sun in a picture, the vase's rim, the mug's handle, a corner of the cloth, the tin and
 /// the apple.

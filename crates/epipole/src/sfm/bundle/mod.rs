@@ -1,5 +1,6 @@
 //! Bundle adjustment of pinhole cameras.
 
+mod pose;
 mod problem;
 mod radial;
 
@@ -10,7 +11,7 @@ use nalgebra::{Point2, Point3, Translation3, Vector2};
 use problem::{Problem, State};
 use std::ops::ControlFlow;
 
-pub(super) use problem::turned;
+pub(super) use pose::{PoseState, move_points, sum_of_squares};
 pub use radial::RadialDistortion;
 pub(super) use radial::radial_terms;
 

@@ -1,32 +1,14 @@
 //! What the solver sees of a bundle: residuals, their derivatives, and steps.
 
+use super::pose::{PoseState, move_points, sum_of_squares};
 use super::radial::radial_terms;
 use super::{Bundle, BundleOptions};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, RobustLoss};
-use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
-
-/// `exp(δ) R`; the very same bits for δ = 0, so that a held camera stays exactly.
-pub(in crate::sfm) fn turned(
-    rotation: &UnitQuaternion<f64>,
-    delta: [f64; 3],
-) -> UnitQuaternion<f64> {
-    if delta == [0.0; 3] {
-        return *rotation;
-    }
-    let turn = UnitQuaternion::from_scaled_axis(Vector3::from(delta));
-    UnitQuaternion::new_normalize((turn * rotation).into_inner())
-}
-
-#[derive(Clone)]
-pub(super) struct CameraState {
-    pub(super) rotation: UnitQuaternion<f64>,
-    matrix: Matrix3<f64>,
-    pub(super) translation: Vector3<f64>,
-}
+use nalgebra::{Point3, Vector3};
 
 #[derive(Clone)]
 pub(super) struct State {
-    pub(super) cameras: Vec<CameraState>,
+    pub(super) cameras: Vec<PoseState>,
     /// Factor of all focal lengths, k1, k2.
     pub(super) shared: [f64; 3],
     pub(super) points: Vec<Point3<f64>>,
@@ -37,10 +19,9 @@ impl State {
         let cameras = bundle
             .cameras
             .iter()
-            .map(|camera| CameraState {
-                rotation: camera.cam_from_world.rotation,
-                matrix: *camera.cam_from_world.rotation.to_rotation_matrix().matrix(),
-                translation: camera.cam_from_world.translation.vector,
+            .map(|camera| {
+                let pose = camera.cam_from_world;
+                PoseState::new(pose.rotation, pose.translation.vector)
             })
             .collect();
         Self {
@@ -92,7 +73,7 @@ impl BundleProblem<6, 3> for Problem<'_> {
         let o = &self.bundle.observations[observation];
         let camera = &state.cameras[o.camera];
         let (intrinsics, sensor) = self.bundle.lens(observation);
-        let mut p = camera.matrix * state.points[o.point].coords + camera.translation;
+        let mut p = camera.rotated(&state.points[o.point]) + camera.translation;
         if let Some(sensor) = sensor {
             p = (sensor.sensor_from_camera * Point3::from(p)).coords;
         }
@@ -111,7 +92,7 @@ impl BundleProblem<6, 3> for Problem<'_> {
         let o = &self.bundle.observations[observation];
         let camera = &state.cameras[o.camera];
         let (intrinsics, sensor) = self.bundle.lens(observation);
-        let rotated = camera.matrix * state.points[o.point].coords;
+        let rotated = camera.rotated(&state.points[o.point]);
         let mut p = rotated + camera.translation;
         if let Some(sensor) = sensor {
             p = (sensor.sensor_from_camera * Point3::from(p)).coords;
@@ -138,17 +119,12 @@ impl BundleProblem<6, 3> for Problem<'_> {
             if let Some(sensor) = sensor {
                 by_p = sensor.sensor_from_camera.rotation.inverse() * by_p;
             }
-            // exp(δ) R X moves by δ × R X, and g · (δ × q) = δ · (q × g).
-            let by_rotation = rotated.cross(&by_p);
-            let by_point = camera.matrix.tr_mul(&by_p);
-            terms.camera[row][..3].copy_from_slice(by_rotation.as_slice());
-            terms.camera[row][3..].copy_from_slice(by_p.as_slice());
+            (terms.camera[row], terms.point[row]) = camera.derivatives(&rotated, &by_p);
             terms.shared[row] = [
                 focals[row] * radial.factor * normalized[row],
                 f * radial.r_sq * normalized[row],
                 f * radial.r_sq * radial.r_sq * normalized[row],
             ];
-            terms.point[row].copy_from_slice(by_point.as_slice());
         }
         terms
     }
@@ -160,16 +136,12 @@ impl BundleProblem<6, 3> for Problem<'_> {
             .zip(&mut into.cameras)
             .zip(&step.cameras)
         {
-            new.rotation = turned(&old.rotation, [d[0], d[1], d[2]]);
-            new.matrix = *new.rotation.to_rotation_matrix().matrix();
-            new.translation = old.translation + Vector3::new(d[3], d[4], d[5]);
+            *new = old.moved(*d);
         }
         for k in 0..3 {
             into.shared[k] = from.shared[k] + step.shared[k];
         }
-        for ((old, new), d) in from.points.iter().zip(&mut into.points).zip(&step.points) {
-            *new = old + Vector3::from(*d);
-        }
+        move_points(&from.points, &step.points, &mut into.points);
     }
 
     fn parameter_norm(&self, state: &State) -> f64 {
@@ -177,11 +149,6 @@ impl BundleProblem<6, 3> for Problem<'_> {
         for camera in &state.cameras {
             sum += 1.0 + camera.translation.norm_squared();
         }
-        sum += state
-            .points
-            .iter()
-            .map(|p| p.coords.norm_squared())
-            .sum::<f64>();
-        sum.sqrt()
+        (sum + sum_of_squares(&state.points)).sqrt()
     }
 }

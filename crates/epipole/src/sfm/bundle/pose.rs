@@ -1,0 +1,70 @@
+//! Poses and points while they are refined, whatever the lens.
+
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+
+/// `cam_from_world`, with its rotation as a matrix, too.
+#[derive(Clone)]
+pub(in crate::sfm) struct PoseState {
+    pub(in crate::sfm) rotation: UnitQuaternion<f64>,
+    matrix: Matrix3<f64>,
+    pub(in crate::sfm) translation: Vector3<f64>,
+}
+
+impl PoseState {
+    pub(in crate::sfm) fn new(rotation: UnitQuaternion<f64>, translation: Vector3<f64>) -> Self {
+        Self {
+            rotation,
+            matrix: *rotation.to_rotation_matrix().matrix(),
+            translation,
+        }
+    }
+
+    /// `R X`.
+    #[inline]
+    pub(in crate::sfm) fn rotated(&self, point: &Point3<f64>) -> Vector3<f64> {
+        self.matrix * point.coords
+    }
+
+    /// Derivatives by the six of [`PoseState::moved`] and by the point X, from `by_p`, the one by
+    /// `R X + t`.
+    #[inline]
+    pub(in crate::sfm) fn derivatives(
+        &self,
+        rotated: &Vector3<f64>,
+        by_p: &Vector3<f64>,
+    ) -> ([f64; 6], [f64; 3]) {
+        // exp(δ) R X moves by δ × R X, and g · (δ × q) = δ · (q × g).
+        let turn = rotated.cross(by_p);
+        let by_pose = [turn.x, turn.y, turn.z, by_p.x, by_p.y, by_p.z];
+        (by_pose, self.matrix.tr_mul(by_p).into())
+    }
+
+    /// `exp(δ) R` and `t + d` for the step (δ, d); the very same bits for a step of 0, so that a
+    /// held camera stays exactly.
+    pub(in crate::sfm) fn moved(&self, step: [f64; 6]) -> Self {
+        let [a, b, c, x, y, z] = step;
+        let rotation = if [a, b, c] == [0.0; 3] {
+            self.rotation
+        } else {
+            let turn = UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c));
+            UnitQuaternion::new_normalize((turn * self.rotation).into_inner())
+        };
+        Self::new(rotation, self.translation + Vector3::new(x, y, z))
+    }
+}
+
+/// Writes the points after a step to `into`.
+pub(in crate::sfm) fn move_points(
+    from: &[Point3<f64>],
+    step: &[[f64; 3]],
+    into: &mut [Point3<f64>],
+) {
+    for ((old, new), d) in from.iter().zip(into).zip(step) {
+        *new = old + Vector3::from(*d);
+    }
+}
+
+/// `Σ ‖X‖²`.
+pub(in crate::sfm) fn sum_of_squares(points: &[Point3<f64>]) -> f64 {
+    points.iter().map(|p| p.coords.norm_squared()).sum()
+}

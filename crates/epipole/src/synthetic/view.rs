@@ -1,0 +1,249 @@
+//! A scene as one camera sees it: which bodies may show where, and what a ray finds.
+
+use super::body::Body;
+use super::light::{Decal, LightMap, Lighting};
+use super::render::Sampling;
+use super::scene::Scene;
+use super::shading::{self, Look};
+use super::shape::{Contact, Ray};
+use crate::camera::Camera;
+use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
+
+/// Side of the squares of pixels that share a list of candidates.
+pub(super) const TILE: u32 = 8;
+const NEAR: f64 = 1e-9;
+/// Depth beyond which things are in front of the camera, metres.
+const FRONT_M: f64 = 1e-6;
+
+/// A body as one camera sees it.
+struct Seen<'a> {
+    body: &'a Body,
+    lights: &'a [LightMap],
+    origin: Vector3<f64>,
+    local_from_cam: Matrix3<f64>,
+    /// Pixels that may show it: columns and rows, both ends included.
+    columns: (i64, i64),
+    rows: (i64, i64),
+    /// No point of it is nearer than this depth; infinite for the room, which is behind all.
+    nearest: f64,
+    /// Its number in the scene.
+    number: usize,
+}
+
+/// What one ray found.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    /// Body and chart.
+    pub(super) key: u32,
+    pub(super) depth_m: f32,
+    pub(super) inverse_depth: f32,
+    pub(super) color: [f32; 3],
+}
+
+/// The camera's side of a picture that is to be rendered.
+pub(super) struct View<'a> {
+    seen: Vec<Seen<'a>>,
+    lighting: &'a Lighting,
+    /// Shade of the movable thing, where its foot is, and the number of the body it falls on.
+    shade: Option<(&'a Decal, Vector3<f64>, usize)>,
+    center: Vector3<f64>,
+    world_from_cam: Matrix3<f64>,
+    principal: Point2<f64>,
+    inverse_focal: Vector2<f64>,
+    pixel_rad: f64,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) sampling: Sampling,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        camera: &Camera,
+        width: u32,
+        height: u32,
+        sampling: Sampling,
+    ) -> Self {
+        let center = camera.center_in_world().coords;
+        let k = &camera.intrinsics;
+        let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
+        let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
+        let world_from_cam = cam_from_world.matrix().transpose();
+        let mut seen: Vec<Seen> = scene
+            .placed()
+            .zip(scene.lights())
+            .enumerate()
+            .map(|(number, ((body, shift), lights))| {
+                let (columns, rows, nearest) = outline(camera, body, &shift);
+                Seen {
+                    body,
+                    lights,
+                    origin: body.local_from_world * (center - body.center - shift),
+                    local_from_cam: body.local_from_world * world_from_cam,
+                    columns,
+                    rows,
+                    nearest,
+                    number,
+                }
+            })
+            .collect();
+        // From front to back; the order of bodies decides between equals.
+        seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
+        Self {
+            lighting: &scene.fixed.lighting,
+            shade: scene.shade(),
+            seen,
+            center,
+            world_from_cam,
+            principal: k.principal_point(),
+            inverse_focal,
+            pixel_rad: (inverse_focal.x * inverse_focal.y).sqrt(),
+            width,
+            height,
+            sampling,
+        }
+    }
+
+    /// For each tile of a row of tiles, the bodies that it may show.
+    pub(super) fn candidates(&self, tile_row: u32, lists: &mut Vec<Vec<u16>>) {
+        lists.resize(self.width.div_ceil(TILE) as usize, Vec::new());
+        lists.iter_mut().for_each(Vec::clear);
+        let tile = i64::from(TILE);
+        let (top, bottom) = (
+            i64::from(tile_row) * tile,
+            i64::from(tile_row) * tile + tile - 1,
+        );
+        for (index, seen) in self.seen.iter().enumerate() {
+            if seen.rows.1 < top || seen.rows.0 > bottom {
+                continue;
+            }
+            let first = seen.columns.0.max(0) / tile;
+            let last = seen.columns.1.min(i64::from(self.width) - 1);
+            if last < 0 {
+                continue;
+            }
+            for list in lists
+                .iter_mut()
+                .take((last / tile + 1) as usize)
+                .skip(first as usize)
+            {
+                list.push(index as u16);
+            }
+        }
+    }
+
+    /// What the ray through an image point finds among the candidates.
+    #[inline]
+    pub(super) fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
+        let x = (u - self.principal.x) * self.inverse_focal.x;
+        let y = (v - self.principal.y) * self.inverse_focal.y;
+        let turn = |m: &Matrix3<f64>| {
+            Vector3::new(
+                m.m11 * x + m.m12 * y + m.m13,
+                m.m21 * x + m.m22 * y + m.m23,
+                m.m31 * x + m.m32 * y + m.m33,
+            )
+        };
+        let mut nearest = Contact {
+            along: f64::INFINITY,
+            part: 0,
+        };
+        let mut found = usize::MAX;
+        for &index in candidates {
+            let seen = &self.seen[usize::from(index)];
+            if seen.nearest > nearest.along {
+                break;
+            }
+            let ray = Ray {
+                origin: seen.origin,
+                direction: turn(&seen.local_from_cam),
+            };
+            if let Some(contact) = seen.body.shape.meet(&ray, NEAR, nearest.along) {
+                nearest = contact;
+                found = usize::from(index);
+            }
+        }
+        let Some(seen) = self.seen.get(found) else {
+            return Sample {
+                key: u32::MAX,
+                depth_m: f32::MAX,
+                inverse_depth: 0.0,
+                color: [0.0; 3],
+            };
+        };
+        let local = seen.origin + turn(&seen.local_from_cam) * nearest.along;
+        let place = seen.body.shape.place(&local, nearest.part);
+        let direction_in_world = turn(&self.world_from_cam);
+        let x_in_world = self.center + direction_in_world * nearest.along;
+        let decal = match &self.shade {
+            Some((decal, foot, ground)) if *ground == seen.number => {
+                decal.sample(x_in_world.x - foot.x, x_in_world.z - foot.z)
+            }
+            _ => None,
+        };
+        let look = Look {
+            x_in_world: shading::single(&x_in_world),
+            direction_in_world: shading::single(&direction_in_world),
+            pixel_m: (nearest.along * self.pixel_rad) as f32,
+            decal,
+            smooth: self.sampling == Sampling::Full,
+        };
+        let color = shading::color(seen.body, seen.lights, &place, self.lighting, &look);
+        Sample {
+            key: (seen.number as u32) << 8 | place.chart as u32,
+            depth_m: nearest.along as f32,
+            inverse_depth: 1.0 / nearest.along as f32,
+            color,
+        }
+    }
+}
+
+/// Columns and rows between which a body appears, around the corners of its box, and a depth
+/// that is not beyond its nearest point.
+fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (i64, i64), f64) {
+    let everywhere = (i64::MIN, i64::MAX);
+    if body.is_room() {
+        return (everywhere, everywhere, f64::INFINITY);
+    }
+    let (half, center) = body.shape.bounds();
+    let corners: [Point3<f64>; 8] = std::array::from_fn(|corner| {
+        let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
+        let x_in_world = body.local_from_world.tr_mul(&local) + body.center + shift;
+        camera.cam_from_world * Point3::from(x_in_world)
+    });
+    let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut include = |x_in_cam: &Point3<f64>| {
+        if let Ok(pixel) = camera.intrinsics.project(x_in_cam) {
+            for i in 0..2 {
+                low[i] = low[i].min(pixel[i]);
+                high[i] = high[i].max(pixel[i]);
+            }
+        }
+    };
+    for (index, a) in corners.iter().enumerate() {
+        if a.z >= FRONT_M {
+            include(a);
+        }
+        // The edges from this corner that cross the plane just in front of the camera.
+        for bit in 0..3 {
+            let b = &corners[index ^ (1 << bit)];
+            if a.z < FRONT_M && b.z >= FRONT_M {
+                include(&(b + (a - b) * ((b.z - FRONT_M) / (b.z - a.z))));
+            }
+        }
+    }
+    if low[0] > high[0] {
+        // Nothing of it lies in front of the camera.
+        return ((1, 0), (1, 0), nearest);
+    }
+    // One pixel more for the rays between pixel centers. The casts saturate.
+    let range = |i: usize| {
+        (
+            (low[i].floor() as i64).saturating_sub(1),
+            (high[i].ceil() as i64).saturating_add(1),
+        )
+    };
+    (range(0), range(1), nearest)
+}
