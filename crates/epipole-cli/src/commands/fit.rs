@@ -67,6 +67,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let pixels2: Vec<Point2<f64>> = match columns {
         2 => Vec::new(),
         _ => rows.iter().map(|row| at(row, 2)).collect(),
+    if arguments.model != Model::Essential && (arguments.k.is_some() || arguments.k2.is_some()) {
+        return Err(Failure::usage(
+            "--k and --k2 are for --model essential only: the other models need no intrinsics",
+        ));
+    }
     };
     let found = fit(arguments, context, &pixels1, &pixels2)?;
     let inlier_errors: Vec<f64> = found

@@ -58,6 +58,7 @@ struct Found {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let photos = [
+    arguments.camera.check_second(arguments.k2)?;
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
     ];

@@ -67,6 +67,7 @@ struct Found {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let photos = [
         Photo::read(&arguments.first)?,
+    arguments.camera.check_second(arguments.k2)?;
         Photo::read(&arguments.second)?,
     ];
     let found1 = arguments.features.detect(&photos[0], context)?;
@@ -82,6 +83,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| found2.keypoints[m.index2].point())
         .collect();
+    if matches!(arguments.model, Model::Fundamental | Model::Homography)
+        && arguments.camera.given(&photos[0])?.is_some()
+    {
+        context
+            .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
+    }
     let found = estimate(arguments, context, &photos, &pixels1, &pixels2)?;
 
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
