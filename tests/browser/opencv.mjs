@@ -162,27 +162,44 @@ async function compare({ wasm }) {
   }
 
   {
-    // A slanted cloud seen by two cameras side by side and turned: 200 matches, 30 % wrong.
-    const count = 200;
-    const matches = Array.from({ length: count }, (_, index) => {
-      const [x, y, z] = [4 * random() - 2, 3 * random() - 1.5, 4 + 3 * random()];
-      const [sin, cos] = [Math.sin(0.1), Math.cos(0.1)];
-      const [a, b] = [x * cos - z * sin + 0.7, x * sin + z * cos + 0.2];
-      const left = [500 * (x / z) + 320, 500 * (y / z) + 240];
-      const right = [500 * (a / b) + 320, 500 * (y / b) + 240];
-      const seen = [...left, ...right].map((value) => value + 0.5 * normal());
-      return index % 10 < 3 ? [...seen.slice(0, 2), 640 * random(), 480 * random()] : seen;
+    // Slanted clouds seen by two cameras side by side and turned: 200 matches, 30 % wrong. A frame must not
+    // be missed on any of them, so every run of each counts, not the least time of one.
+    const [problems, runs, count] = [40, 5, 200];
+    const times = [];
+    const nears = [];
+    for (let problem = 0; problem < problems; problem += 1) {
+      const matches = Array.from({ length: count }, (_, index) => {
+        const [x, y, z] = [4 * random() - 2, 3 * random() - 1.5, 4 + 3 * random()];
+        const [sin, cos] = [Math.sin(0.1), Math.cos(0.1)];
+        const [a, b] = [x * cos - z * sin + 0.7, x * sin + z * cos + 0.2];
+        const left = [500 * (x / z) + 320, 500 * (y / z) + 240];
+        const right = [500 * (a / b) + 320, 500 * (y / b) + 240];
+        const seen = [...left, ...right].map((value) => value + 0.5 * normal());
+        return index % 10 < 3 ? [...seen.slice(0, 2), 640 * random(), 480 * random()] : seen;
+      });
+      const at = doubles(4 * count);
+      new Float64Array(memory.buffer, at, 4 * count).set(matches.flat());
+      prepare(FUNDAMENTAL, 4, count);
+      for (let round = 0; round < runs; round += 1) {
+        const start = performance.now();
+        if (run(FUNDAMENTAL) === false) throw new Error("our work failed");
+        times.push(performance.now() - start);
+      }
+      const f = found(FUNDAMENTAL);
+      const near = matches.filter(([u, v, p, q]) => {
+        const line = [0, 3, 6].map((row) => f[row] * u + f[row + 1] * v + f[row + 2]);
+        return Math.abs(line[0] * p + line[1] * q + line[2]) < 2 * Math.hypot(line[0], line[1]);
+      });
+      nears.push(near.length);
+    }
+    const share = (values, part) => [...values].sort((a, b) => a - b)[Math.ceil(part * values.length) - 1];
+    rows.push({
+      name: `F of ${count} matches, 30 % wrong: p95 of ${problems} problems`,
+      ours: share(times, 0.95),
+      quality:
+        `median ${share(times, 0.5).toFixed(2)} ms, most ${share(times, 1).toFixed(2)} ms; ` +
+        `${share(nears, 0.5)} of ${count} within 2 px of their line, at least ${Math.min(...nears)}`,
     });
-    const at = doubles(4 * count);
-    new Float64Array(memory.buffer, at, 4 * count).set(matches.flat());
-    prepare(FUNDAMENTAL, 4, count);
-    const { ours } = inTurns(() => run(FUNDAMENTAL), () => {}, 1, 20);
-    const f = found(FUNDAMENTAL);
-    const near = matches.filter(([u, v, p, q]) => {
-      const line = [0, 3, 6].map((row) => f[row] * u + f[row + 1] * v + f[row + 2]);
-      return Math.abs(line[0] * p + line[1] * q + line[2]) < 2 * Math.hypot(line[0], line[1]);
-    }).length;
-    rows.push({ name: "F of 200 matches, 30 % wrong", ours, quality: `${near} of 200 within 2 px of their line` });
   }
 
   {

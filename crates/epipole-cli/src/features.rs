@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::photo::Photo;
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
@@ -68,7 +69,7 @@ impl FeatureArguments {
                 };
                 let found = detect_sift_with_progress(&gray, &options, &mut |share| {
                     progress.set(f64::from(share));
-                    true
+                    !interrupt::requested()
                 })?;
                 let descriptors = AnyDescriptors::Vectors(found.descriptors);
                 Ok(Detected {
@@ -144,6 +145,20 @@ fn ratio(text: &str) -> Result<f32, String> {
 }
 
 impl MatchArguments {
+    /// Matches the features of two photographs, the least ambiguous first: some samplers make use of it.
+    ///
+    /// # Errors
+    /// As [`MatchArguments::run`].
+    pub(crate) fn run_best_first(
+        &self,
+        first: &Detected,
+        second: &Detected,
+    ) -> Result<Vec<Match>, Failure> {
+        let mut matches = self.run(first, second)?;
+        matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        Ok(matches)
+    }
+
     /// Matches the features of two photographs.
     ///
     /// # Errors

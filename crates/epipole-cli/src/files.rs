@@ -34,18 +34,22 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         })
 }
 
-/// Reads a file of text.
+/// Reads a file of text, without the byte order mark that some editors put at its start.
 ///
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    fs::read_to_string(path).map_err(|error| {
+    let text = fs::read_to_string(path).map_err(|error| {
         let why = match error.kind() {
             io::ErrorKind::NotFound => "there is no such file".to_owned(),
             io::ErrorKind::InvalidData => "this is not a text file".to_owned(),
             _ => format!("cannot be read: {error}"),
         };
         Failure::new("read", why).about(path)
+    })?;
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
     })
 }
 

@@ -74,6 +74,19 @@ impl CameraArguments {
         }
     }
 
+    /// Refuses intrinsics of the second camera alone, which nothing could be done with.
+    ///
+    /// # Errors
+    /// A sentence that says what is missing.
+    pub(crate) fn check_second(&self, k2: Option<Intrinsics>) -> Result<(), Failure> {
+        if k2.is_some() && self.k.is_none() && self.focal_px.is_none() {
+            return Err(Failure::usage(
+                "--k2 is for the second camera: the first needs --k or --focal-px, too",
+            ));
+        }
+        Ok(())
+    }
+
     /// The intrinsics given, or else a guess from the photograph's own data, or else the field of
     /// view of a usual lens; with a sentence if it is a guess.
     ///

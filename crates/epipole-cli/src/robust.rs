@@ -1,15 +1,32 @@
-//! The options of robust estimation that commands share.
+//! The options of robust estimation that commands share, and runs that can be watched and ended.
 
 use crate::context::Context;
-use crate::matrices::positive;
-use clap::Args;
-use epipole::robust::RansacOptions;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::progress::Progress;
+use clap::{Args, ValueEnum};
+use epipole::Error;
+use epipole::robust::{
+    Estimator, Ransac, RansacOptions, RansacReport, SamplerKind, Step, StopReason,
+};
+
+/// The bar moves once in so many samples: looking more often would cost more than small samples do.
+const SAMPLES_A_LOOK: usize = 64;
+
+/// How samples are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Sampler {
+    /// All data alike.
+    Uniform,
+    /// The best data first, as matches from photographs are ordered and rows of a file should be.
+    Prosac,
+}
 
 /// How to tell good data from bad.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct RobustArguments {
     /// The largest error of an inlier, pixels.
-    #[arg(long, default_value_t = 1.0, value_name = "PX", value_parser = positive)]
+    #[arg(long, default_value_t = 1.0, value_name = "PX", value_parser = threshold)]
     pub(crate) max_error_px: f64,
     /// The probability that one sample at least is free of outliers.
     #[arg(long, default_value_t = 0.999, value_name = "P", value_parser = confidence)]
@@ -17,12 +34,26 @@ pub(crate) struct RobustArguments {
     /// Samples drawn at most.
     #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) max_iterations: u32,
+    /// How samples are drawn.
+    #[arg(long, value_enum, default_value = "uniform")]
+    pub(crate) sampler: Sampler,
 }
 
 fn confidence(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
         _ => Err(format!("\"{text}\" is not a number between 0 and 1")),
+    }
+}
+
+/// Errors are compared with the threshold squared, so the square must be a number above zero, too.
+fn threshold(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value * value > 0.0 && (value * value).is_finite() => Ok(value),
+        Ok(value) if value > 0.0 && value.is_finite() => {
+            Err(format!("\"{text}\" is beyond what can be squared"))
+        }
+        _ => Err(format!("\"{text}\" is not a number above 0")),
     }
 }
 
@@ -33,7 +64,90 @@ impl RobustArguments {
             confidence: self.confidence,
             max_iterations: self.max_iterations as usize,
             seed: context.seed,
+            sampler: match self.sampler {
+                Sampler::Uniform => SamplerKind::Uniform,
+                Sampler::Prosac => SamplerKind::Prosac,
+            },
             ..RansacOptions::default()
+        }
+    }
+
+    /// Runs RANSAC to its end, or until Ctrl-C asks for the best model so far.
+    ///
+    /// # Errors
+    /// As [`Ransac::new`] and [`Ransac::finish`]; [`Error::Canceled`] if Ctrl-C came before any
+    /// model was found.
+    pub(crate) fn run<E: Estimator>(
+        &self,
+        estimator: E,
+        context: &Context,
+    ) -> Result<RansacReport<E::Model>, Failure> {
+        let options = self.options(context);
+        let progress = Progress::new(context, "drawing samples");
+        let mut run = Ransac::new(estimator, options)?;
+        while let Step::Trial(trial) = run.step() {
+            let (drawn, most) = (trial.iteration, options.max_iterations);
+            if interrupt::requested() {
+                run.cancel();
+            }
+            if drawn.is_multiple_of(SAMPLES_A_LOOK) {
+                let required = usize::try_from(run.required_iterations()).unwrap_or(most);
+                let expected = required.max(options.min_iterations).min(most);
+                progress.set(drawn as f64 / expected as f64);
+            }
+        }
+        let report = match run.finish() {
+            Err(Error::NoConsensus { .. }) if interrupt::requested() => Err(Error::Canceled),
+            outcome => outcome,
+        }?;
+        drop(progress);
+        self.warn(&report, context);
+        Ok(report)
+    }
+
+    /// Tells of a run that ended before it could be confident.
+    pub(crate) fn warn<M>(&self, report: &RansacReport<M>, context: &Context) {
+        let (drawn, required) = (report.iterations, report.required_iterations);
+        match report.stop {
+            StopReason::Cancelled => context.warn("ended early; the result is what there was"),
+            // The last refinement may find enough inliers after all.
+            StopReason::Exhausted if required > drawn as u64 => {
+                let needed = match required {
+                    u64::MAX => "no number of samples is enough".to_owned(),
+                    required => format!("{required} samples are needed"),
+                };
+                context.warn(&format!(
+                    "ended by --max-iterations {drawn}: with so few inliers {needed} for a \
+                     confidence of {}",
+                    self.confidence
+                ));
+            }
+            StopReason::Exhausted | StopReason::Confident => {}
+        }
+    }
+}
+
+/// Why a run ended, as a word for scripts.
+pub(crate) fn stop_word(stop: StopReason) -> &'static str {
+    match stop {
+        StopReason::Confident => "confident",
+        StopReason::Exhausted => "exhausted",
+        StopReason::Cancelled => "canceled",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_are_numbers_that_can_be_squared() {
+        for (text, expected) in [("1", 1.0), ("0.25", 0.25), ("1e100", 1e100)] {
+            assert_eq!(threshold(text), Ok(expected));
+        }
+        for text in ["0", "-1", "nan", "inf", "", "1e300", "1e-300"] {
+            let sentence = threshold(text).expect_err(text);
+            assert!(sentence.len() < 60, "{sentence}");
         }
     }
 }

@@ -4,10 +4,13 @@
 
 mod common;
 
-use common::{Folder, angle_deg, fails, json, k, matrix, motion, moved, numbers, path};
+use common::{
+    Folder, angle_deg, epipole, fails, json, k, matrix, motion, moved, numbers, parse, path,
+};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::epipolar::{fundamental_from_cameras, symmetric_epipolar_px};
 use epipole::math::random::Random;
+use epipole::robust::num_trials_without_replacement;
 use epipole::synthetic::{Scene, Structure, Transfer, TwoViewOptions, TwoViewProblem};
 use nalgebra::{Matrix3, Point2, Vector3};
 use serde_json::Value;
@@ -238,11 +241,171 @@ fn files_of_matches_that_say_nothing_are_refused() {
     for (option, value) in [
         ("--k", "600,600,1"),
         ("--max-error-px", "-1"),
+        ("--max-error-px", "1e300"),
+        ("--max-error-px", "1e-300"),
         ("--confidence", "1"),
+        ("--sampler", "best"),
     ] {
         let arguments = ["fit", "--model", "essential", path(&good), option, value];
         fails(&folder, &arguments, 2, value);
     }
+}
+
+/// What would be left unused is refused, and so is half of what is needed.
+#[test]
+fn intrinsics_where_none_are_needed_are_refused() {
+    let folder = Folder::new("fit-k");
+    let good = folder.write("good.txt", &"1 2 3 4\n".repeat(9));
+    for model in ["line", "homography", "fundamental", "similarity"] {
+        for option in ["--k", "--k2"] {
+            let arguments = ["fit", "--model", model, path(&good), option, K];
+            fails(&folder, &arguments, 2, "for --model essential only");
+        }
+    }
+    let arguments = ["fit", "--model", "essential", path(&good), "--k2", K];
+    fails(&folder, &arguments, 2, "needs --k");
+    let blank = folder.blank("blank.png", (64, 64));
+    let out = folder.file("out");
+    for arguments in [
+        &["two-view", path(&blank), path(&blank), "--k2", K][..],
+        &[
+            "two-view",
+            path(&blank),
+            path(&blank),
+            "--k2",
+            K,
+            "--model",
+            "essential",
+        ],
+        &[
+            "rectify",
+            path(&blank),
+            path(&blank),
+            "--k2",
+            K,
+            "-o",
+            path(&out),
+        ],
+    ] {
+        fails(&folder, arguments, 2, "the first needs --k or --focal-px");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_a_row() {
+    let folder = Folder::new("fit-bom");
+    let rows = "10 20 30 40\n50 60 70 80\n15 70 35 90\n";
+    let fit = |text: &str| {
+        let file = folder.write("matches.txt", text);
+        json(&["fit", "--model", "similarity", path(&file)])
+    };
+    let (with, without) = (fit(&format!("\u{feff}{rows}")), fit(rows));
+    assert_eq!(with["num_inliers"], 3);
+    assert_eq!(with["model"], without["model"]);
+    // Anywhere else it is.
+    let file = folder.write("matches.txt", &format!("{rows}\u{feff}1 2 3 4"));
+    let arguments = ["fit", "--model", "similarity", path(&file)];
+    fails(&folder, &arguments, 1, ":4: here should be 4 numbers");
+}
+
+/// A run says why it ended, how many samples so many inliers ask for, and warns if these were not
+/// allowed.
+#[test]
+fn fits_tell_whether_they_are_confident() {
+    let folder = Folder::new("fit-stop");
+    let problem = problem(cube());
+    let file = file_of(&folder, &problem);
+    let fit = |more: &[&str]| {
+        let arguments = ["fit", "--model", "fundamental", path(&file), "--json"];
+        let output = epipole(&[&arguments, more].concat());
+        assert_eq!(output.status.code(), Some(0));
+        (parse(&output), String::from_utf8(output.stderr).unwrap())
+    };
+    let (result, told) = fit(&[]);
+    assert_eq!(result["stop"], "confident");
+    let num_inliers = usize::try_from(result["num_inliers"].as_u64().unwrap()).unwrap();
+    let required = num_trials_without_replacement(num_inliers, 250, 7, 0.999).unwrap();
+    assert_eq!(result["required_iterations"], required);
+    assert!(result["iterations"].as_u64().unwrap() >= required);
+    assert!(told.is_empty(), "{told}");
+
+    let (result, told) = fit(&["--max-iterations", "30"]);
+    assert_eq!(
+        (&result["stop"], &result["iterations"]),
+        (&"exhausted".into(), &30.into())
+    );
+    let required = result["required_iterations"].as_u64().unwrap();
+    assert!(required > 30);
+    let sentence = format!("warning: ended by --max-iterations 30: with so few inliers {required}");
+    assert!(told.contains(&sentence), "{told}");
+    let (_, told) = fit(&["--max-iterations", "30", "--quiet"]);
+    assert!(told.is_empty(), "{told}");
+
+    // A line through 2 of 2 000 points: more samples than can be counted in seconds, still a number.
+    let mut random = Random::new(1);
+    let rows = (0..2000).map(|_| {
+        format!(
+            "{} {}\n",
+            random.uniform(0.0, 1e6),
+            random.uniform(0.0, 1e6)
+        )
+    });
+    let points = folder.write("points.txt", &rows.collect::<String>());
+    let arguments = [
+        "fit",
+        "--model",
+        "line",
+        path(&points),
+        "--max-iterations",
+        "5",
+        "--max-error-px",
+        "1e-9",
+    ];
+    let result = json(&arguments);
+    assert_eq!(result["stop"], "exhausted");
+    assert_eq!(result["num_inliers"], 2);
+    assert!(result["required_iterations"].as_u64().unwrap() > 1_000_000);
+}
+
+/// Rows that come best first give PROSAC its answer while uniform samples are still searching.
+#[test]
+fn the_sampler_can_be_chosen() {
+    let folder = Folder::new("fit-sampler");
+    let mut problem = problem(cube());
+    // Behind the true rows the wrong ones, and many more of these.
+    let mut random = Random::new(4);
+    let mut order: Vec<usize> = (0..250).collect();
+    order.sort_by_key(|&n| !problem.is_inlier[n]);
+    let sorted =
+        |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> { order.iter().map(|&n| pixels[n]).collect() };
+    (problem.pixels1, problem.pixels2) = (sorted(&problem.pixels1), sorted(&problem.pixels2));
+    for _ in 0..2750 {
+        let mut pixel = || Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+        problem.pixels1.push(pixel());
+        problem.pixels2.push(pixel());
+    }
+    let file = file_of(&folder, &problem);
+    let fit = |sampler: &[&str]| {
+        let arguments = [
+            "fit",
+            "--model",
+            "fundamental",
+            path(&file),
+            "--max-iterations",
+            "20",
+        ];
+        json(&[&arguments, sampler].concat())
+    };
+    let num_true = 150;
+    let best_first = fit(&["--sampler", "prosac"]);
+    assert!(best_first["num_inliers"].as_u64().unwrap() >= num_true);
+    let uniform = fit(&["--sampler", "uniform"]);
+    assert!(uniform["num_inliers"].as_u64().unwrap() < num_true);
+    assert_eq!(
+        uniform["model"],
+        fit(&[])["model"],
+        "uniform is the default"
+    );
 }
 
 /// Two photographs with enough parallax, and their cameras.
@@ -336,6 +499,11 @@ fn two_photographs_give_the_motion_of_the_camera() {
         assert_eq!(numbers(&result["num_keypoints"]).len(), 2);
     }
     let result = json(&["two-view", path(&a), path(&b)]);
+    let best_first = json(&["two-view", path(&a), path(&b), "--sampler", "prosac"]);
+    assert_eq!(best_first["model_kind"], "fundamental");
+    let (uniform, prosac) = (&result["num_inliers"], &best_first["num_inliers"]);
+    let ratio = prosac.as_f64().unwrap() / uniform.as_f64().unwrap();
+    assert!((0.95..1.05).contains(&ratio), "{prosac} {uniform}");
     assert_eq!(result["model_kind"], "fundamental");
     assert_eq!(result["cam2_from_cam1"], Value::Null);
     let f = matrix(&result["model"]);

@@ -11,6 +11,7 @@ mod common;
 
 use common::{Folder, command, k, moved, parse, path};
 use epipole::camera::RigidTransform;
+use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::sfm::BalProblem;
 use nalgebra::Vector3;
@@ -69,6 +70,97 @@ fn bundle_adjustment_ends_with_the_best_that_it_has() {
     let ratio = result["final_cost"].as_f64().unwrap() / problem.cost(RobustLoss::Trivial);
     assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
     assert_eq!(folder.listing().len(), 1, "no part is left behind");
+}
+
+/// More than a pipe holds: matches that have nothing to do with each other, or else are turned,
+/// scaled and shifted.
+fn matches_text(wrong: bool) -> String {
+    let mut random = Random::new(3);
+    let mut text = String::new();
+    for _ in 0..30_000 {
+        let mut coordinate = || random.uniform(0.0, 1000.0);
+        let (u, v) = (coordinate(), coordinate());
+        let (p, q) = match wrong {
+            true => (coordinate(), coordinate()),
+            false => (1.5 * u - 0.5 * v + 7.0, 0.5 * u + 1.5 * v - 20.0),
+        };
+        text += &format!("{u} {v} {p} {q}\n");
+    }
+    text
+}
+
+const ENDLESS: [&str; 3] = ["--json", "--max-iterations", "4000000000"];
+
+#[test]
+fn fits_end_with_the_best_model_so_far() {
+    for model in ["similarity", "homography", "line"] {
+        let arguments = [&["fit", "--model", model, "/dev/stdin"], &ENDLESS[..]].concat();
+        let output = interrupted_while_reading(&arguments, matches_text(false).as_bytes());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{model}: {told}");
+        assert!(told.contains("warning: ended early"), "{model}: {told}");
+        let result = parse(&output);
+        // The signal came before the first sample, which is drawn nevertheless.
+        assert_eq!(
+            (&result["stop"], &result["iterations"]),
+            (&"canceled".into(), &1.into())
+        );
+        // A line goes through a few points of this cloud.
+        if model != "line" {
+            assert_eq!(result["num_inliers"], 30_000, "{model}");
+        }
+    }
+}
+
+/// Nothing but the signal can end these runs: all matches are wrong, and four billion samples are
+/// allowed.
+#[test]
+fn fits_end_soon_wherever_they_are() {
+    for model in ["similarity", "fundamental"] {
+        let arguments = [&["fit", "--model", model, "/dev/stdin"], &ENDLESS[..]].concat();
+        let mut child = command(&arguments).stdin(Stdio::piped()).spawn().unwrap();
+        let mut pipe = child.stdin.take().unwrap();
+        pipe.write_all(matches_text(true).as_bytes()).unwrap();
+        drop(pipe);
+        std::thread::sleep(Duration::from_millis(300));
+        interrupt(&child);
+        let output = child.wait_with_output().unwrap();
+        let result = parse(&output);
+        // On a slow machine it may have drawn one sample only, and not every sample gives a model.
+        if output.status.code() == Some(1) {
+            assert_eq!(result["error"]["kind"], "canceled", "{model}");
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(0), "{model}");
+        assert_eq!(result["stop"], "canceled");
+        assert!(result["num_inliers"].as_u64().unwrap() >= 2, "{model}");
+    }
+}
+
+/// What cannot be asked to end is ended by the signal itself, or was not begun.
+#[test]
+fn work_that_cannot_end_early_is_ended() {
+    let essential = ["fit", "--model", "essential", "/dev/stdin"];
+    let arguments = [&essential[..], &["--k", "500,500,500,500"][..], &ENDLESS].concat();
+    let output = interrupted_while_reading(&arguments, matches_text(true).as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(parse(&output)["error"]["kind"], "canceled");
+
+    let mut child = command(&arguments).stdin(Stdio::piped()).spawn().unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    pipe.write_all(matches_text(true).as_bytes()).unwrap();
+    drop(pipe);
+    std::thread::sleep(Duration::from_millis(300));
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    // On a slow machine it may not have begun yet.
+    match output.status.code() {
+        Some(130) => assert!(output.stdout.is_empty()),
+        code => assert_eq!(
+            (code, &parse(&output)["error"]["kind"]),
+            (Some(1), &"canceled".into())
+        ),
+    }
 }
 
 #[test]

@@ -17,8 +17,10 @@ use epipole::epipolar::{EssentialEstimator, FundamentalEstimator};
 use epipole::homography::HomographyEstimator;
 use epipole::math::random::Random;
 use epipole::robust::{
-    Estimator, LineEstimator, MatchSet, Ransac, RansacOptions, SimilarityEstimator, Step,
+    Estimator, LineEstimator, MatchSet, Ransac, RansacOptions, SamplerKind, ScoreKind,
+    SimilarityEstimator, Step,
 };
+use epipole::two_view::RotationEstimator;
 use nalgebra::{Point2, Point3, Vector3};
 
 struct Counting;
@@ -89,12 +91,28 @@ fn matches(
     (p1, p2, points, intrinsics)
 }
 
-fn check<E: Estimator>(name: &str, estimator: E) {
-    let options = RansacOptions {
-        min_iterations: 300,
-        max_iterations: 300,
-        ..RansacOptions::default()
-    };
+/// Every way to draw and to judge samples. A copy of an estimator would lack its buffers, so each run
+/// gets one that is `made` for it.
+fn check<E: Estimator>(name: &str, made: impl Fn() -> E) {
+    for sampler in [SamplerKind::Uniform, SamplerKind::Prosac] {
+        for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
+            for score_every_trial in [false, true] {
+                let options = RansacOptions {
+                    min_iterations: 300,
+                    max_iterations: 300,
+                    sampler,
+                    score,
+                    score_every_trial,
+                    ..RansacOptions::default()
+                };
+                let what = format!("{name}, {sampler:?}, {score:?}, {score_every_trial}");
+                check_run(&what, made(), options);
+            }
+        }
+    }
+}
+
+fn check_run<E: Estimator>(name: &str, estimator: E, options: RansacOptions) {
     let mut run = Ransac::new(estimator, options).unwrap();
     let before = COUNT.with(Cell::get);
     let (mut trials, mut improved) = (0, 0);
@@ -112,22 +130,24 @@ fn check<E: Estimator>(name: &str, estimator: E) {
 fn no_step_allocates() {
     let (p1, p2, points, k) = matches(0.0);
     let set = || MatchSet::new(&p1, &p2).unwrap();
-    check("line", LineEstimator::new(&p1).unwrap());
-    check("similarity", SimilarityEstimator::new(set()));
-    check("homography", HomographyEstimator::new(set()).unwrap());
-    check("fundamental", FundamentalEstimator::new(set()).unwrap());
-    check("essential", EssentialEstimator::new(set(), k, k).unwrap());
-    check(
-        "absolute pose",
-        AbsolutePoseEstimator::new(&points, &p1, k).unwrap(),
-    );
+    check("line", || LineEstimator::new(&p1).unwrap());
+    check("similarity", || SimilarityEstimator::new(set()));
+    check("homography", || HomographyEstimator::new(set()).unwrap());
+    check("fundamental", || FundamentalEstimator::new(set()).unwrap());
+    check("essential", || {
+        EssentialEstimator::new(set(), k, k).unwrap()
+    });
+    check("rotation", || RotationEstimator::new(set(), k, k).unwrap());
+    check("absolute pose", || {
+        AbsolutePoseEstimator::new(&points, &p1, k).unwrap()
+    });
 }
 
 #[test]
 fn recovery_from_a_plane_does_not_allocate() {
     let (p1, p2, _, _) = matches(0.9);
-    let set = MatchSet::new(&p1, &p2).unwrap();
-    check("fundamental", FundamentalEstimator::new(set).unwrap());
+    let set = || MatchSet::new(&p1, &p2).unwrap();
+    check("fundamental", || FundamentalEstimator::new(set()).unwrap());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use epipole::camera::Intrinsics;
@@ -18,11 +19,12 @@ fn data() -> Option<PathBuf> {
         PathBuf::from,
     );
     if path.is_dir() {
-        Some(path)
-    } else {
-        println!("skipped: no data at {}", path.display());
-        None
+        return Some(path);
     }
+    // Not by println!, which only a test that fails would show.
+    let sentence = format!("skipped: no data at {}\n", path.display());
+    std::io::stderr().write_all(sentence.as_bytes()).unwrap();
+    None
 }
 
 struct Matches {
@@ -84,14 +86,15 @@ fn mean(values: &[f64]) -> f64 {
 
 const SEEDS: u64 = 5;
 
-/// F from tentative matches, judged on hand-annotated ones. MAGSAC's median distances, mean over
-/// the four pairs: (0.7 + 0.178 + 0.381 + 0.457)/4 = 0.429 px; "valbonne" has 32 matches and
-/// varies from 0.3 to 1.1 with the order of the data, for every method, so it is left out.
+/// F from tentative matches, judged on hand-annotated ones: median distances, mean over all four
+/// pairs. Each has 10 to 14 annotated matches, too few to compare pair by pair: "valbonne" alone
+/// varies from 0.3 to 1.1 px with the order of its 32 tentative matches, for every method.
 #[test]
 fn annotated_epipolar_geometry() {
     let Some(data) = data() else { return };
+    let magsac = [0.7, 0.178, 0.381, 0.457];
     let mut found = Vec::new();
-    for name in ["Kyoto", "corr", "head"] {
+    for name in ["Kyoto", "corr", "head", "valbonne"] {
         let m = load(&data.join(format!("correspondences/kusvod2/{name}.txt")));
         let (t1, t2) = m.with(|label| label == 0.0);
         let (a1, a2) = m.with(|label| label == 1.0);
@@ -111,7 +114,7 @@ fn annotated_epipolar_geometry() {
         found.push(median(over_seeds));
     }
     println!("kusvod2: {found:?}");
-    assert!(mean(&found) <= (0.7 + 0.178 + 0.381) / 3.0, "{found:?}");
+    assert!(mean(&found) <= mean(&magsac), "{found:?}");
 }
 
 /// F of scenes with labelled planes. MAGSAC's recall on labelled points, mean over five pairs.
@@ -201,7 +204,7 @@ fn extreme_viewpoints() {
     assert!(mean(&recall) >= (1.0 + 0.143 + 0.8 + 0.9) / 4.0);
 }
 
-/// Fountain-P11, full resolution: rotation and direction within 1° (MAGSAC: 0.31° and 0.40°).
+/// Fountain-P11, full resolution: rotation and direction at least as exact as MAGSAC's.
 #[test]
 fn fountain_relative_pose() {
     let Some(data) = data() else { return };
@@ -213,6 +216,7 @@ fn fountain_relative_pose() {
         0.026625299486532,   0.99624813276157,    -0.0823495485849,
         0.6247453585084783,  0.0477260048817,      0.7793689875386001,
     );
+    let magsac_deg = [0.31, 0.40];
     let t = Vector3::new(6.440001437217612, 0.1140717518472, 1.3006062294314402).normalize();
     for seed in 0..SEEDS {
         let report = estimate_relative_pose(&m.p1, &m.p2, &k, &k, &options(1.0, seed)).unwrap();
@@ -224,7 +228,7 @@ fn fountain_relative_pose() {
             "fountain: R {rotation_deg:.3}°, t {direction_deg:.3}°, {} inliers",
             report.num_inliers
         );
-        assert!(rotation_deg < 0.5 && direction_deg < 0.5);
+        assert!(rotation_deg < magsac_deg[0] && direction_deg < magsac_deg[1]);
     }
 }
 

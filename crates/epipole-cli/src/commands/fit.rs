@@ -3,14 +3,15 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
+use crate::interrupt;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
-use crate::robust::RobustArguments;
+use crate::robust::{RobustArguments, stop_word};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{estimate_relative_pose, find_fundamental, sampson_px};
-use epipole::homography::{find_homography, transfer_error_px};
-use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, ransac};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
+use epipole::homography::{HomographyEstimator, transfer_error_px};
+use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
 use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
 use std::path::PathBuf;
 
@@ -32,7 +33,11 @@ enum Model {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole fit --model fundamental matches.txt --max-error-px 1\n\n\
-    A file of matches has one a line, u1 v1 u2 v2; further columns are ignored, # begins a comment."
+    A file of matches has one a line, u1 v1 u2 v2; further columns are ignored, # begins a comment.\n\n\
+    JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
+    num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
+    for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
+    Ctrl-C), mean_error_px (of the inliers), and for essential cam2_from_cam1."
 )]
 pub(crate) struct Arguments {
     /// What to fit.
@@ -55,11 +60,18 @@ struct Found {
     model: Vec<f64>,
     inliers: Vec<bool>,
     iterations: usize,
+    required_iterations: u64,
+    stop: StopReason,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    if arguments.model != Model::Essential && (arguments.k.is_some() || arguments.k2.is_some()) {
+        return Err(Failure::usage(
+            "--k and --k2 are for --model essential only: the other models need no intrinsics",
+        ));
+    }
     let columns = if arguments.model == Model::Line { 2 } else { 4 };
     let rows = read(arguments, columns)?;
     let at = |row: &Vec<f64>, column: usize| Point2::new(row[column], row[column + 1]);
@@ -86,6 +98,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut report = Report::default()
         .row("inliers", format!("{num_inliers} of {}", mask.len()))
         .row("iterations", found.iterations)
+        .row("ended by", stop_word(found.stop))
         .row("mean error of inliers", format!("{mean_error_px:.3} px"));
     for (index, row) in found.model.chunks(3).enumerate() {
         let label = if index == 0 { "model" } else { "" };
@@ -97,6 +110,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("inliers", mask)
         .field("num_inliers", num_inliers)
         .field("iterations", found.iterations)
+        .field(
+            "required_iterations",
+            (found.required_iterations != u64::MAX).then_some(found.required_iterations),
+        )
+        .field("stop", stop_word(found.stop))
         .field("mean_error_px", mean_error_px);
     if let Some(motion) = &found.cam2_from_cam1 {
         report = report.field("cam2_from_cam1", Motion::from(motion));
@@ -110,72 +128,73 @@ fn fit(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
-    let options = arguments.robust.options(context);
+    let robust = &arguments.robust;
     let pairs = || pixels1.iter().zip(pixels2);
+    let set = || MatchSet::new(pixels1, pixels2);
     match arguments.model {
         Model::Line => {
-            let found = ransac(LineEstimator::new(pixels1)?, &options)?;
+            let found = robust.run(LineEstimator::new(pixels1)?, context)?;
             let line = found.model;
             let error = |point: &Point2<f64>| line.signed_distance(point).abs();
-            Ok(Found {
-                model: vec![line.a, line.b, line.c],
-                errors_px: pixels1.iter().map(error).collect(),
-                iterations: found.iterations,
-                inliers: found.inliers,
-                cam2_from_cam1: None,
-            })
+            let errors = pixels1.iter().map(error).collect();
+            Ok(of_report(found, vec![line.a, line.b, line.c], errors))
         }
         Model::Homography => {
-            let found = find_homography(pixels1, pixels2, &options)?;
-            let errors = pairs()
-                .map(|(a, b)| transfer_error_px(&found.model, a, b))
-                .collect();
-            Ok(of_matrix(&found, &found.model, errors, None))
+            let found = robust.run(HomographyEstimator::new(set()?)?, context)?;
+            let h = found.model;
+            let errors = pairs().map(|(a, b)| transfer_error_px(&h, a, b)).collect();
+            Ok(of_matrix(found, &h, errors))
         }
         Model::Fundamental => {
-            let found = find_fundamental(pixels1, pixels2, &options)?;
-            let errors = pairs()
-                .map(|(a, b)| sampson_px(&found.model, a, b))
-                .collect();
-            Ok(of_matrix(&found, &found.model, errors, None))
+            let found = robust.run(FundamentalEstimator::new(set()?)?, context)?;
+            let f = found.model;
+            let errors = pairs().map(|(a, b)| sampson_px(&f, a, b)).collect();
+            Ok(of_matrix(found, &f, errors))
         }
         Model::Essential => {
             let k1 = arguments
                 .k
                 .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
-            let found = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)?;
-            let pose = &found.model;
+            let options = robust.options(context);
+            let found = interrupt::unstoppable(|| {
+                estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)
+            })??;
+            robust.warn(&found, context);
+            let pose = found.model;
             let errors = pairs()
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
                 .collect();
             let rotation = UnitQuaternion::from_matrix(&pose.rotation);
             let motion = RigidTransform::from_parts(Translation3::from(pose.direction), rotation);
-            Ok(of_matrix(&found, &pose.essential(), errors, Some(motion)))
+            Ok(Found {
+                cam2_from_cam1: Some(motion),
+                ..of_matrix(found, &pose.essential(), errors)
+            })
         }
         Model::Similarity => {
-            let estimator = SimilarityEstimator::new(MatchSet::new(pixels1, pixels2)?);
-            let found = ransac(estimator, &options)?;
-            let matrix = found.model.matrix();
-            let error = |(a, b): (&Point2<f64>, &Point2<f64>)| (found.model.apply(a) - b).norm();
+            let found = robust.run(SimilarityEstimator::new(set()?), context)?;
+            let similarity = found.model;
+            let error = |(a, b): (&Point2<f64>, &Point2<f64>)| (similarity.apply(a) - b).norm();
             let errors = pairs().map(error).collect();
-            Ok(of_matrix(&found, &matrix, errors, None))
+            Ok(of_matrix(found, &similarity.matrix(), errors))
         }
     }
 }
 
-fn of_matrix<M>(
-    report: &RansacReport<M>,
-    matrix: &Matrix3<f64>,
-    errors_px: Vec<f64>,
-    cam2_from_cam1: Option<RigidTransform>,
-) -> Found {
+fn of_matrix<M>(report: RansacReport<M>, matrix: &Matrix3<f64>, errors_px: Vec<f64>) -> Found {
+    of_report(report, row_major(matrix).to_vec(), errors_px)
+}
+
+fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -> Found {
     Found {
-        model: row_major(matrix).to_vec(),
-        inliers: report.inliers.clone(),
+        model,
+        inliers: report.inliers,
         iterations: report.iterations,
+        required_iterations: report.required_iterations,
+        stop: report.stop,
         errors_px,
-        cam2_from_cam1,
+        cam2_from_cam1: None,
     }
 }
 

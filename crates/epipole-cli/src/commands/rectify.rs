@@ -7,10 +7,11 @@ use crate::matrices::{CameraArguments, intrinsics, positive, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
-use crate::{files, picture};
+use crate::{files, interrupt, picture};
 use clap::Args;
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
-use epipole::epipolar::{estimate_relative_pose, find_fundamental};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
+use epipole::robust::MatchSet;
 use epipole::stereo::{
     PixelMap, RectifyOptions, StereoCamera, rectify_calibrated, rectify_uncalibrated,
 };
@@ -57,6 +58,7 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    arguments.camera.check_second(arguments.k2)?;
     let photos = [
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
@@ -71,7 +73,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
-    let matches = arguments.matching.run(&found1, &found2)?;
+    let matches = arguments.matching.run_best_first(&found1, &found2)?;
     let pixels1: Vec<Point2<f64>> = matches
         .iter()
         .map(|m| found1.keypoints[m.index1].point())
@@ -115,10 +117,13 @@ fn rectify(
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
     let (width, height) = photos[0].color.dimensions();
-    let options = arguments.robust.options(context);
     if let Some(k1) = arguments.camera.given(&photos[0])? {
         let k2 = arguments.k2.unwrap_or(k1);
-        let report = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)?;
+        let options = arguments.robust.options(context);
+        let report = interrupt::unstoppable(|| {
+            estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)
+        })??;
+        arguments.robust.warn(&report, context);
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
@@ -140,7 +145,8 @@ fn rectify(
             num_inliers: report.num_inliers,
         });
     }
-    let report = find_fundamental(pixels1, pixels2, &options)?;
+    let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
+    let report = arguments.robust.run(estimator, context)?;
     let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
         let kept = pixels
             .iter()

@@ -3,14 +3,16 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
+use crate::interrupt;
 use crate::matrices::{CameraArguments, Motion, intrinsics, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{estimate_relative_pose, find_fundamental, sampson_px};
-use epipole::homography::{find_homography, transfer_error_px};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
+use epipole::homography::{HomographyEstimator, transfer_error_px};
+use epipole::robust::MatchSet;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
     estimate_two_view_calibrated,
@@ -65,15 +67,14 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    arguments.camera.check_second(arguments.k2)?;
     let photos = [
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
     ];
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
-    let mut matches = arguments.matching.run(&found1, &found2)?;
-    // Best first: some samplers make use of it.
-    matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    let matches = arguments.matching.run_best_first(&found1, &found2)?;
     let pixels1: Vec<Point2<f64>> = matches
         .iter()
         .map(|m| found1.keypoints[m.index1].point())
@@ -82,6 +83,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| found2.keypoints[m.index2].point())
         .collect();
+    if matches!(arguments.model, Model::Fundamental | Model::Homography)
+        && arguments.camera.given(&photos[0])?.is_some()
+    {
+        context
+            .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
+    }
     let found = estimate(arguments, context, &photos, &pixels1, &pixels2)?;
 
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
@@ -132,6 +139,7 @@ fn estimate(
         ..TwoViewOptions::default()
     };
     let given = arguments.camera.given(&photos[0])?;
+    let set = || MatchSet::new(pixels1, pixels2);
     let errors = |f: &Matrix3<f64>| -> Vec<f64> {
         pixels1
             .iter()
@@ -144,14 +152,17 @@ fn estimate(
             let report = match given {
                 Some(k1) => {
                     let k2 = arguments.k2.unwrap_or(k1);
-                    estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options)?
+                    interrupt::unstoppable(|| {
+                        estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options)
+                    })
                 }
-                None => estimate_two_view(pixels1, pixels2, &options)?,
-            };
+                None => interrupt::unstoppable(|| estimate_two_view(pixels1, pixels2, &options)),
+            }??;
             Ok(of_report(report, pixels1, pixels2))
         }
         Model::Fundamental => {
-            let report = find_fundamental(pixels1, pixels2, &ransac)?;
+            let estimator = FundamentalEstimator::new(set()?)?;
+            let report = arguments.robust.run(estimator, context)?;
             Ok(Found {
                 kind: "fundamental",
                 errors_px: errors(&report.model),
@@ -167,7 +178,10 @@ fn estimate(
                 context.warn(&sentence);
             }
             let k2 = arguments.k2.unwrap_or(k1);
-            let report = estimate_relative_pose(pixels1, pixels2, &k1, &k2, &ransac)?;
+            let report = interrupt::unstoppable(|| {
+                estimate_relative_pose(pixels1, pixels2, &k1, &k2, &ransac)
+            })??;
+            arguments.robust.warn(&report, context);
             let pose = &report.model;
             let rotation = UnitQuaternion::from_matrix(&pose.rotation);
             let translation = Translation3::from(pose.direction);
@@ -181,7 +195,8 @@ fn estimate(
             })
         }
         Model::Homography => {
-            let report = find_homography(pixels1, pixels2, &ransac)?;
+            let estimator = HomographyEstimator::new(set()?)?;
+            let report = arguments.robust.run(estimator, context)?;
             let error = |(a, b)| transfer_error_px(&report.model, a, b);
             Ok(Found {
                 kind: "homography",

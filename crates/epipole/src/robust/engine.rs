@@ -83,6 +83,8 @@ pub struct Ransac<E: Estimator> {
     required: u64,
     log_miss: f64,
     stop: Option<StopReason>,
+    /// The probability that a datum fits a model it has nothing to do with, if that is known.
+    chance: Option<f64>,
     /// The threshold within which models are compared and improved: the caller's while samples are
     /// drawn, the inliers' own at the end.
     judge_px: f64,
@@ -124,6 +126,7 @@ impl<E: Estimator> Ransac<E> {
             required: u64::MAX,
             log_miss: libm::log1p(-options.confidence),
             stop: None,
+            chance: estimator.chance(options.max_error_px),
             judge_px: options.max_error_px,
             estimator,
             options,
@@ -252,7 +255,7 @@ impl<E: Estimator> Ransac<E> {
         if !self.sampler.is_ordered() {
             self.required = self.required_for(self.inliers.len(), num_data);
         }
-        let log10_false_alarms = self.estimator.chance(max_error_px).map(|chance| {
+        let log10_false_alarms = self.chance.map(|chance| {
             log10_false_alarms(
                 num_distinct,
                 num_data,
@@ -364,18 +367,20 @@ impl<E: Estimator> Ransac<E> {
             self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS);
         }
         best.support = self.support(&best.model, f64::INFINITY);
-        self.explore(best);
+        let explored = self.explore(best);
         self.judge_px = max_error_px;
         best.support = self.support(&best.model, f64::INFINITY);
+        if !explored {
+            self.improve(best);
+        }
     }
 
     /// Looks for a better optimum nearby: starts that fit a few of the nearest data by least squares
-    /// lie around the model, and local optimization leads some of them elsewhere. Where there are too
-    /// few such data, or the estimator has no such fit, the model alone is improved. Where several
-    /// lead back, the search ends early.
+    /// lie around the model, and local optimization leads some of them elsewhere. Where several lead back,
+    /// the search ends early. False where there are too few such data, or the estimator has no such fit.
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
-    fn explore(&mut self, best: &mut Candidate<E::Model>) {
+    fn explore(&mut self, best: &mut Candidate<E::Model>) -> bool {
         let max_error_px = self.judge_px;
         let size = 2 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
@@ -386,8 +391,7 @@ impl<E: Estimator> Ransac<E> {
             self.estimator
                 .inliers(&best.model, reach_px, &mut self.inliers);
             if self.inliers.len() <= size {
-                self.improve(best);
-                return;
+                return false;
             }
             subset.clear();
             while subset.len() < size {
@@ -397,8 +401,7 @@ impl<E: Estimator> Ransac<E> {
                 }
             }
             let Some(start) = self.estimator.polish(&best.model, &subset, &alike) else {
-                self.improve(best);
-                return;
+                return false;
             };
             let Some(first) = self.fitted(&start, max_error_px) else {
                 continue;
@@ -408,7 +411,7 @@ impl<E: Estimator> Ransac<E> {
             if (cost - known).abs() < SAME * known.max(1.0) {
                 returns += 1;
                 if returns == RETURNS {
-                    return;
+                    break;
                 }
                 continue;
             }
@@ -421,6 +424,7 @@ impl<E: Estimator> Ransac<E> {
                 self.improve(best);
             }
         }
+        true
     }
 
     /// Hears the estimator's objections to the best model.
@@ -539,8 +543,7 @@ impl<E: Estimator> Ransac<E> {
         }
         let max_error_px = self.options.max_error_px;
         let size = self.estimator.sample_size();
-        let chance = self.estimator.chance(max_error_px);
-        let chance = chance.unwrap_or(UNKNOWN_CHANCE);
+        let chance = self.chance.unwrap_or(UNKNOWN_CHANCE);
         self.estimator
             .inliers(&best.model, max_error_px, &mut self.inliers);
         let mut limit = num_data;

@@ -160,7 +160,8 @@ pub trait Estimator {
     }
 
     /// The probability that a datum which has nothing to do with a model is within the threshold of it,
-    /// where that is known: for [`RansacReport::log10_false_alarms`](super::RansacReport).
+    /// where that is known: for [`RansacReport::log10_false_alarms`](super::RansacReport). Asked once, at
+    /// the beginning.
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         let _ = max_error_px;
         None
