@@ -19,7 +19,7 @@ use epipole::{
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
 const CONFIDENCE: f64 = 0.99;
-const SEEDS: u64 = 3;
+const SEEDS: u64 = 6;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
