@@ -214,8 +214,7 @@ pub(crate) fn refine_in_frame(
     let mut factored = Factored::new(start)?;
     let problem = FundamentalProblem { coordinates, loss };
     minimize_fixed(&problem, &mut factored, options).ok()?;
-    let refined = enforce_rank2(&factored.matrix());
-    refined.iter().all(|x| x.is_finite()).then_some(refined)
+    enforce_rank2(&factored.matrix()).ok()
 }
 
 /// How rays become coordinates of the common frame: `F = A2ᵀ E A1`.

@@ -1,6 +1,7 @@
 //! The motions that a homography of a plane allows.
 
 use crate::camera::{Intrinsics, RigidTransform};
+use crate::math::scaling::power_of_two;
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -35,7 +36,9 @@ pub fn decompose_homography(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> Result<Vec<PlaneMotion>> {
-    let h = k2.inverse_matrix() * homography * k1.matrix();
+    // The scale of H means nothing; what the lenses leave is taken out below.
+    let h = k2.inverse_matrix() * (homography / power_of_two(homography.amax())) * k1.matrix();
+    let h = h / power_of_two(h.amax());
     if !h.iter().all(|x| x.is_finite()) {
         return Err(Error::NotFinite {
             what: "a homography",
@@ -206,5 +209,28 @@ mod tests {
         assert!(decompose_homography(&Matrix3::zeros(), &k, &k).is_err());
         assert!(decompose_homography(&Matrix3::from_element(1.0), &k, &k).is_err());
         assert!(decompose_homography(&Matrix3::from_element(f64::NAN), &k, &k).is_err());
+    }
+
+    #[test]
+    fn the_scale_of_a_homography_means_nothing() {
+        let k = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
+        let motion = RigidTransform::new(Vector3::new(0.3, -0.1, 0.2), Vector3::new(0.1, 0.0, 0.2));
+        let h = homography_from_motion(&motion, &-Vector3::z(), 1.0, &k, &k);
+        let expected = decompose_homography(&h, &k, &k).unwrap();
+        for scale in [-1e-300, -1e-160, 1e-160, 1e160, 1e300] {
+            let found = decompose_homography(&(h * scale), &k, &k).unwrap();
+            assert_eq!(found.len(), expected.len());
+            for (a, b) in found.iter().zip(&expected) {
+                let t = |m: &PlaneMotion| m.cam2_from_cam1.translation.vector;
+                assert!((t(a) - t(b)).norm() < 1e-9, "{scale}: {a:?}");
+                assert!((a.normal_in_cam1 - b.normal_in_cam1).norm() < 1e-9);
+                assert!(
+                    a.cam2_from_cam1
+                        .rotation
+                        .angle_to(&b.cam2_from_cam1.rotation)
+                        < 1e-7
+                );
+            }
+        }
     }
 }
