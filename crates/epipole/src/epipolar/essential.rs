@@ -21,20 +21,36 @@ pub struct RelativePose {
 
 impl RelativePose {
     /// A pose with its fundamental matrix, for cameras with intrinsics `k1` and `k2`.
+    ///
+    /// # Errors
+    /// As [`fundamental_from_essential`].
+    pub(crate) fn checked(
+        rotation: Matrix3<f64>,
+        direction: Vector3<f64>,
+        k1: &Intrinsics,
+        k2: &Intrinsics,
+    ) -> Result<Self> {
+        let essential = cross_matrix(&direction) * rotation;
+        Ok(Self {
+            rotation,
+            direction,
+            fundamental: fundamental_from_essential(&essential, k1, k2)?,
+        })
+    }
+
+    /// [`checked`](Self::checked) for a candidate that is yet to be judged: without a fundamental
+    /// matrix it keeps zeros in its place, which no match fits, so it is never the answer.
     pub(crate) fn new(
         rotation: Matrix3<f64>,
         direction: Vector3<f64>,
         k1: &Intrinsics,
         k2: &Intrinsics,
     ) -> Self {
-        let essential = cross_matrix(&direction) * rotation;
-        let fundamental =
-            fundamental_from_essential(&essential, k1, k2).unwrap_or_else(|_| Matrix3::zeros());
-        Self {
+        Self::checked(rotation, direction, k1, k2).unwrap_or(Self {
             rotation,
             direction,
-            fundamental,
-        }
+            fundamental: Matrix3::zeros(),
+        })
     }
 
     /// `[t]ₓ R` with unit Frobenius norm.
@@ -232,7 +248,7 @@ pub struct SelectedPose {
 ///
 /// # Errors
 /// [`Error::TooFew`] without motions or matches, [`Error::SizeMismatch`] for lists of different
-/// length.
+/// length, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, §9.6.3.
 pub fn select_pose(
@@ -254,6 +270,17 @@ pub fn select_pose(
             what: "a choice of pose from motions and matches",
             needed: 1,
             got: motions.len().min(pixels1.len()),
+        });
+    }
+    let finite = |x: &f64| x.is_finite();
+    let is_motion = |motion: &RigidTransform| {
+        motion.translation.vector.iter().all(finite) && motion.rotation.coords.iter().all(finite)
+    };
+    if !(motions.iter().all(is_motion)
+        && pixels1.iter().chain(pixels2).all(|p| p.iter().all(finite)))
+    {
+        return Err(Error::NotFinite {
+            what: "a motion or a matched pixel",
         });
     }
     let (mut best, mut best_count, mut second) = (0, 0, 0);
@@ -380,6 +407,17 @@ mod tests {
         assert!(essential_8point(&vec![Vector3::zeros(); 9], &same).is_err());
         let k = Intrinsics::centered(500.0, 640, 480).unwrap();
         assert!(select_pose(&[], &[], &[], &k, &k).is_err());
+        let (o, nan) = (Point2::origin(), Point2::new(0.0, f64::NAN));
+        let step = RigidTransform::translation(1.0, 0.0, 0.0);
+        let nowhere = RigidTransform::translation(f64::NAN, 0.0, 0.0);
+        for (motion, p1, p2) in [(step, nan, o), (step, o, nan), (nowhere, o, o)] {
+            let result = select_pose(&[motion], &[p1], &[p2], &k, &k);
+            assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
+        }
+        // A lens for which F is beyond the range of numbers.
+        let absurd = Intrinsics::new(1e-300, 1e-300, 1e300, 0.0).unwrap();
+        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &absurd, &k);
+        assert!(matches!(pose, Err(Error::NotFinite { .. })));
         // A pure rotation leaves the direction open.
         let mut random = Random::new(3);
         let rays: Vec<_> = (0..20)
