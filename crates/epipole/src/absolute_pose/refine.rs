@@ -31,7 +31,8 @@ pub fn reprojection_error_px(
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists
-/// of different length, [`Error::NotFinite`] for NaN and infinities.
+/// of different length, [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for a
+/// loss that [`RobustLoss::check`] refuses.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
 pub fn refine_absolute_pose(
@@ -48,6 +49,7 @@ pub fn refine_absolute_pose(
             second: pixels.len(),
         });
     }
+    loss.check()?;
     let finite = |x: &f64| x.is_finite();
     if !points_in_world.iter().all(|p| p.iter().all(finite))
         || !pixels.iter().all(|p| p.iter().all(finite))
@@ -257,5 +259,20 @@ mod tests {
         assert!(refine(&behind, &pixels).is_err());
         assert!(refine(&behind, &pixels[..2]).is_err());
         assert!(refine(&[Point3::new(f64::NAN, 0.0, 1.0); 5], &pixels).is_err());
+    }
+
+    #[test]
+    fn a_loss_without_width_is_refused() {
+        let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+        let (truth, rays, points) = problem::<8>(&mut Random::new(3));
+        let pixels = rays.map(|r| k.project(&r.into()).unwrap());
+        for width in [0.0, -1.0, f64::NAN] {
+            let loss = RobustLoss::Truncated { width };
+            let refined = refine_absolute_pose(&truth, &points, &pixels, &k, loss);
+            assert!(
+                matches!(refined, Err(Error::OutOfRange { .. })),
+                "{refined:?}"
+            );
+        }
     }
 }

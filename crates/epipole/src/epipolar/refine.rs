@@ -22,7 +22,9 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of
-/// rank 1 or 0, and as [`MatchSet::new`].
+/// rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
+/// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
+/// [`MatchSet::new`].
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
 /// parameters" (the parameters); Hartley & Zisserman 2004, §11.4.3 (the error).
@@ -34,19 +36,24 @@ pub fn refine_fundamental(
 ) -> Result<Matrix3<f64>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     enough(&matches, 7, "a refined fundamental matrix")?;
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     let start = frame.fundamental_to_frame(&unit_norm(fundamental)?);
+    let singular = svd3(&start).singular_values;
+    if singular[1] <= 1e-14 * singular[0] {
+        return Err(Error::Degenerate {
+            what: "a refined fundamental matrix",
+            why: "the start has rank 1",
+        });
+    }
     let refined = refine_in_frame(
         &coordinates,
         &start,
         scaled(loss, frame.scale),
         &LmOptions::default(),
     )
-    .ok_or(Error::Degenerate {
-        what: "a refined fundamental matrix",
-        why: "the start has rank 1 or 0",
-    })?;
+    .ok_or(NO_ERROR_AT_THE_START)?;
     unit_norm(&frame.fundamental_to_pixels(&refined))
 }
 
@@ -56,7 +63,9 @@ pub fn refine_fundamental(
 /// The rotation and the direction of the translation, five parameters, are refined.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 5 different matches, and as [`MatchSet::new`].
+/// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
+/// match, and as [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with E = [t]ₓR instead of F.
 pub fn refine_relative_pose(
@@ -69,21 +78,25 @@ pub fn refine_relative_pose(
 ) -> Result<RelativePose> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     enough(&matches, 5, "a refined relative pose")?;
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     let rays = RaysInFrame::new(&frame, k1, k2);
-    refine_pose_in_frame(
+    let (rotation, direction) = refine_pose_in_frame(
         &coordinates,
         &rays,
         pose,
         scaled(loss, frame.scale),
         &LmOptions::default(),
     )
-    .map(|(rotation, direction)| RelativePose::new(rotation, direction, k1, k2))
-    .ok_or(Error::NotFinite {
-        what: "the error of the start",
-    })
+    .ok_or(NO_ERROR_AT_THE_START)?;
+    RelativePose::checked(rotation, direction, k1, k2)
 }
+
+/// Everything else was looked at before the refinement began.
+const NO_ERROR_AT_THE_START: Error = Error::NotFinite {
+    what: "the Sampson error of every match at the start",
+};
 
 fn enough(matches: &MatchSet, needed: usize, what: &'static str) -> Result<()> {
     if matches.len() < needed {
@@ -438,5 +451,44 @@ mod tests {
             assert!(total(&refined) < 0.25 * 53.0 * 2.0);
             assert!(refined.determinant().abs() < 1e-16);
         }
+    }
+
+    #[test]
+    fn each_failure_has_its_own_sentence() {
+        let (f, p1, p2) = noisy_matches(&mut Random::new(4), 0.5);
+        let k = Intrinsics::centered(700.0, 640, 480).unwrap();
+        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &k, &k).unwrap();
+        for width in [0.0, -1.0, f64::NAN] {
+            for loss in [
+                RobustLoss::Huber { width },
+                RobustLoss::Cauchy { width },
+                RobustLoss::Truncated { width },
+            ] {
+                let refused = loss.check().unwrap_err();
+                let refined = refine_fundamental(&f, &p1, &p2, loss).unwrap_err();
+                // Equal as sentences, since NaN does not equal itself.
+                assert_eq!(refined.to_string(), refused.to_string());
+                let refined = refine_relative_pose(&pose, &p1, &p2, &k, &k, loss).unwrap_err();
+                assert_eq!(refined.to_string(), refused.to_string());
+            }
+        }
+        let loss = RobustLoss::Trivial;
+        let rank1 = Vector3::new(1.0, 2.0, 3.0) * Vector3::new(0.5, -1.0, 1.0).transpose();
+        for start in [rank1, Matrix3::zeros()] {
+            let refined = refine_fundamental(&start, &p1, &p2, loss);
+            assert!(
+                matches!(refined, Err(Error::Degenerate { .. })),
+                "{refined:?}"
+            );
+        }
+        let nowhere = RelativePose {
+            direction: Vector3::from_element(f64::NAN),
+            ..pose
+        };
+        let refined = refine_relative_pose(&nowhere, &p1, &p2, &k, &k, loss);
+        assert!(
+            matches!(refined, Err(Error::NotFinite { .. })),
+            "{refined:?}"
+        );
     }
 }

@@ -17,8 +17,9 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 4 different matches, [`Error::NotFinite`] if the start sends a
-/// pixel to infinity, and as [`MatchSet::new`].
+/// [`Error::TooFew`] for fewer than 4 different matches, [`Error::OutOfRange`] for a loss that
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and as
+/// [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
 pub fn refine_homography(
@@ -35,6 +36,7 @@ pub fn refine_homography(
             got: matches.len(),
         });
     }
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     refine_in_frame(
@@ -190,6 +192,19 @@ mod tests {
             };
             assert!(total(&refined) <= total(&linear));
             assert!(total(&refined) < 2.0 * 72.0);
+        }
+    }
+
+    #[test]
+    fn a_loss_without_width_is_refused() {
+        let (p1, p2) = noisy(&mut Random::new(3));
+        let start = fit_homography(&p1, &p2).unwrap();
+        for width in [0.0, -1.0, f64::NAN] {
+            let refined = refine_homography(&start, &p1, &p2, RobustLoss::Truncated { width });
+            assert!(
+                matches!(refined, Err(Error::OutOfRange { .. })),
+                "{refined:?}"
+            );
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::bundle::{Observation, observation_pairs, radial_terms, turned};
 use super::tokens::Tokens;
+use crate::Result;
 use crate::optim::{
     BundleProblem, BundleStep, Iteration, LmOptions, LmReport, ObservationTerms, RobustLoss,
     SchurSystem, minimize,
 };
-use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, UnitQuaternion, Vector3};
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -61,7 +61,8 @@ impl BalProblem {
     /// three a point.
     ///
     /// # Errors
-    /// [`Error::Malformed`] with the line, if words are missing, left over, not finite, or index
+    /// [`Malformed`](crate::Error::Malformed) with the line, if words are missing, left over, not
+    /// finite, or index
     /// what is not there.
     pub fn parse(text: &str) -> Result<Self> {
         let mut tokens = Tokens::new(WHAT, text);
@@ -314,9 +315,10 @@ impl BundleProblem<9, 0> for Problem<'_> {
 /// compared.
 ///
 /// # Errors
-/// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, [`Error::NotFinite`] if the cost at the start is not finite
-/// or the loss has no positive width.
+/// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange) if
+/// an observation refers to a camera or point that is not there, or for a loss that
+/// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start is
+/// not finite.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis".
 pub fn adjust_bal(
@@ -325,11 +327,7 @@ pub fn adjust_bal(
     loss: RobustLoss,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<LmReport> {
-    if !loss.is_valid() {
-        return Err(Error::NotFinite {
-            what: "the inverse of the width of a robust loss",
-        });
-    }
+    loss.check()?;
     let pairs = observation_pairs(
         &problem.observations,
         problem.cameras.len(),
@@ -357,6 +355,7 @@ pub fn adjust_bal(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector};
