@@ -115,6 +115,17 @@ fn infinite_if_undefined(distance: f64) -> f64 {
 /// The square of [`sampson_px`], px².
 ///
 /// Source: as [`sampson_px`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, sampson_sq};
+/// use nalgebra::Point2;
+/// // A step to the right: rows must agree. They differ by 2, so each pixel moves by 1.
+/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// assert!((sampson_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 2.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }
@@ -151,6 +162,17 @@ pub fn sampson_px(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
 /// The square of [`symmetric_epipolar_px`], px².
 ///
 /// Source: as [`symmetric_epipolar_px`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_sq};
+/// use nalgebra::Point2;
+/// // A step to the right: rows must agree. Each pixel is 2 away from the row of the other.
+/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// assert!((symmetric_epipolar_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 4.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn symmetric_epipolar_sq(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,
@@ -167,6 +189,19 @@ pub fn symmetric_epipolar_sq(
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3; the root mean square is ours, so that it is in
 /// pixels.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_px};
+/// use nalgebra::Point2;
+/// // Straight ahead: lines are those through the middle. (3, 4) is on one with slope 4/3, and the
+/// // line of (1, 0) is the row 0: distances 0.8 and 4.
+/// let f = essential_from_motion(&RigidTransform::translation(0.0, 0.0, -1.0))?;
+/// let distance_px = symmetric_epipolar_px(&f, &Point2::new(1.0, 0.0), &Point2::new(3.0, 4.0));
+/// assert!((distance_px - ((0.8 * 0.8 + 4.0 * 4.0) / 2.0_f64).sqrt()).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn symmetric_epipolar_px(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,

@@ -68,6 +68,26 @@ pub fn fundamental_8point(
 ///
 /// # Errors
 /// As [`fundamental_8point`].
+///
+/// Source: as [`fundamental_8point`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::{fundamental_8point, fundamental_8point_explained};
+/// use nalgebra::Point2;
+/// // A step to the right past points of different depth: each keeps its row.
+/// let p1 = [(0.0, 0.0), (90.0, 10.0), (15.0, 80.0), (70.0, 60.0), (40.0, 30.0), (20.0, 55.0),
+///     (85.0, 95.0), (5.0, 35.0)].map(|(u, v)| Point2::new(u, v));
+/// let shifts = [7.0, 3.0, 9.0, 4.0, 11.0, 2.0, 6.0, 13.0];
+/// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
+/// let explained = fundamental_8point_explained(&p1, &p2)?;
+/// // Exact matches: the ninth singular value is 0, and the solution has rank 2 by itself.
+/// assert!(explained.singular_values[8] < 1e-12 && explained.singular_values[7] > 1e-3);
+/// assert!(explained.full_rank.determinant().abs() < 1e-12);
+/// let f = fundamental_8point(&p1, &p2)?;
+/// assert!((f - explained.fundamental).norm().min((f + explained.fundamental).norm()) < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_8point_explained(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -84,6 +104,21 @@ pub fn fundamental_8point_explained(
 /// As [`fundamental_8point`].
 ///
 /// Source: Longuet-Higgins 1981.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::{fundamental_8point_explained, fundamental_8point_unnormalized};
+/// use nalgebra::Point2;
+/// let p1 = [(0.0, 0.0), (90.0, 10.0), (15.0, 80.0), (70.0, 60.0), (40.0, 30.0), (20.0, 55.0),
+///     (85.0, 95.0), (5.0, 35.0)].map(|(u, v)| Point2::new(u, v));
+/// let shifts = [7.0, 3.0, 9.0, 4.0, 11.0, 2.0, 6.0, 13.0];
+/// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
+/// let (raw, normalized) =
+///     (fundamental_8point_unnormalized(&p1, &p2)?, fundamental_8point_explained(&p1, &p2)?);
+/// // Even with pixels below 100, errors may be amplified a hundred times as much.
+/// assert!(raw.condition_number > 100.0 * normalized.condition_number);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_8point_unnormalized(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

@@ -90,6 +90,20 @@ pub(crate) fn share_center(cam1: &Camera, cam2: &Camera) -> bool {
 /// [`Error::Degenerate`] if E is zero, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, equation 9.12.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{epipolar_line2, essential_from_motion, fundamental_from_essential};
+/// use nalgebra::Point2;
+/// let (k1, k2) = (Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, Intrinsics::new(350.0, 350.0, 160.0, 120.0)?);
+/// let e = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// let f = fundamental_from_essential(&e, &k1, &k2)?;
+/// // Rays keep their row, so pixels keep its place relative to the principal point: image 2 is half the size.
+/// let line2 = epipolar_line2(&f, &Point2::new(0.0, 340.0))?;
+/// assert!(line2.signed_distance(&Point2::new(77.0, 170.0)).abs() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_from_essential(
     essential: &Matrix3<f64>,
     k1: &Intrinsics,
@@ -110,6 +124,18 @@ pub fn fundamental_from_essential(
 /// [`Error::Degenerate`] if F is zero, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, equation 9.12.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{essential_from_fundamental, essential_from_motion, fundamental_from_essential};
+/// let (k1, k2) = (Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, Intrinsics::new(350.0, 350.0, 160.0, 120.0)?);
+/// let e = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// let f = fundamental_from_essential(&e, &k1, &k2)?;
+/// let back = essential_from_fundamental(&f, &k1, &k2)?;
+/// assert!((back - e).norm() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn essential_from_fundamental(
     fundamental: &Matrix3<f64>,
     k1: &Intrinsics,

@@ -28,6 +28,30 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
 /// parameters" (the parameters); Hartley & Zisserman 2004, §11.4.3 (the error).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{fundamental_8point, refine_fundamental, sampson_sq};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Matrix3, Point2, Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..20 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// // Half a pixel of noise, up and down by turns.
+/// let p2: Vec<_> = p2.iter().enumerate().map(|(i, p)| Point2::new(p.x, p.y + if i % 3 == 0 { 0.5 } else { -0.5 })).collect();
+/// let cost = |f: &Matrix3<f64>| p1.iter().zip(&p2).map(|(a, b)| sampson_sq(f, a, b)).sum::<f64>();
+/// let linear = fundamental_8point(&p1, &p2)?;
+/// let refined = refine_fundamental(&linear, &p1, &p2, RobustLoss::Trivial)?;
+/// assert!(cost(&refined) < cost(&linear));
+/// assert!(refined.determinant().abs() < 1e-15);
+/// # Ok(()) }
+/// ```
 pub fn refine_fundamental(
     fundamental: &Matrix3<f64>,
     pixels1: &[Point2<f64>],
@@ -68,6 +92,33 @@ pub fn refine_fundamental(
 /// match, and as [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with E = [t]ₓR instead of F.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{RelativePose, essential_from_motion, fundamental_from_essential, refine_relative_pose};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..20 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// // A start that is off by 0.05 rad and looks straight to the side.
+/// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.0, 0.05, 0.0));
+/// let start = RelativePose {
+///     rotation: start.rotation.to_rotation_matrix().into_inner(),
+///     direction: start.translation.vector,
+///     fundamental: fundamental_from_essential(&essential_from_motion(&start)?, &k, &k)?,
+/// };
+/// let refined = refine_relative_pose(&start, &p1, &p2, &k, &k, RobustLoss::Trivial)?.cam2_from_cam1();
+/// assert!(refined.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-6);
+/// assert!((refined.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn refine_relative_pose(
     pose: &RelativePose,
     pixels1: &[Point2<f64>],

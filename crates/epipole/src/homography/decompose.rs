@@ -31,6 +31,23 @@ pub struct PlaneMotion {
 ///
 /// Source: Malis & Vargas 2007, "Deeper understanding of the homography decomposition for
 /// vision-based control", §3.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::homography::{decompose_homography, homography_from_motion};
+/// use nalgebra::Vector3;
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // A wall 2 units ahead, n pointing back at camera 1, and a step of 1 to the right.
+/// let (step, n) = (RigidTransform::translation(-1.0, 0.0, 0.0), -Vector3::z());
+/// let h = homography_from_motion(&step, &n, 2.0, &k, &k);
+/// let motions = decompose_homography(&h, &k, &k)?;
+/// assert_eq!(motions.len(), 4);
+/// // One is the true one, with t in units of the distance of the wall.
+/// assert!(motions.iter().any(|m| (m.normal_in_cam1 - n).norm() < 1e-9
+///     && (m.cam2_from_cam1.translation.vector - Vector3::new(-0.5, 0.0, 0.0)).norm() < 1e-9));
+/// # Ok(()) }
+/// ```
 pub fn decompose_homography(
     homography: &Matrix3<f64>,
     k1: &Intrinsics,
@@ -113,6 +130,20 @@ fn nearest_rotation(m: &Matrix3<f64>) -> Matrix3<f64> {
 ///   the rotation alone
 ///
 /// Source: Hartley & Zisserman 2004, equation 13.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::homography::{homography_from_motion, transfer};
+/// use nalgebra::{Point2, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // A wall 2 units ahead and a step of 0.1 to the right: the disparity is f B / Z = 35.
+/// let step = RigidTransform::translation(-0.1, 0.0, 0.0);
+/// let h = homography_from_motion(&step, &-Vector3::z(), 2.0, &k, &k);
+/// let pixel2 = transfer(&h, &Point2::new(400.0, 300.0)).expect("a finite pixel");
+/// assert!((pixel2 - Point2::new(365.0, 300.0)).norm() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn homography_from_motion(
     cam2_from_cam1: &RigidTransform,
     normal_in_cam1: &Vector3<f64>,

@@ -22,6 +22,22 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::homography::{refine_homography, transfer};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Matrix3, Point2};
+/// let truth = Matrix3::new(1.2, -0.1, 40.0, 0.2, 0.9, -30.0, 6e-4, -1e-4, 1.0);
+/// let p1: Vec<_> = (0..12).map(|i| Point2::new(f64::from(i % 4) * 200.0, f64::from(i / 4) * 200.0)).collect();
+/// let p2: Vec<_> = p1.iter().filter_map(|p| transfer(&truth, p)).collect();
+/// // A start that is 5 pixels off.
+/// let mut start = truth;
+/// start[(0, 2)] += 5.0;
+/// let refined = refine_homography(&start, &p1, &p2, RobustLoss::Trivial)?;
+/// assert!((refined / refined[(2, 2)] - truth).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn refine_homography(
     homography: &Matrix3<f64>,
     pixels1: &[Point2<f64>],

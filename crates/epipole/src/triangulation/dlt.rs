@@ -45,6 +45,24 @@ pub fn triangulate_dlt(
 /// # Errors
 /// Each element has its own; [`Error::SizeMismatch`] if the lists differ in length,
 /// [`Error::Degenerate`] and [`Error::NotFinite`] if it is for the matrices.
+///
+/// Source: as [`triangulate_dlt`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::triangulation::triangulate_dlt_all;
+/// use nalgebra::{Matrix3x4, Point2, Point3};
+/// let p1 = Matrix3x4::identity();
+/// let mut p2 = p1;
+/// p2[(0, 3)] = -1.0; // one unit to the right
+/// let pixels1 = [Point2::new(0.25, 0.5), Point2::new(0.25, 0.5)];
+/// // The second match moved the wrong way: its rays meet behind the cameras.
+/// let pixels2 = [Point2::new(0.0, 0.5), Point2::new(0.5, 0.5)];
+/// let points = triangulate_dlt_all(&p1, &p2, &pixels1, &pixels2)?;
+/// assert!((points[0].clone()? - Point3::new(1.0, 2.0, 4.0)).norm() < 1e-12);
+/// assert_eq!(points[1], Err(epipole::Error::PointBehindCamera));
+/// # Ok(()) }
+/// ```
 pub fn triangulate_dlt_all(
     p1: &Matrix3x4<f64>,
     p2: &Matrix3x4<f64>,

@@ -23,6 +23,21 @@ use nalgebra::{Point2, Point3, SVector, Vector3};
 /// the point behind it.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::triangulation::triangulate_nview_dlt;
+/// use nalgebra::{Point2, Point3};
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // Three cameras side by side, 0.1 apart.
+/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// // A disparity of 35 for each step: Z = f B / d = 2.
+/// let pixels = [355.0, 320.0, 285.0].map(|u| Point2::new(u, 240.0));
+/// let point = triangulate_nview_dlt(&cameras, &pixels)?;
+/// assert!((point - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Result<Point3<f64>> {
     if cameras.len() != pixels.len() {
         return Err(Error::SizeMismatch {
@@ -141,6 +156,24 @@ impl FixedProblem<3> for Problem<'_> {
 /// refuses.
 ///
 /// Source: Hartley & Zisserman 2004, §12.3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::optim::RobustLoss;
+/// use epipole::triangulation::triangulate_nview;
+/// use nalgebra::{Point2, Point3};
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // Three cameras side by side, 0.1 apart.
+/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// // A disparity of 35 for each step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
+/// let pixels = [(355.0, 239.0), (320.0, 242.0), (285.0, 239.0)].map(|(u, v)| Point2::new(u, v));
+/// let found = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial)?;
+/// assert!((found.point_in_world - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-6);
+/// // √((1² + 2² + 1²) / 3)
+/// assert!((found.rms_error_px - 2.0_f64.sqrt()).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn triangulate_nview(
     cameras: &[Camera],
     pixels: &[Point2<f64>],
