@@ -19,6 +19,25 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
 /// and infinities, [`Error::Degenerate`] if the points lie on a plane or are otherwise critical.
 ///
 /// Source: Hartley & Zisserman 2004, §7.1.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::pose_dlt;
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
+/// let (mut points, mut pixels) = (Vec::new(), Vec::new());
+/// for i in 0..12 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, f64::from(i * i % 7) - 2.0);
+///     points.push(x);
+///     pixels.push(k.project(&(cam_from_world * x))?);
+/// }
+/// let found = pose_dlt(&points, &pixels, &k)?;
+/// assert!(found.rotation.angle_to(&cam_from_world.rotation) < 1e-7);
+/// assert!((found.translation.vector - cam_from_world.translation.vector).norm() < 1e-7);
+/// # Ok(()) }
+/// ```
 pub fn pose_dlt(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],

@@ -170,6 +170,31 @@ impl Estimator for AbsolutePoseEstimator {
 /// [`Error::NoConsensus`].
 ///
 /// Source: Fischler & Bolles 1981, with P3P as the minimal solver.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::find_absolute_pose;
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
+/// let (mut points, mut pixels) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, f64::from(i * i % 7) - 2.0);
+///     points.push(x);
+///     pixels.push(k.project(&(cam_from_world * x))?);
+/// }
+/// // Every fourth pixel belongs to something else.
+/// for pixel in pixels.iter_mut().step_by(4) {
+///     pixel.x = 640.0 - pixel.y;
+/// }
+/// let report = find_absolute_pose(&points, &pixels, &k, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 30);
+/// assert!(report.model.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
+/// assert!((report.model.translation.vector - cam_from_world.translation.vector).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn find_absolute_pose(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],

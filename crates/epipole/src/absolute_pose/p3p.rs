@@ -20,6 +20,19 @@ use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 /// Source: Persson & Nordberg 2018, "Lambda Twist: an accurate fast robust perspective three
 /// point (P3P) solver"; Richter-Gebert 2011, "Perspectives on projective geometry", §11.1 (splitting
 /// a degenerate conic).
+///
+/// ```
+/// use epipole::absolute_pose::pose_p3p;
+/// use nalgebra::{Point3, Vector3};
+/// // A camera at (0, 0, −5), its axes those of the world, sees three points.
+/// let points = [Point3::new(1.0, 0.0, 0.0), Point3::new(-1.0, 0.5, 1.0), Point3::new(0.0, -1.0, 0.0)];
+/// let rays = points.map(|x| x.coords + Vector3::new(0.0, 0.0, 5.0));
+/// let poses = pose_p3p(&rays, &points);
+/// // From up to four places three points look like that; one is the true one.
+/// assert!(poses.len() <= 4);
+/// assert!(poses.iter().any(|cam_from_world| cam_from_world.rotation.angle() < 1e-7
+///     && (cam_from_world.translation.vector - Vector3::new(0.0, 0.0, 5.0)).norm() < 1e-9));
+/// ```
 pub fn pose_p3p(
     rays: &[Vector3<f64>; 3],
     points_in_world: &[Point3<f64>; 3],

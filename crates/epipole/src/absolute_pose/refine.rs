@@ -11,6 +11,20 @@ use nalgebra::{
 /// How far a point's image is from the pixel where it was seen; infinite behind the camera.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::reprojection_error_px;
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use nalgebra::{Point2, Point3};
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let camera = Camera { intrinsics, cam_from_world: RigidTransform::identity() };
+/// // The point is seen at (460, 170), (3, 4) away.
+/// let pixel = Point2::new(463.0, 174.0);
+/// assert!((reprojection_error_px(&camera, &Point3::new(0.4, -0.2, 2.0), &pixel) - 5.0).abs() < 1e-12);
+/// assert_eq!(reprojection_error_px(&camera, &Point3::new(0.4, -0.2, -2.0), &pixel), f64::INFINITY);
+/// # Ok(()) }
+/// ```
 pub fn reprojection_error_px(
     camera: &Camera,
     point_in_world: &Point3<f64>,
@@ -31,9 +45,34 @@ pub fn reprojection_error_px(
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists
-/// of different length, [`Error::NotFinite`] for NaN and infinities.
+/// of different length, [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for a
+/// loss that [`RobustLoss::check`] refuses.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::refine_absolute_pose;
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
+/// let (mut points, mut pixels) = (Vec::new(), Vec::new());
+/// for i in 0..12 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, f64::from(i * i % 7) - 2.0);
+///     points.push(x);
+///     pixels.push(k.project(&(cam_from_world * x))?);
+/// }
+/// // One wrong pixel, and a start that is off by 0.1 and 0.02 rad.
+/// pixels[3].x += 50.0;
+/// let start = RigidTransform::new(Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.02, 0.0)) * cam_from_world;
+/// let loss = RobustLoss::Cauchy { width: 1.0 };
+/// let found = refine_absolute_pose(&start, &points, &pixels, &k, loss)?;
+/// assert!(found.rotation.angle_to(&cam_from_world.rotation) < 1e-3);
+/// assert!((found.translation.vector - cam_from_world.translation.vector).norm() < 0.01);
+/// # Ok(()) }
+/// ```
 pub fn refine_absolute_pose(
     cam_from_world: &RigidTransform,
     points_in_world: &[Point3<f64>],
@@ -48,6 +87,7 @@ pub fn refine_absolute_pose(
             second: pixels.len(),
         });
     }
+    loss.check()?;
     let finite = |x: &f64| x.is_finite();
     if !points_in_world.iter().all(|p| p.iter().all(finite))
         || !pixels.iter().all(|p| p.iter().all(finite))
@@ -257,5 +297,20 @@ mod tests {
         assert!(refine(&behind, &pixels).is_err());
         assert!(refine(&behind, &pixels[..2]).is_err());
         assert!(refine(&[Point3::new(f64::NAN, 0.0, 1.0); 5], &pixels).is_err());
+    }
+
+    #[test]
+    fn a_loss_without_width_is_refused() {
+        let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+        let (truth, rays, points) = problem::<8>(&mut Random::new(3));
+        let pixels = rays.map(|r| k.project(&r.into()).unwrap());
+        for width in [0.0, -1.0, f64::NAN] {
+            let loss = RobustLoss::Truncated { width };
+            let refined = refine_absolute_pose(&truth, &points, &pixels, &k, loss);
+            assert!(
+                matches!(refined, Err(Error::OutOfRange { .. })),
+                "{refined:?}"
+            );
+        }
     }
 }

@@ -1,46 +1,146 @@
 //! How far a match is from an epipolar geometry.
 
-use nalgebra::{Matrix3, Point2};
+use crate::math::scaling::power_of_two;
+use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
-/// The algebraic error `x2ᵀ F x1` and the parts of both epipolar lines that have a direction:
-/// (error, |F x1|² without the third entry, |Fᵀ x2|² without the third entry).
-fn parts(
-    fundamental: &Matrix3<f64>,
-    pixel1: &Point2<f64>,
-    pixel2: &Point2<f64>,
-) -> (f64, f64, f64) {
-    let line2 = fundamental * pixel1.to_homogeneous();
-    let line1 = fundamental.transpose() * pixel2.to_homogeneous();
-    let error = pixel2.x * line2.x + pixel2.y * line2.y + line2.z;
-    (
-        error,
-        line2.x * line2.x + line2.y * line2.y,
-        line1.x * line1.x + line1.y * line1.y,
-    )
+/// The algebraic error `x2ᵀ F x1` and the parts of both epipolar lines that have a direction.
+#[derive(Clone, Copy)]
+struct Parts {
+    error: f64,
+    /// F x1 without the third entry.
+    line2: Vector2<f64>,
+    /// Fᵀ x2 without the third entry.
+    line1: Vector2<f64>,
 }
 
-/// 0/0 counts as 0: a match of the two epipoles fits every epipolar geometry.
-fn ratio(numerator: f64, denominator: f64) -> f64 {
-    if numerator == 0.0 {
-        0.0
+impl Parts {
+    fn new(fundamental: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> Self {
+        let line2 = fundamental * x1;
+        let line1 = fundamental.transpose() * x2;
+        Self {
+            error: x2.x * line2.x + x2.y * line2.y + x2.z * line2.z,
+            line2: line2.xy(),
+            line1: line1.xy(),
+        }
+    }
+
+    /// |F x1|² and |Fᵀ x2|², both without the third entry.
+    fn along_sq(&self) -> (f64, f64) {
+        (self.line2.norm_squared(), self.line1.norm_squared())
+    }
+
+    fn sampson_sq(&self) -> f64 {
+        let (along2, along1) = self.along_sq();
+        self.error * self.error / (along2 + along1)
+    }
+
+    fn symmetric_sq(&self) -> f64 {
+        let (along2, along1) = self.along_sq();
+        // A pixel that is the epipole fits whatever the other is, so 0/0 is 0 for one of the lines.
+        // For both lines it is not: then the match says nothing.
+        let distance_sq = |along_sq: f64| {
+            if self.error == 0.0 && along2 + along1 > 0.0 {
+                0.0
+            } else {
+                self.error * self.error / along_sq
+            }
+        };
+        0.5 * (distance_sq(along1) + distance_sq(along2))
+    }
+}
+
+/// A distance as a root and a factor, so that its square may be beyond the range of numbers.
+#[derive(Clone, Copy)]
+struct Distance {
+    root_sq: f64,
+    factor: f64,
+}
+
+impl Distance {
+    /// What `distance_sq` makes of the parts of the constraint.
+    #[inline]
+    fn new(
+        fundamental: &Matrix3<f64>,
+        pixel1: &Point2<f64>,
+        pixel2: &Point2<f64>,
+        distance_sq: impl Fn(&Parts) -> f64,
+    ) -> Self {
+        let (x1, x2) = (pixel1.to_homogeneous(), pixel2.to_homogeneous());
+        let parts = Parts::new(fundamental, &x1, &x2);
+        let (along2, along1) = parts.along_sq();
+        let squares = [parts.error * parts.error, along2, along1];
+        if squares.iter().all(|x| x.is_normal()) {
+            return Self {
+                root_sq: distance_sq(&parts),
+                factor: 1.0,
+            };
+        }
+        // Squares may have overflowed or vanished, so sizes are taken out first. The scale of F does
+        // not matter; the distance of pixels is in units of their size.
+        let size = power_of_two(x1.amax().max(x2.amax()));
+        let parts = Parts::new(
+            &(fundamental / power_of_two(fundamental.amax())),
+            &(x1 / size),
+            &(x2 / size),
+        );
+        let slope = power_of_two(parts.line1.amax().max(parts.line2.amax()));
+        let error = power_of_two(parts.error);
+        Self {
+            root_sq: distance_sq(&Parts {
+                error: parts.error / error,
+                line2: parts.line2 / slope,
+                line1: parts.line1 / slope,
+            }),
+            factor: error / slope * size,
+        }
+    }
+
+    fn px(&self) -> f64 {
+        infinite_if_undefined(self.root_sq.sqrt() * self.factor)
+    }
+
+    fn sq(&self) -> f64 {
+        infinite_if_undefined(self.root_sq * self.factor * self.factor)
+    }
+}
+
+fn infinite_if_undefined(distance: f64) -> f64 {
+    if distance.is_nan() {
+        f64::INFINITY
     } else {
-        numerator / denominator
+        distance
     }
 }
 
 /// The square of [`sampson_px`], px².
+///
+/// Source: as [`sampson_px`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, sampson_sq};
+/// use nalgebra::Point2;
+/// // A step to the right: rows must agree. They differ by 2, so each pixel moves by 1.
+/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// assert!((sampson_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 2.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
-    let (error, along2, along1) = parts(fundamental, pixel1, pixel2);
-    ratio(error * error, along1 + along2)
+    Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }
 
 /// How far a match must be moved, in both images together, to satisfy the constraint, to first
 /// order: `|x2ᵀ F x1| / √(|F x1|²₁₂ + |Fᵀ x2|²₁₂)`, pixels.
 ///
-/// `|·|₁₂` is the length of the first two entries. The scale of F does not matter. Infinite for a
-/// match that no small movement can mend.
+/// `|·|₁₂` is the length of the first two entries. The scale of F does not matter.
 ///
-/// Source: Sampson 1982; Hartley & Zisserman 2004, equation 11.9.
+/// Infinite for a match that no small movement can mend, and for NaN and infinities. Infinite, too, for
+/// a match of the two epipoles: it satisfies the constraint whatever F else is, so it says nothing, and
+/// what says nothing must support no model. There the expression is 0/0.
+///
+/// Source: Sampson 1982; Hartley & Zisserman 2004, equation 11.9, which is not defined where both
+/// points are epipoles.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -56,44 +156,71 @@ pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
 /// # Ok(()) }
 /// ```
 pub fn sampson_px(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
-    sampson_sq(fundamental, pixel1, pixel2).sqrt()
+    Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).px()
 }
 
 /// The square of [`symmetric_epipolar_px`], px².
+///
+/// Source: as [`symmetric_epipolar_px`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_sq};
+/// use nalgebra::Point2;
+/// // A step to the right: rows must agree. Each pixel is 2 away from the row of the other.
+/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// assert!((symmetric_epipolar_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 4.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn symmetric_epipolar_sq(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> f64 {
-    let (error, along2, along1) = parts(fundamental, pixel1, pixel2);
-    let error_sq = error * error;
-    0.5 * (ratio(error_sq, along1) + ratio(error_sq, along2))
+    Distance::new(fundamental, pixel1, pixel2, Parts::symmetric_sq).sq()
 }
 
 /// The distances of both points from their epipolar lines, as a root mean square:
 /// `√(½ (d(x2, F x1)² + d(x1, Fᵀ x2)²))`, pixels.
 ///
-/// Easier to picture than [`sampson_px`], but not what one should minimize.
+/// Easier to picture than [`sampson_px`], but not what one should minimize. Infinite where that is; if
+/// one pixel alone is an epipole, the match fits and the distance is 0.
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3; the root mean square is ours, so that it is in
 /// pixels.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_px};
+/// use nalgebra::Point2;
+/// // Straight ahead: lines are those through the middle. (3, 4) is on one with slope 4/3, and the
+/// // line of (1, 0) is the row 0: distances 0.8 and 4.
+/// let f = essential_from_motion(&RigidTransform::translation(0.0, 0.0, -1.0))?;
+/// let distance_px = symmetric_epipolar_px(&f, &Point2::new(1.0, 0.0), &Point2::new(3.0, 4.0));
+/// assert!((distance_px - ((0.8 * 0.8 + 4.0 * 4.0) / 2.0_f64).sqrt()).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn symmetric_epipolar_px(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> f64 {
-    symmetric_epipolar_sq(fundamental, pixel1, pixel2).sqrt()
+    Distance::new(fundamental, pixel1, pixel2, Parts::symmetric_sq).px()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::coordinates::Coordinates;
     use super::super::from_cameras::tests::{random_cameras, random_point};
     use super::super::fundamental_from_cameras;
+    use super::super::sampson::support;
     use super::super::{epipolar_line1, epipolar_line2, essential_from_motion};
     use super::*;
     use crate::camera::RigidTransform;
     use crate::math::random::Random;
-    use nalgebra::Vector2;
+    use crate::robust::MatchSet;
 
     /// COLMAP's essential_matrix_test: squared Sampson errors 0, 0.5 and 2.
     #[test]
@@ -137,6 +264,54 @@ mod tests {
             let length = (g1.norm_squared() + g2.norm_squared()).sqrt();
             let (m1, m2) = (x1 + g1 * (0.01 / length), x2 + g2 * (0.01 / length));
             assert!((sampson_px(&f, &m1, &m2) - 0.01).abs() < 1e-5);
+        }
+    }
+
+    /// A public distance and the kernel that scores models must judge a match alike.
+    #[test]
+    fn a_match_of_both_epipoles_supports_nothing() {
+        let ahead = essential_from_motion(&RigidTransform::translation(0.0, 0.0, 1.0)).unwrap();
+        let (o, off) = (Point2::origin(), Point2::new(3.0, 1.0));
+        let kernel = |f: &Matrix3<f64>, x1: Point2<f64>, x2: Point2<f64>| {
+            let matches = MatchSet::new(&[x1], &[x2]).unwrap();
+            support(&Coordinates::pixels(&matches), f, 1.0, f64::INFINITY).num_inliers
+        };
+        for (f, x1, x2, fits) in [
+            (ahead, o, o, false),
+            (ahead, o, off, true),
+            (ahead, off, o, true),
+            (Matrix3::zeros(), off, off, false),
+        ] {
+            let expected = if fits { 0.0 } else { f64::INFINITY };
+            assert_eq!(sampson_px(&f, &x1, &x2), expected);
+            assert_eq!(symmetric_epipolar_px(&f, &x1, &x2), expected);
+            assert_eq!(kernel(&f, x1, x2), usize::from(fits));
+        }
+        let nan = Point2::new(f64::NAN, 0.0);
+        assert_eq!(sampson_px(&ahead, &nan, &off), f64::INFINITY);
+        assert_eq!(symmetric_epipolar_px(&ahead, &off, &nan), f64::INFINITY);
+    }
+
+    /// The images of the doctest, enlarged and shrunk as far as numbers go.
+    #[test]
+    fn sizes_beyond_the_range_of_squares() {
+        let right = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0)).unwrap();
+        for size in [1e-300, 1e-160, 1e-9, 1.0, 1e9, 1e160, 1e300] {
+            let x1 = Point2::new(5.0, 3.0) * size;
+            let x2 = Point2::new(1.0, 5.0) * size;
+            for scale in [1e-300, 1.0, 1e300] {
+                let f = right * scale;
+                // The square may be beyond the range, but is never not a number.
+                assert!(sampson_sq(&f, &x1, &x2) >= 0.0);
+                assert!(symmetric_epipolar_sq(&f, &x1, &x2) >= 0.0);
+                let sampson = sampson_px(&f, &x1, &x2) / (2.0_f64.sqrt() * size);
+                assert!((sampson - 1.0).abs() < 1e-9, "{size} {scale}: {sampson}");
+                let symmetric = symmetric_epipolar_px(&f, &x1, &x2) / (2.0 * size);
+                assert!(
+                    (symmetric - 1.0).abs() < 1e-9,
+                    "{size} {scale}: {symmetric}"
+                );
+            }
         }
     }
 }

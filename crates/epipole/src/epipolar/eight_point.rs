@@ -3,6 +3,7 @@
 use super::from_cameras::unit_norm;
 use super::{Normalization, epipolar_row};
 use crate::math::null_space::{Reflections, right_singular_vectors};
+use crate::math::scaling::power_of_two;
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
@@ -67,6 +68,26 @@ pub fn fundamental_8point(
 ///
 /// # Errors
 /// As [`fundamental_8point`].
+///
+/// Source: as [`fundamental_8point`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::{fundamental_8point, fundamental_8point_explained};
+/// use nalgebra::Point2;
+/// // A step to the right past points of different depth: each keeps its row.
+/// let p1 = [(0.0, 0.0), (90.0, 10.0), (15.0, 80.0), (70.0, 60.0), (40.0, 30.0), (20.0, 55.0),
+///     (85.0, 95.0), (5.0, 35.0)].map(|(u, v)| Point2::new(u, v));
+/// let shifts = [7.0, 3.0, 9.0, 4.0, 11.0, 2.0, 6.0, 13.0];
+/// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
+/// let explained = fundamental_8point_explained(&p1, &p2)?;
+/// // Exact matches: the ninth singular value is 0, and the solution has rank 2 by itself.
+/// assert!(explained.singular_values[8] < 1e-12 && explained.singular_values[7] > 1e-3);
+/// assert!(explained.full_rank.determinant().abs() < 1e-12);
+/// let f = fundamental_8point(&p1, &p2)?;
+/// assert!((f - explained.fundamental).norm().min((f + explained.fundamental).norm()) < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_8point_explained(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -83,6 +104,21 @@ pub fn fundamental_8point_explained(
 /// As [`fundamental_8point`].
 ///
 /// Source: Longuet-Higgins 1981.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::{fundamental_8point_explained, fundamental_8point_unnormalized};
+/// use nalgebra::Point2;
+/// let p1 = [(0.0, 0.0), (90.0, 10.0), (15.0, 80.0), (70.0, 60.0), (40.0, 30.0), (20.0, 55.0),
+///     (85.0, 95.0), (5.0, 35.0)].map(|(u, v)| Point2::new(u, v));
+/// let shifts = [7.0, 3.0, 9.0, 4.0, 11.0, 2.0, 6.0, 13.0];
+/// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
+/// let (raw, normalized) =
+///     (fundamental_8point_unnormalized(&p1, &p2)?, fundamental_8point_explained(&p1, &p2)?);
+/// // Even with pixels below 100, errors may be amplified a hundred times as much.
+/// assert!(raw.condition_number > 100.0 * normalized.condition_number);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_8point_unnormalized(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -94,11 +130,32 @@ pub fn fundamental_8point_unnormalized(
 
 /// The nearest matrix of rank 2, in Frobenius norm: the smallest singular value becomes 0.
 ///
+/// # Errors
+/// [`Error::NotFinite`] for NaN and infinities, and for entries at the very end of the range of numbers if
+/// those of the result are beyond it.
+///
 /// Source: Hartley & Zisserman 2004, §11.1.1.
-pub fn enforce_rank2(matrix: &Matrix3<f64>) -> Matrix3<f64> {
-    let mut svd = svd3(matrix);
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::enforce_rank2;
+/// use nalgebra::{Matrix3, Vector3};
+/// let nearest = enforce_rank2(&Matrix3::from_diagonal(&Vector3::new(3.0, 0.1, -2.0)))?;
+/// assert_eq!(nearest, Matrix3::from_diagonal(&Vector3::new(3.0, 0.0, -2.0)));
+/// # Ok(()) }
+/// ```
+pub fn enforce_rank2(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
+    let size = power_of_two(matrix.amax());
+    let mut svd = svd3(&(matrix / size));
     svd.singular_values[2] = 0.0;
-    svd.u * Matrix3::from_diagonal(&svd.singular_values) * svd.v.transpose()
+    let nearest = svd.u * Matrix3::from_diagonal(&svd.singular_values) * svd.v.transpose() * size;
+    if nearest.iter().all(|x| x.is_finite()) {
+        Ok(nearest)
+    } else {
+        Err(Error::NotFinite {
+            what: "a matrix and the nearest one of rank 2",
+        })
+    }
 }
 
 type Pixels<'a> = (&'a [Point2<f64>], &'a [Point2<f64>]);
@@ -152,8 +209,10 @@ fn exact(
         return None;
     }
     let [solution]: [[f64; 9]; 1] = reflections.null_space();
-    let f = enforce_rank2(&Matrix3::from_row_slice(&solution));
-    Some(unit_norm(&(n2.matrix().transpose() * f * n1.matrix())))
+    Some(
+        enforce_rank2(&Matrix3::from_row_slice(&solution))
+            .and_then(|f| unit_norm(&(n2.matrix().transpose() * f * n1.matrix()))),
+    )
 }
 
 fn solve(
@@ -177,7 +236,7 @@ fn solve(
     let solution = Matrix3::from_row_slice(&vectors[8]);
     let undo = |f: &Matrix3<f64>| unit_norm(&(n2.matrix().transpose() * f * n1.matrix()));
     Ok(EightPoint {
-        fundamental: undo(&enforce_rank2(&solution))?,
+        fundamental: undo(&enforce_rank2(&solution)?)?,
         full_rank: undo(&solution)?,
         singular_values,
         condition_number,
@@ -353,6 +412,19 @@ mod tests {
         assert!(without.condition_number > 1000.0 * with.condition_number);
         assert!(without.singular_values[0] > without.singular_values[7]);
         assert!(with.fundamental.determinant().abs() < 1e-15);
+    }
+
+    #[test]
+    fn rank_2_of_matrices_of_any_size() {
+        let m = Matrix3::new(1.0, 2.0, -0.5, 0.3, -1.5, 0.7, 1.1, 0.2, -0.9);
+        let nearest = enforce_rank2(&m).unwrap();
+        assert!(nearest.determinant().abs() < 1e-15);
+        for size in [1e-300, 1e300] {
+            assert!((enforce_rank2(&(m * size)).unwrap() / size - nearest).amax() < 1e-14);
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(enforce_rank2(&Matrix3::from_element(bad)).is_err());
+        }
     }
 
     #[test]

@@ -21,20 +21,36 @@ pub struct RelativePose {
 
 impl RelativePose {
     /// A pose with its fundamental matrix, for cameras with intrinsics `k1` and `k2`.
+    ///
+    /// # Errors
+    /// As [`fundamental_from_essential`].
+    pub(crate) fn checked(
+        rotation: Matrix3<f64>,
+        direction: Vector3<f64>,
+        k1: &Intrinsics,
+        k2: &Intrinsics,
+    ) -> Result<Self> {
+        let essential = cross_matrix(&direction) * rotation;
+        Ok(Self {
+            rotation,
+            direction,
+            fundamental: fundamental_from_essential(&essential, k1, k2)?,
+        })
+    }
+
+    /// [`checked`](Self::checked) for a candidate that is yet to be judged: without a fundamental
+    /// matrix it keeps zeros in its place, which no match fits, so it is never the answer.
     pub(crate) fn new(
         rotation: Matrix3<f64>,
         direction: Vector3<f64>,
         k1: &Intrinsics,
         k2: &Intrinsics,
     ) -> Self {
-        let essential = cross_matrix(&direction) * rotation;
-        let fundamental =
-            fundamental_from_essential(&essential, k1, k2).unwrap_or_else(|_| Matrix3::zeros());
-        Self {
+        Self::checked(rotation, direction, k1, k2).unwrap_or(Self {
             rotation,
             direction,
-            fundamental,
-        }
+            fundamental: Matrix3::zeros(),
+        })
     }
 
     /// `[t]ₓ R` with unit Frobenius norm.
@@ -59,6 +75,18 @@ impl RelativePose {
 /// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a matrix of rank 1 or 0.
 ///
 /// Source: Hartley & Zisserman 2004, §11.7.3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::epipolar::project_to_essential;
+/// use nalgebra::{Matrix3, Vector3};
+/// // Singular values 1.1, 0.9 and 0.2 become equal, equal and 0.
+/// let matrix = Matrix3::from_diagonal(&Vector3::new(1.1, -0.9, 0.2));
+/// let half = 0.5_f64.sqrt();
+/// let nearest = Matrix3::from_diagonal(&Vector3::new(half, -half, 0.0));
+/// assert!((project_to_essential(&matrix)? - nearest).norm() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn project_to_essential(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     let unit = unit_norm(matrix)?;
     let svd = svd3(&unit);
@@ -82,6 +110,21 @@ pub fn project_to_essential(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
 /// and zero rays, [`Error::Degenerate`] if the rays leave E open.
 ///
 /// Source: Hartley & Zisserman 2004, §11.7.3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_8point, essential_from_motion};
+/// use nalgebra::{Point3, Vector3};
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// // Twelve points in the frame of camera 1; a ray is the direction to a point.
+/// let points = (0..12).map(|i| Point3::new((i % 3) as f64 - 1.0, (i / 3) as f64 - 1.0, 4.0 + (i * i % 5) as f64));
+/// let (rays1, rays2): (Vec<_>, Vec<_>) =
+///     points.map(|x| (x.coords, (cam2_from_cam1 * x).coords)).unzip();
+/// let (e, truth) = (essential_8point(&rays1, &rays2)?, essential_from_motion(&cam2_from_cam1)?);
+/// assert!((e - truth).norm().min((e + truth).norm()) < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn essential_8point(rays1: &[Vector3<f64>], rays2: &[Vector3<f64>]) -> Result<Matrix3<f64>> {
     if rays1.len() != rays2.len() {
         return Err(Error::SizeMismatch {
@@ -232,9 +275,29 @@ pub struct SelectedPose {
 ///
 /// # Errors
 /// [`Error::TooFew`] without motions or matches, [`Error::SizeMismatch`] for lists of different
-/// length.
+/// length, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, §9.6.3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{decompose_essential, essential_from_motion, select_pose};
+/// use nalgebra::Point3;
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::translation(-1.0, 0.0, 0.0);
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..5 {
+///     let x = Point3::new(0.2 * f64::from(i), 0.1, 4.0 + f64::from(i));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// let motions = decompose_essential(&essential_from_motion(&cam2_from_cam1)?)?;
+/// let selected = select_pose(&motions, &p1, &p2, &k, &k)?;
+/// assert_eq!((selected.num_in_front, selected.second_num_in_front), (5, 0));
+/// assert!((selected.cam2_from_cam1.translation.x + 1.0).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn select_pose(
     motions: &[RigidTransform],
     pixels1: &[Point2<f64>],
@@ -254,6 +317,17 @@ pub fn select_pose(
             what: "a choice of pose from motions and matches",
             needed: 1,
             got: motions.len().min(pixels1.len()),
+        });
+    }
+    let finite = |x: &f64| x.is_finite();
+    let is_motion = |motion: &RigidTransform| {
+        motion.translation.vector.iter().all(finite) && motion.rotation.coords.iter().all(finite)
+    };
+    if !(motions.iter().all(is_motion)
+        && pixels1.iter().chain(pixels2).all(|p| p.iter().all(finite)))
+    {
+        return Err(Error::NotFinite {
+            what: "a motion or a matched pixel",
         });
     }
     let (mut best, mut best_count, mut second) = (0, 0, 0);
@@ -380,6 +454,17 @@ mod tests {
         assert!(essential_8point(&vec![Vector3::zeros(); 9], &same).is_err());
         let k = Intrinsics::centered(500.0, 640, 480).unwrap();
         assert!(select_pose(&[], &[], &[], &k, &k).is_err());
+        let (o, nan) = (Point2::origin(), Point2::new(0.0, f64::NAN));
+        let step = RigidTransform::translation(1.0, 0.0, 0.0);
+        let nowhere = RigidTransform::translation(f64::NAN, 0.0, 0.0);
+        for (motion, p1, p2) in [(step, nan, o), (step, o, nan), (nowhere, o, o)] {
+            let result = select_pose(&[motion], &[p1], &[p2], &k, &k);
+            assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
+        }
+        // A lens for which F is beyond the range of numbers.
+        let absurd = Intrinsics::new(1e-300, 1e-300, 1e300, 0.0).unwrap();
+        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &absurd, &k);
+        assert!(matches!(pose, Err(Error::NotFinite { .. })));
         // A pure rotation leaves the direction open.
         let mut random = Random::new(3);
         let rays: Vec<_> = (0..20)

@@ -185,6 +185,33 @@ impl Estimator for EssentialEstimator {
 /// As [`MatchSet::new`], [`EssentialEstimator::new`] and [`ransac`].
 ///
 /// Source: as [`EssentialEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::estimate_relative_pose;
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point2, Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// // Every fifth match is wrong.
+/// for i in (0..40).step_by(5) {
+///     p2[i] = Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
+/// }
+/// let report = estimate_relative_pose(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 32);
+/// // The direction of t is found; its length is not to be seen.
+/// let found = report.model.cam2_from_cam1();
+/// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
+/// assert!((found.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-5);
+/// # Ok(()) }
+/// ```
 pub fn estimate_relative_pose(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -223,6 +250,29 @@ pub fn estimate_relative_pose(
 ///
 /// # Errors
 /// As [`estimate_relative_pose`].
+///
+/// Source: as [`EssentialEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{essential_from_motion, find_essential};
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// let report = find_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let truth = essential_from_motion(&cam2_from_cam1)?;
+/// assert_eq!(report.num_inliers, 40);
+/// assert!((report.model - truth).norm() < 1e-5);
+/// # Ok(()) }
+/// ```
 pub fn find_essential(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

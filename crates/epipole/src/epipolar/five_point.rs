@@ -15,6 +15,26 @@ use nalgebra::{Matrix3, Vector3};
 /// Returns an empty list if there is no real solution or the rays are degenerate.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{essential_5point, essential_from_motion};
+/// use nalgebra::{Point3, Vector3};
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let points = [(-1.0, -1.0, 4.0), (1.0, -0.5, 5.0), (0.2, 0.1, 6.0), (-0.7, 1.0, 5.5), (1.2, 0.8, 4.5)]
+///     .map(|(x, y, z)| Point3::new(x, y, z));
+/// let rays1 = points.map(|x| x.coords);
+/// let rays2 = points.map(|x| (cam2_from_cam1 * x).coords);
+/// // Several matrices satisfy all five pairs, one of them the true one.
+/// let solutions = essential_5point(&rays1, &rays2);
+/// let truth = essential_from_motion(&cam2_from_cam1)?;
+/// assert!(solutions.iter().any(|e| (e - truth).norm().min((e + truth).norm()) < 1e-9));
+/// for e in &solutions {
+///     assert!(rays1.iter().zip(&rays2).all(|(x1, x2)| x2.dot(&(e * x1)).abs() < 1e-9));
+/// }
+/// # Ok(()) }
+/// ```
 pub fn essential_5point(rays1: &[Vector3<f64>; 5], rays2: &[Vector3<f64>; 5]) -> Vec<Matrix3<f64>> {
     let unit = |rays: &[Vector3<f64>; 5]| rays.map(|ray| ray.normalize());
     let mut solutions = [Matrix3::zeros(); 10];

@@ -1,6 +1,7 @@
 //! F and E of cameras that are known.
 
 use crate::camera::{Camera, Intrinsics, RigidTransform, cross_matrix, relative_motion};
+use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
 use nalgebra::Matrix3;
 
@@ -33,7 +34,7 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
             what: "the motion between two cameras",
         });
     }
-    let direction = t.try_normalize(f64::MIN_POSITIVE).ok_or(NO_BASELINE)?;
+    let direction = unit(&t).ok_or(NO_BASELINE)?;
     unit_norm(&(cross_matrix(&direction) * rotation.matrix()))
 }
 
@@ -61,10 +62,7 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 /// # Ok(()) }
 /// ```
 pub fn fundamental_from_cameras(cam1: &Camera, cam2: &Camera) -> Result<Matrix3<f64>> {
-    let (c1, c2) = (cam1.center_in_world(), cam2.center_in_world());
-    // Centers that differ by rounding alone would give a baseline in a random direction.
-    let extent = c1.coords.norm() + c2.coords.norm();
-    if (c1 - c2).norm() <= 1e-13 * extent {
+    if share_center(cam1, cam2) {
         return Err(NO_BASELINE);
     }
     let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
@@ -75,18 +73,47 @@ pub fn fundamental_from_cameras(cam1: &Camera, cam2: &Camera) -> Result<Matrix3<
     )
 }
 
+/// Whether two cameras stand at the same place, as far as rounding lets one tell: centers that differ
+/// by rounding alone would give a baseline in a random direction.
+pub(crate) fn share_center(cam1: &Camera, cam2: &Camera) -> bool {
+    let (c1, c2) = (cam1.center_in_world().coords, cam2.center_in_world().coords);
+    let (c1, c2) = {
+        let scale = power_of_two(c1.amax().max(c2.amax()));
+        (c1 / scale, c2 / scale)
+    };
+    (c1 - c2).norm() <= 1e-13 * (c1.norm() + c2.norm())
+}
+
 /// `F = K2⁻ᵀ E K1⁻¹`, with unit Frobenius norm.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if E is zero, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, equation 9.12.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{epipolar_line2, essential_from_motion, fundamental_from_essential};
+/// use nalgebra::Point2;
+/// let (k1, k2) = (Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, Intrinsics::new(350.0, 350.0, 160.0, 120.0)?);
+/// let e = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// let f = fundamental_from_essential(&e, &k1, &k2)?;
+/// // Rays keep their row, so pixels keep its place relative to the principal point: image 2 is half the size.
+/// let line2 = epipolar_line2(&f, &Point2::new(0.0, 340.0))?;
+/// assert!(line2.signed_distance(&Point2::new(77.0, 170.0)).abs() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn fundamental_from_essential(
     essential: &Matrix3<f64>,
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> Result<Matrix3<f64>> {
-    unit_norm(&(k2.inverse_matrix().transpose() * essential * k1.inverse_matrix()))
+    product(
+        &k2.inverse_matrix().transpose(),
+        essential,
+        &k1.inverse_matrix(),
+    )
 }
 
 /// `E = K2ᵀ F K1`, with unit Frobenius norm.
@@ -97,12 +124,31 @@ pub fn fundamental_from_essential(
 /// [`Error::Degenerate`] if F is zero, [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, equation 9.12.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{essential_from_fundamental, essential_from_motion, fundamental_from_essential};
+/// let (k1, k2) = (Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, Intrinsics::new(350.0, 350.0, 160.0, 120.0)?);
+/// let e = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// let f = fundamental_from_essential(&e, &k1, &k2)?;
+/// let back = essential_from_fundamental(&f, &k1, &k2)?;
+/// assert!((back - e).norm() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn essential_from_fundamental(
     fundamental: &Matrix3<f64>,
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> Result<Matrix3<f64>> {
-    unit_norm(&(k2.matrix().transpose() * fundamental * k1.matrix()))
+    product(&k2.matrix().transpose(), fundamental, &k1.matrix())
+}
+
+/// `A B C` with unit Frobenius norm. Its scale means nothing, so it is taken out of each factor before
+/// their product could overflow or vanish.
+fn product(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>) -> Result<Matrix3<f64>> {
+    let [a, b, c] = [a, b, c].map(|m| m / power_of_two(m.amax()));
+    unit_norm(&(a * b * c))
 }
 
 const NO_BASELINE: Error = Error::Degenerate {
@@ -178,6 +224,18 @@ pub(crate) mod tests {
         let f = fundamental_from_essential(&e, &cam1.intrinsics, &cam2.intrinsics).unwrap();
         let back = essential_from_fundamental(&f, &cam1.intrinsics, &cam2.intrinsics).unwrap();
         assert!((e - back).norm() < 1e-12);
+    }
+
+    #[test]
+    fn lenses_of_any_focal_length() {
+        let e = essential_from_motion(&RigidTransform::translation(-1e200, 0.0, 1e200)).unwrap();
+        for focal_px in [1e-250, 1e250] {
+            let k = Intrinsics::new(focal_px, focal_px, 0.0, 0.0).unwrap();
+            let f = fundamental_from_essential(&e, &k, &k).unwrap();
+            assert!((f.norm() - 1.0).abs() < 1e-14);
+            let back = essential_from_fundamental(&e, &k, &k).unwrap();
+            assert!((back.norm() - 1.0).abs() < 1e-14);
+        }
     }
 
     #[test]

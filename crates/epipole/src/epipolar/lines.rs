@@ -49,6 +49,18 @@ pub fn epipolar_line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Resul
 /// As [`epipolar_line2`], with the images exchanged.
 ///
 /// Source: Hartley & Zisserman 2004, §9.2.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::{epipolar_line1, essential_from_motion};
+/// use nalgebra::Point2;
+/// // Straight ahead: points move away from the middle, so they were on the line to it.
+/// let e = essential_from_motion(&RigidTransform::translation(0.0, 0.0, -1.0))?;
+/// let line1 = epipolar_line1(&e, &Point2::new(4.0, 2.0))?;
+/// assert!(line1.signed_distance(&Point2::new(2.0, 1.0)).abs() < 1e-15);
+/// # Ok(()) }
+/// ```
 pub fn epipolar_line1(fundamental: &Matrix3<f64>, pixel2: &Point2<f64>) -> Result<Line2> {
     epipolar_line2(&fundamental.transpose(), pixel2)
 }

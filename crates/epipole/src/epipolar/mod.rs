@@ -34,6 +34,7 @@ pub use essential::{
 pub use find_essential::{EssentialEstimator, estimate_relative_pose, find_essential};
 pub use find_fundamental::{FundamentalEstimator, find_fundamental};
 pub use five_point::essential_5point;
+pub(crate) use from_cameras::share_center;
 pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
     fundamental_from_essential,

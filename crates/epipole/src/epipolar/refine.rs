@@ -22,10 +22,36 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of
-/// rank 1 or 0, and as [`MatchSet::new`].
+/// rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
+/// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
+/// [`MatchSet::new`].
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
 /// parameters" (the parameters); Hartley & Zisserman 2004, §11.4.3 (the error).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{fundamental_8point, refine_fundamental, sampson_sq};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Matrix3, Point2, Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..20 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// // Half a pixel of noise, up and down by turns.
+/// let p2: Vec<_> = p2.iter().enumerate().map(|(i, p)| Point2::new(p.x, p.y + if i % 3 == 0 { 0.5 } else { -0.5 })).collect();
+/// let cost = |f: &Matrix3<f64>| p1.iter().zip(&p2).map(|(a, b)| sampson_sq(f, a, b)).sum::<f64>();
+/// let linear = fundamental_8point(&p1, &p2)?;
+/// let refined = refine_fundamental(&linear, &p1, &p2, RobustLoss::Trivial)?;
+/// assert!(cost(&refined) < cost(&linear));
+/// assert!(refined.determinant().abs() < 1e-15);
+/// # Ok(()) }
+/// ```
 pub fn refine_fundamental(
     fundamental: &Matrix3<f64>,
     pixels1: &[Point2<f64>],
@@ -34,19 +60,24 @@ pub fn refine_fundamental(
 ) -> Result<Matrix3<f64>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     enough(&matches, 7, "a refined fundamental matrix")?;
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     let start = frame.fundamental_to_frame(&unit_norm(fundamental)?);
+    let singular = svd3(&start).singular_values;
+    if singular[1] <= 1e-14 * singular[0] {
+        return Err(Error::Degenerate {
+            what: "a refined fundamental matrix",
+            why: "the start has rank 1",
+        });
+    }
     let refined = refine_in_frame(
         &coordinates,
         &start,
         scaled(loss, frame.scale),
         &LmOptions::default(),
     )
-    .ok_or(Error::Degenerate {
-        what: "a refined fundamental matrix",
-        why: "the start has rank 1 or 0",
-    })?;
+    .ok_or(NO_ERROR_AT_THE_START)?;
     unit_norm(&frame.fundamental_to_pixels(&refined))
 }
 
@@ -56,9 +87,38 @@ pub fn refine_fundamental(
 /// The rotation and the direction of the translation, five parameters, are refined.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 5 different matches, and as [`MatchSet::new`].
+/// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
+/// match, and as [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with E = [t]ₓR instead of F.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{RelativePose, essential_from_motion, fundamental_from_essential, refine_relative_pose};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..20 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// // A start that is off by 0.05 rad and looks straight to the side.
+/// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.0, 0.05, 0.0));
+/// let start = RelativePose {
+///     rotation: start.rotation.to_rotation_matrix().into_inner(),
+///     direction: start.translation.vector,
+///     fundamental: fundamental_from_essential(&essential_from_motion(&start)?, &k, &k)?,
+/// };
+/// let refined = refine_relative_pose(&start, &p1, &p2, &k, &k, RobustLoss::Trivial)?.cam2_from_cam1();
+/// assert!(refined.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-6);
+/// assert!((refined.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn refine_relative_pose(
     pose: &RelativePose,
     pixels1: &[Point2<f64>],
@@ -69,21 +129,25 @@ pub fn refine_relative_pose(
 ) -> Result<RelativePose> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     enough(&matches, 5, "a refined relative pose")?;
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     let rays = RaysInFrame::new(&frame, k1, k2);
-    refine_pose_in_frame(
+    let (rotation, direction) = refine_pose_in_frame(
         &coordinates,
         &rays,
         pose,
         scaled(loss, frame.scale),
         &LmOptions::default(),
     )
-    .map(|(rotation, direction)| RelativePose::new(rotation, direction, k1, k2))
-    .ok_or(Error::NotFinite {
-        what: "the error of the start",
-    })
+    .ok_or(NO_ERROR_AT_THE_START)?;
+    RelativePose::checked(rotation, direction, k1, k2)
 }
+
+/// Everything else was looked at before the refinement began.
+const NO_ERROR_AT_THE_START: Error = Error::NotFinite {
+    what: "the Sampson error of every match at the start",
+};
 
 fn enough(matches: &MatchSet, needed: usize, what: &'static str) -> Result<()> {
     if matches.len() < needed {
@@ -214,8 +278,7 @@ pub(crate) fn refine_in_frame(
     let mut factored = Factored::new(start)?;
     let problem = FundamentalProblem { coordinates, loss };
     minimize_fixed(&problem, &mut factored, options).ok()?;
-    let refined = enforce_rank2(&factored.matrix());
-    refined.iter().all(|x| x.is_finite()).then_some(refined)
+    enforce_rank2(&factored.matrix()).ok()
 }
 
 /// How rays become coordinates of the common frame: `F = A2ᵀ E A1`.
@@ -439,5 +502,44 @@ mod tests {
             assert!(total(&refined) < 0.25 * 53.0 * 2.0);
             assert!(refined.determinant().abs() < 1e-16);
         }
+    }
+
+    #[test]
+    fn each_failure_has_its_own_sentence() {
+        let (f, p1, p2) = noisy_matches(&mut Random::new(4), 0.5);
+        let k = Intrinsics::centered(700.0, 640, 480).unwrap();
+        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &k, &k).unwrap();
+        for width in [0.0, -1.0, f64::NAN] {
+            for loss in [
+                RobustLoss::Huber { width },
+                RobustLoss::Cauchy { width },
+                RobustLoss::Truncated { width },
+            ] {
+                let refused = loss.check().unwrap_err();
+                let refined = refine_fundamental(&f, &p1, &p2, loss).unwrap_err();
+                // Equal as sentences, since NaN does not equal itself.
+                assert_eq!(refined.to_string(), refused.to_string());
+                let refined = refine_relative_pose(&pose, &p1, &p2, &k, &k, loss).unwrap_err();
+                assert_eq!(refined.to_string(), refused.to_string());
+            }
+        }
+        let loss = RobustLoss::Trivial;
+        let rank1 = Vector3::new(1.0, 2.0, 3.0) * Vector3::new(0.5, -1.0, 1.0).transpose();
+        for start in [rank1, Matrix3::zeros()] {
+            let refined = refine_fundamental(&start, &p1, &p2, loss);
+            assert!(
+                matches!(refined, Err(Error::Degenerate { .. })),
+                "{refined:?}"
+            );
+        }
+        let nowhere = RelativePose {
+            direction: Vector3::from_element(f64::NAN),
+            ..pose
+        };
+        let refined = refine_relative_pose(&nowhere, &p1, &p2, &k, &k, loss);
+        assert!(
+            matches!(refined, Err(Error::NotFinite { .. })),
+            "{refined:?}"
+        );
     }
 }

@@ -42,6 +42,29 @@ pub fn epipolar_row(x1: &Point2<f64>, x2: &Point2<f64>) -> [f64; 9] {
 /// leave more than a pencil, such as matches of a plane, give some of the solutions.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::{essential_from_motion, fundamental_7point, fundamental_from_essential};
+/// use nalgebra::{Point2, Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..7 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// let seven = |p: &[Point2<f64>]| -> [Point2<f64>; 7] { core::array::from_fn(|i| p[i]) };
+/// let solutions = fundamental_7point(&seven(&p1), &seven(&p2));
+/// // One of them is the true one; each has rank 2 and unit Frobenius norm.
+/// let truth = fundamental_from_essential(&essential_from_motion(&cam2_from_cam1)?, &k, &k)?;
+/// assert!(solutions.len() <= 3);
+/// assert!(solutions.iter().any(|f| (f - truth).norm().min((f + truth).norm()) < 1e-6));
+/// assert!(solutions.iter().all(|f| f.determinant().abs() < 1e-12 && (f.norm() - 1.0).abs() < 1e-12));
+/// # Ok(()) }
+/// ```
 pub fn fundamental_7point(
     pixels1: &[Point2<f64>; 7],
     pixels2: &[Point2<f64>; 7],

@@ -1,6 +1,7 @@
 //! The motions that a homography of a plane allows.
 
 use crate::camera::{Intrinsics, RigidTransform};
+use crate::math::scaling::power_of_two;
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -30,12 +31,31 @@ pub struct PlaneMotion {
 ///
 /// Source: Malis & Vargas 2007, "Deeper understanding of the homography decomposition for
 /// vision-based control", §3.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::homography::{decompose_homography, homography_from_motion};
+/// use nalgebra::Vector3;
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // A wall 2 units ahead, n pointing back at camera 1, and a step of 1 to the right.
+/// let (step, n) = (RigidTransform::translation(-1.0, 0.0, 0.0), -Vector3::z());
+/// let h = homography_from_motion(&step, &n, 2.0, &k, &k);
+/// let motions = decompose_homography(&h, &k, &k)?;
+/// assert_eq!(motions.len(), 4);
+/// // One is the true one, with t in units of the distance of the wall.
+/// assert!(motions.iter().any(|m| (m.normal_in_cam1 - n).norm() < 1e-9
+///     && (m.cam2_from_cam1.translation.vector - Vector3::new(-0.5, 0.0, 0.0)).norm() < 1e-9));
+/// # Ok(()) }
+/// ```
 pub fn decompose_homography(
     homography: &Matrix3<f64>,
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> Result<Vec<PlaneMotion>> {
-    let h = k2.inverse_matrix() * homography * k1.matrix();
+    // The scale of H means nothing; what the lenses leave is taken out below.
+    let h = k2.inverse_matrix() * (homography / power_of_two(homography.amax())) * k1.matrix();
+    let h = h / power_of_two(h.amax());
     if !h.iter().all(|x| x.is_finite()) {
         return Err(Error::NotFinite {
             what: "a homography",
@@ -110,6 +130,20 @@ fn nearest_rotation(m: &Matrix3<f64>) -> Matrix3<f64> {
 ///   the rotation alone
 ///
 /// Source: Hartley & Zisserman 2004, equation 13.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::homography::{homography_from_motion, transfer};
+/// use nalgebra::{Point2, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // A wall 2 units ahead and a step of 0.1 to the right: the disparity is f B / Z = 35.
+/// let step = RigidTransform::translation(-0.1, 0.0, 0.0);
+/// let h = homography_from_motion(&step, &-Vector3::z(), 2.0, &k, &k);
+/// let pixel2 = transfer(&h, &Point2::new(400.0, 300.0)).expect("a finite pixel");
+/// assert!((pixel2 - Point2::new(365.0, 300.0)).norm() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn homography_from_motion(
     cam2_from_cam1: &RigidTransform,
     normal_in_cam1: &Vector3<f64>,
@@ -206,5 +240,28 @@ mod tests {
         assert!(decompose_homography(&Matrix3::zeros(), &k, &k).is_err());
         assert!(decompose_homography(&Matrix3::from_element(1.0), &k, &k).is_err());
         assert!(decompose_homography(&Matrix3::from_element(f64::NAN), &k, &k).is_err());
+    }
+
+    #[test]
+    fn the_scale_of_a_homography_means_nothing() {
+        let k = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
+        let motion = RigidTransform::new(Vector3::new(0.3, -0.1, 0.2), Vector3::new(0.1, 0.0, 0.2));
+        let h = homography_from_motion(&motion, &-Vector3::z(), 1.0, &k, &k);
+        let expected = decompose_homography(&h, &k, &k).unwrap();
+        for scale in [-1e-300, -1e-160, 1e-160, 1e160, 1e300] {
+            let found = decompose_homography(&(h * scale), &k, &k).unwrap();
+            assert_eq!(found.len(), expected.len());
+            for (a, b) in found.iter().zip(&expected) {
+                let t = |m: &PlaneMotion| m.cam2_from_cam1.translation.vector;
+                assert!((t(a) - t(b)).norm() < 1e-9, "{scale}: {a:?}");
+                assert!((a.normal_in_cam1 - b.normal_in_cam1).norm() < 1e-9);
+                assert!(
+                    a.cam2_from_cam1
+                        .rotation
+                        .angle_to(&b.cam2_from_cam1.rotation)
+                        < 1e-7
+                );
+            }
+        }
     }
 }

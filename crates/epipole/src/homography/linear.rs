@@ -82,6 +82,16 @@ pub(crate) fn homography_row(which: usize, [u1, v1, u2, v2]: [f64; 4]) -> [f64; 
 /// Where H sends a pixel; `None` if that is infinitely far away.
 ///
 /// Source: Hartley & Zisserman 2004, §2.3.
+///
+/// ```
+/// use epipole::homography::transfer;
+/// use nalgebra::{Matrix3, Point2};
+/// // Twice the size, then 10 to the right.
+/// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
+/// assert_eq!(transfer(&h, &Point2::new(3.0, 4.0)), Some(Point2::new(16.0, 8.0)));
+/// // A row of zeros at the end sends every pixel to infinity.
+/// assert_eq!(transfer(&Matrix3::from_diagonal(&[1.0, 1.0, 0.0].into()), &Point2::origin()), None);
+/// ```
 pub fn transfer(homography: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Point2<f64>> {
     let x = homography * Vector3::new(pixel1.x, pixel1.y, 1.0);
     let pixel2 = Point2::new(x.x / x.z, x.y / x.z);
@@ -89,6 +99,17 @@ pub fn transfer(homography: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Point
 }
 
 /// The square of [`transfer_error_px`], px².
+///
+/// Source: as [`transfer_error_px`].
+///
+/// ```
+/// use epipole::homography::transfer_error_sq;
+/// use nalgebra::{Matrix3, Point2};
+/// // Twice the size, then 10 to the right.
+/// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
+/// // H sends (3, 4) to (16, 8), which is (3, 4) away from its match: 3² + 4².
+/// assert_eq!(transfer_error_sq(&h, &Point2::new(3.0, 4.0), &Point2::new(19.0, 12.0)), 25.0);
+/// ```
 pub fn transfer_error_sq(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,
@@ -105,6 +126,15 @@ pub fn transfer_error_sq(
 /// Infinite if H sends the pixel infinitely far away.
 ///
 /// Source: Hartley & Zisserman 2004, equation 4.6.
+///
+/// ```
+/// use epipole::homography::transfer_error_px;
+/// use nalgebra::{Matrix3, Point2};
+/// // Twice the size, then 10 to the right.
+/// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
+/// // H sends (3, 4) to (16, 8), which is (3, 4) away from its match.
+/// assert_eq!(transfer_error_px(&h, &Point2::new(3.0, 4.0), &Point2::new(19.0, 12.0)), 5.0);
+/// ```
 pub fn transfer_error_px(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,

@@ -17,10 +17,27 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 4 different matches, [`Error::NotFinite`] if the start sends a
-/// pixel to infinity, and as [`MatchSet::new`].
+/// [`Error::TooFew`] for fewer than 4 different matches, [`Error::OutOfRange`] for a loss that
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and as
+/// [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::homography::{refine_homography, transfer};
+/// use epipole::optim::RobustLoss;
+/// use nalgebra::{Matrix3, Point2};
+/// let truth = Matrix3::new(1.2, -0.1, 40.0, 0.2, 0.9, -30.0, 6e-4, -1e-4, 1.0);
+/// let p1: Vec<_> = (0..12).map(|i| Point2::new(f64::from(i % 4) * 200.0, f64::from(i / 4) * 200.0)).collect();
+/// let p2: Vec<_> = p1.iter().filter_map(|p| transfer(&truth, p)).collect();
+/// // A start that is 5 pixels off.
+/// let mut start = truth;
+/// start[(0, 2)] += 5.0;
+/// let refined = refine_homography(&start, &p1, &p2, RobustLoss::Trivial)?;
+/// assert!((refined / refined[(2, 2)] - truth).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn refine_homography(
     homography: &Matrix3<f64>,
     pixels1: &[Point2<f64>],
@@ -35,6 +52,7 @@ pub fn refine_homography(
             got: matches.len(),
         });
     }
+    loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
     refine_in_frame(
@@ -190,6 +208,19 @@ mod tests {
             };
             assert!(total(&refined) <= total(&linear));
             assert!(total(&refined) < 2.0 * 72.0);
+        }
+    }
+
+    #[test]
+    fn a_loss_without_width_is_refused() {
+        let (p1, p2) = noisy(&mut Random::new(3));
+        let start = fit_homography(&p1, &p2).unwrap();
+        for width in [0.0, -1.0, f64::NAN] {
+            let refined = refine_homography(&start, &p1, &p2, RobustLoss::Truncated { width });
+            assert!(
+                matches!(refined, Err(Error::OutOfRange { .. })),
+                "{refined:?}"
+            );
         }
     }
 }

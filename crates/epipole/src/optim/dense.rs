@@ -134,8 +134,8 @@ impl System for DenseSystem<'_> {
 /// * `observer`: as in [`minimize`]
 ///
 /// # Errors
-/// [`Error::TooFew`] without residuals or parameters, [`Error::OutOfRange`] for a loss of no
-/// width, [`Error::NotFinite`] if the start has no finite cost or gradient.
+/// [`Error::TooFew`] without residuals or parameters, [`Error::OutOfRange`] for a loss that
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start has no finite cost or gradient.
 ///
 /// Source: Moré 1978, "The Levenberg–Marquardt algorithm: implementation and theory", §3 (the QR
 /// form) and §6 (damping scaled by column norms; there it is the largest seen
@@ -155,11 +155,7 @@ pub fn minimize_dense(
         });
     }
     let loss = problem.loss();
-    if !loss.is_valid() {
-        return Err(Error::NotFinite {
-            what: "the inverse of the width of a robust loss",
-        });
-    }
+    loss.check()?;
     let mut system = DenseSystem {
         problem,
         loss,

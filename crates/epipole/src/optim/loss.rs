@@ -1,5 +1,7 @@
 //! Robust losses: how much a residual may cost.
 
+use crate::{Error, Result};
+
 /// A loss ρ applied to the squared length `s = ‖r‖²` of a residual; the cost is `½ Σ ρ(s)`.
 ///
 /// Every loss behaves as `ρ(s) = s` for small residuals. Its width is where it stops doing so, in
@@ -85,13 +87,35 @@ impl RobustLoss {
         }
     }
 
-    /// Whether the width, if there is one, is finite and greater than 0.
-    pub fn is_valid(&self) -> bool {
+    /// Refuses a width that makes no loss. Everything that takes a loss asks this first.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless the width, if there is one, is greater than 0 and finite. So must
+    /// be its square, which the loss computes with.
+    ///
+    /// ```
+    /// use epipole::optim::RobustLoss;
+    /// assert!(RobustLoss::Huber { width: 2.0 }.check().is_ok());
+    /// let error = RobustLoss::Cauchy { width: -1.0 }.check().unwrap_err();
+    /// assert!(error.to_string().ends_with("but is -1"));
+    /// ```
+    pub fn check(&self) -> Result<()> {
         match *self {
-            RobustLoss::Trivial => true,
+            RobustLoss::Trivial => Ok(()),
             RobustLoss::Huber { width }
             | RobustLoss::Cauchy { width }
-            | RobustLoss::Truncated { width } => width.is_finite() && width > 0.0,
+            | RobustLoss::Truncated { width } => {
+                let width_sq = width * width;
+                if width > 0.0 && width_sq.is_normal() {
+                    Ok(())
+                } else {
+                    Err(Error::OutOfRange {
+                        what: "the width of a robust loss",
+                        requirement: "greater than 0 and finite, as must be its square",
+                        value: width,
+                    })
+                }
+            }
         }
     }
 }
@@ -132,9 +156,15 @@ mod tests {
 
     #[test]
     fn widths_must_be_positive() {
-        assert!(LOSSES.iter().all(RobustLoss::is_valid));
-        for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(!RobustLoss::Huber { width }.is_valid());
+        assert!(LOSSES.iter().all(|loss| loss.check().is_ok()));
+        for width in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-200, 1e200] {
+            for loss in [
+                RobustLoss::Huber { width },
+                RobustLoss::Cauchy { width },
+                RobustLoss::Truncated { width },
+            ] {
+                assert!(matches!(loss.check(), Err(Error::OutOfRange { .. })));
+            }
         }
     }
 }

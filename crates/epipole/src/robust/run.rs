@@ -13,6 +13,21 @@ use crate::Result;
 /// As [`Ransac::new`] and [`Ransac::finish`].
 ///
 /// The example of [`LineEstimator`](super::LineEstimator) calls it.
+///
+/// Source: as [`Ransac`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::{LineEstimator, RansacOptions, ransac};
+/// use nalgebra::Point2;
+/// // Twenty points of the row v = 2, and four that are elsewhere.
+/// let mut points: Vec<_> = (0..20).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
+/// points.extend([(3.0, 40.0), (17.0, 90.0), (50.0, 33.0), (81.0, 70.0)].map(|(u, v)| Point2::new(u, v)));
+/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 20);
+/// assert!(report.model.signed_distance(&Point2::new(-100.0, 2.0)).abs() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn ransac<E: Estimator>(
     estimator: E,
     options: &RansacOptions,

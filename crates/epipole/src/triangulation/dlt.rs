@@ -1,5 +1,7 @@
 //! Two-view triangulation by the direct linear transform.
 
+use super::{BEYOND_NUMBERS, NO_BASELINE};
+use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
 use nalgebra::{Matrix3x4, Point2, Point3};
 
@@ -12,7 +14,7 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// # Errors
 /// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the point is not
 /// in front of both cameras, [`Error::NotFinite`] for NaN and infinities,
-/// [`Error::Degenerate`] if the cameras are at the same place.
+/// [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a rank below 3.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
@@ -34,13 +36,33 @@ pub fn triangulate_dlt(
     pixel2: &Point2<f64>,
 ) -> Result<Point3<f64>> {
     let (r1, r2) = (rows_of(p1), rows_of(p2));
+    refuse_one_center(&r1, &r2)?;
     accept(&r1, &r2, &solve(&r1, &r2, pixel1, pixel2))
 }
 
 /// [`triangulate_dlt`] of many matches of one pair of cameras.
 ///
 /// # Errors
-/// Each element has its own; [`Error::SizeMismatch`] if the lists differ in length.
+/// Each element has its own; [`Error::SizeMismatch`] if the lists differ in length,
+/// [`Error::Degenerate`] and [`Error::NotFinite`] if it is for the matrices.
+///
+/// Source: as [`triangulate_dlt`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::triangulation::triangulate_dlt_all;
+/// use nalgebra::{Matrix3x4, Point2, Point3};
+/// let p1 = Matrix3x4::identity();
+/// let mut p2 = p1;
+/// p2[(0, 3)] = -1.0; // one unit to the right
+/// let pixels1 = [Point2::new(0.25, 0.5), Point2::new(0.25, 0.5)];
+/// // The second match moved the wrong way: its rays meet behind the cameras.
+/// let pixels2 = [Point2::new(0.0, 0.5), Point2::new(0.5, 0.5)];
+/// let points = triangulate_dlt_all(&p1, &p2, &pixels1, &pixels2)?;
+/// assert!((points[0].clone()? - Point3::new(1.0, 2.0, 4.0)).norm() < 1e-12);
+/// assert_eq!(points[1], Err(epipole::Error::PointBehindCamera));
+/// # Ok(()) }
+/// ```
 pub fn triangulate_dlt_all(
     p1: &Matrix3x4<f64>,
     p2: &Matrix3x4<f64>,
@@ -55,11 +77,64 @@ pub fn triangulate_dlt_all(
         });
     }
     let (r1, r2) = (rows_of(p1), rows_of(p2));
+    refuse_one_center(&r1, &r2)?;
     Ok(pixels1
         .iter()
         .zip(pixels2)
         .map(|(a, b)| accept(&r1, &r2, &solve(&r1, &r2, a, b)))
         .collect())
+}
+
+/// Refuses matrices that have the same null vector, which is the center of the camera.
+fn refuse_one_center(p1: &[Row; 3], p2: &[Row; 3]) -> Result<()> {
+    if !p1.iter().chain(p2).flatten().all(|x| x.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "a pixel or a projection matrix",
+        });
+    }
+    // Neither the scale of a row nor the unit of length in the world matters.
+    let size = |row: &Row| {
+        let direction = row[0].abs().max(row[1].abs()).max(row[2].abs());
+        // The last row of an affine camera has no direction.
+        power_of_two(if direction > 0.0 { direction } else { row[3] })
+    };
+    let scaled = |p: &[Row; 3]| p.map(|row| row.map(|x| x / size(&row)));
+    let (mut p1, mut p2) = (scaled(p1), scaled(p2));
+    let last_column = p1.iter().chain(&p2).map(|row| row[3].abs());
+    let unit = power_of_two(last_column.fold(0.0, f64::max));
+    for row in p1.iter_mut().chain(&mut p2) {
+        row[3] /= unit;
+    }
+    for p in [&p1, &p2] {
+        let center = null_vector(p);
+        if center == [0.0; 4] {
+            return Err(Error::Degenerate {
+                what: "the distance of a point",
+                why: "a projection matrix has a rank below 3",
+            });
+        }
+    }
+    let center1 = null_vector(&p1);
+    let same = p2.iter().all(|row| {
+        let rounding = dot(&row.map(f64::abs), &center1.map(f64::abs));
+        dot(row, &center1).abs() <= 1e-13 * rounding
+    });
+    if same { Err(NO_BASELINE) } else { Ok(()) }
+}
+
+/// The vector orthogonal to three rows, by minors; zero if they are dependent.
+fn null_vector(p: &[Row; 3]) -> Row {
+    let minor = |i: usize, j: usize, k: usize| {
+        p[0][i] * (p[1][j] * p[2][k] - p[1][k] * p[2][j])
+            - p[0][j] * (p[1][i] * p[2][k] - p[1][k] * p[2][i])
+            + p[0][k] * (p[1][i] * p[2][j] - p[1][j] * p[2][i])
+    };
+    [
+        minor(1, 2, 3),
+        -minor(0, 2, 3),
+        minor(0, 1, 3),
+        -minor(0, 1, 2),
+    ]
 }
 
 type Row = [f64; 4];
@@ -163,18 +238,28 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], x: &Row) -> Result<Point3<f64>> {
     if x[3].abs() <= 1e-12 * in_space {
         return Err(Error::PointAtInfinity);
     }
-    // Depths have the sign of z w, for projection matrices K [R t].
-    if !(z1 * x[3] > 0.0 && z2 * x[3] > 0.0) {
+    // Depths have the sign of z w, for projection matrices K [R t]. A point in the center of a camera has
+    // a depth that is rounding alone.
+    let in_front = |p: &[Row; 3], z: f64| {
+        let rounding = 1e-13 * dot(&p[2].map(f64::abs), &x.map(f64::abs));
+        z * x[3].signum() > rounding
+    };
+    if !(in_front(p1, z1) && in_front(p2, z2)) {
         return Err(Error::PointBehindCamera);
     }
     let per_w = 1.0 / x[3];
-    Ok(Point3::new(x[0] * per_w, x[1] * per_w, x[2] * per_w))
+    let point = Point3::new(x[0] * per_w, x[1] * per_w, x[2] * per_w);
+    if point.iter().all(|x| x.is_finite()) {
+        Ok(point)
+    } else {
+        Err(BEYOND_NUMBERS)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{RigidTransform, look_at};
+    use crate::camera::{Camera, Intrinsics, RigidTransform, look_at};
     use crate::math::null_space::right_singular_vectors;
     use crate::math::random::Random;
     use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -282,10 +367,44 @@ mod tests {
         assert!(triangulate_dlt(&p1, &p2, &o, &nan).is_err());
         assert!(triangulate_dlt(&p1, &(p2 * f64::INFINITY), &o, &o).is_err());
         assert!(triangulate_dlt(&Matrix3x4::zeros(), &Matrix3x4::zeros(), &o, &o).is_err());
-        // Same place: the whole ray fits.
-        if let Ok(point) = triangulate_dlt(&p1, &p1, &o, &o) {
-            assert!(point.iter().all(|x| x.is_finite()));
-        }
+        let flat = Matrix3x4::from_fn(|i, j| if i == 2 { 0.0 } else { p1[(i, j)] });
+        assert!(triangulate_dlt(&p1, &flat, &o, &o).is_err());
         assert!(triangulate_dlt_all(&p1, &p2, &[o], &[]).is_err());
+    }
+
+    /// The whole ray fits if the pixels agree, and nothing if they do not.
+    #[test]
+    fn cameras_at_the_same_place_are_refused() {
+        let mut random = Random::new(5);
+        let (o, other) = (Point2::new(320.0, 240.0), Point2::new(300.0, 240.0));
+        for far in [0.0, 1.0, 1e7] {
+            for _ in 0..100 {
+                let mut near = |size: f64| random.uniform(-size, size);
+                let center = Point3::new(far + near(1.0), near(1.0) - 2.0 * far, near(1.0));
+                let mut camera = |center: &Point3<f64>| {
+                    let k = Intrinsics::new(700.0 + near(50.0), 700.0, 320.0, 240.0).unwrap();
+                    let up = Vector3::new(0.3, -1.0, 0.0);
+                    let target = center + Vector3::new(near(1.0), near(1.0), 5.0);
+                    Camera {
+                        intrinsics: k,
+                        cam_from_world: look_at(center, &target, &up).unwrap(),
+                    }
+                };
+                let cameras = [camera(&center), camera(&center)];
+                let [p1, p2] = cameras.map(|c| c.projection_matrix());
+                for pixel2 in [o, other] {
+                    // Turned, and computed, so that the centers are equal only up to rounding.
+                    assert_eq!(triangulate_dlt(&p1, &p2, &o, &pixel2), Err(NO_BASELINE));
+                    assert_eq!(triangulate_dlt(&p1, &p1, &o, &pixel2), Err(NO_BASELINE));
+                    let scaled = p2 * -1e-3;
+                    assert_eq!(triangulate_dlt(&p1, &scaled, &o, &pixel2), Err(NO_BASELINE));
+                }
+                assert_eq!(triangulate_dlt_all(&p1, &p2, &[o], &[o]), Err(NO_BASELINE));
+                // A small step is enough, even at the far end of the world.
+                let moved = camera(&(center + Vector3::new(1e-3, 0.0, 0.0)));
+                let found = triangulate_dlt(&p1, &moved.projection_matrix(), &o, &o);
+                assert_ne!(found, Err(NO_BASELINE));
+            }
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! The point nearest to two rays.
 
+use super::{BEYOND_NUMBERS, NO_BASELINE};
 use crate::camera::RigidTransform;
 use crate::epipolar::signed_depths;
+use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// The point halfway between two rays where they pass each other nearest, in the frame of camera 1.
 ///
@@ -14,8 +16,10 @@ use nalgebra::{Point3, Vector3};
 /// * `ray1`, `ray2`: directions in the frames of cameras 1 and 2; their lengths do not matter
 ///
 /// # Errors
+/// [`Error::Degenerate`] if the cameras are at the same place, t being 0,
 /// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the rays diverge,
-/// [`Error::NotFinite`] for NaN, infinities and zero rays.
+/// [`Error::NotFinite`] for NaN, infinities and zero rays, and for a point whose coordinates are beyond
+/// the range of numbers.
 ///
 /// Source: Hartley & Sturm 1997, "Triangulation", §5.3.
 ///
@@ -34,35 +38,91 @@ pub fn triangulate_midpoint(
     ray1: &Vector3<f64>,
     ray2: &Vector3<f64>,
 ) -> Result<Point3<f64>> {
-    let (Some(ray1), Some(ray2)) = (
-        ray1.try_normalize(f64::MIN_POSITIVE),
-        ray2.try_normalize(f64::MIN_POSITIVE),
-    ) else {
-        return Err(Error::NotFinite {
-            what: "a ray's direction",
-        });
-    };
-    let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
-    let t = cam2_from_cam1.translation.vector;
-    let turned = rotation * ray1;
-    // sin² of the angle between the rays.
-    let determinant = turned.cross(&ray2).norm_squared();
-    if !determinant.is_finite() || !t.iter().all(|x| x.is_finite()) {
-        return Err(Error::NotFinite {
-            what: "a ray or the motion between the cameras",
-        });
+    let meeting = Meeting::new(cam2_from_cam1, ray1, ray2)?;
+    let Meeting { ray1, depths, .. } = meeting;
+    let on_ray1 = ray1 * depths[0];
+    let on_ray2 = meeting.on_ray2(depths[1]);
+    meeting.enlarged((on_ray1 + on_ray2) * 0.5)
+}
+
+/// Two rays that pass each other in front of both cameras, the distance between the cameras being
+/// near 1.
+struct Meeting {
+    /// R of `cam2_from_cam1`.
+    rotation: Matrix3<f64>,
+    /// t of `cam2_from_cam1` in units of `size`.
+    t: Vector3<f64>,
+    size: f64,
+    /// Of length 1, in the frame of camera 1.
+    ray1: Vector3<f64>,
+    /// R ray1.
+    turned: Vector3<f64>,
+    /// Of length 1, in the frame of camera 2.
+    ray2: Vector3<f64>,
+    /// How far along both rays they pass each other nearest, in units of `size`.
+    depths: [f64; 2],
+}
+
+impl Meeting {
+    /// Refuses what cannot be triangulated.
+    fn new(
+        cam2_from_cam1: &RigidTransform,
+        ray1: &Vector3<f64>,
+        ray2: &Vector3<f64>,
+    ) -> Result<Self> {
+        let (Some(ray1), Some(ray2)) = (unit(ray1), unit(ray2)) else {
+            return Err(Error::NotFinite {
+                what: "a ray's direction",
+            });
+        };
+        let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
+        let t = cam2_from_cam1.translation.vector;
+        let turned = rotation * ray1;
+        // sin² of the angle between the rays.
+        let determinant = turned.cross(&ray2).norm_squared();
+        if !determinant.is_finite() || !t.iter().all(|x| x.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "a ray or the motion between the cameras",
+            });
+        }
+        if t == Vector3::zeros() {
+            return Err(NO_BASELINE);
+        }
+        if determinant <= 1e-24 {
+            return Err(Error::PointAtInfinity);
+        }
+        let size = power_of_two(t.amax());
+        let t = t / size;
+        let (depth1, depth2) = signed_depths(&rotation, &t, &ray1, &ray2);
+        let depths = [depth1 / determinant, depth2 / determinant];
+        if !(depths[0] > 0.0 && depths[1] > 0.0) {
+            return Err(Error::PointBehindCamera);
+        }
+        Ok(Self {
+            rotation,
+            t,
+            size,
+            ray1,
+            turned,
+            ray2,
+            depths,
+        })
     }
-    if determinant <= 1e-24 {
-        return Err(Error::PointAtInfinity);
+
+    /// A point of ray 2, in the frame of camera 1.
+    fn on_ray2(&self, depth: f64) -> Vector3<f64> {
+        self.rotation.transpose() * (self.ray2 * depth - self.t)
     }
-    let (depth1, depth2) = signed_depths(&rotation, &t, &ray1, &ray2);
-    let (depth1, depth2) = (depth1 / determinant, depth2 / determinant);
-    if !(depth1 > 0.0 && depth2 > 0.0) {
-        return Err(Error::PointBehindCamera);
+
+    /// A point in units of the world.
+    fn enlarged(&self, point: Vector3<f64>) -> Result<Point3<f64>> {
+        let point = Point3::from(point * self.size);
+        if point.iter().all(|x| x.is_finite()) {
+            Ok(point)
+        } else {
+            Err(BEYOND_NUMBERS)
+        }
     }
-    let on_ray1 = ray1 * depth1;
-    let on_ray2 = rotation.transpose() * (ray2 * depth2 - t);
-    Ok(Point3::from((on_ray1 + on_ray2) * 0.5))
 }
 
 /// A point between two rays that lies nearer to the ray on which it is nearer to its camera, in the
@@ -79,26 +139,41 @@ pub fn triangulate_midpoint(
 /// As [`triangulate_midpoint`].
 ///
 /// Source: Lee & Civera 2019, "Triangulation: why optimize?", §4.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::triangulation::{triangulate_midpoint, triangulate_weighted_midpoint};
+/// use nalgebra::Vector3;
+/// // Camera 2 is 3 units ahead and sees the point at 1 unit, camera 1 at 4. Ray 2 is off by 0.1.
+/// let cam2_from_cam1 = RigidTransform::translation(0.0, 0.0, -3.0);
+/// let (ray1, ray2) = (Vector3::new(1.0, 0.0, 4.0), Vector3::new(1.0, 0.1, 1.0));
+/// // 0.1 high at the near camera is more than a quarter of that at the far one: nearer to ray 2.
+/// let weighted = triangulate_weighted_midpoint(&cam2_from_cam1, &ray1, &ray2)?;
+/// assert!(weighted.y > 0.07);
+/// assert!((triangulate_midpoint(&cam2_from_cam1, &ray1, &ray2)?.y - 0.05).abs() < 1e-3);
+/// # Ok(()) }
+/// ```
 pub fn triangulate_weighted_midpoint(
     cam2_from_cam1: &RigidTransform,
     ray1: &Vector3<f64>,
     ray2: &Vector3<f64>,
 ) -> Result<Point3<f64>> {
-    // Refuses what cannot be triangulated.
-    triangulate_midpoint(cam2_from_cam1, ray1, ray2)?;
-    let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
-    let t = cam2_from_cam1.translation.vector;
-    let (ray1, ray2) = (ray1.normalize(), ray2.normalize());
-    let turned = rotation * ray1;
+    let meeting = Meeting::new(cam2_from_cam1, ray1, ray2)?;
+    let Meeting {
+        t,
+        ray1,
+        turned,
+        ray2,
+        ..
+    } = meeting;
     let across = turned.cross(&ray2).norm();
     let (depth1, depth2) = (
         ray2.cross(&t).norm() / across,
         turned.cross(&t).norm() / across,
     );
-    let on_ray1 = ray1 * depth1;
-    let on_ray2 = rotation.transpose() * (ray2 * depth2 - t);
     let share1 = depth2 / (depth1 + depth2);
-    Ok(Point3::from(on_ray1 * share1 + on_ray2 * (1.0 - share1)))
+    meeting.enlarged(ray1 * depth1 * share1 + meeting.on_ray2(depth2) * (1.0 - share1))
 }
 
 /// The point for which the rays need to turn least, in the frame of camera 1: it minimizes
@@ -135,12 +210,15 @@ pub fn triangulate_angular(
     ray1: &Vector3<f64>,
     ray2: &Vector3<f64>,
 ) -> Result<Point3<f64>> {
-    // Refuses what cannot be triangulated, such as a zero baseline.
-    triangulate_midpoint(cam2_from_cam1, ray1, ray2)?;
-    let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
-    let t = cam2_from_cam1.translation.vector;
+    let meeting = Meeting::new(cam2_from_cam1, ray1, ray2)?;
+    let Meeting {
+        rotation,
+        t,
+        turned,
+        ray2,
+        ..
+    } = meeting;
     let along = t.normalize();
-    let (turned, ray2) = (rotation * ray1.normalize(), ray2.normalize());
     let (along1, along2) = (turned.dot(&along), ray2.dot(&along));
     // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 leaves the baseline
     // least.
@@ -164,9 +242,7 @@ pub fn triangulate_angular(
     // What separates the rays there is shared so that both turn by what they must.
     let gap = turned * depth1 + t - ray2 * depth2;
     let share1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
-    Ok(Point3::from(
-        rotation.transpose() * (turned * depth1 - gap * share1),
-    ))
+    meeting.enlarged(rotation.transpose() * (turned * depth1 - gap * share1))
 }
 
 #[cfg(test)]
@@ -257,6 +333,52 @@ mod tests {
                 let step = vector(1.0) * 1e-3 * point.coords.norm();
                 assert!(turns(&(point + step)) >= least);
             }
+        }
+    }
+
+    type Method = fn(&RigidTransform, &Vector3<f64>, &Vector3<f64>) -> Result<Point3<f64>>;
+    const METHODS: [Method; 3] = [
+        triangulate_midpoint,
+        triangulate_weighted_midpoint,
+        triangulate_angular,
+    ];
+
+    #[test]
+    fn cameras_at_the_same_place() {
+        let turn = RigidTransform::rotation(Vector3::new(0.1, -0.2, 0.0));
+        for motion in [RigidTransform::identity(), turn] {
+            for ray2 in [Vector3::z(), Vector3::new(0.1, 0.3, 1.0)] {
+                for method in METHODS {
+                    assert_eq!(method(&motion, &Vector3::z(), &ray2), Err(NO_BASELINE));
+                }
+            }
+        }
+    }
+
+    /// The unit of length is the caller's business, and the lengths of rays mean nothing.
+    #[test]
+    fn worlds_and_rays_of_any_size() {
+        let motion = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.1, 0.2, 0.3));
+        let point = Point3::new(0.5, -0.3, 4.0);
+        let (ray1, ray2) = (point.coords, (motion * point).coords);
+        for size in [1e-300, 1e-160, 1e160, 1e300] {
+            let mut enlarged = motion;
+            enlarged.translation.vector *= size;
+            for length in [1e-300, 1e-160, 1e160, 1e300] {
+                for method in METHODS {
+                    let found = method(&enlarged, &(ray1 * length), &(ray2 / length)).unwrap();
+                    assert!(
+                        (found / size - point).norm() < 1e-12,
+                        "{size} {length}: {found}"
+                    );
+                }
+            }
+        }
+        // Rays nearly parallel: the point is beyond the range of numbers.
+        let far = RigidTransform::translation(-1e305, 0.0, 0.0);
+        for method in METHODS {
+            let found = method(&far, &Vector3::z(), &Vector3::new(-1e-8, 0.0, 1.0));
+            assert_eq!(found, Err(BEYOND_NUMBERS));
         }
     }
 }

@@ -7,12 +7,25 @@
 //! | [`triangulate_angular`] | two | the angles from both rays |
 //! | [`triangulate_optimal`] | two | the reprojection error |
 //! | [`triangulate_nview`] | two or more | the reprojection error, iteratively |
+//!
+//! Cameras that stand at the same place see along the same rays whatever is on them. All methods
+//! answer this with [`Error::Degenerate`](crate::Error::Degenerate), before they look at the pixels.
 
 mod dlt;
 mod midpoint;
 mod nview;
 mod optimal;
 mod quality;
+
+const NO_BASELINE: crate::Error = crate::Error::Degenerate {
+    what: "the distance of a point",
+    why: "the cameras stand at the same place",
+};
+
+/// What a method says of a point so far away that its coordinates are beyond the range of numbers.
+const BEYOND_NUMBERS: crate::Error = crate::Error::NotFinite {
+    what: "each coordinate of the point",
+};
 
 pub use dlt::{triangulate_dlt, triangulate_dlt_all};
 pub use midpoint::{triangulate_angular, triangulate_midpoint, triangulate_weighted_midpoint};

@@ -1,8 +1,11 @@
 //! Triangulation from many views.
 
 use super::quality::projection_jacobian;
+use super::{BEYOND_NUMBERS, NO_BASELINE};
 use crate::camera::Camera;
+use crate::epipolar::share_center;
 use crate::math::null_space::right_singular_vectors;
+use crate::math::scaling::power_of_two;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, SVector, Vector3};
@@ -14,11 +17,27 @@ use nalgebra::{Point2, Point3, SVector, Vector3};
 /// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with few.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::NotFinite`] for
-/// NaN and infinities, [`Error::PointAtInfinity`] for parallel rays or a single center,
-/// [`Error::PointBehindCamera`] if a camera would have the point behind it.
+/// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if all
+/// cameras are at the same place, [`Error::NotFinite`] for NaN and infinities,
+/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would have
+/// the point behind it.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::triangulation::triangulate_nview_dlt;
+/// use nalgebra::{Point2, Point3};
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // Three cameras side by side, 0.1 apart.
+/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// // A disparity of 35 for each step: Z = f B / d = 2.
+/// let pixels = [355.0, 320.0, 285.0].map(|u| Point2::new(u, 240.0));
+/// let point = triangulate_nview_dlt(&cameras, &pixels)?;
+/// assert!((point - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Result<Point3<f64>> {
     if cameras.len() != pixels.len() {
         return Err(Error::SizeMismatch {
@@ -33,6 +52,9 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
             needed: 2,
             got: cameras.len(),
         });
+    }
+    if cameras[1..].iter().all(|c| share_center(&cameras[0], c)) {
+        return Err(NO_BASELINE);
     }
     // Measured from the first camera, so that a far-away world origin costs no digits.
     let origin = cameras[0].center_in_world().coords;
@@ -61,6 +83,9 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
         return Err(Error::PointAtInfinity);
     }
     let point = Point3::from(in_space / x[3] + origin);
+    if !point.iter().all(|x| x.is_finite()) {
+        return Err(BEYOND_NUMBERS);
+    }
     for camera in cameras {
         if (camera.cam_from_world * point).z <= 0.0 {
             return Err(Error::PointBehindCamera);
@@ -127,14 +152,34 @@ impl FixedProblem<3> for Problem<'_> {
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// As [`triangulate_nview_dlt`].
+/// As [`triangulate_nview_dlt`], and [`Error::OutOfRange`] for a loss that [`RobustLoss::check`]
+/// refuses.
 ///
 /// Source: Hartley & Zisserman 2004, §12.3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::optim::RobustLoss;
+/// use epipole::triangulation::triangulate_nview;
+/// use nalgebra::{Point2, Point3};
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// // Three cameras side by side, 0.1 apart.
+/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// // A disparity of 35 for each step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
+/// let pixels = [(355.0, 239.0), (320.0, 242.0), (285.0, 239.0)].map(|(u, v)| Point2::new(u, v));
+/// let found = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial)?;
+/// assert!((found.point_in_world - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-6);
+/// // √((1² + 2² + 1²) / 3)
+/// assert!((found.rms_error_px - 2.0_f64.sqrt()).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn triangulate_nview(
     cameras: &[Camera],
     pixels: &[Point2<f64>],
     loss: RobustLoss,
 ) -> Result<NviewPoint> {
+    loss.check()?;
     let mut point = triangulate_nview_dlt(cameras, pixels)?;
     let problem = Problem {
         cameras,
@@ -142,13 +187,26 @@ pub fn triangulate_nview(
         loss,
     };
     minimize_fixed(&problem, &mut point, &LmOptions::default())?;
-    let mut total_sq = 0.0;
+    if !point.iter().all(|x| x.is_finite()) {
+        return Err(BEYOND_NUMBERS);
+    }
+    let mut errors = Vec::with_capacity(cameras.len());
     for (camera, pixel) in cameras.iter().zip(pixels) {
-        total_sq += (camera.project(&point)? - pixel).norm_squared();
+        errors.push(camera.project(&point)? - pixel);
+    }
+    // A loss may let an outlier be so far off that its square is beyond the range of numbers.
+    let largest = errors.iter().fold(0.0, |most: f64, e| most.max(e.amax()));
+    let size = power_of_two(largest);
+    let total_sq: f64 = errors.iter().map(|e| (e / size).norm_squared()).sum();
+    let rms_error_px = (total_sq / cameras.len() as f64).sqrt() * size;
+    if !rms_error_px.is_finite() {
+        return Err(Error::NotFinite {
+            what: "the distance between a projection and its pixel",
+        });
     }
     Ok(NviewPoint {
         point_in_world: point,
-        rms_error_px: (total_sq / cameras.len() as f64).sqrt(),
+        rms_error_px,
     })
 }
 
@@ -244,6 +302,38 @@ mod tests {
         assert!(nview(&pair[..1], &[o]).is_err());
         assert!(nview(&pair, &[o]).is_err());
         assert!(nview(&pair, &[o, Point2::new(f64::NAN, 0.0)]).is_err());
-        assert!(nview(&[pair[0], pair[0]], &[o, o]).is_err());
+        for pixel in [o, Point2::new(60.0, 0.0)] {
+            assert_eq!(nview(&[pair[0]; 3], &[o, pixel, o]), Err(NO_BASELINE));
+            assert_eq!(
+                triangulate_nview_dlt(&[pair[0]; 2], &[o, pixel]),
+                Err(NO_BASELINE)
+            );
+        }
+    }
+
+    #[test]
+    fn a_loss_without_width_is_refused() {
+        let cameras = ring(&mut Random::new(4), 3);
+        let pixels: Vec<_> = cameras
+            .iter()
+            .map(|c| c.project(&Point3::new(0.3, -0.4, 7.5)).unwrap())
+            .collect();
+        for width in [0.0, -1.0, f64::NAN] {
+            let found = triangulate_nview(&cameras, &pixels, RobustLoss::Truncated { width });
+            assert!(matches!(found, Err(Error::OutOfRange { .. })), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn an_outlier_at_the_end_of_the_world_has_a_finite_error() {
+        let cameras = ring(&mut Random::new(5), 3);
+        let truth = Point3::new(0.3, -0.4, 7.5);
+        let mut pixels: Vec<_> = cameras.iter().map(|c| c.project(&truth).unwrap()).collect();
+        pixels[2].x = 1e200;
+        let loss = RobustLoss::Truncated { width: 2.0 };
+        match triangulate_nview(&cameras, &pixels, loss) {
+            Ok(found) => assert!(found.rms_error_px.is_finite()),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
     }
 }

@@ -1,10 +1,12 @@
 //! Two-view triangulation that minimizes the reprojection error.
 
+use super::NO_BASELINE;
 use super::dlt::triangulate_dlt;
 use crate::camera::Camera;
-use crate::epipolar::fundamental_from_cameras;
+use crate::epipolar::{fundamental_from_cameras, share_center};
+use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
-use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2};
+use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2, Vector3};
 
 /// The nearest pair of pixels that satisfies `x2ᵀ F x1 = 0` exactly, minimizing
 /// `‖x1' − x1‖² + ‖x2' − x2‖²`.
@@ -13,24 +15,93 @@ use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2};
 /// than any measurement error, also for large corrections.
 ///
 /// * `fundamental`: F, of any scale
+/// * `pixel1`, `pixel2`: the match
+///
+/// A match that satisfies the constraint stays as it is, and so does one of which one pixel is an epipole:
+/// it satisfies the constraint whatever the other pixel is.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if a pixel is an epipole.
+/// [`Error::Degenerate`] if both pixels are epipoles, to within 10⁻¹² of what makes up their lines, if
+/// both lines are infinitely far away, or if F is zero; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Lindström 2010, "Triangulation made easy", the `niter2` method.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::RigidTransform;
+/// use epipole::epipolar::essential_from_motion;
+/// use epipole::triangulation::correct_matches;
+/// use nalgebra::Point2;
+/// // A step to the right: rows must agree. Both pixels move to the row between them.
+/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
+/// let (x1, x2) = correct_matches(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 4.0))?;
+/// assert!((x1 - Point2::new(5.0, 3.5)).norm() < 1e-12);
+/// assert!((x2 - Point2::new(1.0, 3.5)).norm() < 1e-12);
+/// # Ok(()) }
+/// ```
 pub fn correct_matches(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> Result<(Point2<f64>, Point2<f64>)> {
+    let what = "the nearest match on epipolar lines";
+    let finite = |x: &f64| x.is_finite();
+    if !(fundamental.iter().all(finite) && pixel1.iter().chain(pixel2.iter()).all(finite)) {
+        return Err(Error::NotFinite {
+            what: "a pixel or the fundamental matrix",
+        });
+    }
+    if *fundamental == Matrix3::zeros() {
+        return Err(Error::Degenerate {
+            what,
+            why: "the fundamental matrix is zero",
+        });
+    }
+    // The scale of F does not matter. Pixels in units of their size s are seen by a matrix whose last
+    // row and column are smaller by s.
+    let size = power_of_two(pixel1.coords.amax().max(pixel2.coords.amax()).max(1.0));
+    let shrink = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 1.0 / size));
+    let f = shrink * (fundamental / power_of_two(fundamental.amax())) * shrink;
+    let f = f / power_of_two(f.amax());
+    let (x1, x2) = (pixel1.coords / size, pixel2.coords / size);
+    let (h1, h2) = (x1.push(1.0), x2.push(1.0));
+    let (line2, line1) = (f * h1, f.transpose() * h2);
+    let negligible = |line: &Vector3<f64>, rounding: Vector3<f64>, rows: usize| {
+        (0..rows).all(|row| line[row].abs() <= 1e-12 * rounding[row])
+    };
+    let rounding = [f.abs() * h1.abs(), f.transpose().abs() * h2.abs()];
+    let flat =
+        |rows| negligible(&line2, rounding[0], rows) && negligible(&line1, rounding[1], rows);
+    if flat(2) {
+        return Err(Error::Degenerate {
+            what,
+            why: if flat(3) {
+                "both pixels are epipoles"
+            } else {
+                "both epipolar lines are infinitely far away"
+            },
+        });
+    }
+    let [moved1, moved2] = moved(&f, &h1, &h2).map(|x| Point2::from(x * size));
+    if moved1.iter().chain(moved2.iter()).all(finite) {
+        Ok((moved1, moved2))
+    } else {
+        Err(Error::NotFinite {
+            what: "the corrected match",
+        })
+    }
+}
+
+/// The correction itself.
+#[inline]
+fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64>; 2] {
     // The paper's x and x' are our x2 and x1, since its constraint is xᵀ E x' = 0.
-    let (x2, x1) = (pixel2.to_homogeneous(), pixel1.to_homogeneous());
-    let upper: Matrix2<f64> = fundamental.fixed_view::<2, 2>(0, 0).into_owned();
-    let n2: Vector2<f64> = (fundamental * x1).xy();
-    let n1: Vector2<f64> = (fundamental.transpose() * x2).xy();
+    let upper: Matrix2<f64> = f.fixed_view::<2, 2>(0, 0).into_owned();
+    let n2: Vector2<f64> = (f * x1).xy();
+    let n1: Vector2<f64> = (f.transpose() * x2).xy();
     let a = n2.dot(&(upper * n1));
     let b = 0.5 * (n2.norm_squared() + n1.norm_squared());
-    let c = x2.dot(&(fundamental * x1));
+    let c = x2.dot(&(f * x1));
     let d = (b * b - a * c).max(0.0).sqrt();
     let lambda = c / (b + d);
     let (step2, step1) = (n2 * lambda, n1 * lambda);
@@ -38,28 +109,7 @@ pub fn correct_matches(
     let (n2, n1) = (n2 - upper * step1, n1 - upper.transpose() * step2);
     let factor = 2.0 * d / (n2.norm_squared() + n1.norm_squared());
     let lambda = lambda * factor;
-    let (moved2, moved1) = (pixel2 - n2 * lambda, pixel1 - n1 * lambda);
-    if [moved1.x, moved1.y, moved2.x, moved2.y]
-        .into_iter()
-        .all(f64::is_finite)
-    {
-        return Ok((moved1, moved2));
-    }
-    if x1
-        .iter()
-        .chain(x2.iter())
-        .chain(fundamental.iter())
-        .all(|x| x.is_finite())
-    {
-        Err(Error::Degenerate {
-            what: "the nearest match on an epipolar line",
-            why: "both pixels are epipoles",
-        })
-    } else {
-        Err(Error::NotFinite {
-            what: "a pixel or the fundamental matrix",
-        })
-    }
+    [x1.xy() - n1 * lambda, x2.xy() - n2 * lambda]
 }
 
 /// The point whose images are nearest to the two pixels, minimizing the reprojection error.
@@ -71,9 +121,10 @@ pub fn correct_matches(
 /// epipolar lines by [`correct_matches`]; then their rays meet.
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras are at the same place, [`Error::PointAtInfinity`] for
-/// parallel rays, [`Error::PointBehindCamera`] if they diverge, [`Error::NotFinite`] for NaN and
-/// infinities.
+/// [`Error::Degenerate`] if the cameras are at the same place, or both pixels are epipoles, so that
+/// both rays run along the baseline; [`Error::PointAtInfinity`] for parallel rays,
+/// [`Error::PointBehindCamera`] if they diverge, or meet in the center of a camera because one pixel is an
+/// epipole; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Lindström 2010, "Triangulation made easy"; Hartley & Sturm 1997, "Triangulation".
 ///
@@ -96,6 +147,9 @@ pub fn triangulate_optimal(
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> Result<Point3<f64>> {
+    if share_center(cam1, cam2) {
+        return Err(NO_BASELINE);
+    }
     let fundamental = fundamental_from_cameras(cam1, cam2)?;
     let (x1, x2) = correct_matches(&fundamental, pixel1, pixel2)?;
     triangulate_dlt(
@@ -109,10 +163,9 @@ pub fn triangulate_optimal(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, look_at};
-    use crate::epipolar::sampson_px;
+    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::epipolar::{Epipole, enforce_rank2, epipoles, essential_from_motion, sampson_px};
     use crate::math::random::Random;
-    use nalgebra::Vector3;
 
     fn rig(random: &mut Random) -> (Camera, Camera) {
         let mut camera = || {
@@ -173,8 +226,80 @@ mod tests {
     fn degenerate_input_is_refused() {
         let (cam1, cam2) = rig(&mut Random::new(3));
         let (o, nan) = (Point2::new(320.0, 240.0), Point2::new(f64::NAN, 0.0));
-        assert!(triangulate_optimal(&cam1, &cam1, &o, &o).is_err());
+        let other = Point2::new(300.0, 240.0);
+        assert_eq!(triangulate_optimal(&cam1, &cam1, &o, &o), Err(NO_BASELINE));
+        assert_eq!(
+            triangulate_optimal(&cam1, &cam1, &o, &other),
+            Err(NO_BASELINE)
+        );
         assert!(triangulate_optimal(&cam1, &cam2, &o, &nan).is_err());
-        assert!(correct_matches(&Matrix3::zeros(), &o, &o).is_err());
+    }
+
+    fn why(result: Result<(Point2<f64>, Point2<f64>)>) -> &'static str {
+        match result {
+            Err(Error::Degenerate { why, .. }) => why,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn matches_without_a_correction_are_told_apart() {
+        let (o, off) = (Point2::origin(), Point2::new(3.0, 1.0));
+        let ahead = essential_from_motion(&RigidTransform::translation(0.0, 0.0, 1.0)).unwrap();
+        assert_eq!(
+            why(correct_matches(&ahead, &o, &o)),
+            "both pixels are epipoles"
+        );
+        assert_eq!(
+            why(correct_matches(&Matrix3::zeros(), &o, &off)),
+            "the fundamental matrix is zero"
+        );
+        let at_infinity = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
+        assert_eq!(
+            why(correct_matches(&at_infinity, &o, &o)),
+            "both epipolar lines are infinitely far away"
+        );
+        let nan = correct_matches(&ahead, &Point2::new(f64::NAN, 0.0), &o);
+        assert!(matches!(nan, Err(Error::NotFinite { .. })));
+        // One epipole: the constraint holds already.
+        assert_eq!(correct_matches(&ahead, &o, &off), Ok((o, off)));
+        assert_eq!(correct_matches(&ahead, &off, &o), Ok((off, o)));
+    }
+
+    /// The ray of an epipole runs through the other camera, where every other ray of that camera meets it.
+    #[test]
+    fn epipoles_give_no_point() {
+        let mut random = Random::new(4);
+        for _ in 0..100 {
+            let (cam1, cam2) = rig(&mut random);
+            let f = fundamental_from_cameras(&cam1, &cam2).unwrap();
+            let (Epipole::Finite(e1), Epipole::Finite(e2)) = epipoles(&f).unwrap() else {
+                continue;
+            };
+            let pixel = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+            for (p1, p2) in [(e1, pixel), (pixel, e2)] {
+                let found = triangulate_optimal(&cam1, &cam2, &p1, &p2);
+                assert_eq!(found, Err(Error::PointBehindCamera));
+            }
+            let found = triangulate_optimal(&cam1, &cam2, &e1, &e2);
+            assert!(matches!(found, Err(Error::Degenerate { .. })), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn images_and_matrices_of_any_size() {
+        let f = Matrix3::new(0.1, 0.5, 3.0, -0.4, 0.2, -2.0, -2.5, 1.5, 7.0);
+        let f = enforce_rank2(&f).unwrap();
+        let (x1, x2) = (Point2::new(3.0, 1.0), Point2::new(-2.0, 4.0));
+        let (m1, m2) = correct_matches(&f, &x1, &x2).unwrap();
+        for size in [1e-9, 1e9, 1e100] {
+            let undo = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, size));
+            for scale in [1e-90, 1.0, 1e90] {
+                let large = undo * (f * scale / size) * undo / size;
+                let (l1, l2) = correct_matches(&large, &(x1 * size), &(x2 * size)).unwrap();
+                assert!((l1 / size - m1).norm() < 1e-9, "{size} {scale}: {l1}");
+                assert!((l2 / size - m2).norm() < 1e-9, "{size} {scale}: {l2}");
+            }
+        }
     }
 }

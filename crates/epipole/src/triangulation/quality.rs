@@ -1,6 +1,7 @@
 //! How well a point is determined.
 
 use crate::camera::Camera;
+use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, SMatrix};
 
@@ -38,12 +39,29 @@ pub fn triangulation_angle_rad(
 /// Square roots of its eigenvalues are the semiaxes of the error ellipsoid: long along the rays,
 /// short across.
 ///
+/// * `cameras`: those that see the point, two at least
+/// * `point_in_world`: the point, or its estimate
+///
 /// # Errors
 /// [`Error::PointBehindCamera`] if a camera does not see the point, [`Error::OutOfRange`] for
 /// `sigma_px` ≤ 0 or NaN, [`Error::PointAtInfinity`] if the views leave the point free to move
-/// along a ray.
+/// along a ray, [`Error::NotFinite`] if the covariance is beyond the range of numbers.
 ///
 /// Source: Hartley & Zisserman 2004, §5.2.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::triangulation::point_covariance;
+/// use nalgebra::Point3;
+/// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let camera = |x: f64| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) };
+/// let covariance = point_covariance(&[camera(-0.06), camera(0.06)], &Point3::new(0.0, 0.0, 2.8), 0.5)?;
+/// // Across, two views measure v: (Z/f) σ/√2 = 0.0014 m. Along, Z² σ√2/(f B) = 0.066 m.
+/// assert!((covariance[(1, 1)].sqrt() - 0.001414).abs() < 1e-6);
+/// assert!((covariance[(2, 2)].sqrt() - 0.066).abs() < 1e-5);
+/// # Ok(()) }
+/// ```
 pub fn point_covariance(
     cameras: &[Camera],
     point_in_world: &Point3<f64>,
@@ -56,18 +74,35 @@ pub fn point_covariance(
             value: sigma_px,
         });
     }
-    let mut information = Matrix3::zeros();
+    let mut jacobians = Vec::with_capacity(cameras.len());
     for camera in cameras {
         camera.project(point_in_world)?;
-        let jacobian = projection_jacobian(camera, point_in_world);
-        information += jacobian.transpose() * jacobian;
+        jacobians.push(projection_jacobian(camera, point_in_world));
     }
+    // Their unit, pixels per meter, may be such that squares overflow or vanish.
+    let largest = jacobians
+        .iter()
+        .fold(0.0, |most: f64, j| most.max(j.amax()));
+    let unit = power_of_two(largest);
+    let information: Matrix3<f64> = jacobians
+        .iter()
+        .map(|j| j / unit)
+        .map(|j| j.transpose() * j)
+        .sum();
     let eigen = information.symmetric_eigenvalues();
     if eigen.max().is_nan() || eigen.min() <= 1e-14 * eigen.max() {
         return Err(Error::PointAtInfinity);
     }
     let inverse = information.try_inverse().ok_or(Error::PointAtInfinity)?;
-    Ok(inverse * (sigma_px * sigma_px))
+    let sigma = sigma_px / unit;
+    let covariance = inverse * sigma * sigma;
+    if covariance.iter().all(|x| x.is_finite()) {
+        Ok(covariance)
+    } else {
+        Err(Error::NotFinite {
+            what: "the covariance of the point",
+        })
+    }
 }
 
 /// The derivatives of a projection (u, v) by the point's world coordinates.
@@ -92,7 +127,10 @@ pub(super) fn projection_jacobian(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, RigidTransform};
+    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::math::random::Random;
+    use crate::triangulation::triangulate_optimal;
+    use nalgebra::{Point2, Vector3};
 
     /// COLMAP's triangulation_test.
     #[test]
@@ -142,5 +180,71 @@ mod tests {
         assert!(point_covariance(&[camera(0.0)], &behind, 0.5).is_err());
         assert!(point_covariance(&[camera(0.0)], &point, f64::NAN).is_err());
         assert!(point_covariance(&[], &point, 1.0).is_err());
+    }
+
+    /// Every entry, against the spread of points that were triangulated from noisy pixels.
+    #[test]
+    fn the_whole_matrix_agrees_with_many_noisy_triangulations() {
+        let intrinsics = Intrinsics::new(650.0, 600.0, 320.0, 240.0).unwrap();
+        let camera = |center: Point3<f64>| Camera {
+            intrinsics,
+            cam_from_world: look_at(&center, &Point3::origin(), &Vector3::new(0.2, -1.0, 0.1))
+                .unwrap(),
+        };
+        let cameras = [
+            camera(Point3::new(-3.5, 0.3, -3.0)),
+            camera(Point3::new(-2.2, -0.8, -4.0)),
+        ];
+        let point = Point3::new(0.2, 0.1, 0.3);
+        let sigma_px = 0.5;
+        let covariance = point_covariance(&cameras, &point, sigma_px).unwrap();
+        let seen = cameras.map(|c| c.project(&point).unwrap());
+        let mut random = Random::new(6);
+        let count = 20_000;
+        let mut spread = Matrix3::zeros();
+        for _ in 0..count {
+            let [p1, p2] = seen.map(|p| {
+                Point2::new(
+                    p.x + sigma_px * random.normal(),
+                    p.y + sigma_px * random.normal(),
+                )
+            });
+            let off = triangulate_optimal(&cameras[0], &cameras[1], &p1, &p2).unwrap() - point;
+            spread += off * off.transpose() / f64::from(count);
+        }
+        // A sample variance of n numbers is off by √(2/n) of itself, 1 %; so is a covariance, of
+        // the product of both deviations.
+        for i in 0..3 {
+            for j in 0..3 {
+                let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+                let off = (spread[(i, j)] - covariance[(i, j)]).abs() / scale;
+                assert!(off < 0.03, "{i} {j}: {off}");
+            }
+        }
+        // Correlations are large here, so entries off the diagonal are tested, too.
+        let correlation = covariance[(0, 2)] / (covariance[(0, 0)] * covariance[(2, 2)]).sqrt();
+        assert!(correlation.abs() > 0.2, "{correlation}");
+    }
+
+    #[test]
+    fn units_of_any_size() {
+        let point = Point3::new(0.05, 0.0, 2.0);
+        let covariance = |focal_px: f64, sigma_px: f64| {
+            let intrinsics = Intrinsics::new(focal_px, focal_px, 0.0, 0.0).unwrap();
+            let camera = |x: f64| Camera {
+                intrinsics,
+                cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
+            };
+            point_covariance(&[camera(0.0), camera(0.1)], &point, sigma_px)
+        };
+        let expected = covariance(1.0, 0.01).unwrap();
+        for size in [1e-200, 1e200] {
+            let found = covariance(size, 0.01 * size).unwrap();
+            assert!((found - expected).amax() < 1e-12 * expected.amax());
+        }
+        assert!(matches!(
+            covariance(1.0, 1e200),
+            Err(Error::NotFinite { .. })
+        ));
     }
 }

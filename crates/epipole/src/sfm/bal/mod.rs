@@ -4,8 +4,8 @@ mod problem;
 mod text;
 
 use super::bundle::{Observation, observation_pairs};
+use crate::Result;
 use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
-use crate::{Error, Result};
 use nalgebra::{Point3, Vector3};
 use problem::{Problem, State};
 use std::ops::ControlFlow;
@@ -77,9 +77,10 @@ impl BalProblem {
 /// compared.
 ///
 /// # Errors
-/// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, [`Error::NotFinite`] if the cost at the start is not finite
-/// or the loss has no positive width.
+/// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange) if
+/// an observation refers to a camera or point that is not there, or for a loss that
+/// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start is
+/// not finite.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis".
 pub fn adjust_bal(
@@ -88,11 +89,7 @@ pub fn adjust_bal(
     loss: RobustLoss,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<LmReport> {
-    if !loss.is_valid() {
-        return Err(Error::NotFinite {
-            what: "the inverse of the width of a robust loss",
-        });
-    }
+    loss.check()?;
     let pairs = observation_pairs(
         &problem.observations,
         problem.cameras.len(),
@@ -120,6 +117,7 @@ pub fn adjust_bal(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
     use crate::math::random::Random;
     use crate::optim::{BundleProblem, BundleStep, check_jacobian};
     use nalgebra::{DMatrix, DVector, Point2};

@@ -203,8 +203,8 @@ fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
 ///
 /// # Errors
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, [`Error::NotFinite`] if a pixel or the cost at the start is
-/// not finite, or the loss has no positive width.
+/// camera or point that is not there, or for a loss that [`RobustLoss::check`] refuses,
+/// [`Error::NotFinite`] if a pixel or the cost at the start is not finite.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
 /// is its §9.
@@ -213,11 +213,7 @@ pub fn adjust_bundle(
     options: &BundleOptions,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<LmReport> {
-    if !options.loss.is_valid() {
-        return Err(Error::NotFinite {
-            what: "the inverse of the width of a robust loss",
-        });
-    }
+    options.loss.check()?;
     let pairs = observation_pairs(
         &bundle.observations,
         bundle.cameras.len(),

@@ -135,7 +135,8 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///
     /// # Errors
     /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there
-    /// or a vertex with itself, [`Error::NotFinite`] for NaN and infinities or a loss of no width.
+    /// or a vertex with itself, or for a loss that [`RobustLoss::check`] refuses,
+    /// [`Error::NotFinite`] for NaN and infinities.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
     pub fn optimize(
@@ -177,11 +178,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     }
 
     fn check(&self, loss: RobustLoss) -> Result<()> {
-        if !loss.is_valid() {
-            return Err(Error::NotFinite {
-                what: "the inverse of the width of a robust loss",
-            });
-        }
+        loss.check()?;
         if self.edges.is_empty() {
             return Err(Error::TooFew {
                 what: "the optimization of a pose graph from edges",
