@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
-use epipole::Error;
 use epipole::robust::{
-    Estimator, Ransac, RansacOptions, RansacReport, SamplerKind, Step, StopReason,
+    Estimator, RansacOptions, RansacReport, SamplerKind, StopReason, Trial, ransac_with,
 };
+use std::ops::ControlFlow;
 
 /// The bar moves once in so many samples: looking more often would cost more than small samples do.
 const SAMPLES_A_LOOK: usize = 64;
@@ -75,31 +75,42 @@ impl RobustArguments {
     /// Runs RANSAC to its end, or until Ctrl-C asks for the best model so far.
     ///
     /// # Errors
-    /// As [`Ransac::new`] and [`Ransac::finish`]; [`Error::Canceled`] if Ctrl-C came before any
-    /// model was found.
+    /// As [`ransac_with`].
     pub(crate) fn run<E: Estimator>(
         &self,
         estimator: E,
         context: &Context,
     ) -> Result<RansacReport<E::Model>, Failure> {
+        self.watched(context, |options, watch| {
+            ransac_with(estimator, options, watch)
+        })
+    }
+
+    /// The same for a function that runs RANSAC itself and shows its trials.
+    pub(crate) fn watched<M>(
+        &self,
+        context: &Context,
+        run: impl FnOnce(
+            &RansacOptions,
+            &mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>,
+        ) -> epipole::Result<RansacReport<M>>,
+    ) -> Result<RansacReport<M>, Failure> {
         let options = self.options(context);
         let progress = Progress::new(context, "drawing samples");
-        let mut run = Ransac::new(estimator, options)?;
-        while let Step::Trial(trial) = run.step() {
-            let (drawn, most) = (trial.iteration, options.max_iterations);
-            if interrupt::requested() {
-                run.cancel();
-            }
-            if drawn.is_multiple_of(SAMPLES_A_LOOK) {
-                let required = usize::try_from(run.required_iterations()).unwrap_or(most);
+        let mut watch = |trial: &Trial<'_, M>| {
+            if trial.iteration.is_multiple_of(SAMPLES_A_LOOK) {
+                let most = options.max_iterations;
+                let required = usize::try_from(trial.required_iterations).unwrap_or(most);
                 let expected = required.max(options.min_iterations).min(most);
-                progress.set(drawn as f64 / expected as f64);
+                progress.set(trial.iteration as f64 / expected as f64);
             }
-        }
-        let report = match run.finish() {
-            Err(Error::NoConsensus { .. }) if interrupt::requested() => Err(Error::Canceled),
-            outcome => outcome,
-        }?;
+            if interrupt::requested() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let report = run(&options, &mut watch)?;
         drop(progress);
         self.warn(&report, context);
         Ok(report)
@@ -123,6 +134,12 @@ impl RobustArguments {
                 ));
             }
             StopReason::Exhausted | StopReason::Confident => {}
+        }
+        if report.could_be_chance() {
+            context.warn(&format!(
+                "the model means nothing: {} inliers are no more than wrong data would show by chance",
+                report.num_unique_inliers
+            ));
         }
     }
 }

@@ -368,6 +368,31 @@ fn fits_tell_whether_they_are_confident() {
 }
 
 /// Rows that come best first give PROSAC its answer while uniform samples are still searching.
+/// Rows that have nothing to do with one another: some agree nevertheless, and that is said.
+#[test]
+fn chance_is_told_from_a_model() {
+    let folder = Folder::new("fit-chance");
+    let mut random = Random::new(3);
+    let mut anywhere = || -> Vec<Point2<f64>> {
+        let mut pixel = || Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
+        (0..300).map(|_| pixel()).collect()
+    };
+    let file = matches_file(&folder, &anywhere(), &anywhere());
+    for model in ["homography", "fundamental", "essential", "similarity"] {
+        let mut arguments = vec!["--json", "fit", "--model", model, path(&file)];
+        if model == "essential" {
+            arguments.extend(["--k", K]);
+        }
+        let output = epipole(&arguments);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains("by chance"), "{model}: {told}");
+        assert_eq!(parse(&output)["could_be_chance"], true, "{model}");
+    }
+    let file = file_of(&folder, &problem(cube()));
+    let result = json(&["fit", "--model", "fundamental", path(&file)]);
+    assert_eq!(result["could_be_chance"], false);
+}
+
 #[test]
 fn the_sampler_can_be_chosen() {
     let folder = Folder::new("fit-sampler");

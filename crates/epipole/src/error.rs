@@ -23,7 +23,7 @@ pub enum Error {
         what: &'static str,
     },
     /// A parameter outside its range.
-    #[error("{what} must be {requirement}, but is {value}")]
+    #[error("{what} must be {requirement}, but is {}", brief(*.value))]
     OutOfRange {
         /// The parameter's name.
         what: &'static str,
@@ -95,4 +95,34 @@ pub enum Error {
         /// What is wrong there.
         why: String,
     },
+}
+
+/// A number without hundreds of zeros.
+fn brief(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || !size.is_finite() || (1e-6..1e15).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::brief;
+
+    #[test]
+    fn numbers_are_brief() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-2.5, "-2.5"),
+            (1e9, "1000000000"),
+            (1e300, "1e300"),
+            (-3e-12, "-3e-12"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(brief(value), text);
+        }
+    }
 }

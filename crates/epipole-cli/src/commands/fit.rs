@@ -3,13 +3,12 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::interrupt;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, transfer_error_px};
 use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
 use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
@@ -62,6 +61,7 @@ struct Found {
     iterations: usize,
     required_iterations: u64,
     stop: StopReason,
+    could_be_chance: bool,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
 }
@@ -115,6 +115,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (found.required_iterations != u64::MAX).then_some(found.required_iterations),
         )
         .field("stop", stop_word(found.stop))
+        .field("could_be_chance", found.could_be_chance)
         .field("mean_error_px", mean_error_px);
     if let Some(motion) = &found.cam2_from_cam1 {
         report = report.field("cam2_from_cam1", Motion::from(motion));
@@ -156,11 +157,9 @@ fn fit(
                 .k
                 .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
-            let options = robust.options(context);
-            let found = interrupt::unstoppable(|| {
-                estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)
-            })??;
-            robust.warn(&found, context);
+            let found = robust.watched(context, |options, watch| {
+                estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+            })?;
             let pose = found.model;
             let errors = pairs()
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
@@ -189,6 +188,7 @@ fn of_matrix<M>(report: RansacReport<M>, matrix: &Matrix3<f64>, errors_px: Vec<f
 fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -> Found {
     Found {
         model,
+        could_be_chance: report.could_be_chance(),
         inliers: report.inliers,
         iterations: report.iterations,
         required_iterations: report.required_iterations,

@@ -7,10 +7,10 @@ use crate::matrices::{CameraArguments, intrinsics, positive, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
-use crate::{files, interrupt, picture};
+use crate::{files, picture};
 use clap::Args;
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with};
 use epipole::robust::MatchSet;
 use epipole::stereo::{
     PixelMap, RectifyOptions, StereoCamera, rectify_calibrated, rectify_uncalibrated,
@@ -119,11 +119,9 @@ fn rectify(
     let (width, height) = photos[0].color.dimensions();
     if let Some(k1) = arguments.camera.given(&photos[0])? {
         let k2 = arguments.k2.unwrap_or(k1);
-        let options = arguments.robust.options(context);
-        let report = interrupt::unstoppable(|| {
-            estimate_relative_pose(pixels1, pixels2, &k1, &k2, &options)
-        })??;
-        arguments.robust.warn(&report, context);
+        let report = arguments.robust.watched(context, |options, watch| {
+            estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+        })?;
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);

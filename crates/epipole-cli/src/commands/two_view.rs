@@ -10,9 +10,9 @@ use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
-use epipole::homography::{HomographyEstimator, transfer_error_px};
-use epipole::robust::MatchSet;
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
+use epipole::homography::{HomographyEstimator, homography_sampson_px};
+use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
     estimate_two_view_calibrated,
@@ -62,6 +62,7 @@ struct Found {
     model: Matrix3<f64>,
     inliers: Vec<bool>,
     cam2_from_cam1: Option<RigidTransform>,
+    other_cam2_from_cam1: Option<RigidTransform>,
     configuration: &'static str,
     errors_px: Vec<f64>,
 }
@@ -122,6 +123,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             "cam2_from_cam1",
             found.cam2_from_cam1.as_ref().map(Motion::from),
         )
+        .field(
+            "other_cam2_from_cam1",
+            found.other_cam2_from_cam1.as_ref().map(Motion::from),
+        )
         .field("mean_sampson_px", mean_px)
         .field("configuration", found.configuration))
 }
@@ -166,10 +171,11 @@ fn estimate(
             Ok(Found {
                 kind: "fundamental",
                 errors_px: errors(&report.model),
+                configuration: configuration(&report, "general"),
                 model: report.model,
                 inliers: report.inliers,
                 cam2_from_cam1: None,
-                configuration: "general",
+                other_cam2_from_cam1: None,
             })
         }
         Model::Essential => {
@@ -178,10 +184,9 @@ fn estimate(
                 context.warn(&sentence);
             }
             let k2 = arguments.k2.unwrap_or(k1);
-            let report = interrupt::unstoppable(|| {
-                estimate_relative_pose(pixels1, pixels2, &k1, &k2, &ransac)
-            })??;
-            arguments.robust.warn(&report, context);
+            let report = arguments.robust.watched(context, |options, watch| {
+                estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+            })?;
             let pose = &report.model;
             let rotation = UnitQuaternion::from_matrix(&pose.rotation);
             let translation = Translation3::from(pose.direction);
@@ -189,24 +194,42 @@ fn estimate(
                 kind: "essential",
                 errors_px: errors(&pose.fundamental),
                 model: pose.essential(),
-                cam2_from_cam1: Some(RigidTransform::from_parts(translation, rotation)),
+                cam2_from_cam1: (!is_degenerate(&report))
+                    .then(|| RigidTransform::from_parts(translation, rotation)),
+                other_cam2_from_cam1: None,
+                configuration: configuration(&report, "general"),
                 inliers: report.inliers.clone(),
-                configuration: "general",
             })
         }
         Model::Homography => {
             let estimator = HomographyEstimator::new(set()?)?;
             let report = arguments.robust.run(estimator, context)?;
-            let error = |(a, b)| transfer_error_px(&report.model, a, b);
+            let error = |(a, b)| homography_sampson_px(&report.model, a, b);
             Ok(Found {
                 kind: "homography",
                 errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
+                configuration: configuration(&report, "planar"),
                 model: report.model,
                 inliers: report.inliers,
                 cam2_from_cam1: None,
-                configuration: "planar",
+                other_cam2_from_cam1: None,
             })
         }
+    }
+}
+
+/// Whether no more matches agree than wrong ones might.
+fn is_degenerate<M>(report: &RansacReport<M>) -> bool {
+    report.could_be_chance()
+        || report.num_unique_inliers < TwoViewOptions::default().min_num_inliers
+}
+
+/// What the views show, if it is enough to be anything.
+fn configuration<M>(report: &RansacReport<M>, otherwise: &'static str) -> &'static str {
+    if is_degenerate(report) {
+        "degenerate"
+    } else {
+        otherwise
     }
 }
 
@@ -218,9 +241,9 @@ fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f
         TwoViewModel::Homography(h) => ("homography", h),
     };
     let errors_px = match (report.model, &report.fundamental) {
-        (TwoViewModel::Homography(h), _) => {
-            pairs().map(|(a, b)| transfer_error_px(&h, a, b)).collect()
-        }
+        (TwoViewModel::Homography(h), _) => pairs()
+            .map(|(a, b)| homography_sampson_px(&h, a, b))
+            .collect(),
         (_, Some(f)) => pairs().map(|(a, b)| sampson_px(f, a, b)).collect(),
         (_, None) => vec![0.0; pixels1.len()],
     };
@@ -230,6 +253,7 @@ fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f
         errors_px,
         inliers: report.inliers,
         cam2_from_cam1: report.cam2_from_cam1,
+        other_cam2_from_cam1: report.other_cam2_from_cam1,
         configuration: match report.configuration {
             Configuration::General => "general",
             Configuration::Planar => "planar",

@@ -8,8 +8,13 @@ use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+#[cfg(doc)]
+use crate::robust::ransac;
+use crate::robust::{
+    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, Unique, ransac_with,
+};
 use crate::{Error, Result};
+use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
@@ -219,8 +224,46 @@ pub fn estimate_relative_pose(
     k2: &Intrinsics,
     options: &RansacOptions,
 ) -> Result<RansacReport<RelativePose>> {
+    estimate_relative_pose_with(pixels1, pixels2, k1, k2, options, |_| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// As [`estimate_relative_pose`], and shows every trial to `watch`, which may end the run by
+/// [`ControlFlow::Break`]; the report is then about the best model so far.
+///
+/// # Errors
+/// As [`estimate_relative_pose`] and [`ransac_with`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::epipolar::estimate_relative_pose_with;
+/// use epipole::robust::{RansacOptions, StopReason};
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let k = Intrinsics::centered(600.0, 640, 480)?;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// // A step to the right: near things move more than far ones.
+/// let p2: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
+/// let report = estimate_relative_pose_with(&p1, &p2, &k, &k, &RansacOptions::default(), |trial| {
+///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!((report.iterations, report.stop), (20, StopReason::Cancelled));
+/// assert!((report.model.direction.x + 1.0).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn estimate_relative_pose_with(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    options: &RansacOptions,
+    watch: impl FnMut(&Trial<'_, RelativePose>) -> ControlFlow<()>,
+) -> Result<RansacReport<RelativePose>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
-    let mut report = ransac(EssentialEstimator::new(matches, *k1, *k2)?, options)?;
+    let estimator = EssentialEstimator::new(matches, *k1, *k2)?;
+    let mut report = ransac_with(estimator, options, watch)?;
     let inliers_of = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
         pixels
             .iter()
@@ -232,16 +275,9 @@ pub fn estimate_relative_pose(
     let (inliers1, inliers2) = (inliers_of(pixels1), inliers_of(pixels2));
     let motions = decompose_essential(&report.model.essential())?;
     let chosen = select_pose(&motions, &inliers1, &inliers2, k1, k2)?;
-    report.model = RelativePose::new(
-        chosen
-            .cam2_from_cam1
-            .rotation
-            .to_rotation_matrix()
-            .into_inner(),
-        chosen.cam2_from_cam1.translation.vector,
-        k1,
-        k2,
-    );
+    let rotation = chosen.cam2_from_cam1.rotation.to_rotation_matrix();
+    let direction = chosen.cam2_from_cam1.translation.vector;
+    report.model = RelativePose::checked(rotation.into_inner(), direction, k1, k2)?;
     Ok(report)
 }
 

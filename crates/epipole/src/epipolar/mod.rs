@@ -31,7 +31,9 @@ pub use essential::{
     RelativePose, SelectedPose, decompose_essential, essential_8point, project_to_essential,
     select_pose,
 };
-pub use find_essential::{EssentialEstimator, estimate_relative_pose, find_essential};
+pub use find_essential::{
+    EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
+};
 pub use find_fundamental::{FundamentalEstimator, find_fundamental};
 pub use five_point::essential_5point;
 pub(crate) use from_cameras::share_center;

@@ -187,6 +187,7 @@ impl<E: Estimator> Ransac<E> {
             model,
             score,
             num_inliers,
+            required_iterations: self.required,
             is_best,
             refined,
         })

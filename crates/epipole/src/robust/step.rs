@@ -27,6 +27,8 @@ pub struct Trial<'a, M> {
     pub score: f64,
     /// Its inliers. A lower bound in the same case.
     pub num_inliers: usize,
+    /// Samples that the best model so far asks for; `u64::MAX` before there is one.
+    pub required_iterations: u64,
     /// Whether the best model so far came out of this step.
     pub is_best: bool,
     /// That model, if local optimization improved it further.

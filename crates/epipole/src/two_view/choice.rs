@@ -81,7 +81,7 @@ impl TwoViewOptions {
                 self.min_essential_share,
             ),
         ] {
-            if !(value >= 0.0) {
+            if value.is_nan() || value < 0.0 {
                 return Err(Error::OutOfRange {
                     what,
                     requirement: "0 or more",

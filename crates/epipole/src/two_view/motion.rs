@@ -86,9 +86,12 @@ pub(super) fn median_angle(
     let mut angles: Vec<f64> = pairs
         .among(inliers)
         .map(|(p1, p2)| {
-            let (r1, r2) = (motion.rotation * k1.ray(p1), k2.ray(p2));
+            // Rays of short lenses are long: their products must not be beyond numbers.
+            let (r1, r2) = (k1.ray(p1).normalize(), k2.ray(p2).normalize());
+            let r1 = motion.rotation * r1;
             libm::atan2(r1.cross(&r2).norm(), r1.dot(&r2))
         })
+        .filter(|angle: &f64| angle.is_finite())
         .collect();
     angles.sort_by(f64::total_cmp);
     angles.get(angles.len() / 2).copied()
