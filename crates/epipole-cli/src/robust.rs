@@ -95,32 +95,43 @@ impl RobustArguments {
             &mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>,
         ) -> epipole::Result<RansacReport<M>>,
     ) -> Result<RansacReport<M>, Failure> {
+        let mut look = self.look(context);
+        let report = run(&self.options(context), &mut |trial| {
+            look(trial.iteration, trial.required_iterations)
+        })?;
+        drop(look);
+        self.warn(&report, context);
+        Ok(report)
+    }
+
+    /// What watches samples: a bar moves with their number, counted from 1, towards the number
+    /// required, and Ctrl-C breaks.
+    pub(crate) fn look(
+        &self,
+        context: &Context,
+    ) -> impl FnMut(usize, u64) -> ControlFlow<()> + use<> {
         let options = self.options(context);
         let progress = Progress::new(context, "drawing samples");
-        let mut watch = |trial: &Trial<'_, M>| {
-            if trial.iteration.is_multiple_of(SAMPLES_A_LOOK) {
+        move |iteration, required_iterations| {
+            if iteration.is_multiple_of(SAMPLES_A_LOOK) {
                 let most = options.max_iterations;
-                let required = usize::try_from(trial.required_iterations).unwrap_or(most);
+                let required = usize::try_from(required_iterations).unwrap_or(most);
                 let expected = required.max(options.min_iterations).min(most);
-                progress.set(trial.iteration as f64 / expected as f64);
+                progress.set(iteration as f64 / expected as f64);
             }
             if interrupt::requested() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        };
-        let report = run(&options, &mut watch)?;
-        drop(progress);
-        self.warn(&report, context);
-        Ok(report)
+        }
     }
 
     /// Tells of a run that ended before it could be confident.
     pub(crate) fn warn<M>(&self, report: &RansacReport<M>, context: &Context) {
         let (drawn, required) = (report.iterations, report.required_iterations);
         match report.stop {
-            StopReason::Cancelled => context.warn("ended early; the result is what there was"),
+            StopReason::Canceled => context.warn(interrupt::ENDED_EARLY),
             // The last refinement may find enough inliers after all.
             StopReason::Exhausted if required > drawn as u64 => {
                 let needed = match required {
@@ -149,7 +160,7 @@ pub(crate) fn stop_word(stop: StopReason) -> &'static str {
     match stop {
         StopReason::Confident => "confident",
         StopReason::Exhausted => "exhausted",
-        StopReason::Cancelled => "canceled",
+        StopReason::Canceled => "canceled",
     }
 }
 

@@ -143,6 +143,40 @@ fn fits_end_soon_wherever_they_are() {
 }
 
 #[test]
+fn two_views_end_with_the_models_found_so_far() {
+    let folder = Folder::new("interrupt-two-view");
+    let size = (240, 180);
+    let shift = RigidTransform::new(Vector3::new(-0.1, 0.0, 0.0), Vector3::y() * 0.02);
+    for (name, motion) in [("1.png", RigidTransform::identity()), ("2.png", shift)] {
+        folder.photograph(name, &moved(size, &motion), size);
+    }
+    let mut second = std::fs::read(folder.file("2.png")).unwrap();
+    // What follows the end of a PNG is not looked at.
+    second.resize(second.len().max(1 << 21), 0);
+    let camera = k(&moved(size, &RigidTransform::identity()));
+    for given in [&["--k", &camera][..], &[]] {
+        let first = folder.file("1.png");
+        let photos = ["two-view", path(&first), "/dev/stdin", "--json"];
+        let output = interrupted_while_reading(&[&photos, given].concat(), &second);
+        let told = String::from_utf8_lossy(&output.stderr);
+        let result = parse(&output);
+        // The first sample is drawn nevertheless, and may not give a model.
+        if output.status.code() == Some(1) {
+            assert_eq!(result["error"]["kind"], "canceled", "{told}");
+        } else {
+            assert_eq!(output.status.code(), Some(0), "{told}");
+            assert!(told.contains("warning: ended early"), "{told}");
+            let kind = if given.is_empty() {
+                "fundamental"
+            } else {
+                "essential"
+            };
+            assert_eq!(result["model_kind"], kind);
+        }
+    }
+}
+
+#[test]
 fn a_second_signal_ends_at_once() {
     let mut child = command(&["ba", "/dev/stdin"])
         .stdin(Stdio::piped())

@@ -70,7 +70,7 @@ fn the_least_number_of_samples_is_drawn_and_no_more() {
 }
 
 #[test]
-fn a_run_that_is_cancelled_before_any_sample_has_found_nothing() {
+fn a_run_that_is_canceled_before_any_sample_has_found_nothing() {
     let points = points(100, 60, 0.5, 2);
     let mut run = Ransac::new(
         LineEstimator::new(&points).unwrap(),
@@ -80,16 +80,16 @@ fn a_run_that_is_cancelled_before_any_sample_has_found_nothing() {
     assert!(run.best().is_none());
     assert_eq!((run.iterations(), run.required_iterations()), (0, u64::MAX));
     run.cancel();
-    assert_eq!(run.step(), Step::Finished(StopReason::Cancelled));
+    assert_eq!(run.step(), Step::Finished(StopReason::Canceled));
     assert_eq!(run.iterations(), 0);
     assert_eq!(run.finish(), Err(Error::Canceled));
 }
 
 #[test]
-fn a_run_that_is_cancelled_reports_the_best_model_so_far() {
+fn a_run_that_is_canceled_reports_the_best_model_so_far() {
     let points = points(300, 100, 0.5, 3);
     let estimator = LineEstimator::new(&points).unwrap();
-    for cancelled in [true, false] {
+    for canceled in [true, false] {
         let mut run = Ransac::new(estimator.clone(), RansacOptions::default()).unwrap();
         let mut drawn = 0;
         while let Step::Trial(trial) = run.step() {
@@ -99,15 +99,15 @@ fn a_run_that_is_cancelled_reports_the_best_model_so_far() {
             }
         }
         let (model, score) = run.best().map(|(model, score)| (*model, score)).unwrap();
-        if cancelled {
+        if canceled {
             run.cancel();
-            assert_eq!(run.step(), Step::Finished(StopReason::Cancelled));
+            assert_eq!(run.step(), Step::Finished(StopReason::Canceled));
         }
-        // Without cancelling: asked to finish before its end, a run has been cancelled, too.
+        // Without canceling: asked to finish before its end, a run has been canceled, too.
         let report = run.finish().unwrap();
         assert_eq!(
             (report.iterations, report.stop),
-            (drawn, StopReason::Cancelled)
+            (drawn, StopReason::Canceled)
         );
         assert!(report.score >= 0.95 * score, "{} {score}", report.score);
         assert_eq!(report.inliers.len(), 300);
@@ -125,7 +125,7 @@ fn a_run_that_is_cancelled_reports_the_best_model_so_far() {
 }
 
 #[test]
-fn cancelling_changes_nothing_after_the_end() {
+fn canceling_changes_nothing_after_the_end() {
     let points = points(100, 90, 0.0, 4);
     let mut run = Ransac::new(
         LineEstimator::new(&points).unwrap(),

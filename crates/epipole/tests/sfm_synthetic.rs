@@ -284,7 +284,7 @@ fn what_does_not_connect_makes_components() {
 }
 
 #[test]
-fn cancelling_leaves_a_valid_part() {
+fn canceling_leaves_a_valid_part() {
     let world = photograph(
         arc(7, Point3::origin()),
         &ball(150, Point3::origin(), 11),
@@ -299,7 +299,7 @@ fn cancelling_leaves_a_valid_part() {
     };
     let result =
         reconstruct(&world.input, &SfmOptions::default(), &mut stop).expect("a partial result");
-    assert!(result.cancelled);
+    assert!(result.canceled);
     assert_eq!(result.components[0].num_registered(), 4);
     assert_eq!(result.unregistered.len(), 3);
     let (distance, _) = errors(&world, &result.components[0].cameras);
@@ -307,7 +307,7 @@ fn cancelling_leaves_a_valid_part() {
     let mut at_once = |_: &SfmProgress| ControlFlow::Break(());
     let nothing =
         reconstruct(&world.input, &SfmOptions::default(), &mut at_once).expect("a result");
-    assert!(nothing.cancelled && nothing.components.is_empty());
+    assert!(nothing.canceled && nothing.components.is_empty());
 }
 
 #[test]

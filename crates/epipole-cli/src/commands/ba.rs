@@ -86,7 +86,7 @@ pub(super) fn termination(termination: Termination) -> &'static str {
         Termination::SmallStep => "small-step",
         Termination::SmallCostChange => "small-cost-change",
         Termination::MaxIterations => "max-iterations",
-        Termination::Cancelled => "canceled",
+        Termination::Canceled => "canceled",
         Termination::Stuck => "stuck",
     }
 }

@@ -92,8 +92,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let result = work.follow(features, right, intrinsics)?;
     let Work { progress, .. } = work;
     drop(progress);
-    if result.cancelled {
-        context.warn("ended early; the result is what there was");
+    if result.canceled {
+        context.warn(interrupt::ENDED_EARLY);
     }
     Ok(report(
         &result,
@@ -203,7 +203,7 @@ impl Work<'_> {
             )?,
             None => monocular_odometry(&input, &options, &mut observer)?,
         };
-        if result.cancelled && result.world_from_cam.iter().all(Option::is_none) {
+        if result.canceled && result.world_from_cam.iter().all(Option::is_none) {
             return Err(epipole::Error::Canceled.into());
         }
         Ok(result)
@@ -233,7 +233,7 @@ fn report(result: &OdometryResult, paths: &[PathBuf], metric: bool) -> Report {
         .field("frames", frames)
         .field("keyframes", &result.keyframes)
         .field("lost", &result.lost)
-        .field("complete", !result.cancelled)
+        .field("complete", !result.canceled)
         .row(
             "frames placed",
             format!("{} of {}", placed.len(), paths.len()),

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         reconstruct_photos(&photos, &intrinsics, &photo_options, &options, observer)?;
     drop(progress);
     let Some(largest) = result.components.first() else {
-        if result.cancelled {
+        if result.canceled {
             return Err(epipole::Error::Canceled.into());
         }
         return Err(Failure::new(
@@ -87,8 +87,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             "no two photographs show enough of the same thing",
         ));
     };
-    if result.cancelled {
-        context.warn("ended early; the result is what there was");
+    if result.canceled {
+        context.warn(interrupt::ENDED_EARLY);
     }
     files::make_folder(&arguments.output)?;
     let mut written = write(&arguments.output, largest, &input.images)?;
@@ -125,7 +125,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("mean_reprojection_px", mean_px)
         .field("images", registered(largest))
         .field("components", components)
-        .field("complete", !result.cancelled)
+        .field("complete", !result.canceled)
         .row(
             "registered",
             format!("{registered_count} of {}", paths.len()),

@@ -12,10 +12,10 @@ use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
-use epipole::robust::{MatchSet, RansacReport};
+use epipole::robust::{MatchSet, RansacReport, StopReason};
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
-    estimate_two_view_calibrated,
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewTrial,
+    estimate_two_view_calibrated_with, estimate_two_view_with,
 };
 use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
 use std::path::PathBuf;
@@ -154,15 +154,27 @@ fn estimate(
     };
     match arguments.model {
         Model::Auto => {
+            let mut look = arguments.robust.look(context);
+            let mut observer =
+                |trial: &TwoViewTrial| look(trial.iteration, trial.required_iterations);
             let report = match given {
                 Some(k1) => {
                     let k2 = arguments.k2.unwrap_or(k1);
-                    interrupt::unstoppable(|| {
-                        estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options)
-                    })
+                    estimate_two_view_calibrated_with(
+                        pixels1,
+                        pixels2,
+                        &k1,
+                        &k2,
+                        &options,
+                        &mut observer,
+                    )
                 }
-                None => interrupt::unstoppable(|| estimate_two_view(pixels1, pixels2, &options)),
-            }??;
+                None => estimate_two_view_with(pixels1, pixels2, &options, &mut observer),
+            }?;
+            drop(look);
+            if report.stop == StopReason::Canceled {
+                context.warn(interrupt::ENDED_EARLY);
+            }
             Ok(of_report(report, pixels1, pixels2))
         }
         Model::Fundamental => {

@@ -249,7 +249,7 @@ pub fn estimate_relative_pose(
 /// let report = estimate_relative_pose_with(&p1, &p2, &k, &k, &RansacOptions::default(), |trial| {
 ///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 /// })?;
-/// assert_eq!((report.iterations, report.stop), (20, StopReason::Cancelled));
+/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
 /// assert!((report.model.direction.x + 1.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```

@@ -237,7 +237,7 @@ mod tests {
             }
         })
         .unwrap();
-        assert_eq!(report.termination, Termination::Cancelled);
+        assert_eq!(report.termination, Termination::Canceled);
         assert_eq!(report.accepted, 1);
         assert!(report.final_cost < report.initial_cost);
     }

@@ -105,7 +105,7 @@ pub enum Termination {
     /// of them is not looked at.
     MaxIterations,
     /// The observer asked to stop; the parameters are the best so far.
-    Cancelled,
+    Canceled,
     /// No damping gave a usable step: the problem is singular, or not finite around here.
     Stuck,
 }
@@ -185,7 +185,7 @@ pub fn minimize<S: System>(
         accepted: true,
     };
     if observer(&start).is_break() {
-        report.termination = Termination::Cancelled;
+        report.termination = Termination::Canceled;
         return Ok(report);
     }
     if here.gradient_max <= options.gradient_tolerance {
@@ -267,7 +267,7 @@ pub fn minimize<S: System>(
             accepted,
         };
         if observer(&iteration).is_break() {
-            report.termination = Termination::Cancelled;
+            report.termination = Termination::Canceled;
             break;
         }
         if let Some(termination) = converged {

@@ -220,7 +220,7 @@ impl<E: Estimator> Ransac<E> {
 
     /// Ends the run: [`step`](Ransac::step) will draw no more.
     pub fn cancel(&mut self) {
-        self.stop.get_or_insert(StopReason::Cancelled);
+        self.stop.get_or_insert(StopReason::Canceled);
     }
 
     /// Improves the best model one last time and reports, also before the run has ended.
@@ -230,7 +230,7 @@ impl<E: Estimator> Ransac<E> {
     /// support; [`Error::Canceled`] if the run was ended before one did.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
         let no_consensus = match self.stop {
-            Some(StopReason::Cancelled) => Error::Canceled,
+            Some(StopReason::Canceled) => Error::Canceled,
             _ => Error::NoConsensus {
                 needed: self.estimator.sample_size(),
                 got: self.estimator.num_data(),
@@ -282,7 +282,7 @@ impl<E: Estimator> Ransac<E> {
             score: self.score(&best.support),
             log10_false_alarms,
             refinements: self.refinements,
-            stop: self.stop.unwrap_or(StopReason::Cancelled),
+            stop: self.stop.unwrap_or(StopReason::Canceled),
             model: best.model,
         })
     }

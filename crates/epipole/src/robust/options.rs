@@ -135,7 +135,7 @@ pub enum StopReason {
     /// [`RansacOptions::max_iterations`] were drawn; the confidence was not reached.
     Exhausted,
     /// The caller ended it.
-    Cancelled,
+    Canceled,
 }
 
 /// What [`Ransac`](super::Ransac) found.

@@ -51,7 +51,7 @@ pub fn ransac<E: Estimator>(
 /// let report = ransac_with(LineEstimator::new(&points)?, &RansacOptions::default(), |trial| {
 ///     if trial.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 /// })?;
-/// assert_eq!((report.iterations, report.stop), (3, StopReason::Cancelled));
+/// assert_eq!((report.iterations, report.stop), (3, StopReason::Canceled));
 /// # Ok(()) }
 /// ```
 pub fn ransac_with<E: Estimator>(

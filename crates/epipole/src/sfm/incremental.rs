@@ -120,7 +120,7 @@ pub struct SfmResult {
     /// Images that are in none.
     pub unregistered: Vec<usize>,
     /// Whether the caller ended the work early; what is there is valid.
-    pub cancelled: bool,
+    pub canceled: bool,
 }
 
 /// Hears of progress and says whether to go on.
@@ -129,16 +129,16 @@ pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmProgress) -> ControlFlow<()>;
 /// Asks the observer, and remembers that it wanted to stop.
 pub(super) struct Reporter<'a> {
     pub(super) observer: SfmObserver<'a>,
-    pub(super) cancelled: bool,
+    pub(super) canceled: bool,
 }
 
 impl Reporter<'_> {
     /// Whether to go on.
     pub(super) fn tell(&mut self, progress: &SfmProgress) -> bool {
-        if !self.cancelled && (self.observer)(progress).is_break() {
-            self.cancelled = true;
+        if !self.canceled && (self.observer)(progress).is_break() {
+            self.canceled = true;
         }
-        !self.cancelled
+        !self.canceled
     }
 }
 
@@ -239,7 +239,7 @@ pub fn reconstruct(
     build_tracks(&counts, &input.pairs)?;
     let mut reporter = Reporter {
         observer,
-        cancelled: false,
+        canceled: false,
     };
     let pixels = undistorted(images, &intrinsics, options.distortion);
     let verified = verify(input, options, &intrinsics, &pixels, &mut reporter);
@@ -253,7 +253,7 @@ pub fn reconstruct(
     }
     let mut result = SfmResult::default();
     let mut taken = vec![false; images.len()];
-    while !reporter.cancelled {
+    while !reporter.canceled {
         let mut builder = Builder {
             images,
             options,
@@ -281,7 +281,7 @@ pub fn reconstruct(
         .components
         .sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
     result.unregistered = (0..images.len()).filter(|&image| !taken[image]).collect();
-    result.cancelled = reporter.cancelled;
+    result.canceled = reporter.canceled;
     Ok(result)
 }
 

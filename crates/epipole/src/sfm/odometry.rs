@@ -53,7 +53,7 @@ pub struct OdometryResult {
     /// The cameras and points; of a stereo rig the left cameras, then the right ones.
     pub reconstruction: Reconstruction,
     /// Whether the caller ended the work early; what is there is valid.
-    pub cancelled: bool,
+    pub canceled: bool,
 }
 
 /// The path of a single camera, up to scale.
@@ -166,7 +166,7 @@ fn follow(
     build_tracks(&counts, &input.pairs)?;
     let mut reporter = Reporter {
         observer,
-        cancelled: false,
+        canceled: false,
     };
     let distortion: RadialDistortion = options.sfm.distortion;
     let pixels = undistorted(images, &intrinsics, distortion);
@@ -209,11 +209,11 @@ fn follow(
         early.iter().any(|v| builder.start_from(v))
     };
     if !started {
-        if reporter.cancelled {
+        if reporter.canceled {
             return Ok(OdometryResult {
                 world_from_cam: vec![None; num_frames],
                 lost: (0..num_frames).collect(),
-                cancelled: true,
+                canceled: true,
                 ..OdometryResult::default()
             });
         }
@@ -233,7 +233,7 @@ fn follow(
     // Forward to the end, then back for what came before the start.
     let order = (first..num_frames).chain((0..first).rev());
     for frame in order {
-        if reporter.cancelled {
+        if reporter.canceled {
             break;
         }
         if builder.cameras[frame].is_some() || builder.register(frame).is_none() {
@@ -258,14 +258,14 @@ fn follow(
             num_points: builder.num_points(),
         });
     }
-    if options.final_adjustment && !reporter.cancelled {
+    if options.final_adjustment && !reporter.canceled {
         builder.complete();
         builder.triangulate();
         builder.adjust(None, 50, true);
         builder.filter();
     }
     let keyframes = keyframes.into_frames(|frame| builder.cameras[frame].is_some());
-    let mut result = result_of(builder, num_frames, reporter.cancelled);
+    let mut result = result_of(builder, num_frames, reporter.canceled);
     result.keyframes = keyframes;
     Ok(result)
 }
@@ -288,7 +288,7 @@ fn start_with_rig(builder: &mut Builder<'_>, num_frames: usize) -> bool {
     false
 }
 
-fn result_of(builder: Builder<'_>, num_frames: usize, cancelled: bool) -> OdometryResult {
+fn result_of(builder: Builder<'_>, num_frames: usize, canceled: bool) -> OdometryResult {
     let mut reconstruction = builder.finish();
     let origin = reconstruction.cameras[..num_frames]
         .iter()
@@ -321,7 +321,7 @@ fn result_of(builder: Builder<'_>, num_frames: usize, cancelled: bool) -> Odomet
             .collect(),
         world_from_cam,
         reconstruction,
-        cancelled,
+        canceled,
         ..OdometryResult::default()
     }
 }

@@ -206,7 +206,7 @@ pub fn match_photos(
 ///
 /// * `intrinsics`: of each photograph, or one for all
 ///
-/// Returns the keypoints and matches, too. A result that was cancelled before all were known has
+/// Returns the keypoints and matches, too. A result that was canceled before all were known has
 /// no components.
 ///
 /// # Errors
@@ -235,16 +235,16 @@ pub fn reconstruct_photos(
         });
     }
     let (images, pairs) = match_photos(photos, photo_options, observer)?;
-    let cancelled = pairs.is_none();
+    let canceled = pairs.is_none();
     let input = SfmInput {
         images,
         intrinsics: intrinsics.to_vec(),
         pairs: pairs.unwrap_or_default(),
     };
-    if cancelled {
+    if canceled {
         let result = SfmResult {
             unregistered: (0..photos.len()).collect(),
-            cancelled,
+            canceled,
             ..SfmResult::default()
         };
         return Ok((input, result));

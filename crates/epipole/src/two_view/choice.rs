@@ -1,11 +1,20 @@
 //! The model that two views deserve.
 
-use super::find_rotation;
+use std::ops::ControlFlow;
+
+use super::RotationEstimator;
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
+use super::search::{Searches, TwoViewObserver, TwoViewSearch};
 use crate::camera::{Intrinsics, RigidTransform};
-use crate::epipolar::{RelativePose, estimate_relative_pose, find_fundamental, sampson_px};
-use crate::homography::{find_homography, homography_sampson_px, homography_sampson_sq};
-use crate::robust::{RansacOptions, RansacReport};
+use crate::epipolar::{
+    FundamentalEstimator, RelativePose, estimate_relative_pose_with, sampson_px,
+};
+#[cfg(doc)]
+use crate::epipolar::{estimate_relative_pose, find_fundamental};
+#[cfg(doc)]
+use crate::homography::find_homography;
+use crate::homography::{HomographyEstimator, homography_sampson_px, homography_sampson_sq};
+use crate::robust::{MatchSet, RansacOptions, RansacReport, StopReason};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion};
 
@@ -129,6 +138,8 @@ pub struct TwoViewReport {
     pub num_inliers: usize,
     /// Samples drawn, over all models tried.
     pub iterations: usize,
+    /// Why the search for `model` ended, or [`StopReason::Canceled`] if any search was ended early.
+    pub stop: StopReason,
     /// The median angle at which the inliers' rays meet, radians, for a calibrated pair with motion.
     pub median_triangulation_angle_rad: Option<f64>,
 }
@@ -164,11 +175,52 @@ pub fn estimate_two_view(
     pixels2: &[Point2<f64>],
     options: &TwoViewOptions,
 ) -> Result<TwoViewReport> {
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    estimate_two_view_with(pixels1, pixels2, options, &mut go_on)
+}
+
+/// As [`estimate_two_view`], and shows every sample of every search to `observer`, which may end the
+/// work by [`ControlFlow::Break`]; the answer is then about the models found until then.
+///
+/// # Errors
+/// As [`estimate_two_view`]; [`Error::Canceled`] if nothing was found until then.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::StopReason;
+/// use epipole::two_view::{TwoViewModel, TwoViewOptions, TwoViewSearch, estimate_two_view_with};
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
+/// // As soon as homographies come up, F is to be enough.
+/// let mut only_f = |trial: &epipole::two_view::TwoViewTrial| match trial.search {
+///     TwoViewSearch::Fundamental => ControlFlow::Continue(()),
+///     _ => ControlFlow::Break(()),
+/// };
+/// let report = estimate_two_view_with(&p1, &p2, &TwoViewOptions::default(), &mut only_f)?;
+/// assert_eq!(report.stop, StopReason::Canceled);
+/// # Ok(()) }
+/// ```
+pub fn estimate_two_view_with(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    options: &TwoViewOptions,
+    observer: TwoViewObserver<'_>,
+) -> Result<TwoViewReport> {
     options.check()?;
     let pairs = Pairs { pixels1, pixels2 };
-    let fundamental = find_fundamental(pixels1, pixels2, &options.ransac);
-    let homography = find_homography(pixels1, pixels2, &options.in_two_dimensions());
-    let iterations = count_iterations(&fundamental) + count_iterations(&homography);
+    let mut searches = Searches::new(observer);
+    let fundamental = searches.ransac(
+        TwoViewSearch::Fundamental,
+        pairs.set().and_then(FundamentalEstimator::new),
+        &options.ransac,
+    );
+    let homography = searches.ransac(
+        TwoViewSearch::Homography,
+        pairs.set().and_then(HomographyEstimator::new),
+        &options.in_two_dimensions(),
+    );
     let homography_wins = match (&fundamental, &homography) {
         (Err(error), Err(_)) => return Err(error.clone()),
         (Err(_), Ok(_)) => true,
@@ -179,7 +231,7 @@ pub fn estimate_two_view(
                     >= options.max_homography_share
         }
     };
-    let mut found = TwoViewReport::nothing(iterations);
+    let mut found = TwoViewReport::nothing(&searches);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     found.fundamental = fundamental.as_ref().ok().map(|report| report.model);
     if homography_wins {
@@ -237,19 +289,72 @@ pub fn estimate_two_view_calibrated(
     k2: &Intrinsics,
     options: &TwoViewOptions,
 ) -> Result<TwoViewReport> {
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    estimate_two_view_calibrated_with(pixels1, pixels2, k1, k2, options, &mut go_on)
+}
+
+/// As [`estimate_two_view_calibrated`], and shows every sample of every search to `observer`, which may
+/// end the work by [`ControlFlow::Break`]; the answer is then about the models found until then. E is
+/// searched for first, then F, H and the turn.
+///
+/// # Errors
+/// As [`estimate_two_view_calibrated`]; [`Error::Canceled`] if nothing was found until then.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::two_view::{
+///     TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_calibrated_with,
+/// };
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let k = Intrinsics::centered(600.0, 640, 480)?;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
+/// // A budget of 500 samples in all.
+/// let mut drawn = 0;
+/// let mut within_budget = |_: &TwoViewTrial| {
+///     drawn += 1;
+///     if drawn < 500 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+/// };
+/// let options = TwoViewOptions::default();
+/// let report = estimate_two_view_calibrated_with(&p1, &p2, &k, &k, &options, &mut within_budget)?;
+/// assert!(report.iterations <= 500 && matches!(report.model, TwoViewModel::Essential(_)));
+/// # Ok(()) }
+/// ```
+pub fn estimate_two_view_calibrated_with(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    options: &TwoViewOptions,
+    observer: TwoViewObserver<'_>,
+) -> Result<TwoViewReport> {
     options.check()?;
     let pairs = Pairs { pixels1, pixels2 };
     let in_two_dimensions = options.in_two_dimensions();
-    let essential = estimate_relative_pose(pixels1, pixels2, k1, k2, &options.ransac);
-    let fundamental = find_fundamental(pixels1, pixels2, &options.ransac);
-    let homography = find_homography(pixels1, pixels2, &in_two_dimensions);
-    let rotation = find_rotation(pixels1, pixels2, k1, k2, &in_two_dimensions);
-    let mut found = TwoViewReport::nothing(
-        count_iterations(&essential)
-            + count_iterations(&fundamental)
-            + count_iterations(&homography)
-            + count_iterations(&rotation),
+    let mut searches = Searches::new(observer);
+    let essential = searches.run(TwoViewSearch::Essential, |watch| {
+        estimate_relative_pose_with(pixels1, pixels2, k1, k2, &options.ransac, watch)
+    });
+    let fundamental = searches.ransac(
+        TwoViewSearch::Fundamental,
+        pairs.set().and_then(FundamentalEstimator::new),
+        &options.ransac,
     );
+    let homography = searches.ransac(
+        TwoViewSearch::Homography,
+        pairs.set().and_then(HomographyEstimator::new),
+        &in_two_dimensions,
+    );
+    let rotation = searches.ransac(
+        TwoViewSearch::Rotation,
+        pairs
+            .set()
+            .and_then(|set| RotationEstimator::new(set, *k1, *k2)),
+        &in_two_dimensions,
+    );
+    let mut found = TwoViewReport::nothing(&searches);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     let (num_e, num_f) = (support(&essential), support(&fundamental));
     let epipolar = if num_e > num_f {
@@ -333,6 +438,10 @@ pub(super) struct Pairs<'a> {
 }
 
 impl<'a> Pairs<'a> {
+    fn set(&self) -> Result<MatchSet> {
+        MatchSet::new(self.pixels1, self.pixels2)
+    }
+
     /// The matches of a mask.
     pub(super) fn among<'b>(
         &self,
@@ -377,14 +486,6 @@ impl<'a> Pairs<'a> {
     }
 }
 
-fn count_iterations<M>(report: &Result<RansacReport<M>>) -> usize {
-    match report {
-        Ok(report) => report.iterations,
-        Err(Error::NoConsensus { iterations, .. }) => *iterations,
-        Err(_) => 0,
-    }
-}
-
 fn support<M>(report: &Result<RansacReport<M>>) -> usize {
     report
         .as_ref()
@@ -392,7 +493,7 @@ fn support<M>(report: &Result<RansacReport<M>>) -> usize {
 }
 
 impl TwoViewReport {
-    fn nothing(iterations: usize) -> Self {
+    fn nothing(searches: &Searches<'_>) -> Self {
         Self {
             configuration: Configuration::Degenerate,
             model: TwoViewModel::Homography(Matrix3::identity() / 3.0_f64.sqrt()),
@@ -402,7 +503,12 @@ impl TwoViewReport {
             other_cam2_from_cam1: None,
             inliers: Vec::new(),
             num_inliers: 0,
-            iterations,
+            iterations: searches.iterations,
+            stop: if searches.canceled() {
+                StopReason::Canceled
+            } else {
+                StopReason::Exhausted
+            },
             median_triangulation_angle_rad: None,
         }
     }
@@ -411,6 +517,9 @@ impl TwoViewReport {
     fn take<M>(&mut self, inliers: Vec<bool>, report: &RansacReport<M>, options: &TwoViewOptions) {
         self.num_inliers = inliers.iter().filter(|&&inlier| inlier).count();
         self.inliers = inliers;
+        if self.stop != StopReason::Canceled {
+            self.stop = report.stop;
+        }
         if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {
             self.configuration = Configuration::Degenerate;
             self.cam2_from_cam1 = None;

@@ -3,9 +3,11 @@
 mod choice;
 mod motion;
 mod rotation;
+mod search;
 
 pub use choice::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
-    estimate_two_view_calibrated,
+    estimate_two_view_calibrated, estimate_two_view_calibrated_with, estimate_two_view_with,
 };
 pub use rotation::{RotationEstimator, find_rotation};
+pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};

@@ -139,7 +139,7 @@ impl Builder<'_> {
                     });
                     return true;
                 }
-                if reporter.cancelled {
+                if reporter.canceled {
                     return false;
                 }
             }
@@ -177,7 +177,7 @@ impl Builder<'_> {
         // Points that an image saw when it could not be registered: it is tried again with more.
         let mut failed_with = vec![0; self.images.len()];
         let mut adjusted_at = self.num_registered();
-        while !reporter.cancelled {
+        while !reporter.canceled {
             let Some(image) = self.next_image(&failed_with) else {
                 break;
             };
@@ -211,7 +211,7 @@ impl Builder<'_> {
                 num_points: self.num_points(),
             });
         }
-        if reporter.cancelled {
+        if reporter.canceled {
             return;
         }
         for _ in 0..2 {

@@ -488,7 +488,7 @@ mod tests {
     }
 
     #[test]
-    fn cancelling_leaves_the_best_so_far() {
+    fn canceling_leaves_the_best_so_far() {
         let mut bundle = arc(4, 20, RadialDistortion::default());
         disturb(&mut bundle, 0.02);
         let mut stop = |i: &Iteration| {
@@ -499,7 +499,7 @@ mod tests {
             }
         };
         let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut stop).unwrap();
-        assert_eq!(report.termination, Termination::Cancelled);
+        assert_eq!(report.termination, Termination::Canceled);
         let sum: f64 = (0..bundle.observations.len())
             .map(|o| 0.5 * bundle.residual_px(o).norm_squared())
             .sum();
