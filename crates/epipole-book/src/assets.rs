@@ -60,7 +60,12 @@ pub fn used_letters(pages: &[Page]) -> Letters {
                 .find("</math>")
                 .map_or(rest.len(), |end| start + end);
             letters.text.extend(rest[..start].chars());
-            letters.math.extend(rest[start..end].chars());
+            let formula = &rest[start..end];
+            letters.math.extend(formula.chars());
+            // Browsers draw the root from the font's sign, which the formula does not contain.
+            if formula.contains("<msqrt") || formula.contains("<mroot") {
+                letters.math.insert('√');
+            }
             rest = &rest[end..];
         }
         letters.text.extend(rest.chars());
@@ -222,6 +227,15 @@ mod tests {
         assert!(letters.text.contains(&'α') && letters.text.contains(&'γ'));
         assert!(!letters.math.contains(&'α'));
         assert!(letters.math.contains(&'𝐹') && letters.math.contains(&'ℎ'));
+        assert!(!letters.math.contains(&'√'));
+        for root in ["msqrt", "mroot"] {
+            let html = format!("<math><{root}><mn>2</mn></{root}></math>");
+            let letters = used_letters(&[Page {
+                html,
+                ..Page::default()
+            }]);
+            assert!(letters.math.contains(&'√'), "{root}");
+        }
         assert_eq!(math_italic('z'), Some('𝑧'));
         assert_eq!(math_italic('ω'), Some('𝜔'));
         assert_eq!(math_italic('1'), None);

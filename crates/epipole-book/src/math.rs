@@ -38,7 +38,7 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let mut html = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
-    let html = escape_leaves(&html);
+    let html = with_accents(&escape_leaves(&html));
     if html.contains("<merror") || html.contains(" style=") {
         return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());
     }
@@ -79,6 +79,37 @@ fn escape_leaves(html: &str) -> String {
     }
     escaped.push_str(rest);
     escaped
+}
+
+/// The renderer sets accents as letters, which browsers put small and high above their base. This
+/// makes them accents, and takes the marks that fonts draw for that.
+fn with_accents(html: &str) -> String {
+    const START: &str = "<mover>";
+    const END: &str = "</mover>";
+    let mut done = String::with_capacity(html.len());
+    let mut open = Vec::new();
+    let mut rest = html;
+    while let Some(place) = [START, END].iter().filter_map(|tag| rest.find(tag)).min() {
+        done.push_str(&rest[..place]);
+        rest = &rest[place..];
+        let tag = if rest.starts_with(START) { START } else { END };
+        if tag == START {
+            open.push(done.len() + "<mover".len());
+        } else if let Some(start) = open.pop() {
+            let accent = [('^', 'ˆ'), ('~', '˜'), ('→', '→'), ('˙', '˙'), ('¨', '¨')]
+                .into_iter()
+                .map(|(letter, mark)| (format!("<mi>{letter}</mi>"), mark))
+                .find(|(letter, _)| done.ends_with(letter));
+            if let Some((letter, mark)) = accent {
+                done.truncate(done.len() - letter.len());
+                done.push_str(&format!("<mo stretchy=\"false\">{mark}</mo>"));
+                done.insert_str(start, " accent=\"true\"");
+            }
+        }
+        done.push_str(tag);
+        rest = &rest[tag.len()..];
+    }
+    done + rest
 }
 
 /// Escapes what is not yet escaped.
@@ -134,6 +165,19 @@ mod tests {
                 .unwrap_or_else(|| panic!("{latex}"));
             assert!(!message.is_empty() && !message.contains('\n'));
         }
+    }
+
+    #[test]
+    fn accents_are_marks() {
+        let html = mathml(r"\hat{\tilde x}", Layout::Inline).unwrap();
+        let inner = r#"<mover accent="true"><mi>x</mi><mo stretchy="false">˜</mo></mover>"#;
+        assert!(html.contains(inner), "{html}");
+        let outer = format!(
+            r#"<mover accent="true"><mrow>{inner}</mrow><mo stretchy="false">ˆ</mo></mover>"#
+        );
+        assert!(html.contains(&outer), "{html}");
+        let html = mathml(r"\overset{a}{\bar b}", Layout::Inline).unwrap();
+        assert!(!html.contains("accent"), "{html}");
     }
 
     #[test]

@@ -73,12 +73,12 @@ pub(crate) fn line(line: &Line2) -> String {
     )
 }
 
-/// A matrix of very different entries, row by row.
+/// A matrix of very different entries, row by row; lines break between rows only.
 pub(crate) fn matrix(matrix: &Matrix3<f64>) -> String {
     let rows: Vec<String> = (0..3)
         .map(|row| {
             let entries: Vec<String> = (0..3).map(|column| entry(matrix[(row, column)])).collect();
-            entries.join("  ")
+            entries.join("\u{a0}\u{a0}")
         })
         .collect();
     rows.join("; ")
