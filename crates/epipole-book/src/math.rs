@@ -42,6 +42,16 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     if html.contains("<merror") || html.contains(" style=") {
         return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());
     }
+    let sized = r#"<mo symmetric="true" stretchy="true"minsize"#;
+    if ["msup", "msub", "msubsup"]
+        .iter()
+        .any(|script| html.contains(&format!("<{script}>{sized}")))
+    {
+        return Err(
+            "browsers misplace \\bigr) with an exponent or index: write \\left( and \\right)"
+                .to_owned(),
+        );
+    }
     Ok(match layout {
         Layout::Inline => html,
         Layout::Display => format!("<span class=\"formula\">{html}</span>"),
@@ -159,6 +169,8 @@ mod tests {
             "",
             "a_b_c",
             r"\color{red} x",
+            r"\bigl( x \bigr)^2",
+            r"\Bigl[ x \Bigr]_i",
         ] {
             let message = mathml(latex, Layout::Inline)
                 .err()
