@@ -62,6 +62,22 @@ impl Coordinates {
         }
     }
 
+    /// Makes each match count by a factor, besides what it counts in `other`, which has the same matches.
+    pub(crate) fn weigh_as(&mut self, other: &Self, factors: &[f64]) {
+        self.weights.clear();
+        match other.weights(0) {
+            None => self.weights.extend_from_slice(factors),
+            Some(votes) => {
+                self.weights.extend(
+                    votes
+                        .iter()
+                        .zip(factors)
+                        .map(|(vote, factor)| vote * factor),
+                );
+            }
+        }
+    }
+
     /// The weights of matches `start..`, if they have any.
     #[inline(always)]
     pub(crate) fn weights(&self, start: usize) -> Option<&[f64]> {

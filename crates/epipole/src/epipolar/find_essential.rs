@@ -3,10 +3,14 @@
 use super::coordinates::{CommonFrame, Coordinates};
 use super::find_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
+use super::in_front::{self, Lenses};
+use super::other_motion::other_motion_of_plane;
+use super::plane_recovery::PlaneRecovery;
 use super::refine::{RaysInFrame, refine_pose_in_frame};
 use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;
+use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
@@ -21,15 +25,24 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// A sample is five matches, and of its solutions only those that put the five points in front of
 /// both cameras are looked at. The error is the Sampson error in pixels; refinement
-/// minimizes it, truncated, over rotation and direction. Equal matches count once.
+/// minimizes it, truncated, over rotation and direction. A match that is behind a camera supports no
+/// pose, however near to its line; one that could be infinitely far away, up to an error within the
+/// threshold, is not behind. Where a plane holds most of the inliers, the other motion that it allows
+/// is tried, too. Equal matches count once.
 ///
-/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem".
+/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem";
+/// Longuet-Higgins 1986, "The reconstruction of a plane surface from two perspective projections".
 #[derive(Debug, Clone)]
 pub struct EssentialEstimator {
     matches: MatchSet,
     pixels: Coordinates,
     in_frame: Coordinates,
+    /// As `in_frame`, without what is behind a camera of the pose in hand.
+    in_front: Coordinates,
+    factors: Vec<f64>,
     frame: CommonFrame,
+    recovery: PlaneRecovery,
+    lenses: Lenses,
     rays_in_frame: RaysInFrame,
     rays: Vec<[Vector3<f64>; 2]>,
     k1: Intrinsics,
@@ -59,8 +72,17 @@ impl EssentialEstimator {
                 [k1.ray(&p1).normalize(), k2.ray(&p2).normalize()]
             })
             .collect();
+        let in_frame = pixels.mapped(&frame);
+        let mut in_front = in_frame.clone();
+        let factors = vec![1.0; matches.len()];
+        // Takes the memory that the loop needs.
+        in_front.weigh_as(&in_frame, &factors);
         Ok(Self {
-            in_frame: pixels.mapped(&frame),
+            in_frame,
+            in_front,
+            factors,
+            recovery: PlaneRecovery::new(matches.len()),
+            lenses: Lenses::new(&k1, &k2),
             rays_in_frame: RaysInFrame::new(&frame, &k1, &k2),
             matches,
             pixels,
@@ -70,23 +92,18 @@ impl EssentialEstimator {
             k2,
         })
     }
+}
 
-    fn refined(
-        &self,
-        pose: &RelativePose,
-        coordinates: &Coordinates,
-        loss: RobustLoss,
-        max_iterations: usize,
-    ) -> Option<RelativePose> {
-        let options = LmOptions {
-            max_iterations,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
-        let (rotation, direction) =
-            refine_pose_in_frame(coordinates, &self.rays_in_frame, pose, loss, &options)?;
-        Some(RelativePose::new(rotation, direction, &self.k1, &self.k2))
+/// Where fewer of the matches near to their lines than this share are in front of both cameras, it is
+/// the pose that is wrong rather than they: refinement heeds them all.
+const FEW_BEHIND: f64 = 0.8;
+
+fn steps(max_iterations: usize) -> LmOptions {
+    LmOptions {
+        max_iterations,
+        cost_tolerance: 1e-5,
+        step_tolerance: 1e-9,
+        ..LmOptions::default()
     }
 }
 
@@ -124,6 +141,7 @@ impl Estimator for EssentialEstimator {
         }
     }
 
+    /// Of the line alone: whether a match is behind a camera depends on the threshold.
     fn error_sq(&self, pose: &RelativePose, index: usize) -> f64 {
         let (x1, x2) = self.matches.pair(index);
         super::sampson_sq(&pose.fundamental, &x1, &x2)
@@ -132,13 +150,45 @@ impl Estimator for EssentialEstimator {
     fn refine(
         &mut self,
         model: &RelativePose,
-        _: &[usize],
+        inliers: &[usize],
         max_error_px: f64,
     ) -> Option<RelativePose> {
         let loss = RobustLoss::Truncated {
             width: max_error_px * self.frame.scale,
         };
-        self.refined(model, &self.in_frame, loss, 2)
+        let judge = self.lenses.judge(model, max_error_px);
+        let near = sampson::support(
+            &self.pixels,
+            &model.fundamental,
+            max_error_px,
+            f64::INFINITY,
+        );
+        let few_behind = inliers.len() as f64 >= FEW_BEHIND * near.num_inliers as f64;
+        let coordinates = if few_behind && in_front::mark(&self.pixels, &judge, &mut self.factors) {
+            self.in_front.weigh_as(&self.in_frame, &self.factors);
+            &self.in_front
+        } else {
+            &self.in_frame
+        };
+        let (rotation, direction) =
+            refine_pose_in_frame(coordinates, &self.rays_in_frame, model, loss, &steps(2))?;
+        let pose = RelativePose::new(rotation, direction, &self.k1, &self.k2);
+        if few_behind {
+            return Some(pose);
+        }
+        let back = RelativePose {
+            direction: -pose.direction,
+            ..pose
+        };
+        let num_inliers = |pose: &RelativePose| {
+            let judge = self.lenses.judge(pose, max_error_px);
+            in_front::support(&self.pixels, &judge, max_error_px, f64::INFINITY).num_inliers
+        };
+        Some(if num_inliers(&back) > num_inliers(&pose) {
+            back
+        } else {
+            pose
+        })
     }
 
     fn polish(
@@ -148,15 +198,56 @@ impl Estimator for EssentialEstimator {
         weights: &[f64],
     ) -> Option<RelativePose> {
         let near = self.in_frame.weighted(near, weights);
-        self.refined(model, &near, RobustLoss::Trivial, 4)
+        let loss = RobustLoss::Trivial;
+        let (rotation, direction) =
+            refine_pose_in_frame(&near, &self.rays_in_frame, model, loss, &steps(4))?;
+        Some(RelativePose::new(rotation, direction, &self.k1, &self.k2))
+    }
+
+    fn settle(
+        &mut self,
+        model: &RelativePose,
+        inliers: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<RelativePose> {
+        let f = self.frame.fundamental_to_frame(&model.fundamental);
+        let max_error = max_error_px * self.frame.scale;
+        let plane = self
+            .recovery
+            .dominant_plane(&self.in_frame, &f, inliers, max_error, random)?;
+        let plane = self.rays_in_frame.homography_of_rays(&plane)?;
+        let (rotation, direction) =
+            other_motion_of_plane(&model.rotation, &model.direction, &plane)?;
+        let cost = |pose: &RelativePose| self.support(pose, max_error_px, f64::INFINITY).cost;
+        let there = RelativePose::new(rotation, direction, &self.k1, &self.k2);
+        let back = RelativePose {
+            direction: -direction,
+            ..there
+        };
+        let known = cost(model);
+        let mut pose = if cost(&back) < cost(&there) {
+            back
+        } else {
+            there
+        };
+        let mut near = Vec::new();
+        for reach_px in [2.0 * max_error_px, max_error_px, max_error_px] {
+            self.inliers(&pose, reach_px, &mut near);
+            pose = self.refine(&pose, &near, reach_px)?;
+        }
+        let cost = self.support(&pose, max_error_px, f64::INFINITY).cost;
+        (cost < known).then_some(pose)
     }
 
     fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {
-        sampson::support(&self.pixels, &pose.fundamental, max_error_px, cost_limit)
+        let judge = self.lenses.judge(pose, max_error_px);
+        in_front::support(&self.pixels, &judge, max_error_px, cost_limit)
     }
 
     fn inliers(&self, pose: &RelativePose, max_error_px: f64, inliers: &mut Vec<usize>) {
-        sampson::inliers(&self.pixels, &pose.fundamental, max_error_px, inliers);
+        let judge = self.lenses.judge(pose, max_error_px);
+        in_front::inliers(&self.pixels, &judge, max_error_px, inliers);
     }
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
@@ -180,7 +271,8 @@ impl Estimator for EssentialEstimator {
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
 /// * `k1`, `k2`: intrinsics of the two cameras
-/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels; an inlier
+///   is in front of both cameras as well, or so far away that this cannot be told
 ///
 /// Of the four motions that the essential matrix allows, the one that puts the most inliers in front
 /// of both cameras is returned. If the camera hardly moved, the direction means nothing; see

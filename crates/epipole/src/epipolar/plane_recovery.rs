@@ -152,7 +152,7 @@ impl PlaneRecovery {
     }
 
     /// The homography of a plane that holds most of the inliers of `f`.
-    fn dominant_plane(
+    pub(crate) fn dominant_plane(
         &mut self,
         matches: &Coordinates,
         f: &Matrix3<f64>,

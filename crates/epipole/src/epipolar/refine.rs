@@ -296,6 +296,11 @@ impl RaysInFrame {
         }
     }
 
+    /// A homography of the frame as one of rays.
+    pub(crate) fn homography_of_rays(&self, in_frame: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+        Some(self.a2t.transpose() * in_frame * self.a1.try_inverse()?)
+    }
+
     pub(crate) fn fundamental(&self, essential: &Matrix3<f64>) -> Matrix3<f64> {
         self.a2t * essential * self.a1
     }

@@ -8,7 +8,7 @@ use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// The entries of F, row by row.
-struct Sampson([f64; 9]);
+pub(super) struct Sampson(pub(super) [f64; 9]);
 
 impl LaneErrors for Sampson {
     /// A match without any epipolar line (0/0) gives NaN.
