@@ -359,3 +359,71 @@ fn scores_of_losers_change_nothing() {
     check(&FundamentalEstimator::new(set()).unwrap());
     check(&EssentialEstimator::new(set(), k, k).unwrap());
 }
+
+/// The last refinement may give up inliers for smaller errors, but not where inliers are the score.
+#[test]
+fn a_count_of_inliers_never_falls_at_the_end() {
+    for seed in 0..30 {
+        let points = points(200, 100, 0.6, seed);
+        let options = RansacOptions {
+            score: ScoreKind::InlierCount,
+            seed,
+            ..RansacOptions::default()
+        };
+        let mut run = Ransac::new(LineEstimator::new(&points).unwrap(), options).unwrap();
+        while let Step::Trial(_) = run.step() {}
+        let (_, best) = run.best().unwrap();
+        let report = run.finish().unwrap();
+        assert!(
+            report.score >= best,
+            "{seed}: {} after {best}",
+            report.score
+        );
+        assert_eq!(report.score, report.num_inliers as f64);
+    }
+}
+
+/// What chance can do depends on where the data are: neither on a few that strayed far away, nor on
+/// whether a line happens to be a row of pixels.
+#[test]
+fn chance_is_judged_by_where_most_of_the_data_are() {
+    let mut random = Random::new(1);
+    let mut anywhere = |num: usize| -> Vec<Point2<f64>> {
+        let mut pixel = || Point2::new(random.uniform(0.0, 1000.0), random.uniform(0.0, 1000.0));
+        (0..num).map(|_| pixel()).collect()
+    };
+    for far in [1e5, 1e6, 1e8] {
+        let (mut p1, mut p2) = (anywhere(200), anywhere(200));
+        p1.push(Point2::new(far, 0.5 * far));
+        p2.push(Point2::new(-far, far));
+        let options = RansacOptions::default();
+        let set = || MatchSet::new(&p1, &p2).unwrap();
+        let similarity = ransac(SimilarityEstimator::new(set()), &options);
+        let homography = ransac(HomographyEstimator::new(set()).unwrap(), &options);
+        let fundamental = ransac(FundamentalEstimator::new(set()).unwrap(), &options);
+        assert!(
+            similarity.is_ok_and(|report| report.could_be_chance()),
+            "{far}"
+        );
+        assert!(
+            homography.is_ok_and(|report| report.could_be_chance()),
+            "{far}"
+        );
+        assert!(
+            fundamental.is_ok_and(|report| report.could_be_chance()),
+            "{far}"
+        );
+    }
+    let along = [Vector3::x(), Vector3::y(), Vector3::new(0.6, 0.8, 0.0)];
+    for direction in along {
+        let on_line: Vec<_> = (0..40)
+            .map(|i| {
+                Point2::from(
+                    direction.xy() * (20.0 * f64::from(i)) + Vector3::new(5.0, 9.0, 0.0).xy(),
+                )
+            })
+            .collect();
+        let report = fit(&on_line, &RansacOptions::default());
+        assert_eq!((report.num_inliers, report.could_be_chance()), (40, false));
+    }
+}

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     decompose_essential, essential_5point, essential_8point, essential_from_fundamental,
@@ -222,5 +223,97 @@ fn essential_matrices_of_few_and_of_many_matches() {
             }
         }
         println!("{num_matches} matches: ‖E − E*‖ {worst:.1e} at most");
+    }
+}
+
+/// Where the same matches are listed many times over, nothing else is seen.
+#[test]
+fn repeated_matches_do_not_change_what_is_seen() {
+    let k = Intrinsics::centered(700.0, 800, 600).unwrap();
+    let motion = RigidTransform::new(Vector3::new(-0.8, 0.1, 0.1), Vector3::new(0.02, 0.1, -0.03));
+    let mut random = Random::new(8);
+    // 70 matches of a scene with depth, then 30 of a wall in it; and a wall with six matches beside it.
+    for (num_elsewhere, num_on_wall) in [(70, 30), (6, 94)] {
+        let (mut p1, mut p2) = (Vec::new(), Vec::new());
+        while p1.len() < num_elsewhere + num_on_wall {
+            let mut near = |size: f64| random.uniform(-size, size);
+            let (x, y) = (near(1.6), near(1.2));
+            let z = if p1.len() < num_elsewhere {
+                5.0 + near(1.5)
+            } else {
+                5.0 + 0.2 * x
+            };
+            let seen = Point3::new(x, y, z);
+            p1.push(k.project(&seen).unwrap());
+            p2.push(k.project(&(motion * seen)).unwrap());
+        }
+        let choice = TwoViewOptions::default();
+        let see = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
+            [
+                estimate_two_view(p1, p2, &choice).unwrap().configuration,
+                estimate_two_view_calibrated(p1, p2, &k, &k, &choice)
+                    .unwrap()
+                    .configuration,
+            ]
+        };
+        let once = see(&p1, &p2);
+        let repeated = if num_elsewhere > 6 {
+            num_elsewhere..100
+        } else {
+            0..num_elsewhere
+        };
+        let (more1, more2) = (p1[repeated.clone()].repeat(40), p2[repeated].repeat(40));
+        p1.extend(more1);
+        p2.extend(more2);
+        assert_eq!(see(&p1, &p2), once);
+        let expected = if num_elsewhere > 6 {
+            Configuration::General
+        } else {
+            Configuration::Planar
+        };
+        assert_eq!(once, [expected; 2]);
+    }
+}
+
+#[test]
+fn too_few_matches_are_told_by_what_would_be_enough() {
+    let k = Intrinsics::centered(700.0, 800, 600).unwrap();
+    let at = |i: usize| Point2::new((i * 37 % 100) as f64, (i * 71 % 90) as f64);
+    let p1: Vec<_> = (0..3).map(at).collect();
+    let p2: Vec<_> = (3..6).map(at).collect();
+    let error = estimate_two_view(&p1, &p2, &TwoViewOptions::default()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            Error::TooFew {
+                needed: 4,
+                got: 3,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error =
+        estimate_two_view_calibrated(&p1[..1], &p2[..1], &k, &k, &TwoViewOptions::default());
+    assert!(
+        matches!(
+            error,
+            Err(Error::TooFew {
+                needed: 4,
+                got: 1,
+                ..
+            })
+        ),
+        "{error:?}"
+    );
+    for share in [-0.1, f64::NAN] {
+        let options = TwoViewOptions {
+            max_homography_share: share,
+            ..TwoViewOptions::default()
+        };
+        assert!(
+            matches!(options.check(), Err(Error::OutOfRange { .. })),
+            "{share}"
+        );
     }
 }

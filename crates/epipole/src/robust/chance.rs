@@ -51,23 +51,38 @@ pub fn log10_false_alarms(
     (log_tries - others * divergence) / core::f64::consts::LN_10
 }
 
+/// The part of the data at either end that does not say how far the others reach: a stray pixel a
+/// million pixels away would make everything else unlikely to meet by chance.
+const STRAY: f64 = 0.05;
+
+/// A box is taken to be so many times as high as wide, at least, and as wide as high: points in a row
+/// of pixels come from an image, too.
+const THINNEST: f64 = 0.1;
+
+/// How far values reach, without the strays at either end.
+fn reach(mut values: Vec<f64>) -> f64 {
+    let count = values.len();
+    if count < 2 {
+        return 0.0;
+    }
+    let strays = (STRAY * (count - 1) as f64) as usize;
+    let mut value = |place: usize| *values.select_nth_unstable_by(place, f64::total_cmp).1;
+    let between = value(count - 1 - strays) - value(strays);
+    between * (count - 1) as f64 / (count - 1 - 2 * strays) as f64
+}
+
 /// Width and height of the box around points.
 fn extent<'a>(points: impl IntoIterator<Item = &'a Point2<f64>>) -> (f64, f64) {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for p in points {
-        for (axis, value) in [p.x, p.y].into_iter().enumerate() {
-            low[axis] = low[axis].min(value);
-            high[axis] = high[axis].max(value);
-        }
-    }
-    (high[0] - low[0], high[1] - low[1])
+    let (u, v) = points.into_iter().map(|p| (p.x, p.y)).unzip();
+    let (width, height) = (reach(u), reach(v));
+    (width.max(THINNEST * height), height.max(THINNEST * width))
 }
 
 fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
-    if width > 0.0 && height > 0.0 {
+    if width > 0.0 {
         (area / (width * height)).min(1.0)
     } else {
-        // Data on one line, or none, tell nothing.
+        // Equal data, or none, tell nothing.
         1.0
     }
 }
@@ -152,8 +167,22 @@ mod tests {
         assert!((chance_near_line(&corners, 3.0) - 0.025).abs() < 1e-12);
         let disk = core::f64::consts::PI * 4.0 / 120_000.0;
         assert!((chance_near_point(&corners, 2.0) - disk).abs() < 1e-12);
-        // Points on one line, or none at all, say nothing.
-        assert_eq!(chance_near_line(&corners[..1], 3.0), 1.0);
+        // Equal points, or none at all, say nothing.
+        assert_eq!(chance_near_line(&[corners[0]; 5], 3.0), 1.0);
         assert_eq!(chance_near_point(&[], 3.0), 1.0);
+        // Points in a row come from an image a tenth as high as wide.
+        let row: Vec<_> = (0..=200).map(|u| Point2::new(f64::from(u), 7.0)).collect();
+        let share = core::f64::consts::PI / (200.0 * 20.0);
+        assert!((chance_near_point(&row, 1.0) - share).abs() < 1e-12);
+    }
+
+    #[test]
+    fn strays_do_not_stretch_the_box() {
+        let mut grid: Vec<_> = (0..10_000)
+            .map(|i| Point2::new(f64::from(i % 100), f64::from(i / 100)))
+            .collect();
+        let alone = chance_near_line(&grid, 1.0);
+        grid.extend((0..100).map(|i| Point2::new(1e8, -1e7 * f64::from(i))));
+        assert!((chance_near_line(&grid, 1.0) / alone - 1.0).abs() < 0.05);
     }
 }

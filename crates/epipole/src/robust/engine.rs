@@ -448,7 +448,8 @@ impl<E: Estimator> Ransac<E> {
 
     /// The last refinement: least squares over all data within a few times the errors that inliers
     /// have, with the weights that Cauchy's loss gives. It weighs errors differently from the score,
-    /// so its result is kept unless it loses inliers: one in twenty at most.
+    /// so its result is kept unless it loses inliers: one in twenty at most, and none where they are what
+    /// counts.
     ///
     /// Source: Holland & Welsch 1977, "Robust regression using iteratively reweighted
     /// least-squares" (Cauchy's weights).
@@ -477,7 +478,11 @@ impl<E: Estimator> Ransac<E> {
             model = polished;
         }
         let support = self.support(&model, f64::INFINITY);
-        if 20 * support.num_inliers >= 19 * candidate.support.num_inliers {
+        let (kept, of) = match self.options.score {
+            ScoreKind::Msac => (19, 20),
+            ScoreKind::InlierCount => (1, 1),
+        };
+        if of * support.num_inliers >= kept * candidate.support.num_inliers {
             *candidate = Candidate { model, support };
             self.refinements += 1;
         }

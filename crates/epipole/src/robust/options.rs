@@ -65,7 +65,7 @@ pub struct RansacOptions {
     /// Whether a promising model is improved from its inliers at once, and the best one at the
     /// end. True.
     pub local_optimization: bool,
-    /// Rounds of "find the inliers, fit to them" in one local optimization. 4.
+    /// Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4.
     pub inner_iterations: usize,
     /// Which formula says how many samples are enough. Without replacement.
     pub budget: Budget,
@@ -141,14 +141,15 @@ pub enum StopReason {
 /// What [`Ransac`](super::Ransac) found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RansacReport<M> {
-    /// The best model.
+    /// The best model. With [`ScoreKind::Msac`] its last refinement weighs errors by how large those of
+    /// the inliers are, so that it may have up to one in twenty inliers fewer than the best one seen.
     pub model: M,
     /// For each datum given, whether it is within the threshold of `model`.
     pub inliers: Vec<bool>,
     /// How many of `inliers` are true.
     pub num_inliers: usize,
-    /// The same, with equal data counted once, and matches that meet in a pixel of an image, too. This number, not `num_inliers`, says how well the
-    /// model is supported.
+    /// The same, with equal data counted once, and for F, E and H matches that meet in a pixel of an
+    /// image, too. This number, not `num_inliers`, says how well the model is supported.
     pub num_unique_inliers: usize,
     /// Samples drawn.
     pub iterations: usize,

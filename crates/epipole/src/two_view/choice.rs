@@ -46,14 +46,16 @@ pub enum TwoViewModel {
 /// How to judge a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoViewOptions {
-    /// For each of the models that are tried.
+    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
+    /// 1.25 times its threshold, by the Sampson error.
     pub ransac: RansacOptions,
     /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
     pub min_num_inliers: usize,
     /// A homography that explains at least this share of the epipolar inliers means a plane or a
-    /// turn. 0.8.
+    /// turn. Above 1 nothing does. 0.8.
     pub max_homography_share: f64,
-    /// E is preferred to F if it has at least this share of F's inliers. 0.95.
+    /// E is preferred to F if it has at least this share of F's inliers. A share above 1 asks
+    /// for more of them than F has. 0.95.
     pub min_essential_share: f64,
 }
 
@@ -122,7 +124,8 @@ pub struct TwoViewReport {
     pub configuration: Configuration,
     /// The matrix chosen.
     pub model: TwoViewModel,
-    /// F, where the pair has one.
+    /// F, where the pair has one: that of the motion for calibrated views of a plane, `None` for
+    /// uncalibrated ones and for turns.
     pub fundamental: Option<Matrix3<f64>>,
     /// H, if one was found.
     pub homography: Option<Matrix3<f64>>,
@@ -132,7 +135,8 @@ pub struct TwoViewReport {
     /// Of a plane: another motion that explains the matches as well, if there is one. Which of the two
     /// is right, a plane alone does not tell.
     pub other_cam2_from_cam1: Option<RigidTransform>,
-    /// For each match given, whether it fits `model`.
+    /// For each match given, whether it fits `model`: within [`RansacOptions::max_error_px`] of F or E, by
+    /// the Sampson error, and within 1.25 times as much of H, which has to fit in two dimensions.
     pub inliers: Vec<bool>,
     /// How many do.
     pub num_inliers: usize,
@@ -209,20 +213,22 @@ pub fn estimate_two_view_with(
     observer: TwoViewObserver<'_>,
 ) -> Result<TwoViewReport> {
     options.check()?;
-    let pairs = Pairs { pixels1, pixels2 };
+    let set = MatchSet::new(pixels1, pixels2)?;
+    let pairs = Pairs::new(pixels1, pixels2, &set);
     let mut searches = Searches::new(observer);
     let fundamental = searches.ransac(
         TwoViewSearch::Fundamental,
-        pairs.set().and_then(FundamentalEstimator::new),
+        FundamentalEstimator::new(set.clone()),
         &options.ransac,
     );
     let homography = searches.ransac(
         TwoViewSearch::Homography,
-        pairs.set().and_then(HomographyEstimator::new),
+        HomographyEstimator::new(set.clone()),
         &options.in_two_dimensions(),
     );
     let homography_wins = match (&fundamental, &homography) {
-        (Err(error), Err(_)) => return Err(error.clone()),
+        // H needs fewer matches than F: what it lacks, F lacks as well.
+        (Err(_), Err(error)) => return Err(error.clone()),
         (Err(_), Ok(_)) => true,
         (Ok(_), Err(_)) => false,
         (Ok(f), Ok(h)) => {
@@ -233,7 +239,6 @@ pub fn estimate_two_view_with(
     };
     let mut found = TwoViewReport::nothing(&searches);
     found.homography = homography.as_ref().ok().map(|report| report.model);
-    found.fundamental = fundamental.as_ref().ok().map(|report| report.model);
     if homography_wins {
         let report = homography?;
         found.model = TwoViewModel::Homography(report.model);
@@ -243,6 +248,7 @@ pub fn estimate_two_view_with(
         let report = fundamental?;
         found.model = TwoViewModel::Fundamental(report.model);
         found.configuration = Configuration::General;
+        found.fundamental = Some(report.model);
         found.take(report.inliers.clone(), &report, options);
     }
     Ok(found)
@@ -331,7 +337,8 @@ pub fn estimate_two_view_calibrated_with(
     observer: TwoViewObserver<'_>,
 ) -> Result<TwoViewReport> {
     options.check()?;
-    let pairs = Pairs { pixels1, pixels2 };
+    let set = MatchSet::new(pixels1, pixels2)?;
+    let pairs = Pairs::new(pixels1, pixels2, &set);
     let in_two_dimensions = options.in_two_dimensions();
     let mut searches = Searches::new(observer);
     let essential = searches.run(TwoViewSearch::Essential, |watch| {
@@ -339,19 +346,17 @@ pub fn estimate_two_view_calibrated_with(
     });
     let fundamental = searches.ransac(
         TwoViewSearch::Fundamental,
-        pairs.set().and_then(FundamentalEstimator::new),
+        FundamentalEstimator::new(set.clone()),
         &options.ransac,
     );
     let homography = searches.ransac(
         TwoViewSearch::Homography,
-        pairs.set().and_then(HomographyEstimator::new),
+        HomographyEstimator::new(set.clone()),
         &in_two_dimensions,
     );
     let rotation = searches.ransac(
         TwoViewSearch::Rotation,
-        pairs
-            .set()
-            .and_then(|set| RotationEstimator::new(set, *k1, *k2)),
+        RotationEstimator::new(set.clone(), *k1, *k2),
         &in_two_dimensions,
     );
     let mut found = TwoViewReport::nothing(&searches);
@@ -411,7 +416,8 @@ pub fn estimate_two_view_calibrated_with(
         found.fundamental = Some(report.model.fundamental);
         found.take(report.inliers.clone(), report, options);
     } else {
-        let report = fundamental?;
+        // H needs fewer matches than F: what it lacks, F lacks as well.
+        let report = fundamental.map_err(|error| homography.err().unwrap_or(error))?;
         found.model = TwoViewModel::Fundamental(report.model);
         found.configuration = Configuration::General;
         found.fundamental = Some(report.model);
@@ -435,11 +441,28 @@ pub fn estimate_two_view_calibrated_with(
 pub(super) struct Pairs<'a> {
     pub(super) pixels1: &'a [Point2<f64>],
     pub(super) pixels2: &'a [Point2<f64>],
+    /// Whether no earlier match is equal.
+    is_first: Vec<bool>,
 }
 
 impl<'a> Pairs<'a> {
-    fn set(&self) -> Result<MatchSet> {
-        MatchSet::new(self.pixels1, self.pixels2)
+    fn new(pixels1: &'a [Point2<f64>], pixels2: &'a [Point2<f64>], set: &MatchSet) -> Self {
+        let mut is_first = vec![false; pixels1.len()];
+        for &place in set.unique().first_occurrences() {
+            is_first[place] = true;
+        }
+        Self {
+            pixels1,
+            pixels2,
+            is_first,
+        }
+    }
+
+    /// The different matches, each once.
+    pub(super) fn different(
+        &self,
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, '_> {
+        self.among(&self.is_first)
     }
 
     /// The matches of a mask.
@@ -462,7 +485,10 @@ impl<'a> Pairs<'a> {
         options: &TwoViewOptions,
     ) -> f64 {
         let (mut fit, mut count) = (0.0, 0.0_f64);
-        for (p1, p2) in self.among(inliers) {
+        let different: Vec<bool> = (inliers.iter().zip(&self.is_first))
+            .map(|(inlier, first)| *inlier && *first)
+            .collect();
+        for (p1, p2) in self.among(&different) {
             count += 1.0;
             if options.fits_homography(homography, p1, p2) {
                 fit += 1.0;
@@ -531,7 +557,12 @@ impl TwoViewReport {
     /// to measure by.
     pub fn mean_error_px(&self, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Option<f64> {
         let (mut total, mut count) = (0.0, 0);
-        for (p1, p2) in (Pairs { pixels1, pixels2 }).among(&self.inliers) {
+        for ((p1, p2), _) in pixels1
+            .iter()
+            .zip(pixels2)
+            .zip(&self.inliers)
+            .filter(|(_, is)| **is)
+        {
             total += match &self.model {
                 TwoViewModel::Homography(h) => homography_sampson_px(h, p1, p2),
                 _ => sampson_px(self.fundamental.as_ref()?, p1, p2),

@@ -43,7 +43,7 @@ pub(super) fn planar_motions(
             let (d1, d2) = signed_depths(&pose.rotation, &pose.direction, &k1.ray(p1), &k2.ray(p2));
             sampson_sq(&pose.fundamental, p1, p2) < max_error_sq && d1 > 0.0 && d2 > 0.0
         };
-        pairs.pixels1.iter().zip(pairs.pixels2).filter(fits).count()
+        pairs.different().filter(fits).count()
     };
     let mut motions: Vec<RelativePose> = essential.iter().map(|report| report.model).collect();
     for motion in decompose_homography(&homography.model, k1, k2).unwrap_or_default() {
