@@ -6,8 +6,7 @@
 use epipole::absolute_pose::{find_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
-    RelativePose, essential_5point, essential_8point, essential_from_motion,
-    fundamental_from_essential, refine_relative_pose,
+    RelativePose, essential_5point, essential_8point, essential_from_motion, refine_relative_pose,
 };
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
@@ -315,12 +314,8 @@ proptest! {
             prop_assert!(apart(&nearest(&order, &best).unwrap(), &best) < 1e-4);
         }
 
-        let pose = |motion: &RigidTransform, k1: &Intrinsics, k2: &Intrinsics| RelativePose {
-            rotation: motion.rotation.to_rotation_matrix().into_inner(),
-            direction: motion.translation.vector.normalize(),
-            fundamental: fundamental_from_essential(
-                &essential_from_motion(motion).unwrap(), k1, k2,
-            ).unwrap(),
+        let pose = |motion: &RigidTransform, k1: &Intrinsics, k2: &Intrinsics| {
+            RelativePose::from_motion(motion, k1, k2).unwrap()
         };
         let start = pose(&motion, &k1, &k2);
         let refined = refine_relative_pose(&start, &p1, &p2, &k1, &k2, TRIVIAL).unwrap();

@@ -397,8 +397,8 @@ fn forward_motion() {
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
         let pose = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
         let motion = pose.model.cam2_from_cam1();
-        assert!(rotation_error(&motion, &s.motion()) < 0.01, "{seed}");
-        assert!(direction_error(&motion, &s.motion()) < 0.1, "{seed}");
+        assert!(rotation_error(&motion, &s.motion()) < 0.002, "{seed}");
+        assert!(direction_error(&motion, &s.motion()) < 0.01, "{seed}");
         let f = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
         // 210 are true, with noise of 0.3 px in each coordinate.
         assert!(f.num_inliers > 180);

@@ -126,6 +126,7 @@ fn infinite_if_undefined(distance: f64) -> f64 {
 /// assert!((sampson_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 2.0).abs() < 1e-12);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "sampsonDistance")]
 pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }

@@ -1,9 +1,10 @@
 //! Essential matrices: constraints, decomposition, linear estimation.
 
-use super::from_cameras::unit_norm;
-use super::fundamental_from_essential;
+use super::from_cameras::{NO_BASELINE, unit_norm};
+use super::{essential_from_motion, fundamental_from_essential};
 use crate::camera::{Intrinsics, RigidTransform, cross_matrix};
 use crate::math::null_space::right_singular_vectors;
+use crate::math::scaling::unit;
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -20,6 +21,39 @@ pub struct RelativePose {
 }
 
 impl RelativePose {
+    /// The pose of a motion between cameras with intrinsics `k1` and `k2`; the length of t is dropped.
+    ///
+    /// # Errors
+    /// As [`essential_from_motion`] and [`fundamental_from_essential`]; a motion without a step has no
+    /// direction.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::{Intrinsics, RigidTransform};
+    /// use epipole::epipolar::{RelativePose, sampson_px};
+    /// use nalgebra::{Point3, Vector3};
+    /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+    /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-3.0, 0.0, 4.0), Vector3::new(0.0, 0.1, 0.0));
+    /// let pose = RelativePose::from_motion(&cam2_from_cam1, &k, &k)?;
+    /// assert!((pose.direction - Vector3::new(-0.6, 0.0, 0.8)).norm() < 1e-12);
+    /// let x = Point3::new(1.0, -0.5, 6.0);
+    /// let (p1, p2) = (k.project(&x)?, k.project(&(cam2_from_cam1 * x))?);
+    /// assert!(sampson_px(&pose.fundamental, &p1, &p2) < 1e-9);
+    /// # Ok(()) }
+    /// ```
+    pub fn from_motion(
+        cam2_from_cam1: &RigidTransform,
+        k1: &Intrinsics,
+        k2: &Intrinsics,
+    ) -> Result<Self> {
+        let essential = essential_from_motion(cam2_from_cam1)?;
+        Ok(Self {
+            rotation: cam2_from_cam1.rotation.to_rotation_matrix().into_inner(),
+            direction: unit(&cam2_from_cam1.translation.vector).ok_or(NO_BASELINE)?,
+            fundamental: fundamental_from_essential(&essential, k1, k2)?,
+        })
+    }
+
     /// A pose with its fundamental matrix, for cameras with intrinsics `k1` and `k2`.
     ///
     /// # Errors
@@ -196,6 +230,7 @@ pub(crate) fn bearing_row(x1: &Vector3<f64>, x2: &Vector3<f64>) -> [f64; 9] {
 /// assert!(motions.iter().any(|m| (m.translation.z - 1.0).abs() < 1e-12 && m.rotation.angle() < 1e-7));
 /// # Ok(()) }
 /// ```
+#[doc(alias = "decomposeEssentialMat")]
 pub fn decompose_essential(essential: &Matrix3<f64>) -> Result<[RigidTransform; 4]> {
     let projected = project_to_essential(essential)?;
     let svd = svd3(&projected);
@@ -380,7 +415,6 @@ pub(crate) fn signed_depths(
 
 #[cfg(test)]
 mod tests {
-    use super::super::essential_from_motion;
     use super::super::from_cameras::tests::{random_cameras, random_point};
     use super::*;
     use crate::camera::relative_motion;

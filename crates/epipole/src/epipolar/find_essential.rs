@@ -309,6 +309,7 @@ impl Estimator for EssentialEstimator {
 /// assert!((found.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-5);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "recoverPose")]
 pub fn estimate_relative_pose(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -401,6 +402,7 @@ pub fn estimate_relative_pose_with(
 /// assert!((report.model - truth).norm() < 1e-5);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "findEssentialMat")]
 pub fn find_essential(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

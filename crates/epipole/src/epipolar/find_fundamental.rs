@@ -296,6 +296,7 @@ impl Estimator for FundamentalEstimator {
 /// assert!(report.model[(2, 2)].abs() < 1e-6);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "findFundamentalMat")]
 pub fn find_fundamental(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

@@ -151,7 +151,7 @@ fn product(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>) -> Result<Matri
     unit_norm(&(a * b * c))
 }
 
-const NO_BASELINE: Error = Error::Degenerate {
+pub(super) const NO_BASELINE: Error = Error::Degenerate {
     what: "the epipolar geometry",
     why: "the two cameras stand at the same place",
 };

@@ -25,6 +25,7 @@ use nalgebra::{Matrix3, Point2};
 /// assert!(line2.signed_distance(&Point2::new(-3.0, 0.25)).abs() < 1e-15);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "computeCorrespondEpilines")]
 pub fn epipolar_line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Result<Line2> {
     let x1 = pixel1.to_homogeneous();
     let line = fundamental * x1;

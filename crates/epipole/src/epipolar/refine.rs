@@ -96,7 +96,7 @@ pub fn refine_fundamental(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::{RelativePose, essential_from_motion, fundamental_from_essential, refine_relative_pose};
+/// use epipole::epipolar::{RelativePose, refine_relative_pose};
 /// use epipole::optim::RobustLoss;
 /// use nalgebra::{Point3, Vector3};
 /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
@@ -109,11 +109,7 @@ pub fn refine_fundamental(
 /// }
 /// // A start that is off by 0.05 rad and looks straight to the side.
 /// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.0, 0.05, 0.0));
-/// let start = RelativePose {
-///     rotation: start.rotation.to_rotation_matrix().into_inner(),
-///     direction: start.translation.vector,
-///     fundamental: fundamental_from_essential(&essential_from_motion(&start)?, &k, &k)?,
-/// };
+/// let start = RelativePose::from_motion(&start, &k, &k)?;
 /// let refined = refine_relative_pose(&start, &p1, &p2, &k, &k, RobustLoss::Trivial)?.cam2_from_cam1();
 /// assert!(refined.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-6);
 /// assert!((refined.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-6);
