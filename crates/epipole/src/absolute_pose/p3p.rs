@@ -206,10 +206,9 @@ pub(crate) fn solve(
                 continue;
             }
             let mut d = [x * size, y * size, z * size];
-            if !polish(&mut d, [a01, a02, a12], [c01, c02, c12])
-                || !(d[0] > 0.0 && d[1] > 0.0 && d[2] > 0.0)
-                || count == 4
-            {
+            let fits = polish(&mut d, [a01, a02, a12], [c01, c02, c12]);
+            let in_front = d[0] > 0.0 && d[1] > 0.0 && d[2] > 0.0;
+            if !(fits && in_front) || count == 4 {
                 continue;
             }
             let place = [rays[0] * d[0], rays[1] * d[1], rays[2] * d[2]];

@@ -41,7 +41,8 @@ pub fn reprojection_error_px(
 /// * `points_in_world`, `pixels`: points and where they are seen, at least 3
 /// * `loss`: its width is in pixels
 ///
-/// Points that are behind the camera at the start are left out.
+/// Points that are behind the camera at the start are left out. Neither the world's origin nor its unit
+/// of length matters: the search turns the pose about a point amid the others, not about the origin.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists

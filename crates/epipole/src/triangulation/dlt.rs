@@ -8,16 +8,17 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// The point that two cameras see at two pixels, minimizing the algebraic error
 /// `Σ ‖x × P X‖²` over homogeneous X of length 1.
 ///
-/// What is minimal depends on the world's origin and unit of length, unless the pixels are exact. They
-/// suit best if they are near the cameras and about the distance between them.
+/// Where the pixels are not exact, what is minimal depends on the world's origin and unit of length. Best
+/// are an origin near the cameras and a unit about as long as the baseline.
 ///
 /// * `p1`, `p2`: 3×4 projection matrices, such as [`Camera::projection_matrix`](crate::camera::Camera::projection_matrix)
 /// * `pixel1`, `pixel2`: where the point is seen
 ///
 /// # Errors
 /// [`Error::PointAtInfinity`] for parallel rays, those that meet 10¹² baselines away or farther,
-/// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`] for NaN and infinities,
-/// [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a rank below 3.
+/// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`] for
+/// NaN and infinities, [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a
+/// rank below 3.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///

@@ -57,10 +57,10 @@ fn best_of_pairs(problem: &Problem<'_>) -> Option<Point3<f64>> {
         // Spread evenly over the list (0, 1), (0, 2), (1, 2), (0, 3), …
         let place = tried * num_pairs / num_tried;
         let (i, j) = pair(place);
-        if let Ok(point) = point_of_pair(problem, i, j) {
-            if let Some(cost) = cost_below(problem, &point, least) {
-                (least, best) = (cost, Some(point));
-            }
+        if let Ok(point) = point_of_pair(problem, i, j)
+            && let Some(cost) = cost_below(problem, &point, least)
+        {
+            (least, best) = (cost, Some(point));
         }
     }
     best
@@ -72,7 +72,7 @@ fn cost_below(problem: &Problem<'_>, point: &Point3<f64>, limit: f64) -> Option<
     for (camera, pixel) in problem.cameras.iter().zip(problem.pixels) {
         let seen = camera.project(point).ok()?;
         total += 0.5 * problem.loss.rho((seen - pixel).norm_squared());
-        if !(total < limit) {
+        if total.is_nan() || total >= limit {
             return None;
         }
     }
