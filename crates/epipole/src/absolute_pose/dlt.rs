@@ -1,10 +1,11 @@
 //! The pose of a camera from six or more points, by linear least squares.
 
+use super::refine::rigid;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::math::null_space::right_singular_vectors;
 use crate::math::svd3;
 use crate::{Error, Result};
-use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// The pose from six or more points by the direct linear transform: `P = [R t]` minimizing the
 /// algebraic error, then the nearest rotation. A start for
@@ -139,10 +140,7 @@ pub fn pose_dlt(
     if !t.iter().all(|x| x.is_finite()) {
         return Err(degenerate);
     }
-    Ok(RigidTransform::from_parts(
-        t.into(),
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
-    ))
+    Ok(rigid(&(rotation, t), &center))
 }
 
 #[cfg(test)]

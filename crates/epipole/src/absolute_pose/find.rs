@@ -1,12 +1,12 @@
 //! The pose of a camera from points of which many are wrongly matched.
 
 use super::p3p::solve;
-use super::refine::{Pose, PoseProblem, refine};
+use super::refine::{Pose, PoseProblem, refine, rigid};
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
 use crate::{Error, Result};
-use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// Camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
 ///
@@ -203,10 +203,8 @@ pub fn find_absolute_pose(
 ) -> Result<RansacReport<RigidTransform>> {
     let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, *intrinsics)?;
     let report = ransac(estimator, options)?;
-    Ok(report.map(|(rotation, t)| {
-        RigidTransform::from_parts(
-            t.into(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
-        )
-    }))
+    // One of the inliers, of which there are three at least, stays where it is seen.
+    let inlier = report.inliers.iter().position(|&inlier| inlier);
+    let fixed = points_in_world[inlier.unwrap_or(0)].coords;
+    Ok(report.map(|pose| rigid(&pose, &fixed)))
 }

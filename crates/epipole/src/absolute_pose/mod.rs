@@ -4,6 +4,7 @@ mod dlt;
 mod find;
 mod p3p;
 mod refine;
+mod sides;
 
 pub use dlt::pose_dlt;
 pub use find::{AbsolutePoseEstimator, find_absolute_pose};

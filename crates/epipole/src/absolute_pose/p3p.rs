@@ -1,8 +1,10 @@
 //! The pose of a camera from three points.
 
+use super::refine::rigid;
+use super::sides::polish;
 use crate::camera::RigidTransform;
 use crate::math::polynomial::cubic_roots;
-use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// The poses, at most four, from which three known points are seen along three rays.
 ///
@@ -14,8 +16,12 @@ use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 /// * `rays`: directions in the camera frame; their lengths do not matter
 /// * `points_in_world`: the three points, in the same order
 ///
-/// Returns `cam_from_world` of each solution; none if the points lie on a line, rays coincide, or
-/// input is not finite.
+/// Returns `cam_from_world` of each solution, all different; none if the points lie on a line, rays
+/// coincide, or input is not finite. A root is dropped if it does not reproduce the sides of the triangle,
+/// to 10⁻¹¹ radians as seen from the camera.
+///
+/// Two solutions merge for a camera on the danger cylinder, which stands upright on the circle through
+/// the points. There they are known only to about the root of the rounding errors.
 ///
 /// Source: Persson & Nordberg 2018, "Lambda Twist: an accurate fast robust perspective three
 /// point (P3P) solver"; Richter-Gebert 2011, "Perspectives on projective geometry", §11.1 (splitting
@@ -45,14 +51,15 @@ pub fn pose_p3p(
     );
     solutions[..count]
         .iter()
-        .map(|(rotation, t)| {
-            RigidTransform::from_parts(
-                (*t).into(),
-                UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation)),
-            )
-        })
+        .map(|pose| rigid(pose, &points_in_world[0].coords))
         .collect()
 }
+
+/// Solutions whose rotations differ by less, in Frobenius norm, are one.
+const SAME_ROTATION: f64 = 1e-7;
+
+/// Solutions whose depths differ by more, relatively, are not compared any further.
+const SAME_DEPTH: f64 = 1e-3;
 
 /// A symmetric 3×3 matrix: xx, xy, xz, yy, yz, zz.
 type Conic = [f64; 6];
@@ -168,13 +175,19 @@ pub(crate) fn solve(
     }
     let Some(lines) = lines else { return 0 };
 
+    // 1 − cos θ without cancellation: the rays to points far away are nearly parallel.
+    let (c01, c02, c12) = (
+        0.5 * (rays[0] - rays[1]).norm_squared(),
+        0.5 * (rays[0] - rays[2]).norm_squared(),
+        0.5 * (rays[1] - rays[2]).norm_squared(),
+    );
     // Rows of [side01 side02 normal]⁻¹.
     let inverse = [
         side02.cross(&normal) / normal_sq,
         normal.cross(&side01) / normal_sq,
         normal / normal_sq,
     ];
-    let mut count = 0;
+    let (mut count, mut depths0) = (0, [0.0; 4]);
     for line in &lines {
         let mut depths = [[0.0; 3]; 2];
         let num_depths = meet(line, &second, &mut depths);
@@ -193,8 +206,9 @@ pub(crate) fn solve(
                 continue;
             }
             let mut d = [x * size, y * size, z * size];
-            polish(&mut d, [a01, a02, a12], [m01, m02, m12]);
-            if !(d[0] > 0.0 && d[1] > 0.0 && d[2] > 0.0) || count == 4 {
+            let fits = polish(&mut d, [a01, a02, a12], [c01, c02, c12]);
+            let in_front = d[0] > 0.0 && d[1] > 0.0 && d[2] > 0.0;
+            if !(fits && in_front) || count == 4 {
                 continue;
             }
             let place = [rays[0] * d[0], rays[1] * d[1], rays[2] * d[2]];
@@ -203,12 +217,15 @@ pub(crate) fn solve(
                 + e2 * inverse[1].transpose()
                 + e1.cross(&e2) * inverse[2].transpose();
             let t = place[0] - rotation * points[0];
-            if rotation
-                .iter()
-                .chain(t.iter())
-                .all(|value| value.is_finite())
-            {
+            // On the danger cylinder two solutions are one, and both lines lead there.
+            let known = (0..count).any(|i| {
+                (depths0[i] - d[0]).abs() < SAME_DEPTH * d[0]
+                    && (solutions[i].0 - rotation).norm_squared() < SAME_ROTATION * SAME_ROTATION
+            });
+            let finite = |value: &f64| value.is_finite();
+            if !known && rotation.iter().chain(t.iter()).all(finite) {
                 solutions[count] = (rotation, t);
+                depths0[count] = d[0];
                 count += 1;
             }
         }
@@ -259,41 +276,11 @@ fn meet(line: &[f64; 3], conic: &Conic, points: &mut [[f64; 3]; 2]) -> usize {
     count
 }
 
-/// Newton's method on the three equations of the sides.
-#[inline]
-fn polish(d: &mut [f64; 3], sides_sq: [f64; 3], cosines: [f64; 3]) {
-    let [a01, a02, a12] = sides_sq;
-    let [m01, m02, m12] = cosines;
-    let tolerance = 1e-15 * (a01 + a02 + a12);
-    for _ in 0..5 {
-        let [x, y, z] = *d;
-        let r0 = x * x + y * y - 2.0 * x * y * m01 - a01;
-        let r1 = x * x + z * z - 2.0 * x * z * m02 - a02;
-        let r2 = y * y + z * z - 2.0 * y * z * m12 - a12;
-        if r0.abs() + r1.abs() + r2.abs() <= tolerance {
-            return;
-        }
-        // Half the Jacobian: [p q 0; r 0 s; 0 t w].
-        let (p, q) = (x - y * m01, y - x * m01);
-        let (r, s) = (x - z * m02, z - x * m02);
-        let (t, w) = (y - z * m12, z - y * m12);
-        let determinant = -(p * s * t + q * r * w);
-        let factor = 0.5 / determinant;
-        if !factor.is_finite() {
-            return;
-        }
-        // Cramer's rule, for J δ = −r.
-        let dx = (-s * t * r0 - q * w * r1 + q * s * r2) * factor;
-        let dy = (-r * w * r0 + p * w * r1 - p * s * r2) * factor;
-        let dz = (r * t * r0 - p * t * r1 - q * r * r2) * factor;
-        *d = [x - dx, y - dy, z - dz];
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use crate::math::random::Random;
+    use nalgebra::UnitQuaternion;
 
     /// PoseLib's generator: a field of view of 75°, depths from 0.1 to 10.
     pub(crate) fn problem<const N: usize>(

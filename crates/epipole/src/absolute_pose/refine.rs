@@ -41,7 +41,8 @@ pub fn reprojection_error_px(
 /// * `points_in_world`, `pixels`: points and where they are seen, at least 3
 /// * `loss`: its width is in pixels
 ///
-/// Points that are behind the camera at the start are left out.
+/// Points that are behind the camera at the start are left out. Neither the world's origin nor its unit
+/// of length matters: the search turns the pose about a point amid the others, not about the origin.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists
@@ -118,16 +119,26 @@ pub fn refine_absolute_pose(
         cam_from_world.rotation.to_rotation_matrix().into_inner(),
         cam_from_world.translation.vector,
     );
-    let (rotation, t) = refine(&problem, start, &LmOptions::default()).ok_or(Error::NotFinite {
+    let refined = refine(&problem, start, &LmOptions::default()).ok_or(Error::NotFinite {
         what: "the reprojection error of the start",
     })?;
-    Ok(RigidTransform::from_parts(
-        t.into(),
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
-    ))
+    Ok(rigid(&refined, &points_in_world[used[0]].coords))
 }
 
+/// R and t of `cam_from_world`.
 pub(super) type Pose = (Matrix3<f64>, Vector3<f64>);
+
+/// A pose whose R is a rotation but for small errors, as one whose R is exactly that.
+///
+/// * `fixed`: a point of the world that stays where the camera sees it
+///
+/// The errors of R act over the distance from the fixed point. With R and t taken over as they are that
+/// would be the world's origin, which may be anywhere.
+pub(super) fn rigid((rotation, t): &Pose, fixed: &Vector3<f64>) -> RigidTransform {
+    let unit = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
+    let t = (rotation * fixed + t) - unit * fixed;
+    RigidTransform::from_parts(t.into(), unit)
+}
 
 pub(super) struct PoseProblem<'a> {
     pub(super) points: &'a [Point3<f64>],
@@ -146,17 +157,74 @@ impl PoseProblem<'_> {
         let used = self.used.iter().enumerate();
         used.map(move |(place, &index)| (index, root(place)))
     }
+}
 
-    /// The residual, and the point in the camera frame; `None` in or behind the center plane.
-    fn residual(&self, (rotation, t): &Pose, index: usize) -> Option<(Vector2<f64>, Vector3<f64>)> {
-        let x = rotation * self.points[index].coords + t;
-        let seen = self.intrinsics.project(&Point3::from(x)).ok()?;
-        Some((seen - self.pixels[index], x))
+/// A pose problem in a frame of its own: the pose turns about a point amid the data, and moves in
+/// units of that point's distance from the camera.
+///
+/// About the world's origin, a turn would carry the points along a circle as large as their distance
+/// from there. Far out, as in geodetic coordinates, it could not be told from a shift, and the search
+/// would end where it began.
+struct LocalProblem<'a> {
+    problem: &'a PoseProblem<'a>,
+    /// The point about which the pose turns, in the world.
+    pivot: Vector3<f64>,
+    /// The unit of length of the steps.
+    unit: f64,
+}
+
+/// R, and where the camera sees the pivot.
+type LocalPose = (Matrix3<f64>, Vector3<f64>);
+
+impl<'a> LocalProblem<'a> {
+    /// The mean of the points, weighted by the square of their nearness, is a pivot for which
+    /// the effects of turns and shifts on the pixels are nearly independent. One point at the end of
+    /// the world does not move it.
+    fn new(problem: &'a PoseProblem<'a>, (rotation, t): &Pose) -> Self {
+        let places = problem.used.iter().map(|&i| problem.points[i].coords);
+        let depth = |x: &Vector3<f64>| (rotation.row(2) * x)[0] + t.z;
+        let in_front = |z: &f64| *z > 0.0;
+        let depths = places.clone().map(|x| depth(&x)).filter(in_front);
+        let nearest = depths.fold(f64::INFINITY, f64::min);
+        let (mut sum, mut total) = (Vector3::zeros(), 0.0);
+        for x in places {
+            let nearness = nearest / depth(&x);
+            // What is behind the camera ends the search before it begins.
+            if nearness > 0.0 {
+                sum += x * (nearness * nearness);
+                total += nearness * nearness;
+            }
+        }
+        let pivot = if total > 0.0 {
+            sum / total
+        } else {
+            Vector3::zeros()
+        };
+        let distance = (rotation * pivot + t).norm();
+        Self {
+            problem,
+            pivot,
+            unit: if distance > 0.0 { distance } else { 1.0 },
+        }
     }
 
-    /// The Jacobian of a residual with respect to a rotation from the left and to t.
-    fn jacobian(&self, (rotation, _): &Pose, index: usize, x: &Vector3<f64>) -> SMatrix<f64, 2, 6> {
-        let (fu, fv) = (self.intrinsics.fu_px(), self.intrinsics.fv_px());
+    /// The residual, and the point seen from the camera and from the pivot, both along the camera's
+    /// axes; `None` in or behind the center plane.
+    fn residual(
+        &self,
+        (rotation, pivot_in_cam): &LocalPose,
+        index: usize,
+    ) -> Option<(Vector2<f64>, [Vector3<f64>; 2])> {
+        let from_pivot = rotation * (self.problem.points[index].coords - self.pivot);
+        let x = from_pivot + pivot_in_cam;
+        let seen = self.problem.intrinsics.project(&Point3::from(x)).ok()?;
+        Some((seen - self.problem.pixels[index], [x, from_pivot]))
+    }
+
+    /// The Jacobian of a residual with respect to a turn about the pivot and to a shift.
+    fn jacobian(&self, [x, from_pivot]: &[Vector3<f64>; 2]) -> SMatrix<f64, 2, 6> {
+        let k = self.problem.intrinsics;
+        let (fu, fv) = (k.fu_px(), k.fv_px());
         let per_z = 1.0 / x.z;
         let by_point = SMatrix::<f64, 2, 3>::new(
             fu * per_z,
@@ -166,37 +234,36 @@ impl PoseProblem<'_> {
             fv * per_z,
             -fv * x.y * per_z * per_z,
         );
-        // R ← exp([δ]ₓ) R turns the rotated point alone, not t.
-        let turned = rotation * self.points[index].coords;
-        let by_turn = by_point * -turned.cross_matrix();
+        let by_turn = by_point * -from_pivot.cross_matrix();
+        let by_shift = by_point * self.unit;
         let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
         jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
-        jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_point);
+        jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_shift);
         jacobian
     }
 }
 
-impl FixedProblem<6> for PoseProblem<'_> {
-    type Parameters = Pose;
+impl FixedProblem<6> for LocalProblem<'_> {
+    type Parameters = LocalPose;
 
-    fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<6>) {
-        for (index, root) in self.used() {
+    fn accumulate(&self, pose: &LocalPose, normal: &mut NormalEquations<6>) {
+        for (index, root) in self.problem.used() {
             match self.residual(pose, index) {
-                Some((residual, x)) => {
-                    let jacobian = self.jacobian(pose, index, &x) * root;
-                    normal.add(&(residual * root), &jacobian, &self.loss);
+                Some((residual, places)) => {
+                    let jacobian = self.jacobian(&places) * root;
+                    normal.add(&(residual * root), &jacobian, &self.problem.loss);
                 }
                 None => normal.cost = f64::INFINITY,
             }
         }
     }
 
-    fn cost(&self, pose: &Pose) -> f64 {
+    fn cost(&self, pose: &LocalPose) -> f64 {
         let mut total = 0.0;
-        for (index, root) in self.used() {
+        for (index, root) in self.problem.used() {
             match self.residual(pose, index) {
                 Some((residual, _)) => {
-                    total += 0.5 * self.loss.rho((residual * root).norm_squared());
+                    total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
                 }
                 None => return f64::INFINITY,
             }
@@ -204,23 +271,25 @@ impl FixedProblem<6> for PoseProblem<'_> {
         total
     }
 
-    fn plus(&self, (rotation, t): &Pose, delta: &SVector<f64, 6>) -> Pose {
+    fn plus(&self, (rotation, pivot_in_cam): &LocalPose, delta: &SVector<f64, 6>) -> LocalPose {
         let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
         (
             turn.into_inner() * rotation,
-            t + Vector3::new(delta[3], delta[4], delta[5]),
+            pivot_in_cam + Vector3::new(delta[3], delta[4], delta[5]) * self.unit,
         )
     }
 }
 
 pub(super) fn refine(problem: &PoseProblem<'_>, start: Pose, options: &LmOptions) -> Option<Pose> {
-    let mut pose = start;
-    minimize_fixed(problem, &mut pose, options).ok()?;
+    let local = LocalProblem::new(problem, &start);
+    let mut pose = (start.0, start.0 * local.pivot + start.1);
+    minimize_fixed(&local, &mut pose, options).ok()?;
     // Products of many rotations drift from orthogonality.
     let svd = svd3(&pose.0);
     let rotation = svd.u * svd.v.transpose();
-    let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
-    finite.then_some((rotation, pose.1))
+    let t = pose.1 - rotation * local.pivot;
+    let finite = rotation.iter().chain(t.iter()).all(|x| x.is_finite());
+    finite.then_some((rotation, t))
 }
 
 #[cfg(test)]
@@ -247,10 +316,12 @@ mod tests {
                 intrinsics: &k,
                 loss: RobustLoss::Trivial,
             };
-            let pose = (
+            let start = (
                 truth.rotation.to_rotation_matrix().into_inner(),
                 truth.translation.vector,
             );
+            let pose_problem = LocalProblem::new(&pose_problem, &start);
+            let pose = (start.0, start.0 * pose_problem.pivot + start.1);
             let residuals = |delta: &DVector<f64>| {
                 let delta = SVector::<f64, 6>::from_column_slice(delta.as_slice());
                 let moved = pose_problem.plus(&pose, &delta);
@@ -259,8 +330,8 @@ mod tests {
                 })
             };
             let analytic = DMatrix::from_fn(16, 6, |row, column| {
-                let (_, x) = pose_problem.residual(&pose, row / 2).unwrap();
-                pose_problem.jacobian(&pose, row / 2, &x)[(row % 2, column)]
+                let (_, places) = pose_problem.residual(&pose, row / 2).unwrap();
+                pose_problem.jacobian(&places)[(row % 2, column)]
             });
             assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
         }

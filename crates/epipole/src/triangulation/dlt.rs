@@ -8,13 +8,17 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// The point that two cameras see at two pixels, minimizing the algebraic error
 /// `Σ ‖x × P X‖²` over homogeneous X of length 1.
 ///
+/// Where the pixels are not exact, what is minimal depends on the world's origin and unit of length. Best
+/// are an origin near the cameras and a unit about as long as the baseline.
+///
 /// * `p1`, `p2`: 3×4 projection matrices, such as [`Camera::projection_matrix`](crate::camera::Camera::projection_matrix)
 /// * `pixel1`, `pixel2`: where the point is seen
 ///
 /// # Errors
-/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the point is not
-/// in front of both cameras, [`Error::NotFinite`] for NaN and infinities,
-/// [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a rank below 3.
+/// [`Error::PointAtInfinity`] for parallel rays, those that meet 10¹² baselines away or farther,
+/// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`] for
+/// NaN and infinities, [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a
+/// rank below 3.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
@@ -36,8 +40,8 @@ pub fn triangulate_dlt(
     pixel2: &Point2<f64>,
 ) -> Result<Point3<f64>> {
     let (r1, r2) = (rows_of(p1), rows_of(p2));
-    refuse_one_center(&r1, &r2)?;
-    accept(&r1, &r2, &solve(&r1, &r2, pixel1, pixel2))
+    let baseline = baseline(&r1, &r2)?;
+    accept(&r1, &r2, baseline, &solve(&r1, &r2, pixel1, pixel2))
 }
 
 /// [`triangulate_dlt`] of many matches of one pair of cameras.
@@ -77,16 +81,17 @@ pub fn triangulate_dlt_all(
         });
     }
     let (r1, r2) = (rows_of(p1), rows_of(p2));
-    refuse_one_center(&r1, &r2)?;
+    let baseline = baseline(&r1, &r2)?;
     Ok(pixels1
         .iter()
         .zip(pixels2)
-        .map(|(a, b)| accept(&r1, &r2, &solve(&r1, &r2, a, b)))
+        .map(|(a, b)| accept(&r1, &r2, baseline, &solve(&r1, &r2, a, b)))
         .collect())
 }
 
-/// Refuses matrices that have the same null vector, which is the center of the camera.
-fn refuse_one_center(p1: &[Row; 3], p2: &[Row; 3]) -> Result<()> {
+/// The distance between the centers of the cameras, which are the null vectors of the matrices; refused
+/// if they are the same. 1 if a center is at infinity: then nothing in the matrices is a length.
+fn baseline(p1: &[Row; 3], p2: &[Row; 3]) -> Result<f64> {
     if !p1.iter().chain(p2).flatten().all(|x| x.is_finite()) {
         return Err(Error::NotFinite {
             what: "a pixel or a projection matrix",
@@ -119,7 +124,17 @@ fn refuse_one_center(p1: &[Row; 3], p2: &[Row; 3]) -> Result<()> {
         let rounding = dot(&row.map(f64::abs), &center1.map(f64::abs));
         dot(row, &center1).abs() <= 1e-13 * rounding
     });
-    if same { Err(NO_BASELINE) } else { Ok(()) }
+    if same {
+        return Err(NO_BASELINE);
+    }
+    let center2 = null_vector(&p2);
+    let mut apart_sq = 0.0;
+    for i in 0..3 {
+        let apart = center1[i] / center1[3] - center2[i] / center2[3];
+        apart_sq += apart * apart;
+    }
+    let apart = apart_sq.sqrt() * unit;
+    Ok(if apart.is_normal() { apart } else { 1.0 })
 }
 
 /// The vector orthogonal to three rows, by minors; zero if they are dependent.
@@ -188,11 +203,18 @@ fn solve(p1: &[Row; 3], p2: &[Row; 3], pixel1: &Point2<f64>, pixel2: &Point2<f64
         }
     }
     let r = a;
-    // A zero on the diagonal is an exact null vector; a tiny number in its place leads there.
-    let tiny = 1e-30
-        * (r[0][0].abs() + r[1][1].abs() + r[2][2].abs() + r[3][3].abs()).max(f64::MIN_POSITIVE);
-    let inverse: Row =
-        core::array::from_fn(|i| 1.0 / if r[i][i].abs() > tiny { r[i][i] } else { tiny });
+    // A zero on the diagonal is an exact null vector; a tiny number in its place leads there. The last
+    // column has a unit of its own, that of length in the world.
+    let size = r[0][0].abs() + r[1][1].abs() + r[2][2].abs();
+    let last_size = r[0][3].abs() + r[1][3].abs() + r[2][3].abs() + r[3][3].abs();
+    let tiny = [size, size, size, last_size].map(|size| 1e-30 * size.max(f64::MIN_POSITIVE));
+    let inverse: Row = core::array::from_fn(|i| {
+        1.0 / if r[i][i].abs() > tiny[i] {
+            r[i][i]
+        } else {
+            tiny[i]
+        }
+    });
     let backward = |b: Row| -> Row {
         let x3 = b[3] * inverse[3];
         let x2 = (b[2] - r[2][3] * x3) * inverse[2];
@@ -227,7 +249,7 @@ fn normalized(x: Row) -> Row {
 }
 
 #[inline(always)]
-fn accept(p1: &[Row; 3], p2: &[Row; 3], x: &Row) -> Result<Point3<f64>> {
+fn accept(p1: &[Row; 3], p2: &[Row; 3], baseline: f64, x: &Row) -> Result<Point3<f64>> {
     let (z1, z2) = (dot(&p1[2], x), dot(&p2[2], x));
     let in_space = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
     if !(z1.is_finite() && z2.is_finite()) {
@@ -235,7 +257,8 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], x: &Row) -> Result<Point3<f64>> {
             what: "a pixel or a projection matrix",
         });
     }
-    if x[3].abs() <= 1e-12 * in_space {
+    // A million million baselines away.
+    if x[3].abs() * baseline <= 1e-12 * in_space {
         return Err(Error::PointAtInfinity);
     }
     // Depths have the sign of z w, for projection matrices K [R t]. A point in the center of a camera has

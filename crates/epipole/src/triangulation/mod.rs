@@ -16,6 +16,7 @@ mod midpoint;
 mod nview;
 mod optimal;
 mod quality;
+mod starts;
 
 const NO_BASELINE: crate::Error = crate::Error::Degenerate {
     what: "the distance of a point",

@@ -1,6 +1,7 @@
 //! Triangulation from many views.
 
 use super::quality::projection_jacobian;
+use super::starts::robust_minimum;
 use super::{BEYOND_NUMBERS, NO_BASELINE};
 use crate::camera::Camera;
 use crate::epipolar::share_center;
@@ -15,6 +16,8 @@ use nalgebra::{Point2, Point3, SVector, Vector3};
 /// * `cameras`, `pixels`: each camera and where it sees the point, two at least
 ///
 /// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with few.
+/// Lengths are measured from the first camera in units of about the longest baseline from there, so neither
+/// the world's origin nor its unit of length matters.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if all
@@ -56,13 +59,15 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
     if cameras[1..].iter().all(|c| share_center(&cameras[0], c)) {
         return Err(NO_BASELINE);
     }
-    // Measured from the first camera, so that a far-away world origin costs no digits.
+    // Measured from the first camera, so that a far-away world origin costs no digits, and in units of
+    // the baseline, so that the unit of length in the world does not matter.
     let origin = cameras[0].center_in_world().coords;
+    let unit = baseline_unit(cameras);
     let (values, vectors) = right_singular_vectors(2 * cameras.len(), |row| {
         let camera = &cameras[row / 2];
         let ray = camera.intrinsics.ray(&pixels[row / 2]);
         let r = camera.cam_from_world.rotation.to_rotation_matrix();
-        let t = (camera.cam_from_world * Point3::from(origin)).coords;
+        let t = (camera.cam_from_world * Point3::from(origin)).coords / unit;
         let (axis, value) = if row % 2 == 0 { (0, ray.x) } else { (1, ray.y) };
         let m = r.matrix();
         [
@@ -82,7 +87,7 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
     if x[3].abs() <= 1e-12 * in_space.norm() || values[2] <= 1e-12 * values[0] {
         return Err(Error::PointAtInfinity);
     }
-    let point = Point3::from(in_space / x[3] + origin);
+    let point = Point3::from(in_space / x[3] * unit + origin);
     if !point.iter().all(|x| x.is_finite()) {
         return Err(BEYOND_NUMBERS);
     }
@@ -94,6 +99,15 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
     Ok(point)
 }
 
+/// The size of the longest baseline from the first camera, a power of two.
+fn baseline_unit(cameras: &[Camera]) -> f64 {
+    let origin = cameras[0].center_in_world();
+    let baselines = cameras[1..]
+        .iter()
+        .map(|c| (c.center_in_world() - origin).amax());
+    power_of_two(baselines.fold(0.0, f64::max))
+}
+
 /// A point and how well it fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NviewPoint {
@@ -103,10 +117,25 @@ pub struct NviewPoint {
     pub rms_error_px: f64,
 }
 
-struct Problem<'a> {
-    cameras: &'a [Camera],
-    pixels: &'a [Point2<f64>],
-    loss: RobustLoss,
+pub(super) struct Problem<'a> {
+    pub(super) cameras: &'a [Camera],
+    pub(super) pixels: &'a [Point2<f64>],
+    pub(super) loss: RobustLoss,
+    /// The unit of length of the steps.
+    unit: f64,
+}
+
+impl Problem<'_> {
+    /// The minimum that is reached from a start in front of all cameras.
+    pub(super) fn refined(&self, start: Point3<f64>) -> Result<Point3<f64>> {
+        let mut point = start;
+        minimize_fixed(self, &mut point, &LmOptions::default())?;
+        if point.iter().all(|x| x.is_finite()) {
+            Ok(point)
+        } else {
+            Err(BEYOND_NUMBERS)
+        }
+    }
 }
 
 impl FixedProblem<3> for Problem<'_> {
@@ -117,7 +146,7 @@ impl FixedProblem<3> for Problem<'_> {
             match camera.project(point) {
                 Ok(seen) => normal.add(
                     &(seen - pixel),
-                    &projection_jacobian(camera, point),
+                    &(projection_jacobian(camera, point) * self.unit),
                     &self.loss,
                 ),
                 Err(_) => normal.cost = f64::INFINITY,
@@ -137,11 +166,11 @@ impl FixedProblem<3> for Problem<'_> {
     }
 
     fn plus(&self, point: &Point3<f64>, delta: &SVector<f64, 3>) -> Point3<f64> {
-        point + delta
+        point + delta * self.unit
     }
 
     fn parameter_norm(&self, point: &Point3<f64>) -> f64 {
-        (point - self.cameras[0].center_in_world()).norm()
+        ((point - self.cameras[0].center_in_world()) / self.unit).norm()
     }
 }
 
@@ -151,11 +180,18 @@ impl FixedProblem<3> for Problem<'_> {
 /// * `cameras`, `pixels`: each camera and where it sees the point, two at least
 /// * `loss`: its width is in pixels
 ///
+/// A wrong pixel leads the linear start astray, even behind a camera. So with a robust loss, three
+/// views or more, and a minimum at which some view has less than half its weight, the points that two
+/// views give are looked at as well: of all pairs of up to 12 views, of 66 pairs of more. The one
+/// of least cost is a second start, and the lower of both minima is returned.
+///
 /// # Errors
 /// As [`triangulate_nview_dlt`], and [`Error::OutOfRange`] for a loss that [`RobustLoss::check`]
-/// refuses.
+/// refuses. With a robust loss, [`Error::PointAtInfinity`] and [`Error::PointBehindCamera`] mean that
+/// no pair of views gives a point in front of all cameras, either.
 ///
-/// Source: Hartley & Zisserman 2004, §12.3.
+/// Source: Hartley & Zisserman 2004, §12.3; starts from the fewest views that give one, as in
+/// Fischler & Bolles 1981.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -180,16 +216,24 @@ pub fn triangulate_nview(
     loss: RobustLoss,
 ) -> Result<NviewPoint> {
     loss.check()?;
-    let mut point = triangulate_nview_dlt(cameras, pixels)?;
+    let linear = triangulate_nview_dlt(cameras, pixels);
+    if let Err(
+        error @ (Error::SizeMismatch { .. } | Error::TooFew { .. } | Error::Degenerate { .. }),
+    ) = linear
+    {
+        return Err(error);
+    }
     let problem = Problem {
         cameras,
         pixels,
         loss,
+        unit: baseline_unit(cameras),
     };
-    minimize_fixed(&problem, &mut point, &LmOptions::default())?;
-    if !point.iter().all(|x| x.is_finite()) {
-        return Err(BEYOND_NUMBERS);
-    }
+    let point = if loss == RobustLoss::Trivial || cameras.len() < 3 {
+        problem.refined(linear?)?
+    } else {
+        robust_minimum(&problem, linear)?
+    };
     let mut errors = Vec::with_capacity(cameras.len());
     for (camera, pixel) in cameras.iter().zip(pixels) {
         errors.push(camera.project(&point)? - pixel);
