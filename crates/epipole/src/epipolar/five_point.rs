@@ -18,8 +18,9 @@ use nalgebra::{Matrix3, Vector3};
 /// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
 ///
 /// Every matrix satisfies `2 E Eᵀ E = tr(E Eᵀ) E` to within 10⁻⁸: one that rounding has led further astray, as
-/// near double solutions, is brought back, or left out. Returns an empty list if there is no real solution
-/// or the rays are degenerate.
+/// near double solutions, is brought back, or left out. Returns an empty list if there is no real solution.
+/// Degenerate rays, such as those of a camera that only turned, have a whole family of solutions: of
+/// these some are returned, or none.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem"; another basis of
 /// the null space where this one hides solutions at infinity, and Gauss–Newton at the end, are ours.
@@ -182,6 +183,19 @@ fn lacks_degree(polynomial: &[f64; 11]) -> bool {
     polynomial[10].abs() < SMALL_LEAD * largest
 }
 
+/// Where the equations depend on each other, solutions form a curve or more: those near the basis.
+#[cold]
+fn some_of_many(basis: &[[f64; 9]; 4], solutions: &mut [Matrix3<f64>; 10]) -> usize {
+    let mut count = 0;
+    for vector in basis {
+        if let Some(essential) = polished(&Matrix3::from_row_slice(vector), basis) {
+            solutions[count] = essential;
+            count += 1;
+        }
+    }
+    count
+}
+
 /// Writes the solutions, unit Frobenius norm, and returns how many.
 pub(crate) fn solve(
     rays1: &[Vector3<f64>; 5],
@@ -199,7 +213,7 @@ pub(crate) fn solve(
         reduced = reduce(&basis);
     }
     let Some((b, polynomial)) = reduced else {
-        return 0;
+        return some_of_many(&basis, solutions);
     };
     let mut roots = [0.0; 10];
     let num_roots = real_roots(&polynomial, &mut roots);
@@ -241,7 +255,11 @@ pub(crate) fn solve(
     count
 }
 
-/// The motions (R, t) of an essential matrix that put all five points in front of both cameras.
+/// Depths of a point whose rays are parallel but for rounding.
+const NO_DEPTH: f64 = 1e-12;
+
+/// The motion (R, t) of an essential matrix that puts all five points in front of both cameras. Points
+/// at infinity are in front if their rays have one direction; those alone leave the sign of t open.
 pub(crate) fn pose_in_front(
     essential: &Matrix3<f64>,
     rays1: &[Vector3<f64>; 5],
@@ -250,14 +268,23 @@ pub(crate) fn pose_in_front(
     let (rotations, direction) = rotations_and_direction(essential)?;
     for rotation in &rotations {
         // Turning t round flips the signs of both depths.
-        let (first, _) = signed_depths(rotation, &direction, &rays1[0], &rays2[0]);
-        let t = if first > 0.0 { direction } else { -direction };
-        let all = rays1.iter().zip(rays2).all(|(x1, x2)| {
-            let (d1, d2) = signed_depths(rotation, &t, x1, x2);
-            d1 > 0.0 && d2 > 0.0
-        });
-        if all {
-            return Some((*rotation, t));
+        let (mut along, mut against) = (true, true);
+        for (x1, x2) in rays1.iter().zip(rays2) {
+            let (d1, d2) = signed_depths(rotation, &direction, x1, x2);
+            if d1.abs().max(d2.abs()) < NO_DEPTH && (rotation * x1).dot(x2) > 0.0 {
+                continue;
+            }
+            along &= d1 > 0.0 && d2 > 0.0;
+            against &= d1 < 0.0 && d2 < 0.0;
+            if !(along || against) {
+                break;
+            }
+        }
+        if along {
+            return Some((*rotation, direction));
+        }
+        if against {
+            return Some((*rotation, -direction));
         }
     }
     None
@@ -379,6 +406,30 @@ pub(crate) mod tests {
                 "{found} of 1000: roll {roll}, {:?}",
                 t.as_slice()
             );
+        }
+    }
+
+    #[test]
+    fn a_turn_is_found_though_it_has_no_direction() {
+        let mut random = Random::new(4);
+        for angle in [0.0, 0.3] {
+            let turn = RigidTransform::rotation(Vector3::new(0.1, 1.0, -0.2) * angle);
+            let rotation = turn.rotation.to_rotation_matrix().into_inner();
+            let mut found = 0;
+            for _ in 0..200 {
+                let mut draw = || random.uniform(-0.5, 0.5);
+                let rays1: [_; 5] =
+                    core::array::from_fn(|_| Vector3::new(draw(), draw(), 1.0).normalize());
+                let rays2 = rays1.map(|ray| rotation * ray);
+                let solutions = essential_5point(&rays1, &rays2);
+                assert!(solutions.iter().all(|e| missing(e) < 1e-8));
+                let is_turn = |e: &Matrix3<f64>| {
+                    pose_in_front(e, &rays1, &rays2)
+                        .is_some_and(|(r, _)| (r - rotation).norm() < 1e-6)
+                };
+                found += usize::from(solutions.iter().any(is_turn));
+            }
+            assert!(found >= 190, "{found} of 200");
         }
     }
 

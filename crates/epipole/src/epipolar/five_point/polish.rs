@@ -11,6 +11,9 @@ const EXACT: f64 = 1e-14;
 /// Steps of polishing at most: one doubles the digits, but at double solutions wins a bit or so.
 const MAX_STEPS: usize = 10;
 
+/// Along a family of solutions the equations are singular, and any member will do.
+const DAMPING: f64 = 1e-15;
+
 /// The matrix in the span of the basis that is essential, where `near` nearly is; both of unit norm. `None`
 /// if there is none near.
 #[inline]
@@ -53,8 +56,10 @@ fn sought(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
             let cubic = d * ete + e * d.transpose() * e + eet * d;
             (cubic - d * 0.5 - e * e.dot(&d), e.dot(&d))
         });
-        let normal =
-            Matrix4::from_fn(|i, j| columns[i].0.dot(&columns[j].0) + columns[i].1 * columns[j].1);
+        let normal = Matrix4::from_fn(|i, j| {
+            let damping = if i == j { DAMPING } else { 0.0 };
+            columns[i].0.dot(&columns[j].0) + columns[i].1 * columns[j].1 + damping
+        });
         let right = Vector4::from_fn(|i, _| columns[i].0.dot(&missing));
         let step = normal.cholesky()?.solve(&right);
         for (d, s) in basis.iter().zip(step.iter()) {
