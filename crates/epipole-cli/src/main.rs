@@ -4,6 +4,7 @@
 //! Standard output carries the result and nothing else; warnings and progress go to standard
 //! error. Exit status: 0 done, 1 could not do it, 2 wrong usage.
 
+mod camera;
 mod commands;
 mod context;
 mod failure;
@@ -16,6 +17,7 @@ mod picture;
 mod progress;
 mod report;
 mod robust;
+mod turn;
 
 use clap::Parser;
 use commands::Command;

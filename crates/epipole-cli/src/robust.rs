@@ -130,7 +130,24 @@ impl RobustArguments {
     /// Tells of a run that ended before it could be confident.
     pub(crate) fn warn<M>(&self, report: &RansacReport<M>, context: &Context) {
         let (drawn, required) = (report.iterations, report.required_iterations);
-        match report.stop {
+        self.warn_of_stop(report.stop, drawn, required, context);
+        if report.could_be_chance() {
+            context.warn(&format!(
+                "the model means nothing: {} inliers are no more than wrong data would show by chance",
+                report.num_unique_inliers
+            ));
+        }
+    }
+
+    /// The same of its numbers alone: samples drawn, and samples that the best model asks for.
+    pub(crate) fn warn_of_stop(
+        &self,
+        stop: StopReason,
+        drawn: usize,
+        required: u64,
+        context: &Context,
+    ) {
+        match stop {
             StopReason::Canceled => context.warn(interrupt::ENDED_EARLY),
             // The last refinement may find enough inliers after all.
             StopReason::Exhausted if required > drawn as u64 => {
@@ -145,12 +162,6 @@ impl RobustArguments {
                 ));
             }
             StopReason::Exhausted | StopReason::Confident => {}
-        }
-        if report.could_be_chance() {
-            context.warn(&format!(
-                "the model means nothing: {} inliers are no more than wrong data would show by chance",
-                report.num_unique_inliers
-            ));
         }
     }
 }

@@ -24,7 +24,11 @@ enum Loss {
 
 /// Refine the cameras and points of a bundle adjustment problem.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: epipole ba problem-49-7776-pre.txt -o refined.txt")]
+#[command(
+    after_help = "Example: epipole ba problem-49-7776-pre.txt -o refined.txt\n\n\
+    JSON: initial_cost and final_cost (half the sum of squares over all observations, pixels²),\n\
+    iterations, termination (why it ended), history ([iteration, cost] of each step)."
+)]
 pub(crate) struct Arguments {
     /// A problem in the BAL text format.
     problem: PathBuf,

@@ -12,7 +12,8 @@ use std::path::PathBuf;
 /// Find features in a photograph.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole detect photo.jpg --features sift --max-features 2000 --png marks.png"
+    after_help = "Example: epipole detect photo.jpg --features sift --max-features 2000 --png marks.png\n\n\
+    JSON: image (width, height), keypoints ([u, v, scale_px, angle_rad, response] each)."
 )]
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.

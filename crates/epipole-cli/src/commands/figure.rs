@@ -14,7 +14,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole figure ransac-race --set outliers=0.6 --set seed=3 \
-                        --theme dark -o race.png --describe"
+                        --theme dark -o race.png --describe\n\n\
+    JSON: name, readouts (label, value and unit of each), description, permalink, and file with -o."
 )]
 pub(crate) struct Arguments {
     /// The figure's name, as in <epipole-figure name="…">.

@@ -6,12 +6,13 @@ use crate::files;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word};
+use crate::turn::find_turn;
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, transfer_error_px};
 use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
-use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Point2};
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -36,7 +37,12 @@ enum Model {
     JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
     num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
     for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
-    Ctrl-C), mean_error_px (of the inliers), and for essential cam2_from_cam1."
+    Ctrl-C), could_be_chance (whether wrong data would show as many inliers), mean_error_px (of the\n\
+    inliers), and for essential cam2_from_cam1 (rotation and translation of length 1) and could_be_turn\n\
+    (whether a turn of the camera alone explains nearly all inliers: then that translation means\n\
+    nothing).\n\n\
+    Errors are distances of a point from the line, in image 2 from where homography or similarity put a\n\
+    pixel, and Sampson errors of fundamental and essential."
 )]
 pub(crate) struct Arguments {
     /// What to fit.
@@ -49,7 +55,7 @@ pub(crate) struct Arguments {
     /// Intrinsics of the first camera, for the essential matrix.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
-    /// Intrinsics of the second camera; those of the first if not given.
+    /// Intrinsics of the second camera; those of --k if not given.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k2: Option<Intrinsics>,
 }
@@ -64,6 +70,7 @@ struct Found {
     could_be_chance: bool,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
+    could_be_turn: Option<bool>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -120,6 +127,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if let Some(motion) = &found.cam2_from_cam1 {
         report = report.field("cam2_from_cam1", Motion::from(motion));
     }
+    if let Some(could_be_turn) = found.could_be_turn {
+        report = report.field("could_be_turn", could_be_turn);
+    }
     Ok(report)
 }
 
@@ -164,10 +174,14 @@ fn fit(
             let errors = pairs()
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
                 .collect();
-            let rotation = UnitQuaternion::from_matrix(&pose.rotation);
-            let motion = RigidTransform::from_parts(Translation3::from(pose.direction), rotation);
+            let ransac = robust.options(context);
+            let turn = find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac);
+            if let (Some(turn), false) = (&turn, found.could_be_chance()) {
+                context.warn(&turn.sentence());
+            }
             Ok(Found {
-                cam2_from_cam1: Some(motion),
+                cam2_from_cam1: Some(pose.cam2_from_cam1()),
+                could_be_turn: Some(turn.is_some()),
                 ..of_matrix(found, &pose.essential(), errors)
             })
         }
@@ -195,6 +209,7 @@ fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -
         stop: report.stop,
         errors_px,
         cam2_from_cam1: None,
+        could_be_turn: None,
     }
 }
 

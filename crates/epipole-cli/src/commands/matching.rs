@@ -12,7 +12,9 @@ use std::path::PathBuf;
 /// Match the features of two photographs.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole match left.jpg right.jpg --ratio 0.8 --mutual --png matches.png"
+    after_help = "Example: epipole match left.jpg right.jpg --ratio 0.8 --mutual --png matches.png\n\n\
+    JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad,\n\
+    response] each), matches ([place in keypoints1, place in keypoints2, distance, ratio] each)."
 )]
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.

@@ -1,10 +1,11 @@
 //! `epipole odometry`: the path of a camera, or of a stereo rig, from its frames.
 
 use super::sfm::{name, photos};
+use crate::camera::{CameraArguments, sentence};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::matrices::{CameraArguments, Motion, positive};
+use crate::matrices::{Motion, positive};
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::report::Report;
@@ -25,7 +26,9 @@ use std::path::PathBuf;
     after_help = "Example: epipole odometry frames/ --k 718.9,718.9,607.2,185.2\n\n\
     Frames are taken in the order of their names. The path of a single camera has no unit of\n\
     length; that of a rectified stereo rig has the unit of its baseline:\n  \
-    epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2"
+    epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2\n\n\
+    JSON: frames (name and world_from_cam with rotation and translation, or null), keyframes and lost\n\
+    (places in that list), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
     /// The folder of the frames; of the left camera, if there are two.
@@ -132,7 +135,7 @@ impl Work<'_> {
             }
             if intrinsics.is_none() {
                 let (k, guess) = self.arguments.camera.or_guess(&photo)?;
-                if let Some(sentence) = guess {
+                if let Some(sentence) = sentence(guess.as_slice()) {
                     self.context.warn(&sentence);
                 }
                 intrinsics = Some(k);

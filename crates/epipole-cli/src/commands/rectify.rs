@@ -1,15 +1,17 @@
 //! `epipole rectify`: two photographs turned so that matches share a row.
 
+use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
-use crate::matrices::{CameraArguments, intrinsics, positive, row_major};
+use crate::matrices::{positive, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
+use crate::turn::find_turn;
 use crate::{files, picture};
 use clap::Args;
-use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole::camera::{Distortion, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with};
 use epipole::robust::MatchSet;
 use epipole::stereo::{
@@ -23,7 +25,9 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
     Writes left.png and right.png. Without --k or --focal-px the shapes are free up to a\n\
-    projective map, and no Q is given."
+    projective map, and no Q is given.\n\n\
+    JSON: homography1 and homography2 (9 numbers row by row), q (16 numbers row by row, or null),\n\
+    num_inliers (matches that agree), files (those written)."
 )]
 pub(crate) struct Arguments {
     /// The left photograph.
@@ -31,10 +35,7 @@ pub(crate) struct Arguments {
     /// The right photograph, of the same size.
     second: PathBuf,
     #[command(flatten)]
-    camera: CameraArguments,
-    /// Intrinsics of the second camera; those of the first if not given.
-    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
-    k2: Option<Intrinsics>,
+    camera: PairArguments,
     /// Distance of the two cameras; the unit of Q.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
@@ -58,7 +59,7 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    arguments.camera.check_second(arguments.k2)?;
+    arguments.camera.check()?;
     let photos = [
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
@@ -117,11 +118,14 @@ fn rectify(
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
     let (width, height) = photos[0].color.dimensions();
-    if let Some(k1) = arguments.camera.given(&photos[0])? {
-        let k2 = arguments.k2.unwrap_or(k1);
+    if let Some([k1, k2]) = arguments.camera.given(photos)? {
         let report = arguments.robust.watched(context, |options, watch| {
             estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
         })?;
+        let ransac = arguments.robust.options(context);
+        if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac) {
+            context.warn(&turn.sentence());
+        }
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);

@@ -1,10 +1,11 @@
 //! `epipole sfm`: cameras and points from photographs.
 
+use crate::camera::{CameraArguments, sentence};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::interrupt;
-use crate::matrices::{CameraArguments, Motion};
+use crate::matrices::Motion;
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::report::Report;
@@ -20,7 +21,10 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
-    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply."
+    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.\n\n\
+    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name and\n\
+    cam_from_world with rotation and translation), all of the largest component; components\n\
+    (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
     /// Photographs, or a folder of them.
@@ -46,17 +50,29 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let paths = photos(&arguments.photos)?;
     let mut photos = Vec::new();
     let mut intrinsics = Vec::new();
+    let (mut guesses, mut sizes) = (Vec::new(), Vec::new());
     for path in &paths {
         let photo = Photo::read(path)?;
         let (k, guess) = arguments.camera.or_guess(&photo)?;
-        if let (Some(sentence), true) = (guess, photos.is_empty()) {
-            context.warn(&sentence);
-        }
+        guesses.extend(guess);
+        sizes.push(photo.color.dimensions());
         intrinsics.push(k);
         photos.push(SfmPhoto {
             name: name(path),
             image: photo.color,
         });
+    }
+    if let Some(sentence) = sentence(&guesses) {
+        context.warn(&sentence);
+    }
+    if arguments.camera.k.is_some()
+        && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
+    {
+        let ((w, h), (w0, h0)) = (sizes[place], sizes[0]);
+        context.warn(&format!(
+            "--k is taken for photographs of different sizes: {} is {w} × {h}, the first one {w0} × {h0}",
+            photos[place].name
+        ));
     }
     let mut photo_options = PhotoOptions::default();
     photo_options.sift.max_features = arguments.max_features;

@@ -27,7 +27,9 @@ enum Method {
 #[command(
     after_help = "Example: epipole stereo left.png right.png --max-disparity 64 -o disparity.pfm\n\n\
     A .pfm file holds pixels, NaN where there is no value; a .png file holds 256 times the\n\
-    disparity in 16 bits, 0 where there is none."
+    disparity in 16 bits, 0 where there is none.\n\n\
+    JSON: width, height, density (share of pixels with a value), min_disparity_px and\n\
+    max_disparity_px (null if there is no value)."
 )]
 pub(crate) struct Arguments {
     /// The left picture of a rectified pair.

@@ -1,23 +1,24 @@
 //! `epipole two-view`: the geometry of two photographs.
 
+use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
-use crate::interrupt;
-use crate::matrices::{CameraArguments, Motion, intrinsics, row_major};
+use crate::matrices::{Motion, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
+use crate::turn::find_turn;
 use clap::{Args, ValueEnum};
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::RigidTransform;
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
-use epipole::robust::{MatchSet, RansacReport, StopReason};
+use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewTrial,
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch, TwoViewTrial,
     estimate_two_view_calibrated_with, estimate_two_view_with,
 };
-use nalgebra::{Matrix3, Point2, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Point2};
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -28,13 +29,27 @@ enum Model {
     Fundamental,
     /// For known intrinsics; also gives the motion.
     Essential,
-    /// For a plane, or a camera that only turned.
+    /// For a plane, or a camera that only turned; known intrinsics tell a turn.
     Homography,
 }
 
 /// Find the geometry of two photographs.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: epipole two-view left.jpg right.jpg --focal-px 1200")]
+#[command(
+    mut_arg("max_error_px", |argument| argument.help(
+        "The largest error of an inlier, pixels: Sampson error of F and E; of planes and turns 1.25 \
+         times it, or with --model homography the distance in image 2"
+    )),
+    after_help = "Example: epipole two-view left.jpg right.jpg --focal-px 1200\n\n\
+    A match can miss an epipolar line in one dimension, a plane or a turn in two. So, when auto finds\n\
+    one of these, its inliers have a Sampson error of H of up to 1.25 times --max-error-px.\n\n\
+    JSON: model_kind (fundamental, essential or homography), model (9 numbers row by row),\n\
+    num_keypoints (of both photographs), num_matches, num_inliers, matches ([u1, v1, u2, v2, 1 for an\n\
+    inlier or 0] each), cam2_from_cam1 (rotation and translation of length 1, or 0 if the camera only\n\
+    turned; null if unknown), other_cam2_from_cam1 (of a plane: another motion that fits as well, or\n\
+    null), mean_sampson_px (of the inliers), configuration (general; planar: a plane, or a turn if\n\
+    no intrinsics are known; panoramic: a turn; degenerate: no more than chance)."
+)]
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
     first: PathBuf,
@@ -44,10 +59,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value = "auto")]
     model: Model,
     #[command(flatten)]
-    camera: CameraArguments,
-    /// Intrinsics of the second camera; those of the first if not given.
-    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
-    k2: Option<Intrinsics>,
+    camera: PairArguments,
     #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
@@ -68,7 +80,7 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    arguments.camera.check_second(arguments.k2)?;
+    arguments.camera.check()?;
     let photos = [
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
@@ -84,9 +96,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| found2.keypoints[m.index2].point())
         .collect();
-    if matches!(arguments.model, Model::Fundamental | Model::Homography)
-        && arguments.camera.given(&photos[0])?.is_some()
-    {
+    if arguments.model == Model::Fundamental && arguments.camera.is_given() {
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
     }
@@ -143,7 +153,6 @@ fn estimate(
         ransac,
         ..TwoViewOptions::default()
     };
-    let given = arguments.camera.given(&photos[0])?;
     let set = || MatchSet::new(pixels1, pixels2);
     let errors = |f: &Matrix3<f64>| -> Vec<f64> {
         pixels1
@@ -154,27 +163,36 @@ fn estimate(
     };
     match arguments.model {
         Model::Auto => {
+            let given = arguments.camera.given(photos)?;
             let mut look = arguments.robust.look(context);
-            let mut observer =
-                |trial: &TwoViewTrial| look(trial.iteration, trial.required_iterations);
-            let report = match given {
-                Some(k1) => {
-                    let k2 = arguments.k2.unwrap_or(k1);
-                    estimate_two_view_calibrated_with(
-                        pixels1,
-                        pixels2,
-                        &k1,
-                        &k2,
-                        &options,
-                        &mut observer,
-                    )
+            // The last trial of each search.
+            let mut ends: Vec<TwoViewTrial> = Vec::new();
+            let mut observer = |trial: &TwoViewTrial| {
+                match ends.last_mut() {
+                    Some(end) if end.search == trial.search => *end = *trial,
+                    _ => ends.push(*trial),
                 }
+                look(trial.iteration, trial.required_iterations)
+            };
+            let report = match given {
+                Some([k1, k2]) => estimate_two_view_calibrated_with(
+                    pixels1,
+                    pixels2,
+                    &k1,
+                    &k2,
+                    &options,
+                    &mut observer,
+                ),
                 None => estimate_two_view_with(pixels1, pixels2, &options, &mut observer),
             }?;
             drop(look);
-            if report.stop == StopReason::Canceled {
-                context.warn(interrupt::ENDED_EARLY);
-            }
+            let chosen = search_of(&report);
+            let end = ends.iter().find(|end| end.search == chosen);
+            let (drawn, required) =
+                end.map_or((0, 0), |end| (end.iteration, end.required_iterations));
+            arguments
+                .robust
+                .warn_of_stop(report.stop, drawn, required, context);
             Ok(of_report(report, pixels1, pixels2))
         }
         Model::Fundamental => {
@@ -191,33 +209,40 @@ fn estimate(
             })
         }
         Model::Essential => {
-            let (k1, guess) = arguments.camera.or_guess(&photos[0])?;
+            let ([k1, k2], guess) = arguments.camera.or_guess(photos)?;
             if let Some(sentence) = guess {
                 context.warn(&sentence);
             }
-            let k2 = arguments.k2.unwrap_or(k1);
             let report = arguments.robust.watched(context, |options, watch| {
                 estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
             })?;
-            let pose = &report.model;
-            let rotation = UnitQuaternion::from_matrix(&pose.rotation);
-            let translation = Translation3::from(pose.direction);
-            Ok(Found {
+            let pose = report.model;
+            let mut found = Found {
                 kind: "essential",
                 errors_px: errors(&pose.fundamental),
                 model: pose.essential(),
-                cam2_from_cam1: (!is_degenerate(&report))
-                    .then(|| RigidTransform::from_parts(translation, rotation)),
+                cam2_from_cam1: Some(pose.cam2_from_cam1()),
                 other_cam2_from_cam1: None,
                 configuration: configuration(&report, "general"),
-                inliers: report.inliers.clone(),
-            })
+                inliers: report.inliers,
+            };
+            if found.configuration == "degenerate" {
+                found.cam2_from_cam1 = None;
+            } else if let Some(turn) =
+                find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)
+            {
+                context.warn(&turn.sentence());
+                found.configuration = "panoramic";
+                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+            }
+            Ok(found)
         }
         Model::Homography => {
+            let given = arguments.camera.given(photos)?;
             let estimator = HomographyEstimator::new(set()?)?;
             let report = arguments.robust.run(estimator, context)?;
             let error = |(a, b)| homography_sampson_px(&report.model, a, b);
-            Ok(Found {
+            let mut found = Found {
                 kind: "homography",
                 errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
                 configuration: configuration(&report, "planar"),
@@ -225,7 +250,15 @@ fn estimate(
                 inliers: report.inliers,
                 cam2_from_cam1: None,
                 other_cam2_from_cam1: None,
-            })
+            };
+            // Pixels alone do not tell a turn from a plane.
+            if let (Some(k), "planar") = (given, found.configuration)
+                && let Some(turn) = find_turn(pixels1, pixels2, &k, &found.inliers, &ransac)
+            {
+                found.configuration = "panoramic";
+                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+            }
+            Ok(found)
         }
     }
 }
@@ -242,6 +275,18 @@ fn configuration<M>(report: &RansacReport<M>, otherwise: &'static str) -> &'stat
         "degenerate"
     } else {
         otherwise
+    }
+}
+
+/// The search that gave the model.
+fn search_of(report: &TwoViewReport) -> TwoViewSearch {
+    match report.model {
+        TwoViewModel::Fundamental(_) => TwoViewSearch::Fundamental,
+        TwoViewModel::Essential(_) => TwoViewSearch::Essential,
+        TwoViewModel::Homography(_) if report.configuration == Configuration::Panoramic => {
+            TwoViewSearch::Rotation
+        }
+        TwoViewModel::Homography(_) => TwoViewSearch::Homography,
     }
 }
 

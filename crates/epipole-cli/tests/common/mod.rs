@@ -99,12 +99,26 @@ pub(crate) fn parse(output: &Output) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// The result of a command that must succeed. Its table must be printed without errors, too.
+/// The result of a command that must succeed. Its help must name every field.
 pub(crate) fn json(arguments: &[&str]) -> Value {
     let output = epipole(&[arguments, &["--json"]].concat());
     let result = parse(&output);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {result}");
     assert!(result["time_ms"].as_f64().unwrap() > 0.0);
+    let command = arguments
+        .iter()
+        .find(|word| !word.starts_with('-'))
+        .unwrap();
+    let help = String::from_utf8(epipole(&[command, "--help"]).stdout).unwrap();
+    let mut words = help.split(|c: char| !c.is_alphanumeric() && c != '_');
+    for field in result.as_object().unwrap().keys() {
+        let named = field == "time_ms" || words.clone().any(|word| word == field);
+        assert!(named, "{command} --help does not name {field}");
+    }
+    assert!(
+        words.any(|word| word == "JSON"),
+        "{command} --help has no list"
+    );
     result
 }
 

@@ -29,8 +29,7 @@ pub struct PlaneMotion {
 /// # Errors
 /// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a singular matrix.
 ///
-/// Source: Malis & Vargas 2007, "Deeper understanding of the homography decomposition for
-/// vision-based control", §3.2.
+/// Source: Ma, Soatto, Košecká & Sastry 2004, "An invitation to 3-D vision", §5.3.3.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -48,6 +47,7 @@ pub struct PlaneMotion {
 ///     && (m.cam2_from_cam1.translation.vector - Vector3::new(-0.5, 0.0, 0.0)).norm() < 1e-9));
 /// # Ok(()) }
 /// ```
+#[doc(alias = "decomposeHomographyMat")]
 pub fn decompose_homography(
     homography: &Matrix3<f64>,
     k1: &Intrinsics,
@@ -85,7 +85,7 @@ pub fn decompose_homography(
         return Ok(vec![motion(&h, Vector3::zeros(), Vector3::z())]);
     }
     // HᵀH fixes the length of two directions in the plane of v1 and v3; each spans, with v2, a
-    // plane in which H acts as a rotation. Source: Ma, Soatto, Košecká & Sastry 2004, §5.3.3.
+    // plane in which H acts as a rotation.
     let (v1, v2, v3) = (
         svd.v.column(0).into_owned(),
         svd.v.column(1).into_owned(),

@@ -152,6 +152,11 @@ impl Estimator for HomographyEstimator {
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
+/// Mirrored images are refused. Two cameras on the same side of a plane see every triangle of it turn the
+/// same way, so a sample with one that turns over holds a wrong match, and is skipped. An image and its
+/// mirror image therefore give [`Error::NoConsensus`]: flip one of them first, or use
+/// [`fit_homography`](super::fit_homography), which takes matches as they are.
+///
 /// # Errors
 /// As [`MatchSet::new`], [`HomographyEstimator::new`] and [`ransac`]; pixels on one line give
 /// [`Error::NoConsensus`].
@@ -173,6 +178,7 @@ impl Estimator for HomographyEstimator {
 /// assert!((report.model[(0, 2)] / report.model[(2, 2)] - 5.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
+#[doc(alias = "findHomography")]
 pub fn find_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

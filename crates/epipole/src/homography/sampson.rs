@@ -1,8 +1,26 @@
 //! The Sampson error of H: how far both pixels of a match are from fitting exactly.
 
-use nalgebra::{Matrix2, Matrix2x4, Matrix3, Point2, Vector2, Vector3};
+use nalgebra::{Matrix3, Point2, Vector3};
 
-/// The square of [`homography_sampson_px`], px².
+/// The square of [`homography_sampson_px`], px², at least 0 and never NaN for finite input.
+///
+/// With the constraint `c = x(H x1) − x2`, its derivative A by pixel 1 and −1 by pixel 2, it is
+/// `cᵀ (A Aᵀ + 1)⁻¹ c = (|c|² + |adj(A) c|²) / (1 + |A|² + det(A)²)`.
+///
+/// * `homography`: H, of any scale
+/// * `pixel1`, `pixel2`: a match
+///
+/// Infinite if H sends pixel 1 infinitely far away, or so far that the squares are no numbers.
+///
+/// Source: Hartley & Zisserman 2004, §4.2.6.
+///
+/// ```
+/// use epipole::homography::homography_sampson_sq;
+/// use nalgebra::{Matrix3, Point2, Vector3};
+/// // Nothing moves in H; pixel 2 is off by 2, of which each pixel makes up for 1: 1² + 1².
+/// let (x1, x2) = (Point2::new(10.0, 20.0), Point2::new(12.0, 20.0));
+/// assert_eq!(homography_sampson_sq(&Matrix3::identity(), &x1, &x2), 2.0);
+/// ```
 pub fn homography_sampson_sq(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,
@@ -13,22 +31,19 @@ pub fn homography_sampson_sq(
     let (u2, v2) = (pixel2.x, pixel2.y);
     // The constraint is x − z (u2, v2) = 0; it is divided by z, so that entries of H of any size do.
     let per_z = 1.0 / x.z;
-    let constraint = Vector2::new(x.x * per_z - u2, x.y * per_z - v2);
-    let jacobian = Matrix2x4::new(
+    let [cu, cv] = [x.x * per_z - u2, x.y * per_z - v2];
+    let [a, b, c, d] = [
         (h[(0, 0)] - u2 * h[(2, 0)]) * per_z,
         (h[(0, 1)] - u2 * h[(2, 1)]) * per_z,
-        -1.0,
-        0.0,
         (h[(1, 0)] - v2 * h[(2, 0)]) * per_z,
         (h[(1, 1)] - v2 * h[(2, 1)]) * per_z,
-        0.0,
-        -1.0,
-    );
-    let spread: Matrix2<f64> = jacobian * jacobian.transpose();
-    // The product is the identity and more, so it has an inverse unless H sends the pixel away.
-    let error_sq = spread.try_inverse().map_or(f64::INFINITY, |inverse| {
-        constraint.dot(&(inverse * constraint))
-    });
+    ];
+    // Sums of squares alone: an inverse of A Aᵀ + 1 would cancel to less than nothing where H
+    // stretches much more in one direction than in the other.
+    let (du, dv) = (d * cu - b * cv, a * cv - c * cu);
+    let determinant = a * d - b * c;
+    let error_sq = (cu * cu + cv * cv + du * du + dv * dv)
+        / (1.0 + a * a + b * b + c * c + d * d + determinant * determinant);
     if error_sq.is_nan() {
         f64::INFINITY
     } else {
@@ -41,7 +56,8 @@ pub fn homography_sampson_sq(
 ///
 /// Unlike [`transfer_error_px`](super::transfer_error_px) it treats both images alike: for noise of
 /// the same size in both, its square divided by the variance has two degrees of freedom, whatever H
-/// does to lengths. Infinite if H sends the pixel infinitely far away.
+/// does to lengths. Infinite if H sends the pixel infinitely far away, or so far that squares are no
+/// numbers; never NaN for finite input.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 ///
@@ -114,5 +130,34 @@ mod tests {
             homography_sampson_px(&Matrix3::zeros(), &x1, &x2),
             f64::INFINITY
         );
+    }
+
+    /// The value in exact arithmetic, where H stretches by 10⁸ in one direction and hardly in the other.
+    #[test]
+    fn no_square_is_negative() {
+        #[rustfmt::skip]
+        let h = Matrix3::new(
+            5.191_636_773_953_835e-9, 30.018_255_412_721_267, -0.005_813_476_031_884_998,
+            -4.987_454_826_283_36e-5, -5.861_022_920_296_678e-6, -3.576_606_216_887_954e-7,
+            0.009_605_509_794_214_172, -42.367_311_506_058_94, 5.067_490_762_029_973e-5,
+        );
+        let (x1, x2) = (
+            Point2::new(0.0, 3.0),
+            Point2::new(855_337_319.552_374_8, 688_219_794.966_519_4),
+        );
+        let found = homography_sampson_px(&h, &x1, &x2);
+        assert!((found - 2.999_998_726_947_166).abs() < 1e-6, "{found}");
+
+        let mut random = Random::new(2);
+        for _ in 0..100_000 {
+            let mut entry = || {
+                let power = random.uniform(-40.0, 40.0);
+                random.normal() * libm::pow(10.0, power)
+            };
+            let h = Matrix3::from_fn(|_, _| entry());
+            let (x1, x2) = (Point2::new(entry(), entry()), Point2::new(entry(), entry()));
+            let found = homography_sampson_sq(&h, &x1, &x2);
+            assert!(found >= 0.0, "{found}: {h} {x1} {x2}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Reconstructions as files: COLMAP's text model and PLY point clouds.
 
 use super::reconstruction::{Reconstruction, SfmImage};
+use crate::camera::pixel_to_colmap;
 use std::fmt::Write;
 
 /// The three files of COLMAP's text model.
@@ -14,16 +15,12 @@ pub struct ColmapModel {
     pub points: String,
 }
 
-/// How far COLMAP's pixel coordinates are ahead of ours: there the center of the first pixel is
-/// at (0.5, 0.5), here it is at (0, 0).
-const HALF_PIXEL: f64 = 0.5;
-
 impl Reconstruction {
     /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
     ///
     /// Cameras are `PINHOLE`, or `OPENCV` with k1 and k2 if there is distortion; images with equal
     /// size and intrinsics share one. Principal points and keypoints are moved by half a pixel,
-    /// from centers at integers to COLMAP's convention. Numbers of images, cameras and points
+    /// from centers at integers to COLMAP's convention, as by [`pixel_to_colmap`]. Numbers of images, cameras and points
     /// start at 1; an image has the number of its place in the list plus 1.
     ///
     /// * `images`: those that the reconstruction was made of
@@ -45,7 +42,7 @@ impl Reconstruction {
             camera_of_image[index] = id + 1;
         }
         for (id, (width, height, intrinsics)) in kinds.iter().enumerate() {
-            let center = intrinsics.principal_point();
+            let [fx, fy, cx, cy] = intrinsics.to_colmap();
             let model = if self.distortion.is_none() {
                 "PINHOLE"
             } else {
@@ -53,12 +50,8 @@ impl Reconstruction {
             };
             let _ = write!(
                 cameras,
-                "{} {model} {width} {height} {} {} {} {}",
-                id + 1,
-                intrinsics.fu_px(),
-                intrinsics.fv_px(),
-                center.x + HALF_PIXEL,
-                center.y + HALF_PIXEL
+                "{} {model} {width} {height} {fx} {fy} {cx} {cy}",
+                id + 1
             );
             if !self.distortion.is_none() {
                 let _ = write!(
@@ -109,7 +102,8 @@ impl Reconstruction {
                 .enumerate()
             {
                 let space = if n == 0 { "" } else { " " };
-                let (x, y) = (keypoint.x + HALF_PIXEL, keypoint.y + HALF_PIXEL);
+                let pixel = pixel_to_colmap(keypoint);
+                let (x, y) = (pixel.x, pixel.y);
                 if *point == 0 {
                     let _ = write!(list, "{space}{x} {y} -1");
                 } else {

@@ -110,12 +110,38 @@ impl Estimator for RotationEstimator {
     }
 }
 
-/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera that did not move.
+/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera that did not move:
+/// `x2 ∝ K2 R K1⁻¹ x1`.
 ///
+/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `k1`, `k2`: intrinsics of the two cameras
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`RotationEstimator::new`] and [`ransac`].
+///
+/// Source: Hartley & Zisserman 2004, §8.4 (what a turn does to pixels); as [`RotationEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::robust::RansacOptions;
+/// use epipole::two_view::find_rotation;
+/// use nalgebra::{Matrix3, Point2};
+/// // Rolled by a quarter turn about the optical axis: (x, y) from the middle goes to (−y, x).
+/// let k = Intrinsics::new(600.0, 600.0, 300.0, 300.0)?;
+/// let p1: Vec<_> = (0..40).map(|i| Point2::new(f64::from(i * 37 % 600), f64::from(i * 71 % 600))).collect();
+/// let mut p2: Vec<_> = p1.iter().map(|p| Point2::new(600.0 - p.y, p.x)).collect();
+/// // Every fourth match is wrong.
+/// for i in (0..40).step_by(4) {
+///     p2[i].x += 90.0;
+/// }
+/// let report = find_rotation(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 30);
+/// let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+/// assert!((report.model - quarter).norm() < 1e-9);
+/// # Ok(()) }
+/// ```
 pub fn find_rotation(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

@@ -1,0 +1,216 @@
+//! The intrinsics of photographs: given on the command line, or guessed.
+
+use crate::failure::Failure;
+use crate::matrices::{intrinsics, positive};
+use crate::photo::Photo;
+use clap::Args;
+use epipole::camera::Intrinsics;
+
+/// How the intrinsics of photographs are given.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct CameraArguments {
+    /// Focal lengths and principal point in pixels.
+    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
+    pub(crate) k: Option<Intrinsics>,
+    /// Focal length in pixels, principal point in the middle of each photograph.
+    #[arg(long, value_name = "F", value_parser = positive, conflicts_with = "k")]
+    pub(crate) focal_px: Option<f64>,
+}
+
+impl CameraArguments {
+    fn is_given(&self) -> bool {
+        self.k.is_some() || self.focal_px.is_some()
+    }
+
+    /// The intrinsics given, if any.
+    ///
+    /// # Errors
+    /// As [`Intrinsics::centered`].
+    fn given(&self, photo: &Photo) -> Result<Option<Intrinsics>, Failure> {
+        match (self.k, self.focal_px) {
+            (Some(k), _) => Ok(Some(k)),
+            (None, Some(focal_px)) => Ok(Some(centered(focal_px, photo)?)),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// The intrinsics given, or else a guess from the photograph's own data, or else the field of
+    /// view of a usual lens.
+    ///
+    /// # Errors
+    /// As [`Intrinsics::centered`].
+    pub(crate) fn or_guess(&self, photo: &Photo) -> Result<(Intrinsics, Option<Guess>), Failure> {
+        if let Some(k) = self.given(photo)? {
+            return Ok((k, None));
+        }
+        let longer = f64::from(photo.color.width().max(photo.color.height()));
+        let guess = Guess {
+            focal_px: photo.focal_px.unwrap_or(1.2 * longer),
+            from_exif: photo.focal_px.is_some(),
+        };
+        Ok((centered(guess.focal_px, photo)?, Some(guess)))
+    }
+}
+
+/// How the intrinsics of two photographs are given.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct PairArguments {
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Intrinsics of the second camera; those of --k if not given.
+    #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
+    k2: Option<Intrinsics>,
+}
+
+impl PairArguments {
+    /// Whether there are any.
+    pub(crate) fn is_given(&self) -> bool {
+        self.camera.is_given()
+    }
+
+    /// Refuses intrinsics of the second camera alone, which nothing could be done with.
+    ///
+    /// # Errors
+    /// A sentence that says what is missing.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        if self.k2.is_some() && !self.is_given() {
+            return Err(Failure::usage(
+                "--k2 is for the second camera: the first needs --k or --focal-px, too",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The intrinsics given, if any; a focal length has the middle of each photograph.
+    ///
+    /// # Errors
+    /// A sentence if one principal point is given for photographs of different sizes; as
+    /// [`Intrinsics::centered`].
+    pub(crate) fn given(&self, photos: &[Photo; 2]) -> Result<Option<[Intrinsics; 2]>, Failure> {
+        let sizes = photos.each_ref().map(|photo| photo.color.dimensions());
+        if self.camera.k.is_some() && self.k2.is_none() && sizes[0] != sizes[1] {
+            let message = format!(
+                "--k cannot be right for both photographs, as one is {} × {} and the other {} × {}: \
+                 give --k2 for the second",
+                sizes[0].0, sizes[0].1, sizes[1].0, sizes[1].1
+            );
+            return Err(Failure::new("size-mismatch", message));
+        }
+        let first = self.camera.given(&photos[0])?;
+        let second = match self.k2 {
+            Some(k2) => Some(k2),
+            None => self.camera.given(&photos[1])?,
+        };
+        Ok(first.zip(second).map(|(k1, k2)| [k1, k2]))
+    }
+
+    /// The intrinsics given, or else a guess for each photograph, with a sentence that says so.
+    ///
+    /// # Errors
+    /// As [`PairArguments::given`].
+    pub(crate) fn or_guess(
+        &self,
+        photos: &[Photo; 2],
+    ) -> Result<([Intrinsics; 2], Option<String>), Failure> {
+        if let Some(given) = self.given(photos)? {
+            return Ok((given, None));
+        }
+        let (k1, guess1) = self.camera.or_guess(&photos[0])?;
+        let (k2, guess2) = self.camera.or_guess(&photos[1])?;
+        let guesses: Vec<Guess> = guess1.into_iter().chain(guess2).collect();
+        Ok(([k1, k2], sentence(&guesses)))
+    }
+}
+
+/// A focal length that nobody gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Guess {
+    focal_px: f64,
+    from_exif: bool,
+}
+
+/// What was guessed for some photographs. `None` if nothing was.
+pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
+    let first = guesses.first()?;
+    let num_exif = guesses.iter().filter(|guess| guess.from_exif).count();
+    let range = guesses
+        .iter()
+        .fold((first.focal_px, first.focal_px), |(least, most), guess| {
+            (least.min(guess.focal_px), most.max(guess.focal_px))
+        });
+    let focal = match (format!("{:.0}", range.0), format!("{:.0}", range.1)) {
+        (least, most) if least == most => least,
+        (least, most) => format!("{least} to {most}"),
+    };
+    let from = match guesses.len() {
+        count if num_exif == count => "from the photograph's EXIF data".to_owned(),
+        _ if num_exif == 0 => "1.2 times the longer side".to_owned(),
+        count => format!(
+            "from EXIF data for {num_exif} of {count} photographs, for the others 1.2 times the \
+             longer side"
+        ),
+    };
+    Some(format!("no --k or --focal-px: taking {focal} px, {from}"))
+}
+
+fn centered(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failure> {
+    Ok(Intrinsics::centered(
+        focal_px,
+        photo.color.width(),
+        photo.color.height(),
+    )?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use image::RgbImage;
+
+    fn photo(width: u32, height: u32, focal_px: Option<f64>) -> Photo {
+        Photo {
+            color: RgbImage::new(width, height),
+            focal_px,
+        }
+    }
+
+    fn arguments(focal_px: Option<f64>) -> PairArguments {
+        PairArguments {
+            camera: CameraArguments { k: None, focal_px },
+            k2: None,
+        }
+    }
+
+    #[test]
+    fn each_photograph_has_its_own_middle_and_its_own_guess() {
+        let photos = [photo(640, 480, Some(500.0)), photo(480, 640, Some(700.0))];
+        let given = arguments(Some(600.0)).given(&photos).unwrap().unwrap();
+        let middle = |width, height, f| Intrinsics::centered(f, width, height).unwrap();
+        assert_eq!(given, [middle(640, 480, 600.0), middle(480, 640, 600.0)]);
+        let (guessed, told) = arguments(None).or_guess(&photos).unwrap();
+        assert_eq!(guessed, [middle(640, 480, 500.0), middle(480, 640, 700.0)]);
+        let told = told.unwrap();
+        assert!(
+            told.contains("500 to 700 px, from the photograph's EXIF data"),
+            "{told}"
+        );
+        let photos = [photo(640, 480, Some(500.0)), photo(480, 640, None)];
+        let (guessed, told) = arguments(None).or_guess(&photos).unwrap();
+        assert_eq!(guessed[1], middle(480, 640, 768.0));
+        let told = told.unwrap();
+        assert!(told.contains("for 1 of 2 photographs"), "{told}");
+    }
+
+    #[test]
+    fn one_k_is_not_for_two_sizes() {
+        let photos = [photo(640, 480, None), photo(480, 640, None)];
+        let k = Intrinsics::centered(600.0, 640, 480).unwrap();
+        let mut both = arguments(None);
+        both.camera.k = Some(k);
+        let refused = both.given(&photos).unwrap_err();
+        assert_eq!(refused.kind, "size-mismatch");
+        both.k2 = Some(Intrinsics::centered(600.0, 480, 640).unwrap());
+        assert_eq!(both.given(&photos).unwrap(), Some([k, both.k2.unwrap()]));
+    }
+}
