@@ -152,7 +152,8 @@ impl Estimator for AbsolutePoseEstimator {
     }
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(chance_near_point(&self.pixels, max_error_px))
+        let coordinates = [0, 1].map(|axis| self.pixels.iter().map(|p| p[axis]).collect());
+        Some(chance_near_point(coordinates, max_error_px))
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -118,14 +118,6 @@ pub(crate) fn weigh(
                 weight[l] = if far { 0.0 } else { 1.0 };
             }
         }
-        (RobustLoss::Truncated { width }, Some(given)) if count == LANES => {
-            let width_sq = width * width;
-            for l in 0..LANES {
-                let far = errors_sq[l] > width_sq;
-                total[l] += given[l] * if far { width_sq } else { errors_sq[l] };
-                weight[l] = if far { 0.0 } else { given[l] };
-            }
-        }
         (loss, None) => {
             for l in 0..count {
                 total[l] += loss.rho(errors_sq[l]);

@@ -1,7 +1,5 @@
 //! What data without any structure would show.
 
-use nalgebra::Point2;
-
 /// How many models with so much support are to be expected among data that have nothing to do with
 /// one another: a bound on the number of false alarms, as its decimal logarithm.
 ///
@@ -71,9 +69,8 @@ fn reach(mut values: Vec<f64>) -> f64 {
     between * (count - 1) as f64 / (count - 1 - 2 * strays) as f64
 }
 
-/// Width and height of the box around points.
-fn extent<'a>(points: impl IntoIterator<Item = &'a Point2<f64>>) -> (f64, f64) {
-    let (u, v) = points.into_iter().map(|p| (p.x, p.y)).unzip();
+/// Width and height of the box around points, from the lists of their coordinates.
+fn extent([u, v]: [Vec<f64>; 2]) -> (f64, f64) {
     let (width, height) = (reach(u), reach(v));
     (width.max(THINNEST * height), height.max(THINNEST * width))
 }
@@ -87,22 +84,16 @@ fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
     }
 }
 
-/// The probability that a point anywhere in the box around `points` is nearer than `radius` to a
+/// The probability that a point anywhere in the box around points is nearer than `radius` to a
 /// given one.
-pub(crate) fn chance_near_point<'a>(
-    points: impl IntoIterator<Item = &'a Point2<f64>>,
-    radius: f64,
-) -> f64 {
-    share_of_box(core::f64::consts::PI * radius * radius, extent(points))
+pub(crate) fn chance_near_point(coordinates: [Vec<f64>; 2], radius: f64) -> f64 {
+    share_of_box(core::f64::consts::PI * radius * radius, extent(coordinates))
 }
 
-/// The probability that a point anywhere in the box around `points` is nearer than `distance` to a
+/// The probability that a point anywhere in the box around points is nearer than `distance` to a
 /// line across it; the longest line is the diagonal.
-pub(crate) fn chance_near_line<'a>(
-    points: impl IntoIterator<Item = &'a Point2<f64>>,
-    distance: f64,
-) -> f64 {
-    let (width, height) = extent(points);
+pub(crate) fn chance_near_line(coordinates: [Vec<f64>; 2], distance: f64) -> f64 {
+    let (width, height) = extent(coordinates);
     let diagonal = (width * width + height * height).sqrt();
     share_of_box(2.0 * distance * diagonal, (width, height))
 }
@@ -110,6 +101,14 @@ pub(crate) fn chance_near_line<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Point2;
+
+    fn lists(points: &[Point2<f64>]) -> [Vec<f64>; 2] {
+        [
+            points.iter().map(|p| p.x).collect(),
+            points.iter().map(|p| p.y).collect(),
+        ]
+    }
 
     /// The exact expectation, from the binomial distribution.
     fn exact(num_inliers: usize, num_data: usize, sample_size: usize, chance: f64) -> f64 {
@@ -164,16 +163,16 @@ mod tests {
     #[test]
     fn chances_are_shares_of_the_box() {
         let corners = [Point2::new(0.0, 10.0), Point2::new(300.0, 410.0)];
-        assert!((chance_near_line(&corners, 3.0) - 0.025).abs() < 1e-12);
+        assert!((chance_near_line(lists(&corners), 3.0) - 0.025).abs() < 1e-12);
         let disk = core::f64::consts::PI * 4.0 / 120_000.0;
-        assert!((chance_near_point(&corners, 2.0) - disk).abs() < 1e-12);
+        assert!((chance_near_point(lists(&corners), 2.0) - disk).abs() < 1e-12);
         // Equal points, or none at all, say nothing.
-        assert_eq!(chance_near_line(&[corners[0]; 5], 3.0), 1.0);
-        assert_eq!(chance_near_point(&[], 3.0), 1.0);
+        assert_eq!(chance_near_line(lists(&[corners[0]; 5]), 3.0), 1.0);
+        assert_eq!(chance_near_point(lists(&[]), 3.0), 1.0);
         // Points in a row come from an image a tenth as high as wide.
         let row: Vec<_> = (0..=200).map(|u| Point2::new(f64::from(u), 7.0)).collect();
         let share = core::f64::consts::PI / (200.0 * 20.0);
-        assert!((chance_near_point(&row, 1.0) - share).abs() < 1e-12);
+        assert!((chance_near_point(lists(&row), 1.0) - share).abs() < 1e-12);
     }
 
     #[test]
@@ -181,8 +180,8 @@ mod tests {
         let mut grid: Vec<_> = (0..10_000)
             .map(|i| Point2::new(f64::from(i % 100), f64::from(i / 100)))
             .collect();
-        let alone = chance_near_line(&grid, 1.0);
+        let alone = chance_near_line(lists(&grid), 1.0);
         grid.extend((0..100).map(|i| Point2::new(1e8, -1e7 * f64::from(i))));
-        assert!((chance_near_line(&grid, 1.0) / alone - 1.0).abs() < 0.05);
+        assert!((chance_near_line(lists(&grid), 1.0) / alone - 1.0).abs() < 0.05);
     }
 }

@@ -184,7 +184,8 @@ impl Estimator for LineEstimator<'_> {
     }
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(chance_near_line(self.points.iter(), max_error_px))
+        let coordinates = [0, 1].map(|axis| self.points.iter().map(|p| p[axis]).collect());
+        Some(chance_near_line(coordinates, max_error_px))
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -119,7 +119,7 @@ impl MatchSet {
 
     /// The probability that a pixel anywhere in image 2 is nearer than so much to a given one.
     pub(crate) fn chance_near_point2(&self, radius_px: f64) -> f64 {
-        chance_near_point(&self.points([&self.u2, &self.v2]), radius_px)
+        chance_near_point([self.u2.clone(), self.v2.clone()], radius_px)
     }
 
     /// The probability that pixels anywhere in both images have a smaller Sampson error than this.
@@ -128,13 +128,9 @@ impl MatchSet {
     pub(crate) fn chance_near_lines(&self, max_error_px: f64) -> f64 {
         let distance_px = core::f64::consts::SQRT_2 * max_error_px;
         [[&self.u1, &self.v1], [&self.u2, &self.v2]]
-            .map(|image| chance_near_line(&self.points(image), distance_px))
+            .map(|[u, v]| chance_near_line([u.clone(), v.clone()], distance_px))
             .into_iter()
             .fold(0.0, f64::max)
-    }
-
-    fn points(&self, [u, v]: [&Vec<f64>; 2]) -> Vec<Point2<f64>> {
-        u.iter().zip(v).map(|(&u, &v)| Point2::new(u, v)).collect()
     }
 
     /// How much each match counts where models are judged; `None` if all count alike.

@@ -2,7 +2,7 @@
 //! scale.
 
 use super::model::{RansacBudget, SHARES, SIZES};
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle, text_width};
+use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Layout, Panel, Rect, View};
 use crate::theme::Role;
 
@@ -10,6 +10,8 @@ const TEXT: f64 = 13.0;
 const SMALL: f64 = 12.0;
 /// From one line of the legend to the next.
 const ROW: f64 = 18.0;
+/// From the legend's markers to the right edge: nine digits fit.
+const LEGEND: f64 = 128.0;
 /// Decades of N that the plot spans.
 const DECADES: (f64, f64) = (-0.2, 6.2);
 const TICKS: [(f64, &str); 7] = [
@@ -60,20 +62,9 @@ impl View for RansacBudgetView {
         let x = plot.canvas_from_world((share, 0.0)).0;
         let marker = Stroke::solid(Role::Grip, 2.0).dashed();
         // From the highest mark down: above it is the legend.
-        let marks: Vec<(usize, usize, u64, Place)> = SIZES
-            .iter()
-            .enumerate()
-            .filter_map(|(index, (size, _))| {
-                let trials = model.trials(*size, share)?;
-                let place = plot.canvas_from_world((share, libm::log10(trials as f64)));
-                Some((index, *size, trials, place))
-            })
-            .collect();
-        let top = marks
-            .iter()
-            .map(|mark| mark.3.1)
-            .fold(f64::INFINITY, f64::min);
-        let top = top.clamp(plot.rect.y, plot.rect.bottom());
+        let mark = |trials: u64| plot.canvas_from_world((share, libm::log10(trials as f64)));
+        let largest = model.trials(SIZES[SIZES.len() - 1].0, share);
+        let top = largest.map_or(plot.rect.y, |trials| mark(trials).1.max(plot.rect.y));
         canvas.line((x, top), (x, plot.rect.bottom()), marker);
         let grip = plot.canvas_from_world((share, 0.0));
         canvas.marker(grip, 6.0, Shape::Disk, Role::Grip, true);
@@ -84,20 +75,20 @@ impl View for RansacBudgetView {
         });
         // The curves fall: the corner at the top right is always free, and the largest sample is the
         // highest curve.
-        let texts: Vec<String> = marks
-            .iter()
-            .map(|(_, size, trials, _)| format!("s = {size}: {trials}"))
-            .collect();
-        let widths = texts.iter().map(|text| text_width(text, TEXT));
-        let left = plot.rect.right() - 10.0 - widths.fold(0.0, f64::max);
-        for ((index, _, _, place), text) in marks.iter().zip(&texts) {
-            let (role, shape) = (Role::Series(*index as u8), Shape::of_series(*index));
-            if plot.rect.contains(*place) {
-                canvas.marker(*place, 5.0, shape, role, true);
-            }
+        let left = plot.rect.right() - LEGEND;
+        for (index, (size, _)) in SIZES.iter().enumerate() {
+            let Some(trials) = model.trials(*size, share) else {
+                continue;
+            };
+            let (role, shape) = (Role::Series(index as u8), Shape::of_series(index));
             let y = plot.rect.y + 16.0 + ROW * (SIZES.len() - 1 - index) as f64;
-            canvas.marker((left - 12.0, y), 5.0, shape, role, true);
-            canvas.label((left, y), text, TextStyle::new(role, TEXT).cased());
+            for place in [mark(trials), (left, y)] {
+                if plot.rect.contains(place) {
+                    canvas.marker(place, 5.0, shape, role, true);
+                }
+            }
+            let text = format!("s = {size}: {trials}");
+            canvas.label((left + 12.0, y), &text, TextStyle::new(role, TEXT).cased());
         }
     }
 }
