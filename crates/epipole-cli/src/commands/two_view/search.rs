@@ -1,0 +1,210 @@
+//! The searches of `epipole two-view`, and what they found.
+
+use super::{Arguments, Model};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::Photo;
+use crate::turn::find_turn;
+use epipole::camera::RigidTransform;
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
+use epipole::homography::{HomographyEstimator, homography_sampson_px};
+use epipole::robust::{MatchSet, RansacReport};
+use epipole::two_view::{
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch, TwoViewTrial,
+    estimate_two_view_calibrated_with, estimate_two_view_with,
+};
+use nalgebra::{Matrix3, Point2};
+
+/// What was found, whatever the model.
+pub(super) struct Found {
+    pub(super) kind: &'static str,
+    pub(super) model: Matrix3<f64>,
+    pub(super) inliers: Vec<bool>,
+    pub(super) cam2_from_cam1: Option<RigidTransform>,
+    pub(super) other_cam2_from_cam1: Option<RigidTransform>,
+    pub(super) configuration: &'static str,
+    pub(super) errors_px: Vec<f64>,
+}
+
+/// Looks for the model that was asked for.
+///
+/// # Errors
+/// As the core's searches, and as [`PairArguments::given`](crate::camera::PairArguments::given).
+pub(super) fn estimate(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+) -> Result<Found, Failure> {
+    let ransac = arguments.robust.options(context);
+    let options = TwoViewOptions {
+        ransac,
+        ..TwoViewOptions::default()
+    };
+    let set = || MatchSet::new(pixels1, pixels2);
+    let errors = |f: &Matrix3<f64>| -> Vec<f64> {
+        pixels1
+            .iter()
+            .zip(pixels2)
+            .map(|(a, b)| sampson_px(f, a, b))
+            .collect()
+    };
+    match arguments.model {
+        Model::Auto => {
+            let given = arguments.camera.given(photos)?;
+            let mut look = arguments.robust.look(context);
+            // The last trial of each search.
+            let mut ends: Vec<TwoViewTrial> = Vec::new();
+            let mut observer = |trial: &TwoViewTrial| {
+                match ends.last_mut() {
+                    Some(end) if end.search == trial.search => *end = *trial,
+                    _ => ends.push(*trial),
+                }
+                look(trial.iteration, trial.required_iterations)
+            };
+            let report = match given {
+                Some([k1, k2]) => estimate_two_view_calibrated_with(
+                    pixels1,
+                    pixels2,
+                    &k1,
+                    &k2,
+                    &options,
+                    &mut observer,
+                ),
+                None => estimate_two_view_with(pixels1, pixels2, &options, &mut observer),
+            }?;
+            drop(look);
+            let chosen = search_of(&report);
+            let end = ends.iter().find(|end| end.search == chosen);
+            let (drawn, required) =
+                end.map_or((0, 0), |end| (end.iteration, end.required_iterations));
+            arguments
+                .robust
+                .warn_of_stop(report.stop, drawn, required, context);
+            Ok(of_report(report, pixels1, pixels2))
+        }
+        Model::Fundamental => {
+            let estimator = FundamentalEstimator::new(set()?)?;
+            let report = arguments.robust.run(estimator, context)?;
+            Ok(Found {
+                kind: "fundamental",
+                errors_px: errors(&report.model),
+                configuration: configuration(&report, "general"),
+                model: report.model,
+                inliers: report.inliers,
+                cam2_from_cam1: None,
+                other_cam2_from_cam1: None,
+            })
+        }
+        Model::Essential => {
+            let ([k1, k2], guess) = arguments.camera.or_guess(photos)?;
+            if let Some(sentence) = guess {
+                context.warn(&sentence);
+            }
+            let report = arguments.robust.watched(context, |options, watch| {
+                estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+            })?;
+            let pose = report.model;
+            let mut found = Found {
+                kind: "essential",
+                errors_px: errors(&pose.fundamental),
+                model: pose.essential(),
+                cam2_from_cam1: Some(pose.cam2_from_cam1()),
+                other_cam2_from_cam1: None,
+                configuration: configuration(&report, "general"),
+                inliers: report.inliers,
+            };
+            if found.configuration == "degenerate" {
+                found.cam2_from_cam1 = None;
+            } else if let Some(turn) =
+                find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)
+            {
+                context.warn(&turn.sentence());
+                found.configuration = "panoramic";
+                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+            }
+            Ok(found)
+        }
+        Model::Homography => {
+            let given = arguments.camera.given(photos)?;
+            let estimator = HomographyEstimator::new(set()?)?;
+            let report = arguments.robust.run(estimator, context)?;
+            let error = |(a, b)| homography_sampson_px(&report.model, a, b);
+            let mut found = Found {
+                kind: "homography",
+                errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
+                configuration: configuration(&report, "planar"),
+                model: report.model,
+                inliers: report.inliers,
+                cam2_from_cam1: None,
+                other_cam2_from_cam1: None,
+            };
+            // Pixels alone do not tell a turn from a plane.
+            if let (Some(k), "planar") = (given, found.configuration)
+                && let Some(turn) = find_turn(pixels1, pixels2, &k, &found.inliers, &ransac)
+            {
+                found.configuration = "panoramic";
+                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+            }
+            Ok(found)
+        }
+    }
+}
+
+/// Whether no more matches agree than wrong ones might.
+fn is_degenerate<M>(report: &RansacReport<M>) -> bool {
+    report.could_be_chance()
+        || report.num_unique_inliers < TwoViewOptions::default().min_num_inliers
+}
+
+/// What the views show, if it is enough to be anything.
+fn configuration<M>(report: &RansacReport<M>, otherwise: &'static str) -> &'static str {
+    if is_degenerate(report) {
+        "degenerate"
+    } else {
+        otherwise
+    }
+}
+
+/// The search that gave the model.
+fn search_of(report: &TwoViewReport) -> TwoViewSearch {
+    match report.model {
+        TwoViewModel::Fundamental(_) => TwoViewSearch::Fundamental,
+        TwoViewModel::Essential(_) => TwoViewSearch::Essential,
+        TwoViewModel::Homography(_) if report.configuration == Configuration::Panoramic => {
+            TwoViewSearch::Rotation
+        }
+        TwoViewModel::Homography(_) => TwoViewSearch::Homography,
+    }
+}
+
+fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Found {
+    let pairs = || pixels1.iter().zip(pixels2);
+    let (kind, model) = match report.model {
+        TwoViewModel::Fundamental(f) => ("fundamental", f),
+        TwoViewModel::Essential(e) => ("essential", e),
+        TwoViewModel::Homography(h) => ("homography", h),
+    };
+    let errors_px = match (report.model, &report.fundamental) {
+        (TwoViewModel::Homography(h), _) => pairs()
+            .map(|(a, b)| homography_sampson_px(&h, a, b))
+            .collect(),
+        (_, Some(f)) => pairs().map(|(a, b)| sampson_px(f, a, b)).collect(),
+        (_, None) => vec![0.0; pixels1.len()],
+    };
+    Found {
+        kind,
+        model,
+        errors_px,
+        inliers: report.inliers,
+        cam2_from_cam1: report.cam2_from_cam1,
+        other_cam2_from_cam1: report.other_cam2_from_cam1,
+        configuration: match report.configuration {
+            Configuration::General => "general",
+            Configuration::Planar => "planar",
+            Configuration::Panoramic => "panoramic",
+            Configuration::Degenerate => "degenerate",
+        },
+    }
+}
