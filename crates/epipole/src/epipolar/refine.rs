@@ -91,7 +91,7 @@ pub fn refine_fundamental(
 /// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
 /// match, and as [`MatchSet::new`].
 ///
-/// Source: Hartley & Zisserman 2004, §11.4.3, with E = [t]ₓR instead of F.
+/// Source: Hartley & Zisserman 2004, §11.4.3, with `E = [t]ₓR` instead of F.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -41,7 +41,7 @@ const REWEIGHTINGS: usize = 6;
 
 /// RANSAC, one sample at a time.
 ///
-/// [`ransac`] runs it to the end. Call [`step`](Ransac::step) yourself to show what happens.
+/// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) yourself to show what happens.
 ///
 /// Each step draws a sample, fits up to a few models to it and scores them against all data. A
 /// model that beats those of all samples before is improved from its inliers (local

@@ -23,7 +23,7 @@ pub struct Trial<'a, M> {
     /// The best of them, if any.
     pub model: Option<M>,
     /// Its score. An upper bound if the model could not win, unless
-    /// [`RansacOptions::score_every_trial`] is set.
+    /// [`RansacOptions::score_every_trial`](super::RansacOptions::score_every_trial) is set.
     pub score: f64,
     /// Its inliers. A lower bound in the same case.
     pub num_inliers: usize,

@@ -136,16 +136,18 @@ impl FourPoses {
         if step < SHORTEST {
             return Ok(());
         }
-        let mut found = decompose_essential(&essential_from_motion(&motion)?)?;
+        let found = decompose_essential(&essential_from_motion(&motion)?)?;
         // The true rotation first, and of each the true direction first.
         let key = |pose: &RigidTransform| {
             let turned = pose.rotation.angle_to(&motion.rotation) > 1e-3;
             let ahead = pose.translation.vector.dot(&motion.translation.vector) > 0.0;
             (turned, !ahead)
         };
-        found.sort_by_key(key);
-        self.poses = found
+        let order = [(false, false), (false, true), (true, false), (true, true)];
+        self.poses = order
             .into_iter()
+            .flat_map(|wanted| found.iter().filter(move |pose| key(pose) == wanted))
+            .copied()
             .map(|mut pose| {
                 // E has no length; the picture takes that of the true step.
                 pose.translation.vector *= step;

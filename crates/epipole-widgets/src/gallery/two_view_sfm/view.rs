@@ -198,14 +198,7 @@ fn subject(answer: &Answer) -> Subject {
         return usual;
     };
     let points: Vec<Point3<f64>> = motion.points.iter().map(|p| p.position()).collect();
-    let share = |mut values: Vec<f64>, share: f64| {
-        values.sort_by(f64::total_cmp);
-        let last = values.len().saturating_sub(1);
-        values
-            .get((share * last as f64) as usize)
-            .copied()
-            .unwrap_or(0.0)
-    };
+    let share = |values: Vec<f64>, share: f64| quantile(values, share).unwrap_or(0.0);
     let along = |axis: usize| share(points.iter().map(|p| p[axis]).collect(), 0.5);
     let cloud = Point3::new(along(0), along(1), along(2));
     let reach = share(points.iter().map(|p| (p - cloud).norm()).collect(), 0.8);
@@ -291,12 +284,16 @@ fn features_on_picture(
 
 /// The height of the grid: below nearly all points, y being down.
 fn floor(answer: &Answer, subject: &Subject) -> f64 {
-    let mut heights: Vec<f64> = (answer.motion.iter())
+    let heights: Vec<f64> = (answer.motion.iter())
         .flat_map(|motion| motion.points.iter().map(|point| point.position().y))
         .collect();
-    heights.sort_by(f64::total_cmp);
-    let low = heights.get(heights.len() * 95 / 100).copied();
-    low.unwrap_or(0.5 * subject.radius)
+    quantile(heights, 0.95).unwrap_or(0.5 * subject.radius)
+}
+
+/// The value that a share of all values, 0 to 1, is below.
+fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
+    let place = (share * values.len().checked_sub(1)? as f64) as usize;
+    Some(*values.select_nth_unstable_by(place, f64::total_cmp).1)
 }
 
 #[cfg(test)]
