@@ -6,7 +6,7 @@ use crate::files;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word};
-use crate::turn::find_turn;
+use crate::turn::{self, find_turn};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
@@ -175,9 +175,9 @@ fn fit(
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
                 .collect();
             let ransac = robust.options(context);
-            let turn = find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac);
+            let turn = find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)?;
             if let (Some(turn), false) = (&turn, found.could_be_chance()) {
-                context.warn(&turn.sentence());
+                context.warn(&turn::sentence(turn));
             }
             Ok(Found {
                 cam2_from_cam1: Some(pose.cam2_from_cam1()),

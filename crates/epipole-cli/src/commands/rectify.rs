@@ -8,7 +8,7 @@ use crate::matrices::{positive, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
 use crate::robust::RobustArguments;
-use crate::turn::find_turn;
+use crate::turn::{self, find_turn};
 use crate::{files, picture};
 use clap::Args;
 use epipole::camera::{Distortion, RigidTransform};
@@ -123,8 +123,8 @@ fn rectify(
             estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
         })?;
         let ransac = arguments.robust.options(context);
-        if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac) {
-            context.warn(&turn.sentence());
+        if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac)? {
+            context.warn(&turn::sentence(&turn));
         }
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);

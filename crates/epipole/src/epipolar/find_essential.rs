@@ -275,8 +275,8 @@ impl Estimator for EssentialEstimator {
 ///   is in front of both cameras as well, or so far away that this cannot be told
 ///
 /// Of the four motions that the essential matrix allows, the one that puts the most inliers in front
-/// of both cameras is returned. If the camera hardly moved, the direction means nothing; see
-/// [`estimate_two_view`](crate::two_view::estimate_two_view).
+/// of both cameras is returned. If the camera hardly moved, the direction means nothing;
+/// [`find_explaining_turn`](crate::two_view::find_explaining_turn) tells whether this may be so.
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`EssentialEstimator::new`] and [`ransac`].

@@ -104,14 +104,19 @@ impl TwoViewOptions {
     }
 
     /// For models whose errors are distances in image 2, which have the noise of both images.
-    fn in_two_dimensions(&self) -> RansacOptions {
+    pub(super) fn in_two_dimensions(&self) -> RansacOptions {
         RansacOptions {
             max_error_px: TWO_DIMENSIONS * core::f64::consts::SQRT_2 * self.ransac.max_error_px,
             ..self.ransac
         }
     }
 
-    fn fits_homography(&self, h: &Matrix3<f64>, p1: &Point2<f64>, p2: &Point2<f64>) -> bool {
+    pub(super) fn fits_homography(
+        &self,
+        h: &Matrix3<f64>,
+        p1: &Point2<f64>,
+        p2: &Point2<f64>,
+    ) -> bool {
         let reach_px = TWO_DIMENSIONS * self.ransac.max_error_px;
         homography_sampson_sq(h, p1, p2) < reach_px * reach_px
     }

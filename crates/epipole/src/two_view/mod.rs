@@ -4,6 +4,7 @@ mod choice;
 mod motion;
 mod rotation;
 mod search;
+mod turn;
 
 pub use choice::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
@@ -11,3 +12,4 @@ pub use choice::{
 };
 pub use rotation::{RotationEstimator, find_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
+pub use turn::{ExplainingTurn, find_explaining_turn};

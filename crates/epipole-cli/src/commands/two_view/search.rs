@@ -4,7 +4,7 @@ use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
-use crate::turn::find_turn;
+use crate::turn::{self, find_turn};
 use epipole::camera::RigidTransform;
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
@@ -118,9 +118,9 @@ pub(super) fn estimate(
             if found.configuration == "degenerate" {
                 found.cam2_from_cam1 = None;
             } else if let Some(turn) =
-                find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)
+                find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)?
             {
-                context.warn(&turn.sentence());
+                context.warn(&turn::sentence(&turn));
                 found.configuration = "panoramic";
                 found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
             }
@@ -142,7 +142,7 @@ pub(super) fn estimate(
             };
             // Pixels alone do not tell a turn from a plane.
             if let (Some(k), "planar") = (given, found.configuration)
-                && let Some(turn) = find_turn(pixels1, pixels2, &k, &found.inliers, &ransac)
+                && let Some(turn) = find_turn(pixels1, pixels2, &k, &found.inliers, &ransac)?
             {
                 found.configuration = "panoramic";
                 found.cam2_from_cam1 = Some(turn.cam2_from_cam1);

@@ -1,0 +1,112 @@
+//! Cameras that only turned: E and F mean nothing then, though they fit.
+
+use super::TwoViewOptions;
+use super::rotation::find_rotation;
+use crate::camera::{Intrinsics, RigidTransform};
+use crate::robust::RansacOptions;
+use crate::{Error, Result};
+use nalgebra::{Point2, Rotation3, Translation3, UnitQuaternion};
+
+/// Samples of two matches. Where a turn explains as much as is asked for, a tenth is plenty.
+const MAX_SAMPLES: usize = 300;
+
+/// A turn that explains nearly all inliers of another model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExplainingTurn {
+    /// The turn; its translation is zero.
+    pub cam2_from_cam1: RigidTransform,
+    /// How many of the inliers it explains.
+    pub num_explained: usize,
+    /// How many inliers there are.
+    pub num_inliers: usize,
+}
+
+/// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in which
+/// direction the camera moved cannot be told, whatever the model says.
+///
+/// * `pixels1`, `pixels2`: the matches that the model was found from
+/// * `k1`, `k2`: intrinsics of the two cameras
+/// * `inliers`: for each match, whether it is an inlier of the model
+/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
+///   [`RansacOptions::max_error_px`] should be that of the model
+///
+/// # Errors
+/// [`Error::SizeMismatch`] if the lists differ in length, and as [`TwoViewOptions::check`] and
+/// [`MatchSet::new`](crate::robust::MatchSet::new).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::estimate_relative_pose;
+/// use epipole::two_view::{TwoViewOptions, find_explaining_turn};
+/// use nalgebra::{Point2, Rotation3, Vector3};
+/// let k = Intrinsics::centered(600.0, 640, 480)?;
+/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = p1.iter().map(|p| {
+///     let x = k.matrix() * (turn * k.ray(p));
+///     Point2::new(x.x / x.z, x.y / x.z)
+/// }).collect();
+/// let options = TwoViewOptions::default();
+/// // The pose fits every match, and its direction means nothing.
+/// let pose = estimate_relative_pose(&p1, &p2, &k, &k, &options.ransac)?;
+/// assert_eq!(pose.num_inliers, 60);
+/// let turn = find_explaining_turn(&p1, &p2, &k, &k, &pose.inliers, &options)?;
+/// assert_eq!(turn.map(|turn| turn.num_explained), Some(60));
+/// # Ok(()) }
+/// ```
+pub fn find_explaining_turn(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+    inliers: &[bool],
+    options: &TwoViewOptions,
+) -> Result<Option<ExplainingTurn>> {
+    options.check()?;
+    for (first, second) in [
+        (pixels1.len(), pixels2.len()),
+        (pixels1.len(), inliers.len()),
+    ] {
+        if first != second {
+            return Err(Error::SizeMismatch {
+                what: "the lists of matching pixels and of inliers",
+                first,
+                second,
+            });
+        }
+    }
+    let among = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+        let kept = pixels.iter().zip(inliers).filter(|(_, is)| **is);
+        kept.map(|(pixel, _)| *pixel).collect()
+    };
+    let (in1, in2) = (among(pixels1), among(pixels2));
+    let ransac = RansacOptions {
+        max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
+        ..options.in_two_dimensions()
+    };
+    let report = match find_rotation(&in1, &in2, k1, k2, &ransac) {
+        Ok(report) => report,
+        Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    let homography = k2.matrix() * report.model * k1.inverse_matrix();
+    let pairs = in1.iter().zip(&in2);
+    let num_explained = pairs
+        .filter(|(p1, p2)| options.fits_homography(&homography, p1, p2))
+        .count();
+    let needed = options.max_homography_share * in1.len() as f64;
+    // Two matches fit a turn always.
+    if report.num_unique_inliers < 3 || (num_explained as f64) < needed {
+        return Ok(None);
+    }
+    let rotation = Rotation3::from_matrix_unchecked(report.model);
+    Ok(Some(ExplainingTurn {
+        cam2_from_cam1: RigidTransform::from_parts(
+            Translation3::identity(),
+            UnitQuaternion::from_rotation_matrix(&rotation),
+        ),
+        num_explained,
+        num_inliers: in1.len(),
+    }))
+}
