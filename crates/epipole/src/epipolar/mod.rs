@@ -19,6 +19,7 @@ mod normalize;
 mod other_motion;
 mod plane_recovery;
 mod refine;
+mod relative_pose;
 mod sampson;
 mod seven_point;
 
@@ -30,8 +31,7 @@ pub use eight_point::{
 pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
 pub use essential::{
-    RelativePose, SelectedPose, decompose_essential, essential_8point, project_to_essential,
-    select_pose,
+    SelectedPose, decompose_essential, essential_8point, project_to_essential, select_pose,
 };
 pub use find_essential::{
     EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
@@ -47,4 +47,5 @@ pub use lines::{epipolar_line1, epipolar_line2};
 pub use normalize::Normalization;
 pub(crate) use refine::scaled as scaled_loss;
 pub use refine::{refine_fundamental, refine_relative_pose};
+pub use relative_pose::RelativePose;
 pub use seven_point::{epipolar_row, fundamental_7point};

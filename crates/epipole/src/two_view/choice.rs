@@ -2,9 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::RotationEstimator;
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
+use super::pairs::Pairs;
 use super::search::{Searches, TwoViewObserver, TwoViewSearch};
+use super::{RotationEstimator, TwoViewOptions};
+#[cfg(doc)]
+use crate::Error;
+use crate::Result;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::{
     FundamentalEstimator, RelativePose, estimate_relative_pose_with, sampson_px,
@@ -13,9 +17,10 @@ use crate::epipolar::{
 use crate::epipolar::{estimate_relative_pose, find_fundamental};
 #[cfg(doc)]
 use crate::homography::find_homography;
-use crate::homography::{HomographyEstimator, homography_sampson_px, homography_sampson_sq};
-use crate::robust::{MatchSet, RansacOptions, RansacReport, StopReason};
-use crate::{Error, Result};
+use crate::homography::{HomographyEstimator, homography_sampson_px};
+#[cfg(doc)]
+use crate::robust::RansacOptions;
+use crate::robust::{MatchSet, RansacReport, StopReason};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion};
 
 /// What two views show.
@@ -41,85 +46,6 @@ pub enum TwoViewModel {
     Essential(Matrix3<f64>),
     /// `x2 ∝ H x1`.
     Homography(Matrix3<f64>),
-}
-
-/// How to judge a pair.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TwoViewOptions {
-    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
-    /// 1.25 times its threshold, by the Sampson error.
-    pub ransac: RansacOptions,
-    /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
-    pub min_num_inliers: usize,
-    /// A homography that explains at least this share of the epipolar inliers means a plane or a
-    /// turn. Above 1 nothing does. 0.8.
-    pub max_homography_share: f64,
-    /// E is preferred to F if it has at least this share of F's inliers. A share above 1 asks
-    /// for more of them than F has. 0.95.
-    pub min_essential_share: f64,
-}
-
-impl Default for TwoViewOptions {
-    fn default() -> Self {
-        Self {
-            ransac: RansacOptions::default(),
-            min_num_inliers: 15,
-            max_homography_share: 0.8,
-            min_essential_share: 0.95,
-        }
-    }
-}
-
-/// A match misses a homography in two dimensions, an epipolar line in one. With Gaussian noise, so
-/// many times the distance holds the same share of the right matches: 2.45 against 1.96 standard
-/// deviations for 95 %.
-const TWO_DIMENSIONS: f64 = 1.25;
-
-impl TwoViewOptions {
-    /// Whether every field is in its range.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] naming the first field that is not; as [`RansacOptions::check`].
-    pub fn check(&self) -> Result<()> {
-        self.ransac.check()?;
-        for (what, value) in [
-            (
-                "the share of inliers that a homography must explain",
-                self.max_homography_share,
-            ),
-            (
-                "the share of F's inliers that E must have",
-                self.min_essential_share,
-            ),
-        ] {
-            if value.is_nan() || value < 0.0 {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement: "0 or more",
-                    value,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// For models whose errors are distances in image 2, which have the noise of both images.
-    pub(super) fn in_two_dimensions(&self) -> RansacOptions {
-        RansacOptions {
-            max_error_px: TWO_DIMENSIONS * core::f64::consts::SQRT_2 * self.ransac.max_error_px,
-            ..self.ransac
-        }
-    }
-
-    pub(super) fn fits_homography(
-        &self,
-        h: &Matrix3<f64>,
-        p1: &Point2<f64>,
-        p2: &Point2<f64>,
-    ) -> bool {
-        let reach_px = TWO_DIMENSIONS * self.ransac.max_error_px;
-        homography_sampson_sq(h, p1, p2) < reach_px * reach_px
-    }
 }
 
 /// What was found out about two views.
@@ -248,7 +174,7 @@ pub fn estimate_two_view_with(
         let report = homography?;
         found.model = TwoViewModel::Homography(report.model);
         found.configuration = Configuration::Planar;
-        pairs.take_homography(&mut found, &report, options);
+        found.take_homography(&pairs, &report, options);
     } else {
         let report = fundamental?;
         found.model = TwoViewModel::Fundamental(report.model);
@@ -391,7 +317,7 @@ pub fn estimate_two_view_calibrated_with(
                 nalgebra::Translation3::identity(),
                 UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn.model)),
             ));
-            pairs.take_homography(&mut found, turn, options);
+            found.take_homography(&pairs, turn, options);
             return Ok(found);
         }
     }
@@ -411,7 +337,7 @@ pub fn estimate_two_view_calibrated_with(
         found.cam2_from_cam1 = best.as_ref().map(RelativePose::cam2_from_cam1);
         found.other_cam2_from_cam1 = other.as_ref().map(RelativePose::cam2_from_cam1);
         found.fundamental = best.map(|pose| pose.fundamental);
-        pairs.take_homography(&mut found, report, options);
+        found.take_homography(&pairs, report, options);
     } else if num_e as f64 >= options.min_essential_share * num_f as f64
         && let Ok(report) = &essential
     {
@@ -440,81 +366,6 @@ pub fn estimate_two_view_calibrated_with(
         found.median_triangulation_angle_rad = median_angle(&pairs, k1, k2, motion, &found.inliers);
     }
     Ok(found)
-}
-
-/// Matches as the caller gave them.
-pub(super) struct Pairs<'a> {
-    pub(super) pixels1: &'a [Point2<f64>],
-    pub(super) pixels2: &'a [Point2<f64>],
-    /// Whether no earlier match is equal.
-    is_first: Vec<bool>,
-}
-
-impl<'a> Pairs<'a> {
-    fn new(pixels1: &'a [Point2<f64>], pixels2: &'a [Point2<f64>], set: &MatchSet) -> Self {
-        let mut is_first = vec![false; pixels1.len()];
-        for &place in set.unique().first_occurrences() {
-            is_first[place] = true;
-        }
-        Self {
-            pixels1,
-            pixels2,
-            is_first,
-        }
-    }
-
-    /// The different matches, each once.
-    pub(super) fn different(
-        &self,
-    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, '_> {
-        self.among(&self.is_first)
-    }
-
-    /// The matches of a mask.
-    pub(super) fn among<'b>(
-        &self,
-        mask: &'b [bool],
-    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, 'b> {
-        let pairs = self.pixels1.iter().zip(self.pixels2);
-        pairs
-            .zip(mask)
-            .filter(|(_, kept)| **kept)
-            .map(|(pair, _)| pair)
-    }
-
-    /// The share of some inliers that fit a homography.
-    fn explained_share(
-        &self,
-        homography: &Matrix3<f64>,
-        inliers: &[bool],
-        options: &TwoViewOptions,
-    ) -> f64 {
-        let (mut fit, mut count) = (0.0, 0.0_f64);
-        let different: Vec<bool> = (inliers.iter().zip(&self.is_first))
-            .map(|(inlier, first)| *inlier && *first)
-            .collect();
-        for (p1, p2) in self.among(&different) {
-            count += 1.0;
-            if options.fits_homography(homography, p1, p2) {
-                fit += 1.0;
-            }
-        }
-        fit / count.max(1.0)
-    }
-
-    /// Fills in the matches that fit the homography of the report.
-    fn take_homography<M>(
-        &self,
-        found: &mut TwoViewReport,
-        report: &RansacReport<M>,
-        options: &TwoViewOptions,
-    ) {
-        if let TwoViewModel::Homography(h) = found.model {
-            let pairs = self.pixels1.iter().zip(self.pixels2);
-            let inliers = pairs.map(|(p1, p2)| options.fits_homography(&h, p1, p2));
-            found.take(inliers.collect(), report, options);
-        }
-    }
 }
 
 fn support<M>(report: &Result<RansacReport<M>>) -> usize {
@@ -555,6 +406,20 @@ impl TwoViewReport {
             self.configuration = Configuration::Degenerate;
             self.cam2_from_cam1 = None;
             self.other_cam2_from_cam1 = None;
+        }
+    }
+
+    /// Fills in the matches that fit the homography, which is the model.
+    fn take_homography<M>(
+        &mut self,
+        pairs: &Pairs<'_>,
+        report: &RansacReport<M>,
+        options: &TwoViewOptions,
+    ) {
+        if let TwoViewModel::Homography(h) = self.model {
+            let pairs = pairs.pixels1.iter().zip(pairs.pixels2);
+            let inliers = pairs.map(|(p1, p2)| options.fits_homography(&h, p1, p2));
+            self.take(inliers.collect(), report, options);
         }
     }
 

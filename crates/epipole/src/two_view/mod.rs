@@ -2,14 +2,17 @@
 
 mod choice;
 mod motion;
+mod options;
+mod pairs;
 mod rotation;
 mod search;
 mod turn;
 
 pub use choice::{
-    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
-    estimate_two_view_calibrated, estimate_two_view_calibrated_with, estimate_two_view_with,
+    Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
+    estimate_two_view_calibrated_with, estimate_two_view_with,
 };
+pub use options::TwoViewOptions;
 pub use rotation::{RotationEstimator, find_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};

@@ -1,6 +1,6 @@
 //! Motions from models.
 
-use super::choice::Pairs;
+use super::pairs::Pairs;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::{RelativePose, decompose_essential, sampson_sq, select_pose, signed_depths};
 use crate::homography::decompose_homography;

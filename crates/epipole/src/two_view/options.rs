@@ -1,0 +1,87 @@
+//! How a pair of views is judged.
+
+#[cfg(doc)]
+use super::Configuration;
+use crate::homography::homography_sampson_sq;
+use crate::robust::RansacOptions;
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2};
+
+/// How to judge a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TwoViewOptions {
+    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
+    /// 1.25 times its threshold, by the Sampson error.
+    pub ransac: RansacOptions,
+    /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
+    pub min_num_inliers: usize,
+    /// A homography that explains at least this share of the epipolar inliers means a plane or a
+    /// turn. Above 1 nothing does. 0.8.
+    pub max_homography_share: f64,
+    /// E is preferred to F if it has at least this share of F's inliers. A share above 1 asks
+    /// for more of them than F has. 0.95.
+    pub min_essential_share: f64,
+}
+
+impl Default for TwoViewOptions {
+    fn default() -> Self {
+        Self {
+            ransac: RansacOptions::default(),
+            min_num_inliers: 15,
+            max_homography_share: 0.8,
+            min_essential_share: 0.95,
+        }
+    }
+}
+
+/// A match misses a homography in two dimensions, an epipolar line in one. With Gaussian noise, so
+/// many times the distance holds the same share of the right matches: 2.45 against 1.96 standard
+/// deviations for 95 %.
+const TWO_DIMENSIONS: f64 = 1.25;
+
+impl TwoViewOptions {
+    /// Whether every field is in its range.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] naming the first field that is not; as [`RansacOptions::check`].
+    pub fn check(&self) -> Result<()> {
+        self.ransac.check()?;
+        for (what, value) in [
+            (
+                "the share of inliers that a homography must explain",
+                self.max_homography_share,
+            ),
+            (
+                "the share of F's inliers that E must have",
+                self.min_essential_share,
+            ),
+        ] {
+            if value.is_nan() || value < 0.0 {
+                return Err(Error::OutOfRange {
+                    what,
+                    requirement: "0 or more",
+                    value,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// For models whose errors are distances in image 2, which have the noise of both images.
+    pub(super) fn in_two_dimensions(&self) -> RansacOptions {
+        RansacOptions {
+            max_error_px: TWO_DIMENSIONS * core::f64::consts::SQRT_2 * self.ransac.max_error_px,
+            ..self.ransac
+        }
+    }
+
+    pub(super) fn fits_homography(
+        &self,
+        h: &Matrix3<f64>,
+        p1: &Point2<f64>,
+        p2: &Point2<f64>,
+    ) -> bool {
+        let reach_px = TWO_DIMENSIONS * self.ransac.max_error_px;
+        homography_sampson_sq(h, p1, p2) < reach_px * reach_px
+    }
+}

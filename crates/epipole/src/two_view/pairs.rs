@@ -1,0 +1,70 @@
+//! Matches as the caller gave them, each different one counted once.
+
+use super::TwoViewOptions;
+use crate::robust::MatchSet;
+use nalgebra::{Matrix3, Point2};
+
+/// Matches as the caller gave them.
+pub(super) struct Pairs<'a> {
+    pub(super) pixels1: &'a [Point2<f64>],
+    pub(super) pixels2: &'a [Point2<f64>],
+    /// Whether no earlier match is equal.
+    is_first: Vec<bool>,
+}
+
+impl<'a> Pairs<'a> {
+    pub(super) fn new(
+        pixels1: &'a [Point2<f64>],
+        pixels2: &'a [Point2<f64>],
+        set: &MatchSet,
+    ) -> Self {
+        let mut is_first = vec![false; pixels1.len()];
+        for &place in set.unique().first_occurrences() {
+            is_first[place] = true;
+        }
+        Self {
+            pixels1,
+            pixels2,
+            is_first,
+        }
+    }
+
+    /// The different matches, each once.
+    pub(super) fn different(
+        &self,
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, '_> {
+        self.among(&self.is_first)
+    }
+
+    /// The matches of a mask.
+    pub(super) fn among<'b>(
+        &self,
+        mask: &'b [bool],
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, 'b> {
+        let pairs = self.pixels1.iter().zip(self.pixels2);
+        pairs
+            .zip(mask)
+            .filter(|(_, kept)| **kept)
+            .map(|(pair, _)| pair)
+    }
+
+    /// The share of some inliers that fit a homography.
+    pub(super) fn explained_share(
+        &self,
+        homography: &Matrix3<f64>,
+        inliers: &[bool],
+        options: &TwoViewOptions,
+    ) -> f64 {
+        let (mut fit, mut count) = (0.0, 0.0_f64);
+        let different: Vec<bool> = (inliers.iter().zip(&self.is_first))
+            .map(|(inlier, first)| *inlier && *first)
+            .collect();
+        for (p1, p2) in self.among(&different) {
+            count += 1.0;
+            if options.fits_homography(homography, p1, p2) {
+                fit += 1.0;
+            }
+        }
+        fit / count.max(1.0)
+    }
+}
