@@ -652,15 +652,12 @@ fn bad_input_is_an_error_for_everyone() {
     let same = vec![Point2::new(5.0, 5.0); 40];
     let mut bad = a.clone();
     bad[17].y = f64::NAN;
-    let mut infinite = a.clone();
-    infinite[3].x = f64::INFINITY;
     for (p1, p2) in [
         (&vec![], &vec![]),
         (&a[..1].to_vec(), &b[..1].to_vec()),
         (&same, &same),
         (&bad, &b),
         (&b, &bad),
-        (&infinite, &b),
         (&a, &b[..30].to_vec()),
     ] {
         for error in try_everything(p1, p2) {
@@ -680,6 +677,65 @@ fn bad_input_is_an_error_for_everyone() {
     // One image on a line only.
     let errors = try_everything(&line, &a);
     assert!(errors[0].is_some() && errors[2].is_some());
+}
+
+/// One match at infinity, or where no image reaches, is no reason to refuse the others; every room finds what it
+/// finds without it, and says that it was left out.
+#[test]
+fn a_match_beyond_all_images_is_left_out() {
+    let mut random = Random::new(21);
+    let pair = cameras(&mut random);
+    let s = scene(&mut random, pair, Shape::Volume, 200, 0.8, 0.3);
+    let k = Intrinsics::centered(700.0, 640, 480).unwrap();
+    let options = options(1);
+    let choice = TwoViewOptions {
+        ransac: options,
+        ..TwoViewOptions::default()
+    };
+    for far in [f64::INFINITY, f64::NEG_INFINITY, 1e200, -2e9] {
+        for place in [0, 100] {
+            let (mut p1, mut p2) = (s.p1.clone(), s.p2.clone());
+            p1.insert(place, Point2::new(100.0, far));
+            p2.insert(place, Point2::new(200.0, 100.0));
+            let check = |inliers: &[bool], without: &[bool], num_left_out: usize| {
+                assert_eq!(num_left_out, 1, "{far}");
+                let mut expected = without.to_vec();
+                expected.insert(place, false);
+                assert_eq!(inliers, expected, "{far}");
+            };
+            let (with, without) = (
+                find_fundamental(&p1, &p2, &options).unwrap(),
+                find_fundamental(&s.p1, &s.p2, &options).unwrap(),
+            );
+            assert_eq!(with.model, without.model);
+            check(&with.inliers, &without.inliers, with.num_left_out);
+            let (with, without) = (
+                find_homography(&p1, &p2, &options).unwrap(),
+                find_homography(&s.p1, &s.p2, &options).unwrap(),
+            );
+            check(&with.inliers, &without.inliers, with.num_left_out);
+            let (with, without) = (
+                estimate_relative_pose(&p1, &p2, &k, &k, &options).unwrap(),
+                estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options).unwrap(),
+            );
+            check(&with.inliers, &without.inliers, with.num_left_out);
+            let (with, without) = (
+                find_similarity(&p1, &p2, &options).unwrap(),
+                find_similarity(&s.p1, &s.p2, &options).unwrap(),
+            );
+            check(&with.inliers, &without.inliers, with.num_left_out);
+            let (with, without) = (
+                estimate_two_view(&p1, &p2, &choice).unwrap(),
+                estimate_two_view(&s.p1, &s.p2, &choice).unwrap(),
+            );
+            check(&with.inliers, &without.inliers, with.num_left_out);
+            let (with, without) = (
+                estimate_two_view_calibrated(&p1, &p2, &k, &k, &choice).unwrap(),
+                estimate_two_view_calibrated(&s.p1, &s.p2, &k, &k, &choice).unwrap(),
+            );
+            check(&with.inliers, &without.inliers, with.num_left_out);
+        }
+    }
 }
 
 /// Matches that have nothing to do with each other: the report says so.

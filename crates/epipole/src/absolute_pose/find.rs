@@ -4,7 +4,9 @@ use super::p3p::solve;
 use super::refine::{Pose, PoseProblem, refine, rigid};
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
+use crate::robust::{
+    Estimator, FARTHEST_PX, RansacOptions, RansacReport, Unique, chance_near_point, ransac,
+};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
@@ -27,8 +29,9 @@ impl AbsolutePoseEstimator {
     /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and
-    /// infinities, [`Error::TooFew`] for fewer than 4 different data: three have up to four poses.
+    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN,
+    /// [`Error::TooFew`] for fewer than 4 different data: three have up to four poses. A point at infinity,
+    /// and a pixel there or beyond 10⁹, is left out.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -41,17 +44,19 @@ impl AbsolutePoseEstimator {
                 second: pixels.len(),
             });
         }
-        let finite = |x: &f64| x.is_finite();
-        if !points_in_world.iter().all(|p| p.iter().all(finite))
-            || !pixels.iter().all(|p| p.iter().all(finite))
+        let is_nan = |x: &f64| x.is_nan();
+        if points_in_world.iter().any(|p| p.iter().any(is_nan))
+            || pixels.iter().any(|p| p.iter().any(is_nan))
         {
             return Err(Error::NotFinite {
                 what: "a point or its pixel",
             });
         }
-        let unique = Unique::new(pixels.len(), |i| {
+        let unique = Unique::of_usable(pixels.len(), |i| {
             let (x, p) = (&points_in_world[i], &pixels[i]);
-            [x.x, x.y, x.z, p.x, p.y]
+            let values = [x.x, x.y, x.z, p.x, p.y];
+            let usable = values.iter().all(|x| x.is_finite()) && p.coords.amax() <= FARTHEST_PX;
+            usable.then_some(values)
         });
         if unique.len() < 4 {
             return Err(Error::TooFew {

@@ -1,5 +1,6 @@
 //! Lens distortion after Brown and Conrady.
 
+use crate::math::polynomial::cubic_roots;
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
@@ -134,25 +135,73 @@ impl Distortion {
             what: "the ray of a distorted pixel",
             why: "the lens model bends no ray to it",
         };
+        let fold_sq = self.fold_sq();
+        let answers = |(ray, error): &(Point2<f64>, f64)| {
+            // Rounding may stop it a little early, never far from the answer.
+            *error <= 1e3 * RESIDUAL * (1.0 + seen.coords.norm())
+                && ray.coords.norm_squared() < fold_sq
+        };
         // Beside the fold the undistorted place is the best start.
-        let mut ray = *seen;
+        let quick = self.descend(seen, *seen, f64::INFINITY);
+        if answers(&quick) {
+            return Ok(quick.0);
+        }
+        // Newton may have leapt over the fold.
+        let inside = self.descend(seen, self.radial_start(seen, fold_sq), fold_sq);
+        if answers(&inside) {
+            Ok(inside.0)
+        } else {
+            Err(unseen)
+        }
+    }
+
+    /// As [`undistort`](Self::undistort); for a place beyond all that the lens model bends rays to, the ray at
+    /// the fold that is seen nearest to it. For drawing up to the border of a picture, where the model was
+    /// never measured, not for measuring.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] for NaN or infinities.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::Distortion;
+    /// use nalgebra::Point2;
+    /// let barrel = Distortion { k1: -0.2, ..Distortion::NONE };
+    /// // x (1 − 0.2 x²) is greatest at x = √(5/3).
+    /// let ray = barrel.undistort_nearest(&Point2::new(0.9, 0.0))?;
+    /// assert!((ray.x - (5.0_f64 / 3.0).sqrt()).abs() < 1e-6 && ray.y == 0.0);
+    /// # Ok(()) }
+    /// ```
+    pub fn undistort_nearest(&self, seen: &Point2<f64>) -> Result<Point2<f64>> {
+        match self.undistort(seen) {
+            Err(Error::Degenerate { .. }) => {
+                let fold_sq = self.fold_sq();
+                let start = self.radial_start(seen, fold_sq);
+                Ok(self.descend(seen, start, fold_sq).0)
+            }
+            answer => answer,
+        }
+    }
+
+    /// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do not
+    /// help, or lead to the fold, are halved.
+    fn descend(&self, seen: &Point2<f64>, start: Point2<f64>, fold_sq: f64) -> (Point2<f64>, f64) {
+        let mut ray = start;
         let mut error = (self.distort(&ray) - seen).norm();
         let tolerance = RESIDUAL * (1.0 + seen.coords.norm());
         for _ in 0..MAX_STEPS {
             if error <= tolerance {
                 break;
             }
-            let jacobian = self.jacobian(&ray);
-            let Some(inverse) = jacobian.try_inverse() else {
-                return Err(unseen);
+            let Some(inverse) = self.jacobian(&ray).try_inverse() else {
+                break;
             };
             let step = inverse * (self.distort(&ray) - seen);
-            // Newton may leap over the fold, so a step that does not help is halved.
             let mut scale = 1.0;
             let better = loop {
                 let candidate = ray - step * scale;
                 let candidate_error = (self.distort(&candidate) - seen).norm();
-                if candidate_error < error {
+                if candidate_error < error && candidate.coords.norm_squared() < fold_sq {
                     break Some((candidate, candidate_error));
                 }
                 scale *= 0.5;
@@ -165,22 +214,63 @@ impl Distortion {
                 None => break,
             }
         }
-        // Rounding may stop it a little early, never far from the answer.
-        if error <= 1e3 * tolerance && self.is_seen(&ray) {
-            Ok(ray)
+        (ray, error)
+    }
+
+    /// The ray inside the fold that the radial terms alone would show at a place, or next to the fold.
+    fn radial_start(&self, seen: &Point2<f64>, fold_sq: f64) -> Point2<f64> {
+        let radius = seen.coords.norm();
+        let bent = |r: f64| {
+            let s = r * r;
+            r * (1.0 + s * (self.k1 + s * (self.k2 + s * self.k3)))
+        };
+        // Just inside, so that a step from there is possible.
+        let mut high = if fold_sq.is_finite() {
+            fold_sq.sqrt() * (1.0 - 1e-9)
         } else {
-            Err(unseen)
+            // Without a fold it grows at least as fast as a straight line, in the end.
+            let mut high = radius.max(f64::MIN_POSITIVE);
+            for _ in 0..100 {
+                if bent(high) >= radius {
+                    break;
+                }
+                high *= 2.0;
+            }
+            high
+        };
+        let mut low = 0.0;
+        if bent(high) > radius {
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if bent(middle) < radius {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
         }
+        if radius > 0.0 {
+            Point2::from(seen.coords * (high / radius))
+        } else {
+            *seen
+        }
+    }
+
+    /// The squared radius at which the radial part stops growing; infinite if it never does.
+    fn fold_sq(&self) -> f64 {
+        // d/dr of r (1 + k1 r² + k2 r⁴ + k3 r⁶), in r².
+        let slope = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3];
+        let mut roots = [0.0; 3];
+        let count = cubic_roots(slope, &mut roots);
+        roots[..count]
+            .iter()
+            .filter(|s| **s > 0.0)
+            .fold(f64::INFINITY, |least, s| least.min(*s))
     }
 
     /// Whether the ray lies inside the fold: the radial part grows all the way to it.
     pub(crate) fn is_seen(&self, ray: &Point2<f64>) -> bool {
-        let r2 = ray.coords.norm_squared();
-        // d/dr of r (1 + k1 r² + k2 r⁴ + k3 r⁶), at steps that no usual lens hides a fold between.
-        (0..=32).all(|i| {
-            let s = r2 * f64::from(i) / 32.0;
-            1.0 + s * (3.0 * self.k1 + s * (5.0 * self.k2 + s * 7.0 * self.k3)) > 0.0
-        })
+        ray.coords.norm_squared() < self.fold_sq()
     }
 }
 
@@ -269,5 +359,59 @@ mod tests {
         assert!(barrel.undistort(&Point2::new(0.70, 0.0)).unwrap().x < 1.054);
         assert!(barrel.undistort(&Point2::new(f64::NAN, 0.0)).is_err());
         assert!(Distortion::from_coefficients([0.0, f64::INFINITY, 0.0, 0.0, 0.0]).is_err());
+    }
+
+    /// Lenses of every kind, many of which fold: each ray inside the fold comes back, and an answer is never
+    /// beyond it, also where the fold is so narrow that few steps would pass over it.
+    #[test]
+    fn every_ray_inside_the_fold_comes_back() {
+        let mut random = Random::new(3);
+        let mut num_folded = 0;
+        for _ in 0..2000 {
+            let lens = Distortion::from_coefficients([
+                random.uniform(-0.6, 0.6),
+                random.uniform(-0.4, 0.4),
+                0.0,
+                0.0,
+                random.uniform(-0.2, 0.2),
+            ])
+            .unwrap();
+            let fold = lens.fold_sq().sqrt();
+            num_folded += usize::from(fold.is_finite());
+            let reach = fold.min(3.0);
+            for _ in 0..10 {
+                let (radius, angle) = (
+                    0.999 * reach * random.uniform(0.0, 1.0),
+                    random.uniform(0.0, core::f64::consts::TAU),
+                );
+                let ray = Point2::new(radius * libm::cos(angle), radius * libm::sin(angle));
+                let seen = lens.distort(&ray);
+                let back = lens.undistort(&seen).unwrap();
+                assert!(
+                    (back - ray).norm() < 1e-7,
+                    "{lens:?}: {ray} came back as {back}"
+                );
+                assert_eq!(lens.undistort_nearest(&seen).unwrap(), back);
+                let anywhere = seen * random.uniform(0.5, 4.0);
+                match lens.undistort(&anywhere) {
+                    Ok(ray) => {
+                        assert!(ray.coords.norm() < fold);
+                        assert!((lens.distort(&ray) - anywhere).norm() < 1e-9);
+                    }
+                    Err(_) => {
+                        let ray = lens.undistort_nearest(&anywhere).unwrap();
+                        assert!((ray.coords.norm() / fold - 1.0).abs() < 1e-6, "{lens:?}");
+                        assert!(ray.coords.dot(&anywhere.coords) > 0.0);
+                    }
+                }
+            }
+        }
+        assert!(num_folded > 500, "{num_folded}");
+        // 1 − 3.98 s + 3.96 s² is below 0 for s from 0.5 to 0.505 alone.
+        let narrow =
+            Distortion::from_coefficients([-3.98 / 3.0, 3.96 / 5.0, 0.0, 0.0, 0.0]).unwrap();
+        let beyond = Point2::new(3.0, 0.0);
+        assert!(!narrow.is_seen(&beyond));
+        assert!(narrow.undistort(&narrow.distort(&beyond)).is_err());
     }
 }

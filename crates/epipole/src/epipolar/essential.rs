@@ -1,8 +1,7 @@
-//! Essential matrices: constraints, decomposition, linear estimation.
+//! Essential matrices: constraints and decomposition.
 
 use super::from_cameras::unit_norm;
 use crate::camera::{Intrinsics, RigidTransform, cross_matrix};
-use crate::math::null_space::right_singular_vectors;
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
@@ -37,67 +36,6 @@ pub fn project_to_essential(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     }
     let half = core::f64::consts::FRAC_1_SQRT_2;
     Ok(svd.u * Matrix3::from_diagonal(&Vector3::new(half, half, 0.0)) * svd.v.transpose())
-}
-
-/// The essential matrix that minimizes `Σ (x2ᵀ E x1)²` over eight or more pairs of rays, projected
-/// to singular values (1, 1, 0)/√2.
-///
-/// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
-///
-/// # Errors
-/// [`Error::TooFew`] for fewer than 8 pairs, [`Error::SizeMismatch`], [`Error::NotFinite`] for NaN, infinities
-/// and zero rays, [`Error::Degenerate`] if the rays leave E open.
-///
-/// Source: Hartley & Zisserman 2004, §11.7.3.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::RigidTransform;
-/// use epipole::epipolar::{essential_8point, essential_from_motion};
-/// use nalgebra::{Point3, Vector3};
-/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
-/// // Twelve points in the frame of camera 1; a ray is the direction to a point.
-/// let points = (0..12).map(|i| Point3::new((i % 3) as f64 - 1.0, (i / 3) as f64 - 1.0, 4.0 + (i * i % 5) as f64));
-/// let (rays1, rays2): (Vec<_>, Vec<_>) =
-///     points.map(|x| (x.coords, (cam2_from_cam1 * x).coords)).unzip();
-/// let (e, truth) = (essential_8point(&rays1, &rays2)?, essential_from_motion(&cam2_from_cam1)?);
-/// assert!((e - truth).norm().min((e + truth).norm()) < 1e-9);
-/// # Ok(()) }
-/// ```
-pub fn essential_8point(rays1: &[Vector3<f64>], rays2: &[Vector3<f64>]) -> Result<Matrix3<f64>> {
-    if rays1.len() != rays2.len() {
-        return Err(Error::SizeMismatch {
-            what: "the two lists of matching rays",
-            first: rays1.len(),
-            second: rays2.len(),
-        });
-    }
-    if rays1.len() < 8 {
-        return Err(Error::TooFew {
-            what: "the eight-point algorithm",
-            needed: 8,
-            got: rays1.len(),
-        });
-    }
-    let usable = |ray: &Vector3<f64>| {
-        let length = ray.norm();
-        length.is_finite() && length > f64::MIN_POSITIVE
-    };
-    if !rays1.iter().chain(rays2).all(usable) {
-        return Err(Error::NotFinite {
-            what: "a ray's direction",
-        });
-    }
-    let (values, vectors) = right_singular_vectors(rays1.len(), |i| {
-        bearing_row(&rays1[i].normalize(), &rays2[i].normalize())
-    });
-    if values[7] <= 1e-12 * values[0] {
-        return Err(Error::Degenerate {
-            what: "the essential matrix",
-            why: "the rays fit many: they lie in a plane or a line, or the camera only turned",
-        });
-    }
-    project_to_essential(&Matrix3::from_row_slice(&vectors[8]))
 }
 
 /// The row of the linear system for E that one pair of rays gives.
@@ -320,6 +258,7 @@ pub(crate) fn signed_depths(
 
 #[cfg(test)]
 mod tests {
+    use super::super::essential_8point;
     use super::super::from_cameras::tests::{random_cameras, random_point};
     use super::super::{RelativePose, essential_from_motion};
     use super::*;

@@ -6,6 +6,7 @@
 pub(crate) mod coordinates;
 mod distance;
 mod eight_point;
+mod eight_rays;
 mod epipoles;
 mod essential;
 mod find_essential;
@@ -28,11 +29,10 @@ pub use eight_point::{
     EightPoint, enforce_rank2, fundamental_8point, fundamental_8point_explained,
     fundamental_8point_unnormalized,
 };
+pub use eight_rays::essential_8point;
 pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
-pub use essential::{
-    SelectedPose, decompose_essential, essential_8point, project_to_essential, select_pose,
-};
+pub use essential::{SelectedPose, decompose_essential, project_to_essential, select_pose};
 pub use find_essential::{
     EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
 };

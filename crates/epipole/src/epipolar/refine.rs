@@ -24,7 +24,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of
 /// rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
 /// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
-/// [`MatchSet::new`].
+/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match counts.
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
 /// parameters" (the parameters); Hartley & Zisserman 2004, §11.4.3 (the error).
@@ -58,7 +58,7 @@ pub fn refine_fundamental(
     pixels2: &[Point2<f64>],
     loss: RobustLoss,
 ) -> Result<Matrix3<f64>> {
-    let matches = MatchSet::new(pixels1, pixels2)?;
+    let matches = MatchSet::of_all(pixels1, pixels2)?;
     enough(&matches, 7, "a refined fundamental matrix")?;
     loss.check()?;
     let frame = CommonFrame::new(&matches);
@@ -89,7 +89,8 @@ pub fn refine_fundamental(
 /// # Errors
 /// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
 /// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
-/// match, and as [`MatchSet::new`].
+/// match, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
+/// counts.
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with `E = [t]ₓR` instead of F.
 ///
@@ -123,7 +124,7 @@ pub fn refine_relative_pose(
     k2: &Intrinsics,
     loss: RobustLoss,
 ) -> Result<RelativePose> {
-    let matches = MatchSet::new(pixels1, pixels2)?;
+    let matches = MatchSet::of_all(pixels1, pixels2)?;
     enough(&matches, 5, "a refined relative pose")?;
     loss.check()?;
     let frame = CommonFrame::new(&matches);

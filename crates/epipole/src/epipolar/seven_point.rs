@@ -38,8 +38,9 @@ pub fn epipolar_row(x1: &Point2<f64>, x2: &Point2<f64>) -> [f64; 9] {
 ///
 /// * `pixels1`, `pixels2`: matching pixels, pixel by pixel
 ///
-/// Returns an empty list for degenerate matches: equal points, NaN. Seven matches that
-/// leave more than a pencil, such as matches of a plane, give some of the solutions.
+/// Returns an empty list for NaN and infinities, where two matches are equal, and where all points of an
+/// image are. Seven matches that leave more than a pencil otherwise, such as matches of a plane, give some
+/// of the solutions.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.2.
 ///
@@ -69,6 +70,11 @@ pub fn fundamental_7point(
     pixels1: &[Point2<f64>; 7],
     pixels2: &[Point2<f64>; 7],
 ) -> Vec<Matrix3<f64>> {
+    let is_repeated =
+        |i: usize| (0..i).any(|j| pixels1[i] == pixels1[j] && pixels2[i] == pixels2[j]);
+    if (1..7).any(is_repeated) {
+        return Vec::new();
+    }
     let (Ok(n1), Ok(n2)) = (Normalization::new(pixels1), Normalization::new(pixels2)) else {
         return Vec::new();
     };
@@ -178,6 +184,16 @@ mod tests {
         let bad = [Point2::new(f64::NAN, 0.0); 7];
         assert!(fundamental_7point(&same, &same).is_empty());
         assert!(fundamental_7point(&bad, &line).is_empty());
+        // Six different matches are too few, wherever the repeated one stands.
+        let mut random = Random::new(4);
+        let mut anywhere =
+            || core::array::from_fn(|_| Point2::new(random.normal(), random.normal()));
+        for (i, j) in [(0, 6), (2, 3), (1, 5)] {
+            let (mut p1, mut p2): ([_; 7], [_; 7]) = (anywhere(), anywhere());
+            assert!(!fundamental_7point(&p1, &p2).is_empty());
+            (p1[i], p2[i]) = (p1[j], p2[j]);
+            assert!(fundamental_7point(&p1, &p2).is_empty());
+        }
         for f in fundamental_7point(&line, &line) {
             assert!(f.iter().all(|x| x.is_finite()));
         }

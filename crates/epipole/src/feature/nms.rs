@@ -9,7 +9,9 @@ use crate::{Error, Result};
 ///
 /// * `radius`: pixels, ≥ 1; the window is `2 radius + 1` wide and is cut off at the image's edge
 ///
-/// Of equal maxima within a window the first in reading order stays. Positions are whole pixels.
+/// Of equal maxima within a window the first in reading order stays; one that does not stay, because of
+/// another or because a greater response is near it, suppresses nothing equal.
+/// Positions are whole pixels.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite response or threshold, [`Error::OutOfRange`] for a
@@ -45,10 +47,12 @@ pub fn non_maximum_suppression(
     let (width, height) = (response.width() as usize, response.height() as usize);
     let values = response.as_raw();
     let mut peaks = Vec::new();
+    let mut stays = vec![false; values.len()];
     for v in 0..height {
         let row = &values[v * width..(v + 1) * width];
         for (u, &value) in row.iter().enumerate() {
-            if value > threshold && is_peak(values, width, height, u, v, radius) {
+            if value > threshold && is_peak(values, &stays, width, height, u, v, radius) {
+                stays[v * width + u] = true;
                 peaks.push(Keypoint::at(u as f64, v as f64, value));
             }
         }
@@ -73,14 +77,22 @@ pub(crate) fn stronger(a: &Keypoint, b: &Keypoint) -> std::cmp::Ordering {
         .then(a.angle_rad.total_cmp(&b.angle_rad))
 }
 
-fn is_peak(values: &[f32], width: usize, height: usize, u: usize, v: usize, radius: usize) -> bool {
+/// `stays`: which pixels before this one, in reading order, are peaks.
+fn is_peak(
+    values: &[f32],
+    stays: &[bool],
+    width: usize,
+    height: usize,
+    u: usize,
+    v: usize,
+    radius: usize,
+) -> bool {
     let value = values[v * width + u];
     let columns = u.saturating_sub(radius)..=(u.saturating_add(radius)).min(width - 1);
     for y in v.saturating_sub(radius)..=(v.saturating_add(radius)).min(height - 1) {
         for x in columns.clone() {
             let other = values[y * width + x];
-            let earlier = (y, x) < (v, u);
-            if other > value || (earlier && other == value) {
+            if other > value || (other == value && stays[y * width + x]) {
                 return false;
             }
         }
@@ -93,12 +105,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plateau_keeps_one_pixel() {
+    fn a_plateau_keeps_one_pixel_a_window() {
         let flat = GrayImage32::from_pixel(6, 5, image::Luma([1.0]));
-        let peaks = non_maximum_suppression(&flat, 2, 0.5).unwrap();
+        let peaks = non_maximum_suppression(&flat, 5, 0.5).unwrap();
         assert_eq!(peaks.len(), 1);
         assert_eq!((peaks[0].u, peaks[0].v), (0.0, 0.0));
+        let peaks = non_maximum_suppression(&flat, 2, 0.5).unwrap();
+        let places: Vec<_> = peaks.iter().map(|p| (p.u, p.v)).collect();
+        assert_eq!(places, [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0), (3.0, 3.0)]);
         assert!(non_maximum_suppression(&flat, 2, 1.0).unwrap().is_empty());
+    }
+
+    /// The second pixel of the plateau is in the window of none but the first, which the peak has suppressed.
+    #[test]
+    fn what_is_suppressed_suppresses_nothing_equal() {
+        let values = vec![5.0, 0.0, 3.0, 3.0, 0.0, 0.0];
+        let row = crate::imaging::gray_from_values(6, 1, values).unwrap();
+        let peaks = non_maximum_suppression(&row, 2, 1.0).unwrap();
+        assert_eq!(peaks.iter().map(|p| p.u).collect::<Vec<_>>(), [0.0, 3.0]);
     }
 
     #[test]

@@ -22,17 +22,43 @@ pub struct HomographyEstimator {
     frame: CommonFrame,
 }
 
+/// Whether points lie on one line, but for rounding: no four of them give a homography.
+fn is_line(u: &[f64], v: &[f64]) -> bool {
+    let from_first = |i: usize| [u[i] - u[0], v[i] - v[0]];
+    let length_sq = |[x, y]: [f64; 2]| x * x + y * y;
+    let [x, y] = (1..u.len()).map(from_first).fold([0.0; 2], |far, d| {
+        if length_sq(d) > length_sq(far) {
+            d
+        } else {
+            far
+        }
+    });
+    // As far from the line, relative to its length, as three points of a sample may be from one.
+    let reach_sq = length_sq([x, y]);
+    (1..u.len())
+        .map(from_first)
+        .all(|d| (d[0] * y - d[1] * x).abs() <= 1e-12 * reach_sq)
+}
+
 impl HomographyEstimator {
     /// Prepares the estimation.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 4 different matches.
+    /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::Degenerate`] if all pixels of an image lie
+    /// on one line.
     pub fn new(matches: MatchSet) -> Result<Self> {
         if matches.len() < 4 {
             return Err(Error::TooFew {
                 what: "a homography from matches",
                 needed: 4,
                 got: matches.len(),
+            });
+        }
+        let [u1, v1, u2, v2] = matches.coordinates();
+        if is_line(u1, v1) || is_line(u2, v2) {
+            return Err(Error::Degenerate {
+                what: "a homography from matches",
+                why: "all pixels of an image lie on one line",
             });
         }
         let pixels = Coordinates::voting(&matches);
@@ -158,8 +184,7 @@ impl Estimator for HomographyEstimator {
 /// [`fit_homography`](super::fit_homography), which takes matches as they are.
 ///
 /// # Errors
-/// As [`MatchSet::new`], [`HomographyEstimator::new`] and [`ransac`]; pixels on one line give
-/// [`Error::NoConsensus`].
+/// As [`MatchSet::new`], [`HomographyEstimator::new`] and [`ransac`].
 ///
 /// Source: Hartley & Zisserman 2004, algorithm 4.6.
 ///
@@ -186,4 +211,31 @@ pub fn find_homography(
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     ransac(HomographyEstimator::new(matches)?, options)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten thousand samples were drawn for nothing before.
+    #[test]
+    fn pixels_on_a_line_are_refused_at_once() {
+        let line: Vec<_> = (0..50)
+            .map(|i| Point2::new(12.3 + 7.7 * f64::from(i), 400.1 - 3.3 * f64::from(i)))
+            .collect();
+        let anywhere: Vec<_> = (0..50)
+            .map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480)))
+            .collect();
+        for (p1, p2) in [(&line, &line), (&line, &anywhere), (&anywhere, &line)] {
+            let error = find_homography(p1, p2, &RansacOptions::default()).unwrap_err();
+            assert!(matches!(error, Error::Degenerate { .. }), "{error}");
+            assert!(error.to_string().contains("one line"));
+        }
+        // One pixel beside the line is enough for nothing, but two are.
+        let mut bent = line.clone();
+        bent[3].y += 40.0;
+        bent[40].y -= 30.0;
+        let report = find_homography(&bent, &bent, &RansacOptions::default()).unwrap();
+        assert_eq!(report.num_inliers, 50);
+    }
 }

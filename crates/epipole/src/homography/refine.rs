@@ -19,7 +19,7 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::OutOfRange`] for a loss that
 /// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and as
-/// [`MatchSet::new`].
+/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match counts.
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
 ///
@@ -44,7 +44,7 @@ pub fn refine_homography(
     pixels2: &[Point2<f64>],
     loss: RobustLoss,
 ) -> Result<Matrix3<f64>> {
-    let matches = MatchSet::new(pixels1, pixels2)?;
+    let matches = MatchSet::of_all(pixels1, pixels2)?;
     if matches.len() < 4 {
         return Err(Error::TooFew {
             what: "a refined homography",

@@ -4,6 +4,7 @@ mod line;
 pub(crate) mod null_space;
 pub(crate) mod polynomial;
 pub mod random;
+pub(crate) mod real_roots;
 pub(crate) mod scaling;
 pub(crate) mod simd;
 pub(crate) mod svd3;

@@ -1,4 +1,4 @@
-//! Real roots of polynomials. Coefficients run from the constant term upwards.
+//! Real roots of quadratics and cubics. Coefficients run from the constant term upwards.
 
 /// Real roots of `c[0] + c[1] x + c[2] x²`; returns how many were written to the front of `roots`.
 ///
@@ -33,14 +33,15 @@ pub(crate) fn quadratic_roots(c: [f64; 3], roots: &mut [f64; 2]) -> usize {
 /// Source: Newton's method from beyond the extrema, where it converges without overshooting; then
 /// a quadratic for the others.
 pub(crate) fn cubic_roots(c: [f64; 4], roots: &mut [f64; 3]) -> usize {
-    let largest = c.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if c[3].abs() <= 1e-14 * largest {
+    let (p, q, r) = (c[2] / c[3], c[1] / c[3], c[0] / c[3]);
+    // Cubes of the coefficients must be numbers, too.
+    let largest = p.abs().max(q.abs()).max(r.abs());
+    if c[3] == 0.0 || largest > 1e100 {
         let mut two = [0.0; 2];
         let count = quadratic_roots([c[0], c[1], c[2]], &mut two);
         roots[..count].copy_from_slice(&two[..count]);
         return count;
     }
-    let (p, q, r) = (c[2] / c[3], c[1] / c[3], c[0] / c[3]);
     let Some(first) = monic_cubic_root(p, q, r) else {
         return 0;
     };
@@ -115,223 +116,14 @@ pub(crate) fn monic_cubic_root(p: f64, q: f64, r: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
-/// The degree that [`real_roots`] is for.
-pub(crate) const DEGREE: usize = 10;
-
-/// All real roots of a polynomial of degree 10, in ascending order; returns how many were written.
-///
-/// Roots closer together than about 1e-9 of their size may be reported as one.
-///
-/// Source: Sturm's theorem; the sequence as in Hook & McAree 1990, "Using Sturm sequences to
-/// bracket real roots of polynomial equations" (Graphics Gems).
-pub(crate) fn real_roots(c: &[f64; DEGREE + 1], roots: &mut [f64; DEGREE]) -> usize {
-    let largest = c.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if c[DEGREE].abs() <= 1e-300 || !largest.is_finite() {
-        return 0;
-    }
-    let mut monic = [0.0; DEGREE + 1];
-    for i in 0..=DEGREE {
-        monic[i] = c[i] / c[DEGREE];
-        if !monic[i].is_finite() {
-            return 0;
-        }
-    }
-    let sequence = Sturm::new(&monic);
-    let bound = root_bound(&monic);
-    let (below, above) = (sequence.changes(-bound), sequence.changes(bound));
-    let mut finder = Finder {
-        polynomial: &monic,
-        sequence: &sequence,
-        roots,
-        count: 0,
-    };
-    if below > above {
-        finder.isolate(-bound, bound, below, above, 0);
-    }
-    finder.count
-}
-
-/// Every real root is smaller in size: `2 max |c[i]|^(1/(n−i))`, each power rounded up to a power
-/// of two, so that no logarithm is needed.
-///
-/// Source: Fujiwara 1916.
-fn root_bound(monic: &[f64; DEGREE + 1]) -> f64 {
-    let mut exponent = -200;
-    for i in 0..DEGREE {
-        if monic[i] != 0.0 {
-            // |c| < 2^size.
-            let size = ((monic[i].to_bits() >> 52) & 0x7ff) as i32 - 1022;
-            let power = (DEGREE - i) as i32;
-            exponent = exponent.max((size + power - 1).div_euclid(power));
-        }
-    }
-    f64::from_bits(((exponent.min(1000) + 1 + 1023) as u64) << 52)
-}
-
-/// The Sturm sequence: the polynomial, its derivative, then negated remainders.
-struct Sturm {
-    terms: [[f64; DEGREE + 1]; DEGREE + 1],
-    degrees: [usize; DEGREE + 1],
-    len: usize,
-}
-
-impl Sturm {
-    fn new(monic: &[f64; DEGREE + 1]) -> Self {
-        let mut terms = [[0.0; DEGREE + 1]; DEGREE + 1];
-        let mut degrees = [0; DEGREE + 1];
-        terms[0] = *monic;
-        degrees[0] = DEGREE;
-        for i in 1..=DEGREE {
-            terms[1][i - 1] = monic[i] * i as f64;
-        }
-        degrees[1] = DEGREE - 1;
-        let mut len = 2;
-        while len <= DEGREE && degrees[len - 1] > 0 {
-            let (head, tail) = terms.split_at_mut(len);
-            let (a, b) = (&head[len - 2], &head[len - 1]);
-            let (deg_a, deg_b) = (degrees[len - 2], degrees[len - 1]);
-            let mut rest = *a;
-            let inverse = 1.0 / b[deg_b];
-            let mut size_before: f64 = 0.0;
-            for i in (deg_b..=deg_a).rev() {
-                let quotient = rest[i] * inverse;
-                for j in 0..deg_b {
-                    let part = quotient * b[j];
-                    rest[i - deg_b + j] -= part;
-                    size_before = size_before.max(part.abs());
-                }
-                rest[i] = 0.0;
-            }
-            for x in &rest[..deg_b] {
-                size_before = size_before.max(x.abs());
-            }
-            // Leading coefficients that are rounding noise are zero: the last two terms share
-            // a factor.
-            let mut degree = deg_b - 1;
-            while degree > 0 && rest[degree].abs() <= 1e-15 * size_before {
-                degree -= 1;
-            }
-            let size = rest[..=degree].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            if size <= 1e-15 * size_before || !size.is_finite() {
-                break;
-            }
-            let shrink = -1.0 / size;
-            for (target, value) in tail[0].iter_mut().zip(&rest[..=degree]) {
-                *target = value * shrink;
-            }
-            degrees[len] = degree;
-            len += 1;
-        }
-        Self {
-            terms,
-            degrees,
-            len,
-        }
-    }
-
-    /// Sign changes of the sequence at x.
-    fn changes(&self, x: f64) -> usize {
-        let mut changes = 0;
-        let mut previous = 0.0;
-        for (term, &degree) in self.terms[..self.len].iter().zip(&self.degrees) {
-            let mut value = term[degree];
-            for i in (0..degree).rev() {
-                value = value * x + term[i];
-            }
-            if value != 0.0 {
-                changes += usize::from(previous * value.signum() < 0.0);
-                previous = value.signum();
-            }
-        }
-        changes
-    }
-}
-
-struct Finder<'a> {
-    polynomial: &'a [f64; DEGREE + 1],
-    sequence: &'a Sturm,
-    roots: &'a mut [f64; DEGREE],
-    count: usize,
-}
-
-impl Finder<'_> {
-    /// Halves an interval until each part has one root.
-    fn isolate(&mut self, low: f64, high: f64, at_low: usize, at_high: usize, depth: usize) {
-        let inside = at_low.saturating_sub(at_high);
-        if inside == 0 || self.count == DEGREE {
-            return;
-        }
-        if inside == 1
-            && let Some(root) = self.refine(low, high)
-        {
-            self.roots[self.count] = root;
-            self.count += 1;
-            return;
-        }
-        let middle = 0.5 * (low + high);
-        if depth > 60 || middle <= low || middle >= high {
-            self.roots[self.count] = middle;
-            self.count += 1;
-            return;
-        }
-        let at_middle = self.sequence.changes(middle);
-        self.isolate(low, middle, at_low, at_middle, depth + 1);
-        self.isolate(middle, high, at_middle, at_high, depth + 1);
-    }
-
-    fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (1.0, 0.0);
-        for i in (0..DEGREE).rev() {
-            slope = slope * x + value;
-            value = value * x + self.polynomial[i];
-        }
-        (value, slope)
-    }
-
-    /// Newton's method, with bisection where it would leave the interval. `None` if the ends have
-    /// equal signs, because a double root or rounding misled the count.
-    fn refine(&self, mut low: f64, mut high: f64) -> Option<f64> {
-        let (at_low, _) = self.value_and_slope(low);
-        let (at_high, _) = self.value_and_slope(high);
-        if at_low == 0.0 {
-            return Some(low);
-        }
-        if (at_low > 0.0) == (at_high > 0.0) {
-            return (at_high == 0.0).then_some(high);
-        }
-        let mut x = 0.5 * (low + high);
-        for _ in 0..80 {
-            let (value, slope) = self.value_and_slope(x);
-            if value == 0.0 {
-                return Some(x);
-            }
-            if (value > 0.0) == (at_low > 0.0) {
-                low = x;
-            } else {
-                high = x;
-            }
-            let newton = x - value / slope;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            if (next - x).abs() <= 1e-15 * next.abs() {
-                return Some(next);
-            }
-            x = next;
-        }
-        Some(x)
-    }
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use super::super::real_roots::{size_of_terms, value_and_slope};
     use super::*;
     use crate::math::random::Random;
 
     /// Coefficients of Π (x − root) times pairs without real roots.
-    fn expand(real: &[f64], complex: &[(f64, f64)]) -> Vec<f64> {
+    pub(in crate::math) fn expand(real: &[f64], complex: &[(f64, f64)]) -> Vec<f64> {
         let mut c = vec![1.0];
         let mut multiply = |factor: &[f64]| {
             let mut product = vec![0.0; c.len() + factor.len() - 1];
@@ -393,6 +185,49 @@ mod tests {
     }
 
     #[test]
+    fn cubics_lose_no_root_over_twelve_decades() {
+        let mut random = Random::new(3);
+        let (mut lost, mut judged) = (0, 0);
+        for trial in 0..100_000 {
+            let mut size = || libm::pow(10.0, random.uniform(-6.0, 6.0));
+            let sizes = [size(), size(), size()];
+            let mut sign = || if random.below(2) == 0 { -1.0 } else { 1.0 };
+            let mut real: Vec<f64> = sizes.iter().map(|s| s * sign()).collect();
+            let mut pairs = vec![];
+            if trial % 2 == 0 {
+                real.truncate(1);
+                let angle = random.uniform(0.0, core::f64::consts::PI);
+                pairs.push((sizes[1] * libm::cos(angle), sizes[1] * libm::sin(angle)));
+            }
+            real.sort_by(f64::total_cmp);
+            let c = expand(&real, &pairs);
+            let c = [c[0], c[1], c[2], c[3]];
+            let bound = |x: f64| 1e-14 * size_of_terms(&c, x) / value_and_slope(&c, x).1.abs();
+            let ill_posed = (real.windows(2))
+                .any(|w| w[1] - w[0] < 20.0 * (bound(w[0]) + bound(w[1])))
+                || pairs.iter().any(|(re, im)| *im < 1e-5 * re.abs());
+            if ill_posed {
+                continue;
+            }
+            judged += 1;
+            let mut roots = [0.0; 3];
+            let count = cubic_roots(c, &mut roots);
+            let near = |truth: &f64| {
+                roots[..count]
+                    .iter()
+                    .any(|root| (root - truth).abs() <= bound(*truth))
+            };
+            if count != real.len() || !real.iter().all(near) {
+                lost += 1;
+                if lost < 20 {
+                    println!("{real:?} {pairs:?}: {:?}", &roots[..count]);
+                }
+            }
+        }
+        assert!(lost == 0 && judged > 90_000, "{lost} of {judged}");
+    }
+
+    #[test]
     fn special_cubics() {
         let mut roots = [0.0; 3];
         assert_eq!(cubic_roots([-8.0, 0.0, 0.0, 1.0], &mut roots), 1);
@@ -405,46 +240,5 @@ mod tests {
         // (x − 1)² (x + 2)
         let count = cubic_roots([2.0, -3.0, 0.0, 1.0], &mut roots);
         assert!(roots[..count].iter().any(|r| (r + 2.0).abs() < 1e-12));
-    }
-
-    #[test]
-    fn roots_of_degree_ten() {
-        let mut random = Random::new(7);
-        for trial in 0..500 {
-            let num_real = 2 * (trial % 6);
-            let mut real: Vec<f64> = (0..num_real).map(|_| random.uniform(-4.0, 4.0)).collect();
-            real.sort_by(f64::total_cmp);
-            if real.windows(2).any(|w| w[1] - w[0] < 0.05) {
-                continue;
-            }
-            let complex: Vec<_> = (0..(10 - num_real) / 2)
-                .map(|_| (random.uniform(-3.0, 3.0), random.uniform(0.3, 3.0)))
-                .collect();
-            let c = expand(&real, &complex);
-            let scale = random.uniform(-100.0, 100.0);
-            let coefficients = core::array::from_fn(|i| c[i] * scale);
-            let mut roots = [0.0; 10];
-            let count = real_roots(&coefficients, &mut roots);
-            assert_eq!(count, num_real, "{real:?} {:?}", &roots[..count]);
-            for (found, truth) in roots.iter().zip(&real) {
-                assert!((found - truth).abs() < 1e-6, "{real:?} {roots:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn degenerate_polynomials_end() {
-        let mut roots = [0.0; 10];
-        assert_eq!(real_roots(&[0.0; 11], &mut roots), 0);
-        assert_eq!(real_roots(&[f64::NAN; 11], &mut roots), 0);
-        let mut power = [0.0; 11];
-        power[10] = 1.0;
-        assert!(real_roots(&power, &mut roots) <= 10);
-        // (x² − 1)⁵: roots of multiplicity five.
-        let c = expand(
-            &[1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0],
-            &[],
-        );
-        assert!(real_roots(&core::array::from_fn(|i| c[i]), &mut roots) <= 10);
     }
 }

@@ -5,7 +5,9 @@ use super::chance::log10_false_alarms;
 use super::options::HARDLY_CHANCE;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
-use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
+use super::{
+    Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support, Unique,
+};
 use crate::math::random::Random;
 use crate::{Error, Result};
 
@@ -270,12 +272,15 @@ impl<E: Estimator> Ransac<E> {
             fits[index] = true;
         }
         let inliers: Vec<bool> = match self.estimator.unique() {
-            Some(unique) => unique.places().iter().map(|&i| fits[i]).collect(),
+            Some(unique) => (unique.places().iter())
+                .map(|place| place.is_some_and(|i| fits[i]))
+                .collect(),
             None => fits,
         };
         Ok(RansacReport {
             num_inliers: inliers.iter().filter(|&&inlier| inlier).count(),
             num_unique_inliers: num_distinct,
+            num_left_out: (self.estimator.unique()).map_or(0, Unique::num_left_out),
             inliers,
             iterations: self.iterations,
             required_iterations: self.required,

@@ -38,20 +38,27 @@ pub fn fit_line_total_least_squares(points: &[Point2<f64>]) -> Result<Line2> {
     fit(points.len(), |i| points[i])
 }
 
-fn check_points(points: &[Point2<f64>]) -> Result<()> {
-    if points.len() < 2 {
+const NOT_FINITE: Error = Error::NotFinite {
+    what: "a point of a line",
+};
+
+fn check_number(num_points: usize) -> Result<()> {
+    if num_points < 2 {
         return Err(Error::TooFew {
             what: "a line through points",
             needed: 2,
-            got: points.len(),
+            got: num_points,
         });
     }
+    Ok(())
+}
+
+fn check_points(points: &[Point2<f64>]) -> Result<()> {
+    check_number(points.len())?;
     if points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
         Ok(())
     } else {
-        Err(Error::NotFinite {
-            what: "a point of a line",
-        })
+        Err(NOT_FINITE)
     }
 }
 
@@ -135,12 +142,18 @@ impl<'a> LineEstimator<'a> {
     /// Prepares the estimation; takes a slice or a `Vec` of points, pixels.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than two points, [`Error::NotFinite`] for NaN and infinities,
-    /// [`Error::Degenerate`] if all points are equal.
+    /// [`Error::TooFew`] for fewer than two points that are not at infinity, which are left out;
+    /// [`Error::NotFinite`] for NaN, [`Error::Degenerate`] if all points are equal.
     pub fn new(points: impl Into<Cow<'a, [Point2<f64>]>>) -> Result<Self> {
         let points = points.into();
-        check_points(&points)?;
-        let unique = Unique::new(points.len(), |i| [points[i].x, points[i].y]);
+        if points.iter().any(|p| p.x.is_nan() || p.y.is_nan()) {
+            return Err(NOT_FINITE);
+        }
+        let unique = Unique::of_usable(points.len(), |i| {
+            let values = [points[i].x, points[i].y];
+            values.iter().all(|x| x.is_finite()).then_some(values)
+        });
+        check_number(points.len() - unique.num_left_out())?;
         if unique.len() < 2 {
             return Err(Error::Degenerate {
                 what: "a line through points",
@@ -184,7 +197,8 @@ impl Estimator for LineEstimator<'_> {
     }
 
     fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let coordinates = [0, 1].map(|axis| self.points.iter().map(|p| p[axis]).collect());
+        let places = || (0..self.unique.len()).map(|i| self.point(i));
+        let coordinates = [0, 1].map(|axis| places().map(|p| p[axis]).collect());
         Some(chance_near_line(coordinates, max_error_px))
     }
 

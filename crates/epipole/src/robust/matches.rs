@@ -1,6 +1,6 @@
 //! Matches between two images, laid out for speed.
 
-use super::{Unique, chance_near_line, chance_near_point};
+use super::{Support, Unique, chance_near_line, chance_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -30,22 +30,28 @@ struct Crowds {
     votes: Vec<f64>,
 }
 
+/// Coordinates farther from 0, pixels, are left out.
+pub(crate) const FARTHEST_PX: f64 = 1e9;
+
 impl MatchSet {
     /// Copies the matches, each different one once.
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
+    /// A match with a coordinate that is infinite or beyond 10⁹ pixels, whose fourth power no longer fits the
+    /// arithmetic of the solvers, is wrong in any case and left out; see
+    /// [`RansacReport::num_left_out`](super::RansacReport::num_left_out).
+    ///
     /// # Errors
-    /// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN and
-    /// infinities, [`Error::OutOfRange`] for coordinates beyond 10⁹ pixels, whose fourth powers
-    /// no longer fit the arithmetic of the solvers.
+    /// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::robust::MatchSet;
     /// use nalgebra::Point2;
-    /// let p = [Point2::new(1.0, 2.0), Point2::new(3.0, 4.0), Point2::new(1.0, 2.0)];
-    /// assert_eq!(MatchSet::new(&p, &p)?.len(), 2);
+    /// let p = [Point2::new(1.0, 2.0), Point2::new(3.0, 4.0), Point2::new(1.0, 2.0), Point2::new(1e12, 0.0)];
+    /// let set = MatchSet::new(&p, &p)?;
+    /// assert_eq!((set.len(), set.unique().num_left_out()), (2, 1));
     /// # Ok(()) }
     /// ```
     pub fn new(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Self> {
@@ -56,24 +62,17 @@ impl MatchSet {
                 second: pixels2.len(),
             });
         }
-        for p in pixels1.iter().chain(pixels2) {
-            for value in [p.x, p.y] {
-                if !value.is_finite() {
-                    return Err(Error::NotFinite {
-                        what: "a matched pixel",
-                    });
-                }
-                if value.abs() > 1e9 {
-                    return Err(Error::OutOfRange {
-                        what: "a matched pixel's coordinate",
-                        requirement: "at most 10⁹ pixels from 0",
-                        value,
-                    });
-                }
-            }
+        if (pixels1.iter().chain(pixels2)).any(|p| p.x.is_nan() || p.y.is_nan()) {
+            return Err(Error::NotFinite {
+                what: "a matched pixel",
+            });
         }
-        let unique = Unique::new(pixels1.len(), |i| {
-            [pixels1[i].x, pixels1[i].y, pixels2[i].x, pixels2[i].y]
+        let unique = Unique::of_usable(pixels1.len(), |i| {
+            let values = [pixels1[i].x, pixels1[i].y, pixels2[i].x, pixels2[i].y];
+            values
+                .iter()
+                .all(|x| x.abs() <= FARTHEST_PX)
+                .then_some(values)
         });
         let gather = |coordinate: &dyn Fn(usize) -> f64| {
             unique
@@ -92,6 +91,29 @@ impl MatchSet {
             v2,
             unique,
         })
+    }
+
+    /// As [`new`](Self::new), for who counts on every match.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`Error::NotFinite`] for infinities and [`Error::OutOfRange`] for coordinates
+    /// beyond 10⁹ pixels.
+    pub(crate) fn of_all(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Self> {
+        for value in pixels1.iter().chain(pixels2).flat_map(|p| [p.x, p.y]) {
+            if value.is_infinite() {
+                return Err(Error::NotFinite {
+                    what: "a matched pixel",
+                });
+            }
+            if value.abs() > FARTHEST_PX {
+                return Err(Error::OutOfRange {
+                    what: "a matched pixel's coordinate",
+                    requirement: "at most 10⁹ pixels from 0",
+                    value,
+                });
+            }
+        }
+        Self::new(pixels1, pixels2)
     }
 
     /// How many different matches there are.
@@ -142,6 +164,35 @@ impl MatchSet {
         self.crowds.as_ref().map(|crowds| &*crowds.votes)
     }
 
+    /// How well the matches support a model, given their squared errors in px²; as
+    /// [`Estimator::support`](super::Estimator::support), each with its votes.
+    pub(crate) fn support(
+        &self,
+        error_sq: impl Fn(usize) -> f64,
+        max_error_px: f64,
+        cost_limit: f64,
+    ) -> Support {
+        let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
+        let mut support = Support {
+            cost: 0.0,
+            num_inliers: 0,
+        };
+        for i in 0..self.len() {
+            let relative = error_sq(i) * per_threshold_sq;
+            let vote = self.votes().map_or(1.0, |votes| votes[i]);
+            if relative < 1.0 {
+                support.cost += vote * relative;
+                support.num_inliers += 1;
+            } else {
+                support.cost += vote;
+                if support.cost > cost_limit {
+                    break;
+                }
+            }
+        }
+        support
+    }
+
     /// All votes together.
     pub(crate) fn num_votes(&self) -> f64 {
         let count = || self.len() as f64;
@@ -190,7 +241,8 @@ impl Crowds {
         if different.iter().all(|pixels| pixels.len() == num_matches) {
             return None;
         }
-        let pixels = different.map(|pixels| pixels.places().to_vec());
+        let pixels: [Vec<usize>; 2] =
+            different.map(|pixels| pixels.places().iter().flatten().copied().collect());
         let sizes = [0, 1].map(|image: usize| {
             let mut sizes = vec![0_usize; num_matches];
             pixels[image].iter().for_each(|&pixel| sizes[pixel] += 1);
@@ -216,11 +268,18 @@ mod tests {
             MatchSet::new(&p, &p[..2]),
             Err(Error::SizeMismatch { .. })
         ));
-        for bad in [f64::NAN, f64::INFINITY, 1e200] {
-            let mut q = p.clone();
-            q[1].y = bad;
-            assert!(MatchSet::new(&p, &q).is_err());
-            assert!(MatchSet::new(&q, &p).is_err());
+        let mut q = p.clone();
+        q[1].y = f64::NAN;
+        assert!(MatchSet::new(&p, &q).is_err());
+        assert!(MatchSet::new(&q, &p).is_err());
+        for far in [f64::INFINITY, 1e200, -1.1e9] {
+            q[1].y = far;
+            for set in [MatchSet::new(&p, &q), MatchSet::new(&q, &p)] {
+                let set = set.unwrap();
+                assert_eq!(set.unique().places(), [Some(0), None, Some(0)]);
+            }
+            assert!(MatchSet::of_all(&p, &q).is_err());
+            assert!(MatchSet::of_all(&q, &p).is_err());
         }
         assert!(MatchSet::new(&[], &[]).unwrap().is_empty());
     }
@@ -249,6 +308,6 @@ mod tests {
         let set = MatchSet::new(&p, &q).unwrap();
         assert_eq!(set.len(), 2);
         assert_eq!(set.pair(1), (p[0], q[1]));
-        assert_eq!(set.unique().places(), [0, 1, 0]);
+        assert_eq!(set.unique().places(), [0, 1, 0].map(Some));
     }
 }

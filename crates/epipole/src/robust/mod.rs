@@ -27,6 +27,7 @@ pub(crate) use chance::{chance_near_line, chance_near_point};
 pub use engine::Ransac;
 pub use estimator::{Estimator, Support};
 pub use line::{LineEstimator, fit_line_total_least_squares};
+pub(crate) use matches::FARTHEST_PX;
 pub use matches::MatchSet;
 pub use options::{Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason};
 pub use run::{ransac, ransac_with};

@@ -151,6 +151,8 @@ pub struct RansacReport<M> {
     /// The same, with equal data counted once, and for F, E and H matches that meet in a pixel of an
     /// image, too. This number, not `num_inliers`, says how well the model is supported.
     pub num_unique_inliers: usize,
+    /// Data that were left out, and so are no inliers: an infinite coordinate, or one beyond 10⁹ pixels.
+    pub num_left_out: usize,
     /// Samples drawn.
     pub iterations: usize,
     /// Samples that the final share of inliers asks for, with [`SamplerKind::Prosac`] that among the
@@ -202,6 +204,7 @@ impl<M> RansacReport<M> {
             inliers: self.inliers,
             num_inliers: self.num_inliers,
             num_unique_inliers: self.num_unique_inliers,
+            num_left_out: self.num_left_out,
             iterations: self.iterations,
             required_iterations: self.required_iterations,
             score: self.score,

@@ -1,6 +1,6 @@
 //! Similarities of the plane: turn, scale, shift.
 
-use super::{Estimator, MatchSet, RansacOptions, RansacReport, Unique, ransac};
+use super::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -54,7 +54,8 @@ impl Similarity2 {
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two matches, [`Error::Degenerate`] if all points of image 1
-/// are equal, and as [`MatchSet::new`].
+/// are equal, [`Error::OutOfRange`] for coordinates beyond 10⁹ pixels, [`Error::NotFinite`] for infinities,
+/// and as [`MatchSet::new`].
 ///
 /// Source: Umeyama 1991, in two dimensions, without reflection.
 ///
@@ -69,7 +70,7 @@ impl Similarity2 {
 /// # Ok(()) }
 /// ```
 pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Similarity2> {
-    let matches = MatchSet::new(pixels1, pixels2)?;
+    let matches = MatchSet::of_all(pixels1, pixels2)?;
     if matches.len() < 2 {
         return Err(Error::TooFew {
             what: "a similarity from matches",
@@ -121,7 +122,8 @@ fn fit(
 
 /// Similarities from matches of which some are wrong, for [`Ransac`](super::Ransac).
 ///
-/// A sample is two matches; the error is the distance in image 2. Equal matches count once.
+/// A sample is two matches; the error is the distance in image 2. Equal matches count once, and those that
+/// meet in a pixel have few votes together.
 #[derive(Debug, Clone)]
 pub struct SimilarityEstimator {
     matches: MatchSet,
@@ -150,6 +152,9 @@ impl Estimator for SimilarityEstimator {
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Similarity2>) {
+        if self.matches.have_shared_pixel(sample) {
+            return;
+        }
         // A map that collapses the image to a point is no similarity.
         models
             .extend(fit(2, |i| self.matches.pair(sample[i])).filter(|s| s.a != 0.0 || s.b != 0.0));
@@ -165,8 +170,21 @@ impl Estimator for SimilarityEstimator {
         fit(inliers.len(), |i| self.matches.pair(inliers[i]))
     }
 
+    fn support(&self, model: &Similarity2, max_error_px: f64, cost_limit: f64) -> Support {
+        self.matches
+            .support(|i| self.error_sq(model, i), max_error_px, cost_limit)
+    }
+
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         Some(self.matches.chance_near_point2(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
     }
 
     fn unique(&self) -> Option<&Unique> {

@@ -11,8 +11,8 @@ const MAX_COORDINATES: usize = 5;
 pub struct Unique {
     /// For each different datum, where it first occurs.
     first: Vec<usize>,
-    /// For each given datum, its place among the different ones.
-    place: Vec<usize>,
+    /// For each given datum, its place among the different ones; `None` for one that is left out.
+    place: Vec<Option<usize>>,
 }
 
 impl Unique {
@@ -20,39 +20,46 @@ impl Unique {
     ///
     /// Different data keep the order in which they first occur.
     pub fn new<const D: usize>(num_data: usize, datum: impl Fn(usize) -> [f64; D]) -> Self {
+        Self::of_usable(num_data, |i| Some(datum(i)))
+    }
+
+    /// As [`new`](Self::new), without the data that are `None`, which cannot be computed with.
+    pub fn of_usable<const D: usize>(
+        num_data: usize,
+        datum: impl Fn(usize) -> Option<[f64; D]>,
+    ) -> Self {
         // Adding zero makes −0 and 0 the same bits.
         let key = |i: usize| {
             let mut key = [0; MAX_COORDINATES];
-            for (bits, x) in key.iter_mut().zip(datum(i)) {
+            for (bits, x) in key.iter_mut().zip(datum(i)?) {
                 *bits = (x + 0.0).to_bits();
             }
-            (key, i)
+            Some((key, i))
         };
         const { assert!(D <= MAX_COORDINATES) }
-        Self::of_keys((0..num_data).map(key).collect())
+        Self::of_keys(num_data, (0..num_data).filter_map(key).collect())
     }
 
     /// Apart from [`new`](Self::new), so that there is one sort for data of every kind.
-    fn of_keys(mut order: Vec<([u64; MAX_COORDINATES], usize)>) -> Self {
-        let num_data = order.len();
+    fn of_keys(num_data: usize, mut order: Vec<([u64; MAX_COORDINATES], usize)>) -> Self {
         // Sorting by (bits, index) puts the first occurrence at the front of its group.
         order.sort_unstable();
-        let mut leader = vec![0; num_data];
+        let mut leader = vec![None; num_data];
         let mut current = 0;
         for (rank, (bits, i)) in order.iter().enumerate() {
             if rank == 0 || order[rank - 1].0 != *bits {
                 current = *i;
             }
-            leader[*i] = current;
+            leader[*i] = Some(current);
         }
         let mut first = Vec::with_capacity(num_data);
-        let mut place = vec![0; num_data];
+        let mut place = vec![None; num_data];
         for i in 0..num_data {
-            if leader[i] == i {
-                place[i] = first.len();
+            if leader[i] == Some(i) {
+                place[i] = Some(first.len());
                 first.push(i);
             } else {
-                place[i] = place[leader[i]];
+                place[i] = leader[i].and_then(|leader: usize| place[leader]);
             }
         }
         Self { first, place }
@@ -73,9 +80,14 @@ impl Unique {
         &self.first
     }
 
-    /// For each given datum, its place among the different ones.
-    pub fn places(&self) -> &[usize] {
+    /// For each given datum, its place among the different ones; `None` for one that is left out.
+    pub fn places(&self) -> &[Option<usize>] {
         &self.place
+    }
+
+    /// How many of the given data are left out.
+    pub fn num_left_out(&self) -> usize {
+        self.place.iter().filter(|place| place.is_none()).count()
     }
 }
 
@@ -88,8 +100,12 @@ mod tests {
         let data = [[1.0, 2.0], [0.0, 1.0], [1.0, 2.0], [-0.0, 1.0], [3.0, 3.0]];
         let unique = Unique::new(data.len(), |i| data[i]);
         assert_eq!(unique.first_occurrences(), [0, 1, 4]);
-        assert_eq!(unique.places(), [0, 1, 0, 1, 2]);
+        assert_eq!(unique.places(), [0, 1, 0, 1, 2].map(Some));
         assert_eq!(unique.len(), 3);
         assert!(Unique::new(0, |_| [0.0]).is_empty());
+        let unique = Unique::of_usable(data.len(), |i| (i != 0).then_some(data[i]));
+        assert_eq!(unique.first_occurrences(), [1, 2, 4]);
+        assert_eq!(unique.places(), [None, Some(0), Some(1), Some(0), Some(2)]);
+        assert_eq!((unique.len(), unique.num_left_out()), (3, 1));
     }
 }

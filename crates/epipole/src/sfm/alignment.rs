@@ -1,6 +1,7 @@
 //! Bringing two reconstructions into one frame, and how far apart they then are.
 
 use crate::camera::RigidTransform;
+use crate::math::{Svd3, svd3};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, Rotation3, Similarity3, Translation3, UnitQuaternion, Vector3};
 
@@ -78,39 +79,34 @@ pub fn align_points(
         to_spread += b * b.transpose() / count;
     }
     for spread in [&from_spread, &to_spread] {
-        let mut values = spread.symmetric_eigenvalues();
-        values.as_mut_slice().sort_by(f64::total_cmp);
-        if values[1] <= 1e-14 * values[2] || values[2] <= 0.0 {
+        let values = svd3(spread).singular_values;
+        if values[1] <= 1e-14 * values[0] || values[0] <= 0.0 {
             return Err(Error::Degenerate {
                 what: "an alignment of points",
                 why: "they lie on one line",
             });
         }
     }
-    let degenerate = Error::Degenerate {
-        what: "an alignment of points",
-        why: "the two sets have no common shape",
-    };
-    let svd = covariance.svd(true, true);
-    let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-        return Err(degenerate);
-    };
+    // Of points near a line the covariance has singular values of very different size, and the rotation
+    // about that line is in the vectors of the small ones.
+    let Svd3 {
+        u,
+        singular_values,
+        v,
+    } = svd3(&covariance);
     // A reflection would fit better than any rotation where this is −1: turn the weakest axis.
-    let sign = if (u * v_t).determinant() < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
-    let weakest = svd.singular_values.imin();
-    let mut signs = Vector3::repeat(1.0);
-    signs[weakest] = sign;
-    let rotation = u * Matrix3::from_diagonal(&signs) * v_t;
+    let sign = (u * v.transpose()).determinant().signum();
+    let signs = Vector3::new(1.0, 1.0, sign);
+    let rotation = u * Matrix3::from_diagonal(&signs) * v.transpose();
     let scale = match kind {
         AlignmentKind::Rigid => 1.0,
-        AlignmentKind::Similarity => svd.singular_values.dot(&signs) / from_spread.trace(),
+        AlignmentKind::Similarity => singular_values.dot(&signs) / from_spread.trace(),
     };
     if !(scale > 0.0 && scale.is_finite()) {
-        return Err(degenerate);
+        return Err(Error::Degenerate {
+            what: "an alignment of points",
+            why: "the two sets have no common shape",
+        });
     }
     let rotation =
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
@@ -280,6 +276,31 @@ mod tests {
             assert!(found.isometry.rotation.angle_to(&truth.isometry.rotation) < 1e-7);
             for (a, b) in from.iter().zip(&to) {
                 assert!((found * a - b).norm() < 1e-12);
+            }
+        }
+    }
+
+    /// A kilometer along the road, a centimeter to either side.
+    #[test]
+    fn a_path_that_is_nearly_a_line_keeps_its_roll() {
+        let mut random = Random::new(9);
+        let from: Vec<_> = (0..200)
+            .map(|i| {
+                let mut sideways = || random.uniform(-0.01, 0.01);
+                Point3::new(5.0 * f64::from(i), sideways(), sideways())
+            })
+            .collect();
+        for angle in [0.0, 0.3, 1.0, 2.5, 3.0] {
+            let truth = Similarity3::new(
+                Vector3::new(3.0, -2.0, 0.5),
+                Vector3::new(0.8, 0.3, -0.5).normalize() * angle,
+                1.0,
+            );
+            let to: Vec<_> = from.iter().map(|p| truth * p).collect();
+            for kind in [AlignmentKind::Rigid, AlignmentKind::Similarity] {
+                let found = align_points(&from, &to, kind).unwrap();
+                let rest = found.isometry.rotation.inverse() * truth.isometry.rotation;
+                assert!(rest.angle() < 1e-8, "{angle}: {} rad", rest.angle());
             }
         }
     }

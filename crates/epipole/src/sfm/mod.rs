@@ -6,6 +6,8 @@
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
 //! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
 //!   the path of a camera whose scale drifts.
+//! * [`two_view_reconstruction`] leads from the matches of two views and the motion between them to
+//!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
 //!   photographs, to cameras and points; [`Reconstruction`] writes them to files.
 //! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
@@ -26,6 +28,7 @@ mod reconstruction;
 mod tokens;
 mod tracks;
 mod triangulate_track;
+mod two_view_reconstruction;
 mod two_view_start;
 mod union_find;
 
@@ -52,3 +55,6 @@ pub use photos::{
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
 pub use tracks::{PairMatches, TrackElement, build_tracks};
+pub use two_view_reconstruction::{
+    TwoViewReconstruction, TwoViewReconstructionOptions, two_view_reconstruction,
+};

@@ -66,6 +66,26 @@ impl Paint {
     }
 }
 
+/// Where a body stands now: moved, and larger or smaller than it was built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Placement {
+    /// The origin around which it was built, in the world.
+    pub(crate) foot: Vector3<f64>,
+    pub(crate) scale: f64,
+}
+
+impl Placement {
+    /// As it was built.
+    pub(crate) fn as_built() -> Self {
+        Self::at(Vector3::zeros())
+    }
+
+    /// Moved only.
+    pub(crate) fn at(foot: Vector3<f64>) -> Self {
+        Self { foot, scale: 1.0 }
+    }
+}
+
 /// A thing: its surface is found by rays and colored from its paints and light maps.
 #[derive(Debug)]
 pub(crate) struct Body {
@@ -151,11 +171,25 @@ impl Body {
         self
     }
 
-    /// A ray of the world in the frame of this body, moved by `shift`.
-    pub(crate) fn local_ray(&self, ray: &Ray, shift: &Vector3<f64>) -> Ray {
+    /// A point of the world in the frame of this body. Whatever its size, the frame is that of the
+    /// body as it was built, so equal views are computed from equal numbers.
+    pub(crate) fn local_point(&self, point: &Vector3<f64>, placed: &Placement) -> Vector3<f64> {
+        let from_center = point - self.center * placed.scale - placed.foot;
+        self.local_from_world * (from_center / placed.scale)
+    }
+
+    /// A point of this body in the world.
+    pub(crate) fn world_point(&self, local: &Vector3<f64>, placed: &Placement) -> Vector3<f64> {
+        self.local_from_world.tr_mul(local) * placed.scale
+            + self.center * placed.scale
+            + placed.foot
+    }
+
+    /// A ray of the world in the frame of this body.
+    pub(crate) fn local_ray(&self, ray: &Ray, placed: &Placement) -> Ray {
         Ray {
-            origin: self.local_from_world * (ray.origin - self.center - shift),
-            direction: self.local_from_world * ray.direction,
+            origin: self.local_point(&ray.origin, placed),
+            direction: self.local_from_world * (ray.direction / placed.scale),
         }
     }
 
@@ -163,11 +197,11 @@ impl Body {
     pub(crate) fn meet(
         &self,
         ray: &Ray,
-        shift: &Vector3<f64>,
+        placed: &Placement,
         near: f64,
         far: f64,
     ) -> Option<Contact> {
-        self.shape.meet(&self.local_ray(ray, shift), near, far)
+        self.shape.meet(&self.local_ray(ray, placed), near, far)
     }
 
     pub(crate) fn normal_in_world(&self, normal: &Vector3<f64>) -> Vector3<f64> {
@@ -188,8 +222,8 @@ impl Body {
         )
     }
 
-    pub(crate) fn contains(&self, x_in_world: &Point3<f64>, shift: &Vector3<f64>) -> bool {
-        self.shape
-            .contains(&(self.local_from_world * (x_in_world.coords - self.center - shift)))
+    pub(crate) fn contains(&self, x_in_world: &Point3<f64>, placed: &Placement) -> bool {
+        let local = self.local_point(&x_in_world.coords, placed);
+        self.shape.contains(&local)
     }
 }

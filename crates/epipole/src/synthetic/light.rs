@@ -3,7 +3,7 @@
 //! Nothing in a scene moves its light, so shadows and the shade near contacts are computed once,
 //! for the first photograph, and a pixel only looks them up.
 
-use super::body::Body;
+use super::body::{Body, Placement};
 use super::noise::split;
 use super::shading::single;
 use super::shape::{Ray, Shape};
@@ -11,6 +11,9 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Offset that lifts a surface point off its own surface, metres.
 const LIFT_M: f64 = 2e-4;
+
+/// Cells along each side of the shade of a movable thing.
+const DECAL_CELLS: usize = 96;
 
 /// Heights above a surface at which the room's openness is probed, metres, and their weights.
 const PROBES: [(f64, f32); 5] = [
@@ -286,7 +289,7 @@ impl<'a> Shade<'a> {
                 near.push(caster);
             }
         }
-        let zero = Vector3::zeros();
+        let placed = Placement::as_built();
         let (mut lit, mut seen) = (0.0, 0.0);
         for place in &self.places {
             let direction = place - origin;
@@ -297,7 +300,7 @@ impl<'a> Shade<'a> {
             let ray = Ray { origin, direction };
             if near
                 .iter()
-                .all(|caster| caster.meet(&ray, &zero, 1e-9, 0.999).is_none())
+                .all(|caster| caster.meet(&ray, &placed, 1e-9, 0.999).is_none())
             {
                 lit += cosine;
                 seen += 1.0;
@@ -341,7 +344,7 @@ impl<'a> Shade<'a> {
         };
         let u = n.cross(&side).normalize();
         let v = n.cross(&u);
-        let zero = Vector3::zeros();
+        let placed = Placement::as_built();
         let origin = p + n * (5.0 * LIFT_M);
         let num_open = self
             .dome
@@ -349,7 +352,7 @@ impl<'a> Shade<'a> {
             .filter(|d| {
                 let direction = u * d.x + v * d.y + n * d.z;
                 let ray = Ray { origin, direction };
-                body.meet(&ray, &zero, 1e-9, 0.3).is_none()
+                body.meet(&ray, &placed, 1e-9, 0.3).is_none()
             })
             .count();
         num_open as f32 / self.dome.len() as f32
@@ -374,54 +377,28 @@ impl<'a> Shade<'a> {
         ]
     }
 
-    /// The light map of one chart.
-    fn chart(&self, own: usize, body: &Body, chart: usize) -> LightMap {
-        let [width, height] = body.paints[chart].light_cells;
-        let mut cells = Vec::with_capacity(width * height);
-        for y in 0..height {
-            for x in 0..width {
-                let s = (x as f64 + 0.5) / width as f64;
-                let t = (y as f64 + 0.5) / height as f64;
-                let (point, normal) = body.shape.point(chart, s, t);
-                let p = body.center + body.local_from_world.tr_mul(&point);
-                let n = body.normal_in_world(&normal);
-                cells.push(self.at(own, body, &p, &n));
-            }
-        }
-        LightMap {
-            width,
-            height,
-            wraps: !matches!(body.shape, Shape::Cuboid(_)),
-            cells,
-        }
+    /// Light in one cell of a chart, of which there are so many across and down.
+    fn cell(
+        &self,
+        (own, body, chart): (usize, &Body, usize),
+        [width, height]: [usize; 2],
+        index: usize,
+    ) -> [f32; 4] {
+        let s = ((index % width) as f64 + 0.5) / width as f64;
+        let t = ((index / width) as f64 + 0.5) / height as f64;
+        let (point, normal) = body.shape.point(chart, s, t);
+        let p = body.center + body.local_from_world.tr_mul(&point);
+        let n = body.normal_in_world(&normal);
+        self.at(own, body, &p, &n)
     }
 
-    /// How much darker a plane becomes because these bodies stand on it: window light and soft
-    /// light (first and second number) on a square of `side_m` around the origin of the plane
-    /// y = 0.
-    pub(crate) fn decal(&self, cells: usize, side_m: f64, ground: &Body) -> Decal {
-        let mut factors = Vec::with_capacity(cells * cells);
+    /// How much darker the plane y = 0 becomes at a place because these bodies stand on it: factors
+    /// of window light and of soft light.
+    fn darker(&self, x_m: f64, z_m: f64, ground: &Body) -> [f32; 2] {
+        let p = Vector3::new(x_m, 0.0, z_m);
         let up = Vector3::new(0.0, -1.0, 0.0);
-        for y in 0..cells {
-            for x in 0..cells {
-                let p = Vector3::new(
-                    ((x as f64 + 0.5) / cells as f64 - 0.5) * side_m,
-                    0.0,
-                    ((y as f64 + 0.5) / cells as f64 - 0.5) * side_m,
-                );
-                let (_, seen) = self.window(usize::MAX, ground, &p, &up);
-                let open = self.openness(usize::MAX, &p, &up);
-                // The edge of the square must not show.
-                let rim = |i: usize| (i.min(cells - 1 - i) as f32 / 3.0).min(1.0);
-                let fade = rim(x).min(rim(y));
-                factors.push([1.0 - (1.0 - seen as f32) * fade, 1.0 - (1.0 - open) * fade]);
-            }
-        }
-        Decal {
-            cells,
-            side_m,
-            factors,
-        }
+        let (_, seen) = self.window(usize::MAX, ground, &p, &up);
+        [seen as f32, self.openness(usize::MAX, &p, &up)]
     }
 }
 
@@ -460,13 +437,102 @@ impl Decal {
     }
 }
 
-/// The light maps of all bodies: one per body and chart.
-pub(crate) fn bake(bodies: &[&Body], lighting: &Lighting) -> Vec<Vec<LightMap>> {
-    let shade = Shade::new(bodies, lighting);
-    let charts = |(index, body): (usize, &&Body)| {
-        (0..body.paints.len())
-            .map(|chart| shade.chart(index, body, chart))
-            .collect()
-    };
-    bodies.iter().enumerate().map(charts).collect()
+/// How finely light is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// Every cell.
+    Full,
+    /// For drafts: a sixteenth of the cells.
+    Sketch,
+}
+
+impl Detail {
+    fn side(self, cells: usize) -> usize {
+        match self {
+            Self::Full => cells,
+            Self::Sketch => cells.div_ceil(4),
+        }
+    }
+}
+
+/// Light maps as far as they are computed: one per body and chart.
+#[derive(Debug, Default)]
+pub(crate) struct Baking {
+    maps: Vec<Vec<LightMap>>,
+    cells: Vec<[f32; 4]>,
+}
+
+impl Baking {
+    /// Computes so many cells more, and counts them off; all maps once none is missing.
+    pub(crate) fn advance(
+        &mut self,
+        bodies: &[&Body],
+        lighting: &Lighting,
+        detail: Detail,
+        num_cells: &mut usize,
+    ) -> Option<Vec<Vec<LightMap>>> {
+        let shade = Shade::new(bodies, lighting);
+        for index in self.maps.len().saturating_sub(1)..bodies.len() {
+            let body = bodies[index];
+            if self.maps.len() == index {
+                self.maps.push(Vec::new());
+            }
+            for chart in self.maps[index].len()..body.paints.len() {
+                let size = body.paints[chart].light_cells.map(|side| detail.side(side));
+                while self.cells.len() < size[0] * size[1] {
+                    *num_cells = num_cells.checked_sub(1)?;
+                    let next = self.cells.len();
+                    self.cells
+                        .push(shade.cell((index, body, chart), size, next));
+                }
+                self.maps[index].push(LightMap {
+                    width: size[0],
+                    height: size[1],
+                    wraps: !matches!(body.shape, Shape::Cuboid(_)),
+                    cells: std::mem::take(&mut self.cells),
+                });
+            }
+        }
+        Some(std::mem::take(&mut self.maps))
+    }
+}
+
+/// The shade of a movable thing as far as it is computed.
+#[derive(Debug, Default)]
+pub(crate) struct Shading {
+    factors: Vec<[f32; 2]>,
+}
+
+impl Shading {
+    /// Computes so many cells more of the shade on a square of `side_m` around the origin of the
+    /// plane y = 0, and counts them off; the shade once none is missing.
+    pub(crate) fn advance(
+        &mut self,
+        bodies: &[&Body],
+        lighting: &Lighting,
+        (detail, side_m, ground): (Detail, f64, &Body),
+        num_cells: &mut usize,
+    ) -> Option<Decal> {
+        let shade = Shade::new(bodies, lighting);
+        let cells = detail.side(DECAL_CELLS);
+        // The edge of the square must not show.
+        let rim = |i: usize| {
+            let share = DECAL_CELLS as f32 / cells as f32;
+            (i.min(cells - 1 - i) as f32 * share / 3.0).min(1.0)
+        };
+        while self.factors.len() < cells * cells {
+            *num_cells = num_cells.checked_sub(1)?;
+            let (x, y) = (self.factors.len() % cells, self.factors.len() / cells);
+            let at = |i: usize| ((i as f64 + 0.5) / cells as f64 - 0.5) * side_m;
+            let fade = rim(x).min(rim(y));
+            let darker = shade.darker(at(x), at(y), ground);
+            self.factors
+                .push(darker.map(|factor| 1.0 - (1.0 - factor) * fade));
+        }
+        Some(Decal {
+            cells,
+            side_m,
+            factors: std::mem::take(&mut self.factors),
+        })
+    }
 }

@@ -1,6 +1,6 @@
 //! The long table: a hall with one thing that can be moved, for measuring depth.
 
-use super::body::{Body, Paint};
+use super::body::{Body, Paint, Placement};
 use super::light::{Lighting, Proxy};
 use super::paint;
 use super::scene::{Fixed, Movable, Scene};
@@ -109,7 +109,7 @@ impl Scene {
             fixed: Arc::clone(HALL.get_or_init(|| Arc::new(build_hall()))),
             movable: Some((
                 Arc::clone(movable),
-                Vector3::new(object.x_m, TABLE_Y, object.z_m),
+                Placement::at(Vector3::new(object.x_m, TABLE_Y, object.z_m)),
             )),
         })
     }

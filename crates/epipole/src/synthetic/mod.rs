@@ -1,7 +1,8 @@
 //! Seeded worlds with ground truth: ray-cast photographs, point clouds, camera paths.
 //!
 //! * [`Scene`]: a furnished room. [`Scene::still_life`] is a table by a window,
-//!   [`Scene::long_table`] a hall with one thing that moves. A scene gives photographs with exact
+//!   [`Scene::long_table`] a hall with one thing that moves, [`Scene::studio`] a mug that moves and
+//!   grows. A scene gives photographs with exact
 //!   depth ([`Scene::render`]), exact rays ([`Scene::cast`]) and exact correspondences between
 //!   any two cameras ([`Scene::transfer`]).
 //! * [`TwoViewProblem`] and [`MultiViewProblem`]: random points seen by known cameras, with noise
@@ -16,15 +17,18 @@
 //! function outside of `libm` and nothing that depends on threads or the platform touches a pixel.
 
 mod body;
+mod gradual;
 mod light;
 mod long_table;
 mod noise;
 mod paint;
 mod render;
+mod reproject;
 mod scene;
 mod shading;
 mod shape;
 mod still_life;
+mod studio;
 mod texture;
 mod view;
 mod wares;
@@ -32,6 +36,7 @@ mod worlds;
 
 pub use long_table::{MovableKind, MovableObject, long_table_camera};
 pub use render::{Photograph, Sampling};
+pub use reproject::{Moved, Reprojected};
 pub use scene::{Hit, Scene, Transfer};
 pub use still_life::still_life_camera;
 pub use worlds::{

@@ -1,15 +1,20 @@
 //! A scene: its bodies and light, exact rays through it, and exact correspondences.
 
-use super::body::Body;
-use super::light::{self, Decal, LightMap, Lighting, Shade};
+use super::body::{Body, Placement};
+use super::gradual::Gradual;
+use super::light::{Baking, Decal, Detail, LightMap, Lighting, Shading};
 use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A contact closer than this part of a ray is the place it started from.
 const NEAR: f64 = 1e-9;
+
+/// What one step of [`Scene::prepare`] computes: cells of light maps, or texels.
+const CELLS_PER_STEP: usize = 1024;
+const TEXELS_PER_STEP: usize = 16_384;
 
 /// The first surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,12 +61,15 @@ pub enum Transfer {
     Nothing,
 }
 
+/// Light on every body and chart.
+type Lights = Vec<Vec<LightMap>>;
+
 /// Bodies that never move, with their light.
 #[derive(Debug)]
 pub(super) struct Fixed {
     pub(super) bodies: Vec<Body>,
     pub(super) lighting: Lighting,
-    lights: OnceLock<Vec<Vec<LightMap>>>,
+    lights: [Gradual<Baking, Lights>; 2],
 }
 
 impl Fixed {
@@ -69,16 +77,23 @@ impl Fixed {
         Self {
             bodies,
             lighting,
-            lights: OnceLock::new(),
+            lights: [Gradual::new(), Gradual::new()],
         }
     }
 
-    /// Light on every body and chart.
-    fn lights(&self) -> &[Vec<LightMap>] {
-        self.lights.get_or_init(|| {
-            let bodies: Vec<&Body> = self.bodies.iter().collect();
-            light::bake(&bodies, &self.lighting)
-        })
+    fn bake(&self, detail: Detail, baking: &mut Baking, mut amount: usize) -> Option<Lights> {
+        let bodies: Vec<&Body> = self.bodies.iter().collect();
+        baking.advance(&bodies, &self.lighting, detail, &mut amount)
+    }
+
+    fn lights(&self, detail: Detail) -> &Lights {
+        self.lights[detail as usize].get(|baking, amount| self.bake(detail, baking, amount))
+    }
+
+    fn advance(&self, num_cells: usize) -> bool {
+        let full = Detail::Full;
+        self.lights[full as usize]
+            .advance(num_cells, |baking, amount| self.bake(full, baking, amount))
     }
 }
 
@@ -90,15 +105,21 @@ pub(super) struct Movable {
     pub(super) slab: Body,
     /// The body of the scene on which the shade falls.
     pub(super) ground: usize,
-    look: OnceLock<Look>,
+    looks: [Gradual<Looking, Look>; 2],
 }
+
+/// A look as far as it is computed.
+type Looking = (Baking, Shading, Option<Decal>);
 
 /// Light on every body and chart of a movable thing, and its shade.
 #[derive(Debug)]
 struct Look {
-    lights: Vec<Vec<LightMap>>,
+    lights: Lights,
     decal: Decal,
 }
+
+/// Side of the square that the shade of a movable thing covers, metres.
+const SHADE_M: f64 = 1.1;
 
 impl Movable {
     pub(super) fn new(bodies: Vec<Body>, slab: Body, ground: usize) -> Self {
@@ -106,61 +127,109 @@ impl Movable {
             bodies,
             slab,
             ground,
-            look: OnceLock::new(),
+            looks: [Gradual::new(), Gradual::new()],
         }
     }
 
-    fn look(&self, lighting: &Lighting) -> &Look {
-        self.look.get_or_init(|| {
-            let mut bodies: Vec<&Body> = self.bodies.iter().collect();
-            let decal = Shade::new(&bodies, lighting).decal(96, 1.1, &self.slab);
-            bodies.push(&self.slab);
-            let mut lights = light::bake(&bodies, lighting);
-            lights.truncate(self.bodies.len());
-            Look { lights, decal }
+    fn work(
+        &self,
+        lighting: &Lighting,
+        detail: Detail,
+        (baking, shading, decal): &mut Looking,
+        mut amount: usize,
+    ) -> Option<Look> {
+        let mut bodies: Vec<&Body> = self.bodies.iter().collect();
+        if decal.is_none() {
+            let ground = (detail, SHADE_M, &self.slab);
+            *decal = Some(shading.advance(&bodies, lighting, ground, &mut amount)?);
+        }
+        bodies.push(&self.slab);
+        let mut lights = baking.advance(&bodies, lighting, detail, &mut amount)?;
+        lights.truncate(self.bodies.len());
+        Some(Look {
+            lights,
+            decal: decal.take()?,
+        })
+    }
+
+    fn look(&self, lighting: &Lighting, detail: Detail) -> &Look {
+        self.looks[detail as usize].get(|part, amount| self.work(lighting, detail, part, amount))
+    }
+
+    fn advance(&self, lighting: &Lighting, num_cells: usize) -> bool {
+        let full = Detail::Full;
+        self.looks[full as usize].advance(num_cells, |part, amount| {
+            self.work(lighting, full, part, amount)
         })
     }
 }
 
 /// A furnished room that can be photographed from anywhere inside.
 ///
-/// Everything static is computed once, for the first photograph: painted textures with all their
-/// smaller sizes, and maps of light with soft shadows. A clone shares them, and costs next to
-/// nothing; rays and transfers need only the shapes.
+/// Everything static is computed once, for the first sharp photograph or before it by
+/// [`Scene::prepare`]: painted textures with all their smaller sizes, and maps of light with soft
+/// shadows. Drafts have coarser ones of their own, which take a fraction of the time. A clone shares
+/// them all, and costs next to nothing; rays and transfers need only the shapes.
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(super) fixed: Arc<Fixed>,
-    pub(super) movable: Option<(Arc<Movable>, Vector3<f64>)>,
+    pub(super) movable: Option<(Arc<Movable>, Placement)>,
 }
 
 impl Scene {
-    /// Every body and how far it is moved from where it was built.
-    pub(super) fn placed(&self) -> impl Iterator<Item = (&Body, Vector3<f64>)> {
+    /// Every body and where it stands.
+    pub(super) fn placed(&self) -> impl Iterator<Item = (&Body, Placement)> {
         let moved = self
             .movable
             .iter()
-            .flat_map(|(movable, shift)| movable.bodies.iter().map(|body| (body, *shift)));
+            .flat_map(|(movable, placed)| movable.bodies.iter().map(|body| (body, *placed)));
         self.fixed
             .bodies
             .iter()
-            .map(|body| (body, Vector3::zeros()))
+            .map(|body| (body, Placement::as_built()))
             .chain(moved)
     }
 
     /// Light on the charts of every body, in the order of [`Scene::placed`].
-    pub(super) fn lights(&self) -> impl Iterator<Item = &[LightMap]> {
+    pub(super) fn lights(&self, detail: Detail) -> impl Iterator<Item = &[LightMap]> {
         let moved = self
             .movable
             .iter()
-            .flat_map(|(movable, _)| &movable.look(&self.fixed.lighting).lights);
-        self.fixed.lights().iter().chain(moved).map(Vec::as_slice)
+            .flat_map(move |(movable, _)| &movable.look(&self.fixed.lighting, detail).lights);
+        self.fixed
+            .lights(detail)
+            .iter()
+            .chain(moved)
+            .map(Vec::as_slice)
     }
 
-    /// The shade of the movable thing, where its foot is, and the body on which the shade falls.
-    pub(super) fn shade(&self) -> Option<(&Decal, Vector3<f64>, usize)> {
-        let (movable, shift) = self.movable.as_ref()?;
-        let look = movable.look(&self.fixed.lighting);
-        Some((&look.decal, *shift, movable.ground))
+    /// The shade of the movable thing, where it stands, and the body on which the shade falls.
+    pub(super) fn shade(&self, detail: Detail) -> Option<(&Decal, Placement, usize)> {
+        let (movable, placed) = self.movable.as_ref()?;
+        let look = movable.look(&self.fixed.lighting, detail);
+        Some((&look.decal, *placed, movable.ground))
+    }
+
+    /// Does a few milliseconds of what the first sharp photograph waits for: textures are painted and
+    /// light is computed. False once all of it is there. The photographs are the same with and
+    /// without.
+    ///
+    /// ```
+    /// use epipole::synthetic::Scene;
+    /// let scene = Scene::still_life();
+    /// let num_steps = (0..10_000).take_while(|_| scene.prepare()).count();
+    /// assert!(num_steps < 10_000 && !scene.prepare());
+    /// ```
+    pub fn prepare(&self) -> bool {
+        let lighting = &self.fixed.lighting;
+        let movable = self.movable.iter();
+        if self.fixed.advance(CELLS_PER_STEP)
+            || (movable.clone()).any(|(movable, _)| movable.advance(lighting, CELLS_PER_STEP))
+        {
+            return true;
+        }
+        let mut paints = self.placed().flat_map(|(body, _)| &body.paints);
+        paints.any(|paint| paint.texture.advance(TEXELS_PER_STEP))
     }
 
     /// The first surface that the ray `origin + a direction`, `a > 0`, meets; `None` if the
@@ -188,15 +257,15 @@ impl Scene {
             origin: origin.coords,
             direction: *direction,
         };
-        let mut nearest: Option<(Contact, &Body, Vector3<f64>)> = None;
-        for (body, shift) in self.placed() {
+        let mut nearest: Option<(Contact, &Body, Placement)> = None;
+        for (body, placed) in self.placed() {
             let far = nearest.map_or(f64::INFINITY, |(contact, ..)| contact.along);
-            if let Some(contact) = body.meet(&ray, &shift, NEAR, far) {
-                nearest = Some((contact, body, shift));
+            if let Some(contact) = body.meet(&ray, &placed, NEAR, far) {
+                nearest = Some((contact, body, placed));
             }
         }
-        let (contact, body, shift) = nearest?;
-        let local = body.local_ray(&ray, &shift).at(contact.along);
+        let (contact, body, placed) = nearest?;
+        let local = body.local_ray(&ray, &placed).at(contact.along);
         let place = body.shape.place(&local, contact.part);
         Some(Hit {
             point: Point3::from(ray.at(contact.along)),
@@ -261,8 +330,8 @@ impl Scene {
             });
         }
         let what = "a rendered photograph";
-        for (body, shift) in self.placed() {
-            if body.contains(&center, &shift) {
+        for (body, placed) in self.placed() {
+            if body.contains(&center, &placed) {
                 return Err(Error::Degenerate {
                     what,
                     why: "the camera is inside an object or outside of the room",
@@ -277,7 +346,7 @@ impl Scene {
     pub(super) fn bytes(&self) -> usize {
         let mut seen = Vec::new();
         let mut bytes = 0;
-        for ((body, _), lights) in self.placed().zip(self.lights()) {
+        for ((body, _), lights) in self.placed().zip(self.lights(Detail::Full)) {
             bytes += lights.iter().map(|light| light.bytes()).sum::<usize>();
             for paint in &body.paints {
                 let address = Arc::as_ptr(&paint.texture);

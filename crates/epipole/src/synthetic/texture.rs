@@ -3,16 +3,22 @@
 //! A texture is painted when it is first looked at, so that a scene of which only the geometry is
 //! asked costs nothing.
 
+use super::gradual::Gradual;
 use super::noise::split;
 use std::fmt;
-use std::sync::LazyLock;
+
+/// A sketch of a texture is so many times smaller along each side.
+const SKETCH_FACTOR: u32 = 8;
+
+/// Red, green, blue and gloss as they are kept.
+type Texel = [u8; 4];
 
 /// One size of a texture.
 #[derive(Debug)]
 struct Level {
     width: i32,
     height: i32,
-    texels: Vec<[u8; 4]>,
+    texels: Vec<Texel>,
 }
 
 /// A picture on a surface, with its halved copies (Williams 1983, "Pyramidal parametrics").
@@ -22,7 +28,10 @@ struct Level {
 pub(crate) struct Texture {
     width: u32,
     height: u32,
-    levels: LazyLock<Vec<Level>, Box<dyn FnOnce() -> Vec<Level> + Send>>,
+    paint: Box<dyn Fn(f32, f32) -> [f32; 4] + Send + Sync>,
+    levels: Gradual<Painting, Vec<Level>>,
+    /// Painted apart, for drafts: 64 times as fast as the levels, of which it needs none.
+    sketch: Gradual<Painting, Vec<Level>>,
     /// Whether the left edge continues at the right one, as on a mug.
     wraps: bool,
 }
@@ -36,13 +45,15 @@ impl Texture {
         width: u32,
         height: u32,
         wraps: bool,
-        paint: impl Fn(f32, f32) -> [f32; 4] + Send + 'static,
+        paint: impl Fn(f32, f32) -> [f32; 4] + Send + Sync + 'static,
     ) -> Self {
         debug_assert!(width.is_power_of_two() && height.is_power_of_two());
         Self {
             width,
             height,
-            levels: LazyLock::new(Box::new(move || painted(width, height, &paint))),
+            paint: Box::new(paint),
+            levels: Gradual::new(),
+            sketch: Gradual::new(),
             wraps,
         }
     }
@@ -59,18 +70,44 @@ impl Texture {
         [self.width as f32, self.height as f32]
     }
 
+    /// Makes so many texels more; false once all are there.
+    pub(crate) fn advance(&self, num_texels: usize) -> bool {
+        let size = (self.width, self.height);
+        self.levels.advance(num_texels, |part, amount| {
+            painted(part, size, &self.paint, amount)
+        })
+    }
+
+    fn levels(&self) -> &[Level] {
+        let size = (self.width, self.height);
+        self.levels
+            .get(|part, amount| painted(part, size, &self.paint, amount))
+    }
+
+    fn sketch(&self) -> &[Level] {
+        let size = [self.width, self.height].map(|side| (side / SKETCH_FACTOR).max(1));
+        self.sketch
+            .get(|part, amount| painted(part, size.into(), &self.paint, amount))
+    }
+
     /// Bytes of all levels.
     #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
-        self.levels.iter().map(|level| 4 * level.texels.len()).sum()
+        self.levels()
+            .iter()
+            .map(|level| 4 * level.texels.len())
+            .sum()
     }
 
     /// The color around (s, t), averaged over about `2^lod` texels of the full size.
     ///
-    /// With `smooth` two levels are mixed, otherwise the nearer one is taken.
+    /// With `smooth` two levels are mixed, otherwise the nearer one of the sketch is taken.
     #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32, lod: f32, smooth: bool) -> [f32; 4] {
-        let levels = &*self.levels;
+        let (levels, lod) = match smooth {
+            true => (self.levels(), lod),
+            false => (self.sketch(), lod - SKETCH_FACTOR.ilog2() as f32),
+        };
         let last = levels.len() - 1;
         let lod = lod.clamp(0.0, last as f32);
         let mut color = if smooth {
@@ -144,62 +181,63 @@ impl fmt::Debug for Texture {
     }
 }
 
-/// Every texel, and the halved copies down to a single one.
+/// Levels of a texture that are there, and the texels of the next one.
+type Painting = (Vec<Level>, Vec<Texel>);
+
+/// Makes some more texels, row by row: the largest level is painted, each further one is half of the
+/// last. With the only texel of the smallest level comes all.
 /// Not generic, and so once in a module, not once for each texture.
-fn painted(width: u32, height: u32, paint: &dyn Fn(f32, f32) -> [f32; 4]) -> Vec<Level> {
+fn painted(
+    (levels, texels): &mut Painting,
+    (width, height): (u32, u32),
+    paint: &dyn Fn(f32, f32) -> [f32; 4],
+    mut num_texels: usize,
+) -> Option<Vec<Level>> {
     let (step_s, step_t) = (1.0 / width as f32, 1.0 / height as f32);
-    let mut texels = Vec::with_capacity((width * height) as usize);
-    for y in 0..height {
-        for x in 0..width {
-            let color = paint((x as f32 + 0.5) * step_s, (y as f32 + 0.5) * step_t);
-            texels.push(encode(color));
+    loop {
+        let [across, down] = [width, height].map(|side| (side >> levels.len()).max(1) as usize);
+        texels.reserve_exact(across * down - texels.len());
+        while texels.len() < across * down {
+            num_texels = num_texels.checked_sub(1)?;
+            let (x, y) = (texels.len() % across, texels.len() / across);
+            texels.push(match levels.last() {
+                None => encode(paint((x as f32 + 0.5) * step_s, (y as f32 + 0.5) * step_t)),
+                Some(larger) => halved(larger, (x, y), (across, down)),
+            });
+        }
+        levels.push(Level {
+            width: across as i32,
+            height: down as i32,
+            texels: std::mem::take(texels),
+        });
+        if across * down == 1 {
+            return Some(std::mem::take(levels));
         }
     }
-    let mut levels = vec![Level {
-        width: width as i32,
-        height: height as i32,
-        texels,
-    }];
-    while let Some(smaller) = halved(&levels[levels.len() - 1]) {
-        levels.push(smaller);
-    }
-    levels
 }
 
-fn encode(color: [f32; 4]) -> [u8; 4] {
+fn encode(color: [f32; 4]) -> Texel {
     // The cast saturates, so too bright a color becomes the brightest there is.
     color.map(|channel| (channel.max(0.0).sqrt() * 255.0 + 0.5) as u8)
 }
 
-/// The next smaller level, each texel the mean light of those that it covers.
-fn halved(level: &Level) -> Option<Level> {
-    if level.width == 1 && level.height == 1 {
-        return None;
-    }
-    let (width, height) = ((level.width / 2).max(1), (level.height / 2).max(1));
-    let (step_x, step_y) = (level.width / width, level.height / height);
-    let mut texels = Vec::with_capacity((width * height) as usize);
-    for y in 0..height {
-        for x in 0..width {
-            let mut sum = [0u32; 4];
-            for dy in 0..2 {
-                for dx in 0..2 {
-                    let column = x * step_x + dx.min(step_x - 1);
-                    let row = y * step_y + dy.min(step_y - 1);
-                    let texel = level.texels[(row * level.width + column) as usize];
-                    for i in 0..4 {
-                        sum[i] += u32::from(texel[i]) * u32::from(texel[i]);
-                    }
-                }
+/// A texel of the next smaller level, of so many texels across and down: the mean light of those that
+/// it covers.
+fn halved(level: &Level, (x, y): (usize, usize), (across, down): (usize, usize)) -> Texel {
+    let (width, height) = (level.width as usize, level.height as usize);
+    let (step_x, step_y) = (width / across, height / down);
+    let mut sum = [0u32; 4];
+    for dy in 0..2 {
+        for dx in 0..2 {
+            let column = x * step_x + dx.min(step_x - 1);
+            let row = y * step_y + dy.min(step_y - 1);
+            let texel = level.texels[row * width + column];
+            for i in 0..4 {
+                sum[i] += u32::from(texel[i]) * u32::from(texel[i]);
             }
-            texels.push(sum.map(|sum| ((sum as f32 * 0.25).sqrt() + 0.5) as u8));
         }
     }
-    Some(Level {
-        width,
-        height,
-        texels,
-    })
+    sum.map(|sum| ((sum as f32 * 0.25).sqrt() + 0.5) as u8)
 }
 
 #[cfg(test)]
@@ -218,9 +256,9 @@ mod tests {
     #[test]
     fn every_level_has_the_same_mean_light() {
         let texture = noisy();
-        assert_eq!(texture.levels.len(), 7);
+        assert_eq!(texture.levels().len(), 7);
         let means: Vec<[f32; 4]> = texture
-            .levels
+            .levels()
             .iter()
             .map(|level| {
                 let mut sum = [0.0f32; 4];
@@ -241,6 +279,17 @@ mod tests {
                     "{mean:?} {:?}",
                     means[0]
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn a_sketch_looks_like_its_texture_from_afar() {
+        let texture = noisy();
+        for (s, t) in [(0.3, 0.3), (0.7, 0.5), (0.1, 0.8)] {
+            let [sharp, sketch] = [true, false].map(|smooth| texture.sample(s, t, 6.0, smooth));
+            for i in 0..4 {
+                assert!((sharp[i] - sketch[i]).abs() < 0.1, "{sharp:?} {sketch:?}");
             }
         }
     }

@@ -1,10 +1,11 @@
 //! A scene as one camera sees it: which bodies may show where, and what a ray finds.
 
-use super::body::Body;
-use super::light::{Decal, LightMap, Lighting};
+use super::body::{Body, Placement};
+use super::light::{Decal, Detail, LightMap, Lighting};
 use super::render::Sampling;
 use super::scene::Scene;
 use super::shading::{self, Look};
+use super::shape::TOP;
 use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
@@ -21,6 +22,8 @@ struct Seen<'a> {
     lights: &'a [LightMap],
     origin: Vector3<f64>,
     local_from_cam: Matrix3<f64>,
+    /// How many times larger it is than it was built.
+    scale: f64,
     /// Pixels that may show it: columns and rows, both ends included.
     columns: (i64, i64),
     rows: (i64, i64),
@@ -44,8 +47,8 @@ pub(super) struct Sample {
 pub(super) struct View<'a> {
     seen: Vec<Seen<'a>>,
     lighting: &'a Lighting,
-    /// Shade of the movable thing, where its foot is, and the number of the body it falls on.
-    shade: Option<(&'a Decal, Vector3<f64>, usize)>,
+    /// Shade of the movable thing, where it stands, and the number of the body it falls on.
+    shade: Option<(&'a Decal, Placement, usize)>,
     center: Vector3<f64>,
     world_from_cam: Matrix3<f64>,
     principal: Point2<f64>,
@@ -69,17 +72,22 @@ impl<'a> View<'a> {
         let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
         let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
         let world_from_cam = cam_from_world.matrix().transpose();
+        let detail = match sampling {
+            Sampling::Draft => Detail::Sketch,
+            Sampling::Full => Detail::Full,
+        };
         let mut seen: Vec<Seen> = scene
             .placed()
-            .zip(scene.lights())
+            .zip(scene.lights(detail))
             .enumerate()
-            .map(|(number, ((body, shift), lights))| {
-                let (columns, rows, nearest) = outline(camera, body, &shift);
+            .map(|(number, ((body, placed), lights))| {
+                let (columns, rows, nearest) = outline(camera, body, &placed);
                 Seen {
                     body,
                     lights,
-                    origin: body.local_from_world * (center - body.center - shift),
-                    local_from_cam: body.local_from_world * world_from_cam,
+                    origin: body.local_point(&center, &placed),
+                    local_from_cam: body.local_from_world * (world_from_cam / placed.scale),
+                    scale: placed.scale,
                     columns,
                     rows,
                     nearest,
@@ -91,7 +99,7 @@ impl<'a> View<'a> {
         seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
         Self {
             lighting: &scene.fixed.lighting,
-            shade: scene.shade(),
+            shade: scene.shade(detail),
             seen,
             center,
             world_from_cam,
@@ -176,15 +184,17 @@ impl<'a> View<'a> {
         let direction_in_world = turn(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
         let decal = match &self.shade {
-            Some((decal, foot, ground)) if *ground == seen.number => {
-                decal.sample(x_in_world.x - foot.x, x_in_world.z - foot.z)
+            // Shade lies on what the thing stands on, not on the edges of that.
+            Some((decal, placed, ground)) if *ground == seen.number && place.chart == TOP => {
+                let from_foot = (x_in_world - placed.foot) / placed.scale;
+                decal.sample(from_foot.x, from_foot.z)
             }
             _ => None,
         };
         let look = Look {
             x_in_world: shading::single(&x_in_world),
             direction_in_world: shading::single(&direction_in_world),
-            pixel_m: (nearest.along * self.pixel_rad) as f32,
+            pixel_m: (nearest.along * self.pixel_rad / seen.scale) as f32,
             decal,
             smooth: self.sampling == Sampling::Full,
         };
@@ -200,7 +210,7 @@ impl<'a> View<'a> {
 
 /// Columns and rows between which a body appears, around the corners of its box, and a depth
 /// that is not beyond its nearest point.
-fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (i64, i64), f64) {
+fn outline(camera: &Camera, body: &Body, placed: &Placement) -> ((i64, i64), (i64, i64), f64) {
     let everywhere = (i64::MIN, i64::MAX);
     if body.is_room() {
         return (everywhere, everywhere, f64::INFINITY);
@@ -209,8 +219,7 @@ fn outline(camera: &Camera, body: &Body, shift: &Vector3<f64>) -> ((i64, i64), (
     let corners: [Point3<f64>; 8] = std::array::from_fn(|corner| {
         let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
-        let x_in_world = body.local_from_world.tr_mul(&local) + body.center + shift;
-        camera.cam_from_world * Point3::from(x_in_world)
+        camera.cam_from_world * Point3::from(body.world_point(&local, placed))
     });
     let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
 const MUG_RADIUS_M: f64 = 0.048;
-const MUG_HEIGHT_M: f64 = 0.118;
+/// A mug of scale 1.
+pub(super) const MUG_HEIGHT_M: f64 = 0.118;
 const MUG_COFFEE_M: f64 = 0.088;
 const JUG_HEIGHT_M: f64 = 0.34;
 

@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::math::scaling::power_of_two;
+use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, SMatrix};
 
@@ -89,8 +90,11 @@ pub fn point_covariance(
         .map(|j| j / unit)
         .map(|j| j.transpose() * j)
         .sum();
-    let eigen = information.symmetric_eigenvalues();
-    if eigen.max().is_nan() || eigen.min() <= 1e-14 * eigen.max() {
+    if !information.iter().all(|x| x.is_finite()) {
+        return Err(Error::PointAtInfinity);
+    }
+    let sizes = svd3(&information).singular_values;
+    if sizes[2] <= 1e-14 * sizes[0] {
         return Err(Error::PointAtInfinity);
     }
     let inverse = information.try_inverse().ok_or(Error::PointAtInfinity)?;

@@ -71,6 +71,8 @@ pub struct TwoViewReport {
     pub inliers: Vec<bool>,
     /// How many do.
     pub num_inliers: usize,
+    /// Matches that were left out: an infinite coordinate, or one beyond 10⁹ pixels.
+    pub num_left_out: usize,
     /// Samples drawn, over all models tried.
     pub iterations: usize,
     /// Why the search for `model` ended, or [`StopReason::Canceled`] if any search was ended early.
@@ -385,6 +387,7 @@ impl TwoViewReport {
             other_cam2_from_cam1: None,
             inliers: Vec::new(),
             num_inliers: 0,
+            num_left_out: 0,
             iterations: searches.iterations,
             stop: if searches.canceled() {
                 StopReason::Canceled
@@ -399,6 +402,7 @@ impl TwoViewReport {
     fn take<M>(&mut self, inliers: Vec<bool>, report: &RansacReport<M>, options: &TwoViewOptions) {
         self.num_inliers = inliers.iter().filter(|&&inlier| inlier).count();
         self.inliers = inliers;
+        self.num_left_out = report.num_left_out;
         if self.stop != StopReason::Canceled {
             self.stop = report.stop;
         }
@@ -417,9 +421,7 @@ impl TwoViewReport {
         options: &TwoViewOptions,
     ) {
         if let TwoViewModel::Homography(h) = self.model {
-            let pairs = pairs.pixels1.iter().zip(pairs.pixels2);
-            let inliers = pairs.map(|(p1, p2)| options.fits_homography(&h, p1, p2));
-            self.take(inliers.collect(), report, options);
+            self.take(pairs.fit(&h, options), report, options);
         }
     }
 

@@ -8,8 +8,10 @@ use nalgebra::{Matrix3, Point2};
 pub(super) struct Pairs<'a> {
     pub(super) pixels1: &'a [Point2<f64>],
     pub(super) pixels2: &'a [Point2<f64>],
-    /// Whether no earlier match is equal.
+    /// Whether no earlier match is equal, and it can be computed with.
     is_first: Vec<bool>,
+    /// Whether it, or an equal one, is among the different matches.
+    is_used: Vec<bool>,
 }
 
 impl<'a> Pairs<'a> {
@@ -26,7 +28,19 @@ impl<'a> Pairs<'a> {
             pixels1,
             pixels2,
             is_first,
+            is_used: (set.unique().places().iter())
+                .map(Option::is_some)
+                .collect(),
         }
+    }
+
+    /// For each match, whether it fits a homography.
+    pub(super) fn fit(&self, homography: &Matrix3<f64>, options: &TwoViewOptions) -> Vec<bool> {
+        let pairs = self.pixels1.iter().zip(self.pixels2);
+        let fits = |((p1, p2), used): ((&Point2<f64>, &Point2<f64>), &bool)| {
+            *used && options.fits_homography(homography, p1, p2)
+        };
+        pairs.zip(&self.is_used).map(fits).collect()
     }
 
     /// The different matches, each once.

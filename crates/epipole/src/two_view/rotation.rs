@@ -3,14 +3,15 @@
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is two matches; the error is the distance in image 2 from `K2 R K1⁻¹ x1`, pixels;
-/// refinement aligns the rays of the inliers. Equal matches count once.
+/// refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a pixel have
+/// few votes together, as for homographies.
 ///
 /// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
 #[derive(Debug, Clone)]
@@ -48,6 +49,25 @@ impl RotationEstimator {
         })
     }
 
+    fn homography(&self, rotation: &Matrix3<f64>) -> Matrix3<f64> {
+        self.k2.matrix() * rotation * self.k1.inverse_matrix()
+    }
+
+    fn transfer_error_sq(
+        &self,
+        rotation: &Matrix3<f64>,
+        homography: &Matrix3<f64>,
+        index: usize,
+    ) -> f64 {
+        let (x1, x2) = self.matches.pair(index);
+        // A ray turned behind the camera would land on a pixel, too.
+        if (rotation * self.rays[index][0]).z > 0.0 {
+            transfer_error_sq(homography, &x1, &x2)
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// The rotation that aligns the rays of image 1 with those of image 2 best.
     fn align(&self, indices: &[usize]) -> Option<Matrix3<f64>> {
         let mut sum = Matrix3::zeros();
@@ -83,26 +103,35 @@ impl Estimator for RotationEstimator {
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
-        models.extend(self.align(sample));
+        if !self.matches.have_shared_pixel(sample) {
+            models.extend(self.align(sample));
+        }
     }
 
     fn error_sq(&self, rotation: &Matrix3<f64>, index: usize) -> f64 {
-        let (x1, x2) = self.matches.pair(index);
-        let homography = self.k2.matrix() * rotation * self.k1.inverse_matrix();
-        // A ray turned behind the camera would land on a pixel, too.
-        if (rotation * self.rays[index][0]).z > 0.0 {
-            transfer_error_sq(&homography, &x1, &x2)
-        } else {
-            f64::INFINITY
-        }
+        self.transfer_error_sq(rotation, &self.homography(rotation), index)
     }
 
     fn refine(&mut self, _: &Matrix3<f64>, inliers: &[usize], _: f64) -> Option<Matrix3<f64>> {
         self.align(inliers)
     }
 
+    fn support(&self, rotation: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {
+        let homography = self.homography(rotation);
+        let error_sq = |i| self.transfer_error_sq(rotation, &homography, i);
+        self.matches.support(error_sq, max_error_px, cost_limit)
+    }
+
     fn chance(&self, max_error_px: f64) -> Option<f64> {
         Some(self.matches.chance_near_point2(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
     }
 
     fn unique(&self) -> Option<&Unique> {
@@ -176,6 +205,30 @@ mod tests {
         let report = find_rotation(&p1, &p2, &k, &k, &RansacOptions::default()).unwrap();
         assert!((report.model - truth).norm() < 1e-9);
         assert_eq!(report.num_inliers, 66);
+        // A crowd of matches that lead to one pixel counts as it does for a homography.
+        let (mut p1, mut p2) = (p1, p2);
+        for _ in 0..200 {
+            p1.push(Point2::new(
+                random.uniform(0.0, 640.0),
+                random.uniform(0.0, 480.0),
+            ));
+            p2.push(Point2::new(317.0, 211.0));
+        }
+        let options = RansacOptions {
+            max_error_px: 60.0,
+            ..RansacOptions::default()
+        };
+        let report = find_rotation(&p1, &p2, &k, &k, &options).unwrap();
+        let h = crate::homography::find_homography(&p1, &p2, &options).unwrap();
+        assert!((report.model - truth).norm() < 0.05, "{}", report.model);
+        let in_crowd = report.inliers[100..].iter().filter(|is| **is).count();
+        assert!(in_crowd > 1);
+        let of_h = h.num_inliers - h.num_unique_inliers;
+        let of_turn = report.num_inliers - report.num_unique_inliers;
+        assert!(
+            of_turn + 1 == in_crowd || of_turn == in_crowd,
+            "{of_turn} {of_h} {in_crowd}"
+        );
         assert!(find_rotation(&p1[..1], &p2[..1], &k, &k, &RansacOptions::default()).is_err());
     }
 }

@@ -18,11 +18,17 @@ const DAMPING: f64 = 1e-15;
 /// if there is none near.
 #[inline]
 pub(super) fn polished(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
-    if constraint(near).norm_squared() < GOOD * GOOD {
+    if missing_sq(near) < GOOD * GOOD {
         Some(*near)
     } else {
         sought(near, basis)
     }
+}
+
+/// By how much a matrix of unit norm misses being essential, squared.
+#[inline]
+pub(super) fn missing_sq(e: &Matrix3<f64>) -> f64 {
+    constraint(e).norm_squared()
 }
 
 /// `E Eᵀ E − ½ E`: zero for an essential matrix of unit Frobenius norm.

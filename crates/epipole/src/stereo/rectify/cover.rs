@@ -41,7 +41,8 @@ pub(super) fn outline(
         if ray.z < 1e-3 {
             return Err(Error::Degenerate {
                 what: "a rectification",
-                why: "the cameras look in directions too far apart",
+                why: "a part of a photograph looks along the baseline or backwards from it; a narrower part \
+                      of the photographs, or cameras that stand side by side, can be rectified",
             });
         }
         Ok(ray.xy() / ray.z)
@@ -89,14 +90,19 @@ pub(super) fn outline(
     })
 }
 
-/// How much to multiply the focal length by, so that the results show what alpha asks for.
-pub(super) fn zoom(
+/// A focal length and the principal points that go with it.
+pub(super) type Framing = (f64, [Vector2<f64>; 2]);
+
+/// The principal points stay where the photographs' middles are shown in the middle, and the focal length,
+/// `focal_px` at first, becomes such that the results show what alpha asks for. `None` if a principal point is
+/// outside what is shown or seen.
+pub(super) fn around_principal_points(
     outlines: &[Outline; 2],
     centers: &[Vector2<f64>; 2],
     focal_px: f64,
     new_size: &Vector2<f64>,
     alpha: f64,
-) -> Result<f64> {
+) -> Option<Framing> {
     let mut all_valid: f64 = 0.0;
     let mut all_shown = f64::INFINITY;
     for (outline, center) in outlines.iter().zip(centers) {
@@ -110,10 +116,7 @@ pub(super) fn zoom(
         let sides = |r: &PixelRect| [-r.u_min, -r.v_min, r.u_max, r.v_max].map(|x| x * focal_px);
         for (room, covered) in room.into_iter().zip(sides(&outline.inner)) {
             if covered <= 0.0 || room <= 0.0 {
-                return Err(Error::Degenerate {
-                    what: "a rectification",
-                    why: "the photographs hardly overlap after it",
-                });
+                return None;
             }
             all_valid = all_valid.max(room / covered);
         }
@@ -121,5 +124,50 @@ pub(super) fn zoom(
             all_shown = all_shown.min(room / covered);
         }
     }
-    Ok(all_valid * (1.0 - alpha) + all_shown * alpha)
+    let zoom = all_valid * (1.0 - alpha) + all_shown * alpha;
+    Some((focal_px * zoom, *centers))
+}
+
+/// What is shown is the middle of what the cameras cover, wherever the principal points come to lie: of a
+/// baseline far from the image plane they are outside of the results.
+///
+/// * `is_shared`: whether both results show the same part along x, and along y
+///
+/// # Errors
+/// [`Error::Degenerate`] if the cameras cover nothing in common.
+pub(super) fn around_what_is_seen(
+    outlines: &[Outline; 2],
+    is_shared: [bool; 2],
+    new_size: &Vector2<f64>,
+    alpha: f64,
+) -> Result<Framing> {
+    let range = |r: &PixelRect, axis: usize| [[r.u_min, r.u_max], [r.v_min, r.v_max]][axis];
+    let mut all_valid: f64 = 0.0;
+    let mut all_shown = f64::INFINITY;
+    let mut middles = [Vector2::zeros(); 2];
+    for (axis, is_shared) in is_shared.into_iter().enumerate() {
+        let mut inner = outlines.each_ref().map(|o| range(&o.inner, axis));
+        let mut outer = outlines.each_ref().map(|o| range(&o.outer, axis));
+        if is_shared {
+            inner = [[inner[0][0].max(inner[1][0]), inner[0][1].min(inner[1][1])]; 2];
+            outer = [[outer[0][0].min(outer[1][0]), outer[0][1].max(outer[1][1])]; 2];
+        }
+        for i in 0..2 {
+            if inner[i][1] <= inner[i][0] {
+                return Err(Error::Degenerate {
+                    what: "a rectification",
+                    why: "the photographs hardly overlap after it",
+                });
+            }
+            let room = new_size[axis] - 1.0;
+            all_valid = all_valid.max(room / (inner[i][1] - inner[i][0]));
+            all_shown = all_shown.min(room / (outer[i][1] - outer[i][0]));
+            middles[i][axis] = 0.5
+                * ((1.0 - alpha) * (inner[i][0] + inner[i][1])
+                    + alpha * (outer[i][0] + outer[i][1]));
+        }
+    }
+    let focal_px = all_valid * (1.0 - alpha) + all_shown * alpha;
+    let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
+    Ok((focal_px, middles.map(|seen| middle - seen * focal_px)))
 }

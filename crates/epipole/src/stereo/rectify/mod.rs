@@ -7,7 +7,7 @@ mod turn;
 use super::PixelMap;
 use crate::camera::{Distortion, Intrinsics, RigidTransform};
 use crate::{Error, Result};
-use cover::{outline, zoom};
+use cover::{around_principal_points, around_what_is_seen, outline};
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2, Vector3};
 use q_matrix::q_matrix;
 use turn::turn_parallel;
@@ -22,6 +22,9 @@ pub struct StereoCamera {
     /// The lens; [`Distortion::NONE`] for an ideal one.
     pub distortion: Distortion,
 }
+
+/// With principal points in the middle the results may be enlarged so many times as much as they have to be.
+const LARGEST_CROP: f64 = 2.0;
 
 /// Choices of [`rectify_calibrated`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,8 +103,10 @@ pub struct Rectification {
 /// * `width`, `height`: of both photographs, pixels
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras stand at one place, or one in front of the other: then no
-/// common image plane sees the scene. [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
+/// [`Error::Degenerate`] if the cameras stand at one place; if the baseline is more than 60° off the image plane
+/// halfway between the cameras; and if a pixel of a photograph looks along the baseline, which with a baseline
+/// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
+/// sees all of it. [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
 /// empty size.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
@@ -156,9 +161,14 @@ pub fn rectify_calibrated(
     } else {
         centers.iter_mut().for_each(|c| c.y = mean.y);
     }
-    let zoom = zoom(&outlines, &centers, focal_px, &new_size, options.alpha)?;
-    // The zoom leaves the principal points where they are.
-    let focal_px = focal_px * zoom;
+    let axis = usize::from(turned.is_vertical);
+    let shared = [0, 1].map(|a| options.zero_disparity_at_infinity || a != axis);
+    let seen = around_what_is_seen(&outlines, shared, &new_size, options.alpha)?;
+    // The principal points stay where they are, as is usual, unless that costs too much of the view.
+    let (focal_px, centers) =
+        around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
+            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.0)
+            .unwrap_or(seen);
     let new_intrinsics = |c: &Vector2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y);
     let intrinsics = [new_intrinsics(&centers[0])?, new_intrinsics(&centers[1])?];
     let homographies = [0, 1].map(|i| {
@@ -174,7 +184,6 @@ pub fn rectify_calibrated(
             v_max: rect.v_max.min(new_size.y - 1.0),
         }
     });
-    let axis = usize::from(turned.is_vertical);
     Ok(Rectification {
         cameras: *cameras,
         rect_from_cam,
@@ -397,6 +406,78 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The second camera stands to the side and ahead: up to 60° off the image plane there is a region that both
+    /// saw, or the error says what the limit is.
+    #[test]
+    fn a_baseline_far_off_the_image_plane_is_rectified() {
+        for off_deg in [30.0_f64, 37.0, 45.0, 55.0] {
+            let off = off_deg.to_radians();
+            let mut num_rectified = 0;
+            for focal_px in [300.0, 500.0, 700.0, 1000.0, 2000.0, 5000.0] {
+                let lens = camera(focal_px, focal_px, 319.5, 239.5, [0.0; 5]);
+                let (sideways, ahead) = (-0.3 * libm::cos(off), -0.3 * libm::sin(off));
+                let corner = libm::atan(319.5 / focal_px);
+                for translation in [[sideways, 0.0, ahead], [0.0, -sideways, ahead]] {
+                    let cam2_from_cam1 = motion([0.0; 3], translation);
+                    for alpha in [0.0, 1.0] {
+                        let options = RectifyOptions {
+                            alpha,
+                            ..Default::default()
+                        };
+                        let rig =
+                            rectify_calibrated(&[lens; 2], &cam2_from_cam1, 640, 480, &options);
+                        let rig = match rig {
+                            Ok(rig) => rig,
+                            Err(error) => {
+                                assert!(
+                                    corner + off > 1.45,
+                                    "{off_deg}° at {focal_px} px: {error}"
+                                );
+                                assert!(error.to_string().contains("along the baseline"));
+                                continue;
+                            }
+                        };
+                        num_rectified += 1;
+                        for i in 0..2 {
+                            let valid = rig.valid[i];
+                            let size = (valid.u_max - valid.u_min, valid.v_max - valid.v_min);
+                            let least = (1.0 - alpha) * 0.999;
+                            assert!(size.0 > least * 639.0, "{focal_px} {valid:?}");
+                            assert!(size.1 > least * 479.0, "{focal_px} {valid:?}");
+                            for (u, v) in [
+                                (valid.u_min, valid.v_min),
+                                (valid.u_max, valid.v_min),
+                                (valid.u_min, valid.v_max),
+                                (valid.u_max, valid.v_max),
+                            ] {
+                                let source = rig.source_pixel(i, &Point2::new(u, v)).unwrap();
+                                let p = source.unwrap();
+                                assert!((-1e-6..639.0 + 1e-6).contains(&p.x), "{p}");
+                                assert!((-1e-6..479.0 + 1e-6).contains(&p.y), "{p}");
+                            }
+                        }
+                        let x1 = Point3::new(0.1, -0.2, 9.0);
+                        let x2 = cam2_from_cam1 * x1;
+                        let p1 = rig.rectify_pixel(0, &photograph(&lens, &x1)).unwrap();
+                        let p2 = rig.rectify_pixel(1, &photograph(&lens, &x2)).unwrap();
+                        let across = 1 - usize::from(rig.is_vertical);
+                        assert!((p1 - p2)[across].abs() < 1e-6);
+                        let d = (p1 - p2)[1 - across];
+                        let x = rig.q * Vector4::new(p1.x, p1.y, d, 1.0);
+                        let found = Point3::new(x.x / x.w, x.y / x.w, x.z / x.w);
+                        assert!((found - rig.rect_from_cam[0] * x1).norm() < 1e-6);
+                    }
+                }
+            }
+            assert!(num_rectified >= 12, "{off_deg}°: {num_rectified}");
+        }
+        // Beyond, the error names the limit.
+        let lens = camera(700.0, 700.0, 319.5, 239.5, [0.0; 5]);
+        let ahead = motion([0.0; 3], [-0.1, 0.0, -0.3]);
+        let error = rectify_calibrated(&[lens; 2], &ahead, 640, 480, &RectifyOptions::default());
+        assert!(error.unwrap_err().to_string().contains("60°"));
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     if halfway.z.abs() > 1.732 * sideways {
         return Err(Error::Degenerate {
             what,
-            why: "one camera stands in front of the other",
+            why: "one camera stands in front of the other: the baseline may be at most 60° off the image plane",
         });
     }
     let axis = if is_vertical {

@@ -14,7 +14,7 @@ fn around(noise: &Noise, s: f32, t: f32, cells: u16) -> f32 {
 /// A cream mug with a printed cobalt band; its profile gives radius and height at t.
 pub(crate) fn mug(
     noise: &'static Noise,
-    profile: impl Fn(f64) -> Vector2<f64> + Send + 'static,
+    profile: impl Fn(f64) -> Vector2<f64> + Send + Sync + 'static,
     height_m: f64,
     floor_m: f64,
 ) -> Texture {
@@ -82,7 +82,7 @@ pub(crate) fn mug(
 /// A tall jug in celadon with a dark combed band and a cream neck.
 pub(crate) fn jug(
     noise: &'static Noise,
-    profile: impl Fn(f64) -> Vector2<f64> + Send + 'static,
+    profile: impl Fn(f64) -> Vector2<f64> + Send + Sync + 'static,
     height_m: f64,
 ) -> Texture {
     let (celadon, deep, cream) = ([0.16, 0.36, 0.34], [0.035, 0.10, 0.12], [0.62, 0.58, 0.45]);

@@ -1,0 +1,691 @@
+//! Photographs as another camera would have taken them, as far as their pixels tell.
+//!
+//! Every pixel has its depth, so it is known where the other camera sees it. Pixels are carried over
+//! in an order in which near ones cover far ones without any comparison of depths (McMillan and Bishop
+//! 1995, "Plenoptic Modeling", section 4): along each ray of the other camera they follow the epipolar
+//! line, towards the epipole where that camera stands in front of this one, away from it where it
+//! stands behind.
+
+use super::render::Photograph;
+use crate::camera::{Camera, RigidTransform};
+use crate::{Error, Result};
+use image::RgbImage;
+use nalgebra::{Matrix3, Point3, Vector3};
+use std::ops::Range;
+
+/// Nothing nearer than this to the other camera is carried over, metres.
+const NEAR_M: f32 = 0.02;
+/// A pixel never becomes a larger square than this, pixels.
+const LARGEST: f32 = 6.0;
+/// How much farther apart two neighbors may come than a surface that faces the camera lets them.
+const SLANT: f32 = 1.15;
+
+/// A thing that has moved since a photograph was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved {
+    /// Its middle at that time, in the world, metres.
+    pub center: Point3<f64>,
+    /// It is the surface within this distance of its middle, metres.
+    pub radius_m: f64,
+    /// Within this distance of where it was and of where it is, nothing else looks as it did, because
+    /// its shade has moved along, metres.
+    pub stale_m: f64,
+    /// How far it has moved, metres.
+    pub by: Vector3<f64>,
+}
+
+/// A photograph from elsewhere, made of the pixels of another one.
+#[derive(Debug, Default)]
+pub struct Reprojected {
+    image: RgbImage,
+    /// Red, green, blue and 255; 0 where no pixel came.
+    pixels: Vec<u32>,
+    /// Places that stay empty.
+    missing: Vec<u32>,
+}
+
+impl Reprojected {
+    /// The picture. What is missing is black until it is filled.
+    pub fn image(&self) -> &RgbImage {
+        &self.image
+    }
+
+    /// The number of pixels that are missing.
+    pub fn num_missing(&self) -> usize {
+        self.missing.len()
+    }
+
+    /// The rows of a picture of `height` rows of the same view, of which [`Reprojected::fill`] takes
+    /// what is missing; empty if nothing is.
+    pub fn missing_rows(&self, height: u32) -> Range<u32> {
+        let (width, own_height) = self.image.dimensions();
+        match (self.missing.first(), self.missing.last()) {
+            (Some(first), Some(last)) => {
+                let row = |index: u32| between(index / width, own_height, height).0 as u32;
+                row(*first)..(row(*last) + 2).min(height)
+            }
+            _ => 0..0,
+        }
+    }
+
+    /// Fills what is missing from a picture of the same view, of any size, between its pixels.
+    pub fn fill(&mut self, draft: &RgbImage) {
+        let (width, height) = self.image.dimensions();
+        let (draft_width, draft_height) = draft.dimensions();
+        if draft_width == 0 || draft_height == 0 {
+            return;
+        }
+        let columns: Vec<_> = (0..width).map(|u| between(u, width, draft_width)).collect();
+        let draft = draft
+            .as_raw()
+            .as_chunks::<3>()
+            .0
+            .chunks_exact(draft_width as usize);
+        let draft: Vec<&[[u8; 3]]> = draft.collect();
+        let pixels = self.image.as_chunks_mut::<3>().0;
+        for row in self.missing.chunk_by(|a, b| a / width == b / width) {
+            let start = row[0] / width * width;
+            let (above, below, down) = between(row[0] / width, height, draft_height);
+            for &index in row {
+                let (left, right, across) = columns[(index - start) as usize];
+                let [a, b] = [left, right].map(|x| draft[above][x]);
+                let [c, d] = [left, right].map(|x| draft[below][x]);
+                let mix = |a: u8, b: u8| u32::from(a) * (256 - across) + u32::from(b) * across;
+                pixels[index as usize] = std::array::from_fn(|i| {
+                    let (upper, lower) = (mix(a[i], b[i]), mix(c[i], d[i]));
+                    ((upper * (256 - down) + lower * down + 32_768) >> 16) as u8
+                });
+            }
+        }
+    }
+
+    /// A picture of this size of which all is missing.
+    pub fn clear(&mut self, (width, height): (u32, u32)) {
+        self.begin((width, height));
+        self.finish();
+    }
+
+    fn begin(&mut self, (width, height): (u32, u32)) {
+        if self.image.dimensions() != (width, height) {
+            self.image = RgbImage::new(width, height);
+        }
+        self.pixels.clear();
+        self.pixels.resize(width as usize * height as usize, 0);
+        self.missing.clear();
+    }
+
+    /// Makes the picture of the pixels that have come. A gap one pixel wide takes its neighbor's color.
+    fn finish(&mut self) {
+        let width = self.image.width() as usize;
+        let pixels = &self.pixels;
+        let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
+        for (index, target) in self.image.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            let mut pixel = pixels[index];
+            if pixel == 0 {
+                let [left, above] = [1, width].map(|step| at(index.wrapping_sub(step)));
+                let [right, below] = [1, width].map(|step| at(index + step));
+                pixel = match (left != 0 && right != 0, above != 0 && below != 0) {
+                    (true, _) => left,
+                    (false, true) => above,
+                    (false, false) => {
+                        self.missing.push(index as u32);
+                        0
+                    }
+                };
+            }
+            let [r, g, b, _] = pixel.to_le_bytes();
+            *target = [r, g, b];
+        }
+    }
+}
+
+/// Between which two rows or columns of a picture one of another picture lies, and how much the
+/// second of them counts, of 256.
+fn between(at: u32, size: u32, other_size: u32) -> (usize, usize, u32) {
+    let place = (at as f32 + 0.5) * other_size as f32 / size as f32 - 0.5;
+    let place = place.clamp(0.0, (other_size as f32 - 1.0).max(0.0));
+    let first = place as usize;
+    let weight = ((place - first as f32) * 256.0) as u32;
+    (
+        first,
+        (first + 1).min(other_size.max(1) as usize - 1),
+        weight,
+    )
+}
+
+impl Photograph {
+    /// This photograph as the camera `to` would have taken it, with gaps where it sees what this one
+    /// did not.
+    ///
+    /// * `from`: the camera that took it
+    /// * `to`: another one, for a picture of the same size
+    /// * `moved`: what has moved in between
+    ///
+    /// Reflections and whatever else changes with the place of the eye stay as they were.
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] if colors and depths are not of one size; [`Error::NotFinite`] for a
+    /// camera that is nowhere.
+    ///
+    /// Source: McMillan and Bishop 1995, "Plenoptic Modeling: An Image-Based Rendering System".
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::synthetic::{Reprojected, Sampling, Scene, still_life_camera};
+    /// let camera = still_life_camera(64, 48);
+    /// let photograph = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
+    /// let mut seen = Reprojected::default();
+    /// photograph.reproject(&camera, &camera, None, &mut seen)?;
+    /// assert_eq!(seen.image(), &photograph.image);
+    /// // A camera that has moved sees something new.
+    /// let mut other = camera;
+    /// other.cam_from_world.translation.x -= 0.2;
+    /// photograph.reproject(&camera, &other, None, &mut seen)?;
+    /// assert!((100..1000).contains(&seen.num_missing()));
+    /// # Ok(()) }
+    /// ```
+    pub fn reproject(
+        &self,
+        from: &Camera,
+        to: &Camera,
+        moved: Option<&Moved>,
+        target: &mut Reprojected,
+    ) -> Result<()> {
+        let size = self.image.dimensions();
+        let depth_size = self.depth_m.dimensions();
+        for (first, second) in [(size.0, depth_size.0), (size.1, depth_size.1)] {
+            if first != second {
+                return Err(Error::SizeMismatch {
+                    what: "the colors and the depths of a photograph",
+                    first: first as usize,
+                    second: second as usize,
+                });
+            }
+        }
+        let carry = Carry::new(from, to, size)?;
+        target.begin(size);
+        let depths = self.depth_m.as_raw();
+        let Some(moved) = moved else {
+            if from == to {
+                target.pixels = self.packed().collect();
+            } else {
+                carry.all(self, depths, &mut target.pixels);
+            }
+            target.finish();
+            return Ok(());
+        };
+        let (stale, carried) = moved.find(self, from);
+        if from == to {
+            target.pixels = self.packed().collect();
+            for &index in stale.iter().chain(&carried) {
+                target.pixels[index as usize] = 0;
+            }
+        } else {
+            let mut depths = depths.clone();
+            for &index in stale.iter().chain(&carried) {
+                depths[index as usize] = 0.0;
+            }
+            carry.all(self, &depths, &mut target.pixels);
+        }
+        // It comes last, as if nothing stood in front of it.
+        let carry = carry.moved(to, &moved.by);
+        for index in carried {
+            let (u, v) = (index % size.0, index / size.0);
+            let run = Run {
+                places: u..u + 1,
+                is_upward: true,
+            };
+            carry.run(self, depths, (&run, (v, true)), &mut target.pixels);
+        }
+        target.finish();
+        Ok(())
+    }
+
+    fn packed(&self) -> impl Iterator<Item = u32> {
+        let pixels = self.image.as_raw().as_chunks::<3>().0;
+        pixels
+            .iter()
+            .map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 255]))
+    }
+}
+
+impl Moved {
+    /// Pixels that no longer look as they did, and pixels of the thing itself.
+    fn find(&self, photograph: &Photograph, camera: &Camera) -> (Vec<u32>, Vec<u32>) {
+        let (width, height) = photograph.image.dimensions();
+        let old = camera.cam_from_world * self.center;
+        let new = camera.cam_from_world * (self.center + self.by);
+        let reach_m = self.radius_m.max(self.stale_m);
+        let (mut stale, mut carried) = (Vec::new(), Vec::new());
+        let all = [0..width, 0..height];
+        let [columns, rows] = [&old, &new]
+            .map(|middle| bounds(camera, middle, reach_m, &all))
+            .into_iter()
+            .reduce(|[a, b], [c, d]| [join(&a, &c), join(&b, &d)])
+            .unwrap_or(all);
+        let [radius_sq, stale_sq] = [self.radius_m, self.stale_m].map(|radius| radius * radius);
+        for v in rows {
+            for u in columns.clone() {
+                let index = v * width + u;
+                let depth_m = f64::from(photograph.depth_m.as_raw()[index as usize]);
+                let pixel = nalgebra::Point2::new(f64::from(u), f64::from(v));
+                let point = Point3::from(camera.intrinsics.ray(&pixel) * depth_m);
+                if (point - old).norm_squared() <= radius_sq {
+                    carried.push(index);
+                } else if (point - old)
+                    .norm_squared()
+                    .min((point - new).norm_squared())
+                    <= stale_sq
+                {
+                    stale.push(index);
+                }
+            }
+        }
+        (stale, carried)
+    }
+}
+
+/// Columns and rows that may show something of a ball; all where it reaches up to the camera.
+fn bounds(
+    camera: &Camera,
+    middle: &Point3<f64>,
+    radius_m: f64,
+    all: &[Range<u32>; 2],
+) -> [Range<u32>; 2] {
+    let nearest = middle.z - radius_m;
+    if nearest.is_nan() || nearest < f64::from(NEAR_M) {
+        return all.clone();
+    }
+    let k = &camera.intrinsics;
+    let focal = [k.fu_px(), k.fv_px()];
+    let center = k.principal_point();
+    std::array::from_fn(|i| {
+        // Of all depths within the ball, the nearest moves its edges out most.
+        let edge = |sign: f64| {
+            let offset = middle[i] + sign * radius_m;
+            let depth = if offset * sign > 0.0 {
+                nearest
+            } else {
+                middle.z + radius_m
+            };
+            center[i] + focal[i] * offset / depth
+        };
+        let most = f64::from(all[i].end);
+        let start = (edge(-1.0) - 1.0).clamp(0.0, most) as u32;
+        start..(edge(1.0) + 2.0).clamp(f64::from(start), most) as u32
+    })
+}
+
+fn join(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
+    a.start.min(b.start)..a.end.max(b.end)
+}
+
+/// How pixels go from one picture to the other: `(map · (u, v, 1)) z + shift`, up to scale.
+struct Carry {
+    map: Matrix3<f32>,
+    shift: Vector3<f32>,
+    /// Where the other camera is seen, pixels, and whether it is in front.
+    epipole: (u32, u32),
+    is_ahead: bool,
+    /// Side of a pixel in the other picture if its depth stays the same, pixels.
+    zoom: f32,
+    size: (u32, u32),
+}
+
+impl Carry {
+    fn new(from: &Camera, to: &Camera, size: (u32, u32)) -> Result<Self> {
+        let motion: RigidTransform = to.cam_from_world * from.cam_from_world.inverse();
+        let matrix = to.intrinsics.matrix();
+        let map = matrix
+            * motion.rotation.to_rotation_matrix().matrix()
+            * from.intrinsics.inverse_matrix();
+        let shift = matrix * motion.translation.vector;
+        if !map.iter().chain(shift.iter()).all(|x| x.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "the places and directions of the cameras",
+            });
+        }
+        let center = from.cam_from_world * to.center_in_world();
+        // An epipole far away has the same order as one at infinity.
+        let depth = if center.z.abs() < 1e-9 {
+            1e-9
+        } else {
+            center.z
+        };
+        let image = from.intrinsics.matrix() * center.coords / depth;
+        let place = |at: f64, size: u32| (at + 0.5).clamp(0.0, f64::from(size)) as u32;
+        Ok(Self {
+            map: map.map(|x| x as f32),
+            shift: shift.map(|x| x as f32),
+            epipole: (place(image.x, size.0), place(image.y, size.1)),
+            is_ahead: depth > 0.0,
+            zoom: (to.intrinsics.fu_px() / from.intrinsics.fu_px()) as f32,
+            size,
+        })
+    }
+
+    /// The same for pixels of what has moved in the world meanwhile.
+    fn moved(self, to: &Camera, by: &Vector3<f64>) -> Self {
+        let shift = to.intrinsics.matrix() * (to.cam_from_world.rotation * by);
+        Self {
+            shift: self.shift + shift.map(|x| x as f32),
+            ..self
+        }
+    }
+
+    /// All pixels with a depth, so that near ones come after far ones.
+    fn all(&self, photograph: &Photograph, depths: &[f32], target: &mut [u32]) {
+        let [columns, rows] = [(self.epipole.0, self.size.0), (self.epipole.1, self.size.1)]
+            .map(|(epipole, size)| self.order(epipole, size));
+        for row in rows {
+            for v in row.places() {
+                for run in &columns {
+                    let row = (v, row.is_upward);
+                    self.run(photograph, depths, (run, row), target);
+                }
+            }
+        }
+    }
+
+    /// Rows or columns on both sides of the epipole: towards it or away from it.
+    fn order(&self, epipole: u32, size: u32) -> [Run; 2] {
+        let [before, after] = [0..epipole, epipole..size];
+        let run = |places, is_upward| Run { places, is_upward };
+        [run(before, self.is_ahead), run(after, !self.is_ahead)]
+    }
+
+    /// The pixels of a part of a row.
+    fn run(
+        &self,
+        photograph: &Photograph,
+        depths: &[f32],
+        (run, (v, is_downward)): (&Run, (u32, bool)),
+        target: &mut [u32],
+    ) {
+        let (width, height) = (self.size.0 as usize, self.size.1 as usize);
+        let row = v as usize * width..(v as usize + 1) * width;
+        let depths = &depths[row.clone()];
+        let colors = &photograph.image.as_raw().as_chunks::<3>().0[row];
+        let (map, shift) = (&self.map, &self.shift);
+        let base: [f32; 3] = std::array::from_fn(|i| map[(i, 1)] * v as f32 + map[(i, 2)]);
+        let slope: [f32; 3] = std::array::from_fn(|i| map[(i, 0)]);
+        for u in run.places() {
+            let (x, z) = (u as f32, depths[u as usize]);
+            let along = |i: usize| (slope[i] * x + base[i]) * z + shift[i];
+            let depth = along(2);
+            if !(z > 0.0 && depth > NEAR_M) {
+                continue;
+            }
+            let inverse = 1.0 / depth;
+            let zoom = self.zoom * z * inverse;
+            let side = (zoom * SLANT).min(LARGEST) as usize + 1;
+            // A square reaches over the gap to the next one, which comes later and covers the rest.
+            let half = 0.5 * (zoom - 1.0);
+            let first = |is_upward: bool| match is_upward {
+                true => 0.5 - half,
+                false => 1.5 + half - side as f32,
+            };
+            // Whatever hangs over the left or upper edge is left out with the whole square: the squares
+            // are small, and a draft fills the edge.
+            let left = along(0) * inverse + first(run.is_upward);
+            let top = along(1) * inverse + first(is_downward);
+            if !(left >= 0.0 && top >= 0.0 && left < width as f32 && top < height as f32) {
+                continue;
+            }
+            let (left, top) = (left as usize, top as usize);
+            let [r, g, b] = colors[u as usize];
+            let pixel = u32::from_le_bytes([r, g, b, 255]);
+            // Most squares are of one or four pixels, and their way is short.
+            let at = top * width + left;
+            if side == 1 {
+                target[at] = pixel;
+            } else if side == 2 && left + 2 <= width && top + 2 <= height {
+                let rows = &mut target[at..at + width + 2];
+                (rows[0], rows[1]) = (pixel, pixel);
+                (rows[width], rows[width + 1]) = (pixel, pixel);
+            } else {
+                for row in top..(top + side).min(height) {
+                    let end = (left + side).min(width);
+                    target[row * width + left..row * width + end].fill(pixel);
+                }
+            }
+        }
+    }
+}
+
+/// Places of a row or column in one direction.
+#[derive(Debug, Clone)]
+struct Run {
+    places: Range<u32>,
+    is_upward: bool,
+}
+
+impl Run {
+    fn places(&self) -> impl Iterator<Item = u32> + use<> {
+        // Counting down is adding the largest number and going round.
+        let (first, step) = match self.is_upward {
+            true => (self.places.start, 1),
+            false => (self.places.end.wrapping_sub(1), u32::MAX),
+        };
+        (0..self.places.len() as u32).map(move |index| first.wrapping_add(index.wrapping_mul(step)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{MovableKind, MovableObject, Sampling, Scene, still_life_camera};
+    use nalgebra::{Isometry3, Point2, Translation3};
+
+    const SIZE: (u32, u32) = (160, 120);
+
+    fn moved(right_m: f64, down_m: f64, ahead_m: f64, left_rad: f64) -> Camera {
+        let camera = still_life_camera(SIZE.0, SIZE.1);
+        Camera {
+            cam_from_world: Isometry3::rotation(Vector3::new(0.0, left_rad, 0.0))
+                * Translation3::new(-right_m, -down_m, -ahead_m)
+                * camera.cam_from_world,
+            ..camera
+        }
+    }
+
+    fn places() -> [Camera; 8] {
+        [
+            moved(0.2, 0.0, 0.0, 0.0),
+            moved(-0.2, 0.0, 0.0, 0.0),
+            moved(0.0, -0.1, 0.0, 0.0),
+            moved(0.05, 0.05, 0.3, 0.0),
+            moved(0.0, 0.0, -0.3, 0.0),
+            moved(0.0, 0.0, 0.0, 0.2),
+            moved(0.4, 0.0, -0.3, 0.2),
+            moved(-0.1, -0.05, 0.2, -0.1),
+        ]
+    }
+
+    fn render(scene: &Scene, camera: &Camera) -> Photograph {
+        scene
+            .render(camera, SIZE.0, SIZE.1, Sampling::Full)
+            .unwrap()
+    }
+
+    /// Places where both pictures have a color, and what these are.
+    fn pairs<'a>(
+        seen: &'a Reprojected,
+        truth: &'a RgbImage,
+    ) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + 'a {
+        let missing: std::collections::BTreeSet<u32> = seen.missing.iter().copied().collect();
+        let pixels = seen.image.pixels().zip(truth.pixels()).enumerate();
+        pixels
+            .filter(move |(index, _)| !missing.contains(&(*index as u32)))
+            .map(|(_, (a, b))| (a.0, b.0))
+    }
+
+    /// What comes over looks like a photograph from there, and far more so than a draft.
+    #[test]
+    fn it_looks_like_a_photograph_from_there() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let mut seen = Reprojected::default();
+        for (index, to) in places().iter().enumerate() {
+            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            let truth = render(&scene, to).image;
+            let mean = |pairs: &mut dyn Iterator<Item = ([u8; 3], [u8; 3])>| {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for (a, b) in pairs {
+                    sum += (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>();
+                    count += 3.0;
+                }
+                sum / count
+            };
+            let error = mean(&mut pairs(&seen, &truth));
+            let mut draft = Reprojected::default();
+            draft.clear(SIZE);
+            let small = Camera {
+                intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                ..*to
+            };
+            let sixth = (SIZE.0.div_ceil(6), SIZE.1 / 6);
+            let sketch = scene.render(&small, sixth.0, sixth.1, Sampling::Draft);
+            draft.fill(&sketch.unwrap().image);
+            draft.missing.clear();
+            let of_draft = mean(&mut pairs(&draft, &truth));
+            assert!(
+                error < 0.6 * of_draft,
+                "{index}: {error}, a draft {of_draft}"
+            );
+            assert!(seen.num_missing() < truth.len() / 3 * 45 / 100, "{index}");
+        }
+    }
+
+    /// Near surfaces cover far ones wherever the camera goes: depths painted as colors stay those of
+    /// what is seen there.
+    #[test]
+    fn near_surfaces_cover_far_ones() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let mut photograph = render(&scene, &from);
+        let in_world = |camera: &Camera, photograph: &Photograph, u: u32, v: u32| {
+            let pixel = Point2::new(f64::from(u), f64::from(v));
+            let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
+            camera.center_in_world() + camera.ray_in_world(&pixel) * depth
+        };
+        // Where in the room a surface is, from front to back.
+        let paint = |point: Point3<f64>| [((point.z + 0.6) * 140.0).clamp(0.0, 250.0) as u8 + 3; 3];
+        let painted = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
+            image::Rgb(paint(in_world(&from, &photograph, u, v)))
+        });
+        photograph.image = painted;
+        let mut seen = Reprojected::default();
+        for (index, to) in places().iter().enumerate() {
+            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            let there = render(&scene, to);
+            let truth = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
+                image::Rgb(paint(in_world(to, &there, u, v)))
+            });
+            let (mut all, mut wrong) = (0, 0);
+            for (a, b) in pairs(&seen, &truth) {
+                all += 1;
+                wrong += usize::from(a[0].abs_diff(b[0]) > 10);
+            }
+            // At the outlines of things, one pixel is as good as the next.
+            assert!(wrong * 100 < all * 6, "{index}: {wrong} of {all}");
+        }
+    }
+
+    #[test]
+    fn what_was_hidden_is_filled_from_a_draft() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let to = moved(0.3, 0.0, 0.0, 0.0);
+        let mut seen = Reprojected::default();
+        let photograph = render(&scene, &from);
+        photograph.reproject(&from, &to, None, &mut seen).unwrap();
+        let missing = seen.missing.clone();
+        assert!(!missing.is_empty());
+        let mut num_new = 0;
+        for &index in &missing {
+            let pixel2 = Point2::new(f64::from(index % SIZE.0), f64::from(index / SIZE.0));
+            let there = scene.transfer(&to, &from, &pixel2);
+            let was_seen = match there {
+                crate::synthetic::Transfer::Visible { pixel2: p, .. } => {
+                    (1.0..f64::from(SIZE.0) - 2.0).contains(&p.x)
+                        && (1.0..f64::from(SIZE.1) - 2.0).contains(&p.y)
+                }
+                _ => false,
+            };
+            num_new += usize::from(!was_seen);
+        }
+        assert!(
+            num_new * 100 > missing.len() * 90,
+            "{num_new} of {}",
+            missing.len()
+        );
+        seen.fill(&RgbImage::from_pixel(20, 15, image::Rgb([1, 2, 3])));
+        for index in missing {
+            let pixel = seen.image.get_pixel(index % SIZE.0, index / SIZE.0);
+            assert_eq!(pixel.0, [1, 2, 3]);
+        }
+        let rows = seen.missing_rows(15);
+        assert!(rows.end <= 15 && rows.start < rows.end);
+    }
+
+    #[test]
+    fn a_ball_is_carried_along() {
+        let camera = still_life_camera(SIZE.0, SIZE.1);
+        let camera = Camera {
+            cam_from_world: RigidTransform::identity(),
+            ..camera
+        };
+        let ball = |x_m: f64| {
+            let kind = MovableKind::Ball;
+            Scene::long_table(MovableObject {
+                kind,
+                x_m,
+                z_m: 2.0,
+            })
+            .unwrap()
+        };
+        let before = render(&ball(0.0), &camera);
+        let after = render(&ball(0.3), &camera);
+        let moved = Moved {
+            center: Point3::new(0.0, 0.14, 2.0),
+            radius_m: 0.115,
+            stale_m: 0.3,
+            by: Vector3::new(0.3, 0.0, 0.0),
+        };
+        let mut seen = Reprojected::default();
+        before
+            .reproject(&camera, &camera, Some(&moved), &mut seen)
+            .unwrap();
+        seen.fill(&after.image);
+        let wrong = (seen.image.pixels().zip(after.image.pixels()))
+            .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
+            .count();
+        let differs = (before.image.pixels().zip(after.image.pixels()))
+            .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
+            .count();
+        assert!(wrong * 8 < differs, "{wrong}, {differs}");
+    }
+
+    #[test]
+    fn bad_requests_are_refused() {
+        let camera = still_life_camera(8, 6);
+        let mut photograph = Photograph::blank(8, 6);
+        let mut seen = Reprojected::default();
+        let mut nowhere = camera;
+        nowhere.cam_from_world.translation.x = f64::NAN;
+        let refused = photograph.reproject(&camera, &nowhere, None, &mut seen);
+        assert!(matches!(refused, Err(Error::NotFinite { .. })));
+        // Without depths nothing comes over.
+        let other = still_life_camera(9, 6);
+        photograph
+            .reproject(&camera, &other, None, &mut seen)
+            .unwrap();
+        assert_eq!(seen.num_missing(), 48);
+        seen.fill(&RgbImage::new(0, 0));
+        photograph.depth_m = image::ImageBuffer::new(4, 4);
+        let refused = photograph.reproject(&camera, &camera, None, &mut seen);
+        assert!(matches!(refused, Err(Error::SizeMismatch { .. })));
+    }
+}
