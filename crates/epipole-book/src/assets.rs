@@ -26,6 +26,8 @@ pub struct Assets {
     pub page: String,
     /// The script of the figures, if the project has figures.
     pub elements: Option<String>,
+    /// The style sheet inside the figures.
+    pub figure_css: Option<String>,
     /// Fonts that every page needs at once.
     pub preload: Vec<String>,
     /// The icon.
@@ -133,6 +135,7 @@ pub(crate) fn make(
     scripts::add_pages(&tools, options.live, &mut assets)?;
     if let Some(modules) = modules {
         scripts::add_elements(&tools, modules, options.live, &mut assets)?;
+        scripts::add_figure_styles(&tools, options.live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
@@ -144,15 +147,15 @@ pub(crate) fn make(
 }
 
 /// Where things are while assets are made.
-struct Tools {
-    project: PathBuf,
+pub(crate) struct Tools {
+    pub(crate) project: PathBuf,
     modules: PathBuf,
     /// Intermediate files, kept between builds.
     work: PathBuf,
 }
 
 impl Tools {
-    fn find(project: &Path) -> Result<Tools> {
+    pub(crate) fn find(project: &Path) -> Result<Tools> {
         let project = std::path::absolute(project)?;
         let modules = project.join("web/node_modules");
         if !modules.join(".bin/esbuild").exists() {

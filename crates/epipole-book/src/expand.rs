@@ -2,7 +2,11 @@
 //!
 //! | written | becomes |
 //! |---|---|
-//! | `{{#figure name key=value … \| caption}}` | a live figure with its poster, number and caption |
+//! | `{{#figure name key=value … \| caption}}` | a live figure with its poster, number and caption; `controls="a b"`, `readouts="…"` and `goals=none` choose what it shows, `claim="readout > 3"` is checked |
+//! | `{{#do figure key=value … \| words}}` | words of a sentence that take the nearest figure of that name there; of several, `name#id` |
+//! | `{{#live figure.readout}}` | a number of a figure, which follows it |
+//! | `{{#claim figure key=value … \| readout > 3}}` | nothing; the build fails if the figure shows otherwise |
+//! | `{{#small figure key=value … page=sfm.md \| words}}` | a small picture of a figure with words, linked to the page; without a link while there is no such page |
 //! | `{{#ref fig-name}}` | a link "Figure 4.1" |
 //! | `{{#value name key=value … digits=2}}` | a number computed by the core; also in formulas |
 //! | `{{#cite key other \| §3}}` | a citation, linked to the list of references |
@@ -12,26 +16,34 @@
 //! | `{{#progress}}` | the reader's quiz results, kept in their own browser |
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
+use crate::claims;
 use crate::directives::Directive;
+use crate::facts::Facts;
+use crate::figures::Room;
 use crate::html::escape;
+use crate::instances::{self, Instance, setting};
 use crate::markdown::Renderer;
 use crate::page::FigureEntry;
 use crate::posters::{self, Posters};
 use crate::problems::{Place, name_list};
 use crate::references::cite;
-use crate::shared::{PAGE_OF_REFERENCES, QuizEntry, token};
+use crate::shared::{PAGE_OF_REFERENCES, PanelRequest, QuizEntry, token};
 use crate::source::Source;
-use crate::{numbers, quiz};
+use crate::{numbers, operate, quiz, small};
 
-const KNOWN: [&str; 9] = [
+const KNOWN: [&str; 13] = [
     "cite",
+    "claim",
+    "do",
     "figure",
     "include",
+    "live",
     "note",
     "progress",
     "quiz",
     "ref",
     "references",
+    "small",
     "value",
 ];
 
@@ -154,6 +166,10 @@ pub(crate) fn expand(
         "progress" => Ok(Insert::Block {
             html: token("progress", ""),
         }),
+        "small" => small::picture(renderer, directive, body, place),
+        "do" => operate::set(renderer, directive, body, place),
+        "live" => operate::quote(renderer, directive, place),
+        "claim" => operate::claim(renderer, directive, body, place),
         "include" => Err("{{#include}} could not be read".to_owned()),
         other => Err(format!(
             "unknown directive \"{other}\"; known: {}",
@@ -182,21 +198,20 @@ fn figure(
             "figure {name} needs a caption: {{{{#figure {name} … | caption}}}}"
         ));
     };
-    let of_builder = |key: &str| key == "id";
-    let settings: Vec<(String, String)> = directive
-        .settings
-        .iter()
-        .filter(|(key, _)| !of_builder(key))
-        .cloned()
-        .collect();
-    let id = match directive.settings.iter().find(|(key, _)| key == "id") {
-        Some((_, id)) => id.clone(),
-        None => renderer.page.figure_id(&name),
+    let figure = instances::at(place, &renderer.instances).cloned();
+    let Some(Instance { id, settings, .. }) = figure else {
+        return Err("a figure must stand in a paragraph of its own".to_owned());
     };
     let figure = shared
         .gallery
         .open(&name, &settings)
         .map_err(|error| format!("figure {name}: {error}"))?;
+    let facts = shared.facts(&name, &settings)?;
+    let shown =
+        what_is_shown(directive, &facts).map_err(|error| format!("figure {name}: {error}"))?;
+    if let Some(claim) = setting(directive, "claim") {
+        claims::check(claim, &facts)?;
+    }
     let number = renderer.page.next_figure_number();
     let entry = FigureEntry {
         id: id.clone(),
@@ -206,15 +221,28 @@ fn figure(
     renderer.page.figures.push(entry);
 
     let posters = match shared.posters_in() {
-        Some(folder) => posters::draw(figure.as_ref(), &name, &settings, renderer, folder)?,
+        Some(folder) => {
+            let rooms = Room::all_for(facts.aspect());
+            posters::draw(figure.as_ref(), rooms, &name, &settings, renderer, folder)?
+        }
         None => Posters::default(),
     };
-    let description = figure.description();
-    renderer.page.words.push_str(&description);
+    let description = facts.description();
+    renderer.page.words.push_str(description);
     renderer.page.words.push(' ');
     let caption = renderer.inline(&caption);
+    let (title, help) = shared.gallery.about(&name);
+    let panel = shared.wants_panel(PanelRequest {
+        name: name.clone(),
+        title,
+        help,
+        snapshot: facts.snapshot().clone(),
+        attributes: settings.iter().chain(&shown).cloned().collect(),
+        sizes: posters.sizes.clone(),
+    });
     let attributes: String = settings
         .iter()
+        .chain(&shown)
         .map(|(key, value)| format!(" {}=\"{}\"", escape(key), escape(value)))
         .collect();
     // The first figure of a page may be in sight at once; the others can wait.
@@ -224,17 +252,47 @@ fn figure(
     };
     let html = format!(
         "<figure class=\"epipole\" id=\"{id}\">\n\
-         <epipole-figure name=\"{name}\"{attributes}>\
+         <epipole-figure name=\"{name}\"{attributes}>{panel}\
          <picture>{sources}<img src=\"{src}\" alt=\"{alt}\" {loading} decoding=\"async\">\
          </picture></epipole-figure>\n\
          <figcaption><a class=\"figure-number\" href=\"#{id}\">Figure {number}</a> {caption}</figcaption>\n\
          </figure>\n",
         id = escape(&id),
-        alt = escape(&description),
+        panel = token("panel", &panel.to_string()),
+        alt = escape(description),
         sources = posters.sources,
         src = posters.src,
     );
     Ok(Insert::Block { html })
+}
+
+/// What a page shows of the figure, by the attributes of the same names; checked.
+fn what_is_shown(directive: &Directive, facts: &Facts) -> Result<Vec<(String, String)>, String> {
+    let mut shown = Vec::new();
+    for key in ["controls", "readouts", "goals"] {
+        let Some(value) = setting(directive, key) else {
+            continue;
+        };
+        match key {
+            "goals" if matches!(value, "none" | "one" | "all") => {}
+            "goals" => return Err(format!("goals={value}: it is none, one or all")),
+            list => facts.check_names(list, value)?,
+        }
+        shown.push((key.to_owned(), value.to_owned()));
+    }
+    if setting(directive, "goals") != Some("none") {
+        let mut goals = facts.ids("challenges").into_iter();
+        let is_reached = |goal: &&str| {
+            let shown = facts.shown(&format!("goal.{goal}"));
+            shown.is_ok_and(|shown| shown.text == "true")
+        };
+        if let Some(goal) = goals.find(is_reached) {
+            return Err(format!(
+                "its goal \"{goal}\" is reached before the reader has done anything: show another state, or goals=none"
+            ));
+        }
+    }
+    Ok(shown)
 }
 
 fn quiz_block(renderer: &mut Renderer, name: &str) -> Result<Insert, String> {

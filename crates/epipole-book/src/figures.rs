@@ -3,26 +3,42 @@
 //! The rest of the builder knows only the two traits here, so its tests can bring their own
 //! figures.
 
-use epipole_widgets::POSTER_WIDTH;
-use epipole_widgets::gallery::FIGURES;
+use epipole_widgets::Snapshot;
+pub use epipole_widgets::contract::Aspect;
+use epipole_widgets::contract::WIDTHS;
+use epipole_widgets::gallery::{self, FIGURES};
 use epipole_widgets::theme::Theme;
 
-/// The page that a poster is for: figures lay themselves out for its width.
+/// The room that a page has for a picture: figures lay themselves out for its width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Room {
-    /// A page with room beside the text.
-    Wide,
     /// A phone.
-    Narrow,
+    Phone,
+    /// A column.
+    Column,
+    /// A broad page.
+    Broad,
 }
 
 impl Room {
+    /// The rooms that a page of the book can have for pictures of this shape. A tall one has its
+    /// controls beside it on a broad page, so it never gets more than a column.
+    pub fn all_for(aspect: Aspect) -> &'static [Room] {
+        match aspect {
+            Aspect::Broad => &[Room::Phone, Room::Column, Room::Broad],
+            Aspect::Tall => &[Room::Phone, Room::Column],
+        }
+    }
+
     /// CSS pixels from the left to the right edge of a poster.
     pub fn width(self) -> u32 {
-        match self {
-            Room::Wide => POSTER_WIDTH as u32,
-            Room::Narrow => 340,
-        }
+        let [phone, column, broad] = WIDTHS;
+        let width = match self {
+            Room::Phone => phone,
+            Room::Column => column,
+            Room::Broad => broad,
+        };
+        width as u32
     }
 }
 
@@ -41,6 +57,9 @@ pub trait Gallery: Send + Sync {
     /// Their names, for messages.
     fn names(&self) -> Vec<String>;
 
+    /// Title of a figure, and what a reader can do with it.
+    fn about(&self, name: &str) -> (String, String);
+
     /// A figure in the state that the settings describe.
     ///
     /// # Errors
@@ -50,8 +69,12 @@ pub trait Gallery: Send + Sync {
 
 /// One figure in one state.
 pub trait Figure: Send + Sync {
-    /// What it shows now, in one or two sentences: the alternative text of the poster.
-    fn description(&self) -> String;
+    /// Everything that a page shows of it beside the picture, once all computations are done: JSON, as
+    /// pages in a browser get it.
+    ///
+    /// # Errors
+    /// A sentence.
+    fn snapshot(&self) -> Result<String, String>;
 
     /// The drawing, [`Room::width`] CSS pixels wide with `scale` device pixels to each: light and
     /// dark, since the photographs in it are the same.
@@ -69,6 +92,10 @@ impl Gallery for NoFigures {
         Vec::new()
     }
 
+    fn about(&self, _: &str) -> (String, String) {
+        Default::default()
+    }
+
     fn open(&self, name: &str, _: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
         Err(format!("there is no figure \"{name}\""))
     }
@@ -82,24 +109,25 @@ impl Gallery for Widgets {
         FIGURES.iter().map(|entry| entry.name.to_owned()).collect()
     }
 
+    fn about(&self, name: &str) -> (String, String) {
+        let text = |entry: &gallery::Entry| (entry.title.to_owned(), entry.help.to_owned());
+        gallery::find(name).map(text).unwrap_or_default()
+    }
+
     fn open(&self, name: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
-        let mut figure = open(name, settings)?;
-        // The poster shows what is there after the computation, so its words must say that too.
-        figure.finish_job();
+        open(name, settings)?;
         Ok(Box::new(Widget {
             name: name.to_owned(),
             settings: settings.to_vec(),
-            description: figure.describe(),
         }))
     }
 }
 
-/// A figure's name and state; the figure itself is made where it is drawn, as it cannot be sent
+/// A figure's name and state; the figure itself is made where it is asked, as it cannot be sent
 /// between threads.
 struct Widget {
     name: String,
     settings: Vec<(String, String)>,
-    description: String,
 }
 
 fn open(name: &str, settings: &[(String, String)]) -> Result<epipole_widgets::Figure, String> {
@@ -115,8 +143,11 @@ fn open(name: &str, settings: &[(String, String)]) -> Result<epipole_widgets::Fi
 }
 
 impl Figure for Widget {
-    fn description(&self) -> String {
-        self.description.clone()
+    fn snapshot(&self) -> Result<String, String> {
+        let mut figure = open(&self.name, &self.settings)?;
+        figure.finish_job();
+        let width = f64::from(Room::Column.width());
+        serde_json::to_string(&Snapshot::of(&figure, width)).map_err(|error| error.to_string())
     }
 
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
@@ -139,14 +170,16 @@ impl Figure for Widget {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::facts::Facts;
 
     #[test]
     fn every_figure_has_a_poster_in_both_shades() {
         for name in Widgets.names() {
             let figure = Widgets.open(&name, &[]).unwrap();
-            assert!(!figure.description().is_empty());
-            for room in [Room::Wide, Room::Narrow] {
-                let posters = figure.posters(room, 1).unwrap();
+            let facts = Facts::parse(&figure.snapshot().unwrap()).unwrap();
+            assert!(!facts.description().is_empty());
+            for room in Room::all_for(facts.aspect()) {
+                let posters = figure.posters(*room, 1).unwrap();
                 let heights = posters.map(|poster| {
                     assert_eq!(poster.width, room.width(), "{name}");
                     let pixels = poster.width * poster.height;

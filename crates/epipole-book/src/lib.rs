@@ -10,27 +10,34 @@
 //! build fails.
 
 pub mod assets;
+pub mod claims;
 pub mod compress;
 pub mod directives;
 mod events;
 mod expand;
+pub mod facts;
 pub mod figures;
 pub mod highlight;
 pub mod html;
 mod include;
+mod instances;
 mod links;
 mod listing;
 mod markdown;
 pub mod math;
 pub mod numbers;
+mod operate;
 pub mod page;
+mod panels;
 mod posters;
 pub mod problems;
 pub mod quiz;
 pub mod references;
+pub mod rhythm;
 pub mod serve;
 mod shared;
 pub mod site;
+mod small;
 pub mod source;
 mod stand_ins;
 pub mod template;

@@ -5,6 +5,7 @@ use crate::directives::{Directive, Piece, markdown_options, split};
 use crate::events::{Located, end_of, section_starts, take_footnotes};
 use crate::expand::Insert;
 use crate::html::{escape, forbidden_inline, slug};
+use crate::instances::Instance;
 use crate::links;
 use crate::listing::listing;
 use crate::math::{Layout, mathml};
@@ -19,6 +20,8 @@ use std::collections::HashMap;
 pub(crate) struct Renderer<'a> {
     pub(crate) shared: &'a Shared<'a>,
     pub(crate) page: Page,
+    /// The figures of the page, also those still to come.
+    pub(crate) instances: Vec<Instance>,
     notes: usize,
 }
 
@@ -26,14 +29,17 @@ pub(crate) struct Renderer<'a> {
 struct Text<'a> {
     source: &'a Source,
     inserts: &'a [Insert],
+    /// What the search finds in each of the inserts: captions, notes, quizzes.
+    found: &'a [String],
     footnotes: HashMap<CowStr<'a>, Vec<Located<'a>>>,
 }
 
 impl<'a> Renderer<'a> {
-    pub(crate) fn new(shared: &'a Shared<'a>, page: Page) -> Self {
+    pub(crate) fn new(shared: &'a Shared<'a>, page: Page, instances: Vec<Instance>) -> Self {
         Renderer {
             shared,
             page,
+            instances,
             notes: 0,
         }
     }
@@ -55,14 +61,17 @@ impl<'a> Renderer<'a> {
 
     fn render(&mut self, source: &Source, inline: bool) -> String {
         let mut expanded = Source::default();
-        let mut inserts = Vec::new();
+        let (mut inserts, mut found) = (Vec::new(), Vec::new());
         for piece in split(source) {
             match piece {
                 Piece::Text(range) => expanded.push_slice(source, range),
                 Piece::Broken(range, message) => self.report(source.place(range.start), message),
                 Piece::Directive(directive) => {
                     let place = source.place(directive.span.start);
+                    // Directives come before the text that they stand in; their words belong into it.
+                    let before = std::mem::take(&mut self.page.words);
                     let insert = self.directive(source, &directive);
+                    found.push(std::mem::replace(&mut self.page.words, before));
                     expanded.push(&stand_ins::of(inserts.len()), place);
                     inserts.push(insert);
                 }
@@ -75,10 +84,13 @@ impl<'a> Renderer<'a> {
         let text = Text {
             source: &expanded,
             inserts: &inserts,
+            found: &found,
             footnotes,
         };
         if inline {
-            return self.events(&events, &text, true);
+            let html = self.events(&events, &text, true);
+            self.page.words.push(' ');
+            return html;
         }
         let starts = section_starts(&events);
         let mut html = self.events(&events[..starts[0]], &text, false);
@@ -107,6 +119,8 @@ impl<'a> Renderer<'a> {
     /// HTML of a run of events. `tight` leaves out the tags of paragraphs.
     fn events(&mut self, events: &[Located], text: &Text, tight: bool) -> String {
         let mut out: Vec<Event> = Vec::new();
+        // Bytes of the next text that stand behind the formula before it already.
+        let mut skipped = 0;
         let mut at = 0;
         while at < events.len() {
             let (event, range) = &events[at];
@@ -116,8 +130,9 @@ impl<'a> Renderer<'a> {
                 Event::Start(Tag::Paragraph) => {
                     next = end_of(events, at);
                     let inner = &events[at + 1..next - 1];
-                    if let Some(block) = self.lone_block(inner, text) {
-                        out.push(Event::Html(block.into()));
+                    if let Some((block, words)) = lone_block(inner, text) {
+                        self.page.words.push_str(&format!(" {words} "));
+                        out.push(Event::Html(block.to_owned().into()));
                     } else {
                         self.page.describe(|| plain(inner, text));
                         let html = self.events(inner, text, tight);
@@ -180,16 +195,27 @@ impl<'a> Renderer<'a> {
                     out.push(Event::InlineHtml(html.into()));
                 }
                 Event::InlineMath(latex) => {
-                    out.push(Event::InlineHtml(
-                        self.formula(latex, Layout::Inline, text, place()).into(),
-                    ));
+                    let html = self.formula(latex, Layout::Inline, text, place());
+                    let (before, after) = neighbors(events, at);
+                    if let Some(Event::Text(words)) = out.last_mut() {
+                        *words = words[..words.len() - before.len()].to_owned().into();
+                    }
+                    let html = match before.is_empty() && after.is_empty() {
+                        true => html,
+                        false => format!("<span class=\"bound\">{before}{html}{after}</span>"),
+                    };
+                    self.page.words.push_str(after);
+                    skipped = after.len();
+                    out.push(Event::InlineHtml(html.into()));
                 }
                 Event::DisplayMath(latex) => {
                     out.push(Event::InlineHtml(
                         self.formula(latex, Layout::Display, text, place()).into(),
                     ));
                 }
-                Event::Text(words) => self.text(words, text, &mut out),
+                Event::Text(words) => {
+                    self.text(&words[std::mem::take(&mut skipped)..], text, &mut out)
+                }
                 Event::Code(code) => {
                     let code = self.substitute(code, text, Insert::text);
                     self.page.words.push_str(&code);
@@ -210,9 +236,15 @@ impl<'a> Renderer<'a> {
                     }
                     None => self.report(place(), format!("no footnote is called \"{label}\"")),
                 },
-                Event::SoftBreak => {
-                    self.page.words.push(' ');
-                    out.push(Event::SoftBreak);
+                Event::SoftBreak | Event::HardBreak | Event::Rule | Event::End(_) => {
+                    // The end of a list's item, say. Within a word nothing ends but emphasis and links.
+                    if !matches!(
+                        event,
+                        Event::End(TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link)
+                    ) {
+                        self.page.words.push(' ');
+                    }
+                    out.push(event.clone());
                 }
                 event => out.push(event.clone()),
             }
@@ -231,22 +263,6 @@ impl<'a> Renderer<'a> {
             "<sup class=\"note-mark\">{number}</sup><small class=\"note\" role=\"note\">\
              <sup class=\"note-number\">{number}</sup> {html}</small>"
         )
-    }
-
-    /// The HTML of a paragraph that holds nothing but one block.
-    fn lone_block(&self, inner: &[Located], text: &Text) -> Option<String> {
-        let mut words = String::new();
-        for (event, _) in inner {
-            match event {
-                Event::Text(part) => words.push_str(part),
-                Event::SoftBreak => words.push(' '),
-                _ => return None,
-            }
-        }
-        match text.inserts.get(stand_ins::index_of(words.trim())?)? {
-            Insert::Block { html } => Some(html.clone()),
-            _ => None,
-        }
     }
 
     fn heading(&mut self, level: u8, id: Option<&str>, inner: &[Located], text: &Text) -> String {
@@ -344,7 +360,11 @@ impl<'a> Renderer<'a> {
 
     fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {
         let latex = self.substitute(latex, text, Insert::text);
-        self.page.words.push(' ');
+        // A formula that is readable as it is written can be searched for, and belongs into excerpts.
+        match latex.contains(['\\', '{', '^', '_', '&']) {
+            true => self.page.words.push(' '),
+            false => self.page.words.push_str(latex.trim()),
+        }
         match mathml(&latex, layout) {
             Ok(html) => html,
             Err(message) => {
@@ -373,6 +393,9 @@ impl<'a> Renderer<'a> {
                         continue;
                     }
                     self.page.words.push_str(&insert.text());
+                    if let Some(found) = text.found.get(index).filter(|words| !words.is_empty()) {
+                        self.page.words.push_str(&format!(" {found} "));
+                    }
                     out.push(Event::InlineHtml(insert.html().into()));
                 }
             }
@@ -381,6 +404,45 @@ impl<'a> Renderer<'a> {
 
     fn substitute(&self, words: &str, text: &Text, form: fn(&Insert) -> String) -> String {
         substitute(words, text.inserts, form)
+    }
+}
+
+/// The marks right before and behind a formula in a line: browsers may break the line on either side of it,
+/// which leaves a bracket or a comma alone.
+fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t str) {
+    let before = match at.checked_sub(1).map(|before| &events[before].0) {
+        Some(Event::Text(words)) => {
+            let kept = words.trim_end_matches(['(', '[', '“', '‘']);
+            &words[kept.len()..]
+        }
+        _ => "",
+    };
+    let after = match events.get(at + 1).map(|(event, _)| event) {
+        Some(Event::Text(words)) => {
+            let rest = words.trim_start_matches([
+                ',', '.', ';', ':', '!', '?', ')', ']', '…', '’', '”', '-', '–',
+            ]);
+            &words[..words.len() - rest.len()]
+        }
+        _ => "",
+    };
+    (before, after)
+}
+
+/// The HTML of a paragraph that holds nothing but one block, and what the search finds in it.
+fn lone_block<'t>(inner: &[Located], text: &'t Text) -> Option<(&'t str, &'t str)> {
+    let mut words = String::new();
+    for (event, _) in inner {
+        match event {
+            Event::Text(part) => words.push_str(part),
+            Event::SoftBreak => words.push(' '),
+            _ => return None,
+        }
+    }
+    let index = stand_ins::index_of(words.trim())?;
+    match text.inserts.get(index)? {
+        Insert::Block { html } => Some((html, text.found.get(index)?)),
+        _ => None,
     }
 }
 

@@ -163,6 +163,23 @@ mod tests {
         for (call, expected) in [
             // 320 + 500 · 0.1 / 2
             ("camera.project-u f=500 cu=320 x=0.1 z=2", "345.0"),
+            // 800 · 0.3 / 1.5 and / 2; (400 − 320) / 800 and (160 − 240) / 800
+            ("camera.size-px f=800 h=0.3 z=1.5", "160"),
+            ("camera.size-px f=800 h=0.3 z=2", "120"),
+            ("camera.ray f=800 c=320 u=400", "0.1"),
+            ("camera.ray f=800 c=240 u=160", "-0.1"),
+            // 2000 / tan 35°
+            ("camera.focal-px width=4000 view=70", "2856"),
+            // √8 and √2
+            ("rays.sigma a=2 b=2 c=-1 d=1 k=1", "2.83"),
+            ("rays.sigma a=2 b=2 c=-1 d=1 k=2", "1.41"),
+            // NumPy: h = np.linalg.svd(A)[2][-1], h / h[2]
+            ("rays.least-sigma u1=395 u2=295 u3=195", "0.0000"),
+            ("rays.least-sigma u1=395 u2=295 u3=196", "0.0007"),
+            ("rays.meeting u1=395 u2=295 u3=195 k=1", "0.300"),
+            ("rays.meeting u1=395 u2=295 u3=195 k=2", "2.000"),
+            ("rays.meeting u1=395 u2=295 u3=196 k=1", "0.301"),
+            ("rays.meeting u1=395 u2=295 u3=196 k=2", "2.010"),
             // NumPy: singular values of the rows, raw and after Hartley's normalization.
             ("eight-point.row u=100 v=50 u2=110 v2=48 k=1", "11000"),
             ("eight-point.sigma normalized=0 k=1", "837858.69"),
@@ -295,7 +312,7 @@ mod tests {
         for (call, part) in [
             (
                 "nosuch",
-                "unknown number \"nosuch\"; known numbers: camera.project-u, corners.a",
+                "unknown number \"nosuch\"; known numbers: camera.project-u, camera.size-px",
             ),
             (
                 "camera.project-u f=1 cu=1 x=1 w=1",

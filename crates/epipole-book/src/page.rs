@@ -94,20 +94,6 @@ impl Page {
         }
     }
 
-    /// The anchor of a figure that the chapter does not name itself: `fig-name`, and from the
-    /// second of its kind on `fig-name-2`.
-    pub(crate) fn figure_id(&self, name: &str) -> String {
-        let first = format!("fig-{name}");
-        let taken = |id: &str| self.figures.iter().any(|figure| figure.id == id);
-        if !taken(&first) {
-            return first;
-        }
-        (2..)
-            .map(|count| format!("{first}-{count}"))
-            .find(|id| !taken(id))
-            .unwrap_or(first)
-    }
-
     /// Takes the first paragraph as the description.
     pub(crate) fn describe(&mut self, words: impl FnOnce() -> String) {
         if self.description.is_empty() {

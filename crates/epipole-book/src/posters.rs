@@ -6,7 +6,7 @@ use crate::html::path_to_root;
 use crate::markdown::Renderer;
 use rayon::prelude::*;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Device pixels of a poster to a CSS pixel.
 const SCALE: u32 = 2;
@@ -14,33 +14,37 @@ const SCALE: u32 = 2;
 /// Of 100, for posters with photographs. At two device pixels to a CSS pixel text stays crisp.
 const QUALITY: f32 = 76.0;
 
-/// Narrower pages get the poster for phones.
-const NARROW: &str = "(max-width: 38rem)";
+/// Pages of this width have no more room than a phone, or than a column: `web/theme/tokens.css` keeps the
+/// figures of the others wider.
+const PHONE: &str = "(max-width: 551.98px)";
+const COLUMN: &str = "(max-width: 927.98px)";
 const DARK: &str = "(prefers-color-scheme: dark)";
 
-/// The posters of a figure for wide and narrow pages, light and dark, as HTML.
+/// The posters of a figure for all widths of a page, light and dark, as HTML.
 #[derive(Default)]
 pub(crate) struct Posters {
     /// A `<source>` for each. They carry the sizes, since those differ.
     pub(crate) sources: String,
-    /// Wide and light.
+    /// The widest, light.
     pub(crate) src: String,
+    /// Width and height of each, CSS pixels.
+    pub(crate) sizes: Vec<(u32, f64)>,
 }
 
-/// Draws the posters, or takes them from `folder`, and adds them to the site.
+/// Draws the posters for these rooms, narrow ones first, or takes them from `folder`, and adds them to the
+/// site.
 pub(crate) fn draw(
     figure: &dyn Figure,
+    rooms: &[Room],
     name: &str,
     settings: &[(String, String)],
     renderer: &Renderer,
     folder: &Path,
 ) -> Result<Posters, String> {
-    let rooms = [(Room::Narrow, "narrow"), (Room::Wide, "wide")];
     let drawn: Vec<[Encoded; 2]> = rooms
         .par_iter()
-        .map(|(room, suffix)| {
-            let key = fnv(format!("{}{name}{settings:?}{suffix}", program()).as_bytes());
-            let file = folder.join(format!("{name}-{key:016x}"));
+        .map(|room| {
+            let file = kept_as(folder, name, settings, &room.width().to_string());
             cached(&file, || {
                 let [light, dark] = figure.posters(*room, SCALE)?;
                 Ok([encode(&light)?, encode(&dark)?])
@@ -55,33 +59,42 @@ pub(crate) fn draw(
             .add_asset(&format!("figures/{name}-{suffix}"), "webp", bytes);
         format!("{root}{path}")
     };
-    let source = |encoded: &Encoded, path: &str, media: &str| {
-        let (width, height) = encoded.size;
-        format!(
-            "<source srcset=\"{path}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
-        )
-    };
-    let [[narrow_light, narrow_dark], [light, dark]] = &drawn[..] else {
-        return Err("a poster is missing".to_owned());
-    };
-    let src = add(light, "light");
-    let sources = [
-        source(
-            narrow_dark,
-            &add(narrow_dark, "narrow-dark"),
-            &format!("{NARROW} and {DARK}"),
-        ),
-        source(narrow_light, &add(narrow_light, "narrow-light"), NARROW),
-        source(dark, &add(dark, "dark"), DARK),
-        source(light, &src, "all"),
-    ];
-    Ok(Posters {
-        sources: sources.concat(),
-        src,
-    })
+    let mut posters = Posters::default();
+    for (index, [light, dark]) in drawn.iter().enumerate() {
+        let width = rooms[index].width();
+        let height = f64::from(light.size.1) / f64::from(SCALE);
+        posters.sizes.push((width, height));
+        posters.src = add(light, &format!("{width}-light"));
+        let dark_src = add(dark, &format!("{width}-dark"));
+        // The widest is for all pages that the ones before leave.
+        let pages = [PHONE, COLUMN]
+            .get(index)
+            .filter(|_| index + 1 < rooms.len());
+        let when_dark = pages.map_or(DARK.to_owned(), |pages| format!("{pages} and {DARK}"));
+        for (src, media, (width, height)) in [
+            (&dark_src, when_dark.as_str(), dark.size),
+            (&posters.src, pages.unwrap_or(&"all"), light.size),
+        ] {
+            posters.sources.push_str(&format!(
+                "<source srcset=\"{src}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
+            ));
+        }
+    }
+    Ok(posters)
 }
 
-/// A compressed poster and its size in CSS pixels.
+/// The file in `folder` that keeps something of a figure in some state between builds.
+pub(crate) fn kept_as(
+    folder: &Path,
+    name: &str,
+    settings: &[(String, String)],
+    what: &str,
+) -> PathBuf {
+    let key = fnv(format!("{}{name}{settings:?}{what}", program()).as_bytes());
+    folder.join(format!("{name}-{key:016x}"))
+}
+
+/// A compressed poster and its size in device pixels: their ratio is exactly that of the living picture.
 struct Encoded {
     webp: Vec<u8>,
     size: (u32, u32),
@@ -111,7 +124,7 @@ fn encode(poster: &Poster) -> Result<Encoded, String> {
     };
     Ok(Encoded {
         webp: smaller.to_vec(),
-        size: (poster.width / SCALE, poster.height / SCALE),
+        size: (poster.width, poster.height),
     })
 }
 
@@ -194,7 +207,7 @@ mod tests {
         let file = folder.path().join("a-1");
         let first = cached(&file, || Ok([poster(9), poster(200)])).unwrap();
         assert_eq!(&first[0].webp[8..12], b"WEBP");
-        assert_eq!(first[0].size, (2, 1));
+        assert_eq!(first[0].size, (4, 2));
         let second = cached(&file, || Err("it was kept".to_owned())).unwrap();
         assert_eq!(second[1].webp, first[1].webp);
         assert_eq!(second[1].size, first[1].size);

@@ -5,6 +5,7 @@ use crate::html::escape;
 use crate::numbers::{self, Number};
 use crate::problems::{Place, Problems};
 use crate::source::Source;
+use epipole::math::random::Random;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -131,7 +132,8 @@ fn body(
     let group = escape(&format!("{name}-{}", question.id));
     let mut fields = String::new();
     let mut answers = Vec::new();
-    for choice in &question.choices {
+    for index in order(&format!("{name}/{}", question.id), question.choices.len()) {
+        let choice = &question.choices[index];
         let text = inline(&choice.text, place.clone());
         let why = choice.why.as_ref().map(|why| inline(why, place.clone()));
         let marks = if choice.right { " data-right" } else { "" };
@@ -146,6 +148,17 @@ fn body(
         }
     }
     Ok((fields, answers.join("; ")))
+}
+
+/// The order in which the choices of a question stand, the same in every build: authors write the right
+/// one first, and a reader must not find it there.
+fn order(question: &str, count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..count).collect();
+    let mut random = Random::new(crate::assets::fnv(question.as_bytes()));
+    for last in (1..count).rev() {
+        order.swap(last, random.below(last + 1));
+    }
+    order
 }
 
 fn numeric(name: &str, question: &Question) -> Result<(String, String), String> {
@@ -233,6 +246,58 @@ mod tests {
         assert!(html.contains("data-answer=\"345\""), "{html}");
         assert!(html.contains("<strong>345.0 px</strong>"), "{html}");
         assert!(html.contains("<details class=\"solution\">"));
+    }
+
+    #[test]
+    fn the_place_of_a_right_answer_tells_nothing() {
+        // Of many questions with four choices, whose first is the right one.
+        let places: Vec<usize> = (0..400)
+            .map(|index| {
+                let order = order(&format!("quiz question-{index}"), 4);
+                let mut sorted = order.clone();
+                sorted.sort_unstable();
+                assert_eq!(sorted, [0, 1, 2, 3]);
+                order.iter().position(|&choice| choice == 0).unwrap_or(4)
+            })
+            .collect();
+        for place in 0..4 {
+            let count = places.iter().filter(|&&other| other == place).count();
+            // 100 expected, with a standard deviation of 8.7.
+            assert!((70..=130).contains(&count), "{place}: {count}");
+            for step in 1..=4 {
+                let pairs = places.windows(step + 1);
+                let again = pairs.filter(|pair| pair[0] == place && pair[step] == place);
+                // 25 expected, with a standard deviation of 4.8.
+                assert!(again.count() <= 42, "{place} after {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_place_in_the_book_is_the_right_one_half_of_the_time() {
+        let quizzes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../content/quizzes");
+        let mut places = Vec::new();
+        for file in std::fs::read_dir(quizzes).unwrap() {
+            let path = file.unwrap().path();
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            let file: File = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+            for question in file.question.iter().map(Spanned::as_ref) {
+                let rights = question.choices.iter().filter(|choice| choice.right);
+                if rights.count() == 1 {
+                    let order = order(&format!("{name}/{}", question.id), question.choices.len());
+                    places.push(
+                        order
+                            .iter()
+                            .position(|&index| question.choices[index].right),
+                    );
+                }
+            }
+        }
+        assert!(places.len() >= 15, "{places:?}");
+        for place in 0..4 {
+            let count = places.iter().filter(|&&other| other == Some(place)).count();
+            assert!(2 * count < places.len(), "{place}: {places:?}");
+        }
     }
 
     #[test]

@@ -2,13 +2,16 @@
 //! out. What one page says of another is a token until all pages are rendered.
 
 use crate::assets::fnv;
+use crate::facts::Facts;
 use crate::figures::Gallery;
+use crate::posters::kept_as;
 use crate::problems::{Place, Problems};
 use crate::references::References;
 use crate::source::Source;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Kind of the token for the page with the list of references.
 pub(crate) const PAGE_OF_REFERENCES: &str = "references-page";
@@ -47,13 +50,28 @@ pub(crate) struct QuizEntry {
     pub(crate) questions: usize,
 }
 
+/// What a figure's panel is made of: see `web/prerender.mjs`.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct PanelRequest {
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) help: String,
+    pub(crate) snapshot: serde_json::Value,
+    pub(crate) attributes: BTreeMap<String, String>,
+    pub(crate) sizes: Vec<(u32, f64)>,
+}
+
 #[derive(Default)]
 struct Collected {
+    facts: BTreeMap<(String, Settings), Arc<Facts>>,
+    panels: Vec<PanelRequest>,
     files: BTreeMap<String, Vec<u8>>,
     quizzes: Vec<QuizEntry>,
     wanted_figures: Vec<(String, Place)>,
     wanted_references: Option<Place>,
 }
+
+type Settings = Vec<(String, String)>;
 
 /// The state of one build.
 pub(crate) struct Shared<'a> {
@@ -96,6 +114,52 @@ impl<'a> Shared<'a> {
     /// Where posters are kept; none in a build that only looks for problems.
     pub(crate) fn posters_in(&self) -> Option<&Path> {
         self.posters.as_deref()
+    }
+
+    /// What a figure shows in a state, its computations done.
+    ///
+    /// # Errors
+    /// A sentence that names the figure.
+    pub(crate) fn facts(&self, name: &str, settings: &Settings) -> Result<Arc<Facts>, String> {
+        let key = (name.to_owned(), settings.clone());
+        if let Some(known) = self.with(|all| all.facts.get(&key).cloned()) {
+            return Ok(known);
+        }
+        let of_figure = |error| format!("figure {name}: {error}");
+        let figure = self.gallery.open(name, settings).map_err(of_figure)?;
+        let file = self
+            .posters_in()
+            .map(|folder| kept_as(folder, name, settings, "facts"));
+        let kept = file
+            .as_ref()
+            .and_then(|file| std::fs::read_to_string(file).ok());
+        let kept = kept.and_then(|snapshot| Facts::parse(&snapshot).ok());
+        let facts = match kept {
+            Some(facts) => facts,
+            None => {
+                let snapshot = figure.snapshot().map_err(of_figure)?;
+                if let Some(file) = &file {
+                    // What cannot be kept costs time, nothing else.
+                    let _ = std::fs::write(file, &snapshot);
+                }
+                Facts::parse(&snapshot).map_err(of_figure)?
+            }
+        };
+        let facts = Arc::new(facts);
+        self.with(|all| all.facts.insert(key, facts.clone()));
+        Ok(facts)
+    }
+
+    /// Asks for a panel; its number stands in a token until all are made.
+    pub(crate) fn wants_panel(&self, panel: PanelRequest) -> usize {
+        self.with(|all| {
+            all.panels.push(panel);
+            all.panels.len() - 1
+        })
+    }
+
+    pub(crate) fn wanted_panels(&self) -> Vec<PanelRequest> {
+        self.with(|all| all.panels.clone())
     }
 
     /// A place in a file of the content folder.

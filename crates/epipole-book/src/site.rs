@@ -5,9 +5,11 @@ use crate::compress;
 use crate::figures::Gallery;
 use crate::html::{escape, forbidden_inline, path_to_root};
 use crate::include::include;
+use crate::instances::instances;
 use crate::links;
 use crate::markdown::Renderer;
 use crate::page::Page;
+use crate::panels;
 use crate::problems::{Problem, Problems, name_list};
 use crate::shared::{PAGE_OF_REFERENCES, Shared, resolve};
 use crate::source::Source;
@@ -108,7 +110,11 @@ fn build_pages(
         .unwrap_or_else(PoisonError::into_inner);
 
     let summary = Summary::of(&book.book, first_chapter(&book.config));
-    resolve_pages(&mut pages, &shared);
+    let panels = match options.assets && !options.check {
+        true => panels::make(&options.project, &shared.wanted_panels())?,
+        false => Vec::new(),
+    };
+    resolve_pages(&mut pages, &shared, &panels);
     links::check(&pages, &summary.drafts, &problems);
     for page in &pages {
         if let Some(offence) = forbidden_inline(&page.html) {
@@ -148,6 +154,11 @@ fn build_pages(
 
     let template_file = options.project.join("web/theme/index.hbs");
     let template = Template::load(&template_file, &book.config, &assets, &search, options.live)?;
+    for page in &mut pages {
+        let styles = assets.figure_css.as_deref().unwrap_or_default();
+        let address = format!("{}{styles}", path_to_root(&page.path));
+        page.html = page.html.replace(panels::STYLES, &address);
+    }
     for (index, page) in pages.iter().enumerate() {
         let nav = Nav::new(&summary.entries, &pages, index);
         files.insert(page.path.clone(), template.page(page, &nav)?.into_bytes());
@@ -216,7 +227,7 @@ impl Site<'_> {
             number: number(chapter, first),
             ..Page::default()
         };
-        let mut renderer = Renderer::new(self.shared, page);
+        let mut renderer = Renderer::new(self.shared, page, instances(&source));
         let html = renderer.block(&source);
         let mut page = renderer.page;
         page.html = html;
@@ -323,7 +334,7 @@ fn check_summary(shared: &Shared) {
 }
 
 /// Fills in what pages say of one another.
-fn resolve_pages(pages: &mut [Page], shared: &Shared) {
+fn resolve_pages(pages: &mut [Page], shared: &Shared, panels: &[String]) {
     let mut figures: BTreeMap<String, (String, String)> = BTreeMap::new();
     for page in pages.iter() {
         for figure in &page.figures {
@@ -367,6 +378,13 @@ fn resolve_pages(pages: &mut [Page], shared: &Shared) {
                 .map(|(_, number)| format!("Figure {number}"))
                 .unwrap_or_default(),
             "progress" => progress.replace("href=\"", &format!("href=\"{root}")),
+            "panel" => name
+                .parse()
+                .ok()
+                .and_then(|index: usize| panels.get(index))
+                .map_or_else(String::new, |panel| {
+                    format!("<template shadowrootmode=\"open\">{panel}</template>")
+                }),
             PAGE_OF_REFERENCES => format!("{root}{list}"),
             _ => String::new(),
         });

@@ -4,7 +4,10 @@
 
 use epipole_book::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::html::forbidden_inline;
+use epipole_book::problems::Place;
+use epipole_book::rhythm::stretches;
 use epipole_book::site::{Options, Outcome, build};
+use epipole_book::source::Source;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -17,6 +20,10 @@ struct Dot(f64);
 impl Gallery for OneDot {
     fn names(&self) -> Vec<String> {
         vec!["dot".to_owned()]
+    }
+
+    fn about(&self, _: &str) -> (String, String) {
+        ("A dot".to_owned(), "Look at it.".to_owned())
     }
 
     fn open(&self, _: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String> {
@@ -36,8 +43,16 @@ impl Gallery for OneDot {
 }
 
 impl Figure for Dot {
-    fn description(&self) -> String {
-        format!("A \"dot\" of size {}.", self.0)
+    fn snapshot(&self) -> Result<String, String> {
+        let size = self.0;
+        Ok(format!(
+            r#"{{"aspect":"broad","description":"A \"dot\" of size {size}.",
+            "readouts":[{{"id":"area","text":"{area} px²","value":{area}}}],
+            "controls":[{{"id":"size","kind":"slider","value":{size},"value_text":"{size} px"}}],
+            "challenges":[{{"id":"large","solved":{large}}}]}}"#,
+            area = size * size,
+            large = size > 8.0
+        ))
     }
 
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
@@ -198,8 +213,9 @@ fn figures_have_posters_numbers_and_permanent_names() {
         "{one}"
     );
     for sized in [
-        "media=\"all\" width=\"760\" height=\"10\"><img src=",
-        "media=\"(max-width: 38rem)\" width=\"340\" height=\"10\">",
+        "media=\"all\" width=\"2176\" height=\"20\"><img src=",
+        "media=\"(max-width: 927.98px)\" width=\"1440\" height=\"20\">",
+        "media=\"(max-width: 551.98px)\" width=\"720\" height=\"20\">",
     ] {
         assert!(one.contains(sized), "{sized}: {one}");
     }
@@ -219,7 +235,7 @@ fn figures_have_posters_numbers_and_permanent_names() {
         .next()
         .unwrap();
     assert!(
-        source.starts_with("../assets/figures/dot-narrow-dark-"),
+        source.starts_with("../assets/figures/dot-360-dark-"),
         "{source}"
     );
     assert!(book.out().join("part").join(source).is_file());
@@ -269,7 +285,7 @@ fn every_mistake_names_its_file_and_line_and_all_are_told() {
         ),
         (
             "{{#frame x}}",
-            "unknown directive \"frame\"; known: cite, figure",
+            "unknown directive \"frame\"; known: cite, claim, do, figure",
         ),
         ("{{#value a", "`{{#` without `}}`"),
         ("$\\frac{1}$", "formula `\\frac{1}`: "),
@@ -298,6 +314,37 @@ fn every_mistake_names_its_file_and_line_and_all_are_told() {
         ),
         ("<script>1</script>", "an inline <script>"),
         ("<a onclick=\"b()\">c</a>", "the attribute onclick"),
+        (
+            "{{#figure dot controls=\"size hue\" | C.}}",
+            "figure dot: none of its controls is called \"hue\"; controls: size",
+        ),
+        (
+            "{{#figure dot readouts=size | C.}}",
+            "none of its readouts is called \"size\"; readouts: area",
+        ),
+        (
+            "{{#figure dot size=9 | C.}}",
+            "figure dot: its goal \"large\" is reached before the reader has done anything",
+        ),
+        (
+            "{{#figure dot goals=many | C.}}",
+            "goals=many: it is none, one or all",
+        ),
+        (
+            "{{#figure dot claim=\"area > 9\" | C.}}",
+            "the claim `area > 9` is false: the figure shows \"9 px²\"",
+        ),
+        (
+            "{{#do dot size=2 | w}}",
+            "this page has no figure \"dot\"; its figures: none",
+        ),
+        ("{{#live dot.area}}", "this page has no figure \"dot\""),
+        (
+            "{{#do dot | w}}",
+            "write {{#do figure key=value … | words}}",
+        ),
+        ("{{#live dot}}", "write {{#live figure.readout}}"),
+        ("{{#claim dot size=2}}", "write {{#claim figure key=value"),
     ] {
         let problems = Book::of_chapter(&format!("# One\n\n{text}\n")).problems();
         let found = problems
@@ -335,6 +382,108 @@ fn lines_are_right_inside_captions_notes_tables_and_after_includes() {
         places,
         ["content/one.md:9", "content/one.md:12", "content/one.md:16"]
     );
+}
+
+#[test]
+fn sentences_operate_figures_and_quote_them() {
+    let dots = "{{#figure dot size=3 goals=one readouts=\"area\" | First.}}\n\n{{#figure dot id=other | Second.}}";
+    let book = Book::of_chapter(&format!(
+        "# One\n\n{{{{#do dot size=5 claim=\"area = 25\" | Make *it* larger}}}}: {{{{#live dot.area}}}}, \
+         {{{{#live dot.size}}}}, {{{{#live dot#other.area}}}}.{{{{#claim dot size=2 | area < 5}}}}\n\n{dots}\n"
+    ));
+    book.must_build();
+    let one = book.article("one.html");
+    for part in [
+        "<p><span class=\"do\" data-figure=\"fig-dot\" data-parameters=\"{&quot;size&quot;:&quot;5&quot;}\">\
+         Make <em>it</em> larger</span>: <span class=\"live\" data-figure=\"fig-dot\" \
+         data-shows=\"area\">9 px²</span>, <span",
+        "data-figure=\"other\" data-shows=\"area\">9 px²</span>.</p>",
+        "<epipole-figure name=\"dot\" size=\"3\" readouts=\"area\" goals=\"one\">",
+    ] {
+        assert!(one.contains(part), "{part}: {one}");
+    }
+    for (text, expected) in [
+        ("{{#do dot hue=5 | w}}", "figure dot: no parameter \"hue\""),
+        (
+            "{{#do dot size=big | w}}",
+            "figure dot: size=big is no number",
+        ),
+        (
+            "{{#live dot.hue}}",
+            "it shows nothing called \"hue\"; it shows area, size",
+        ),
+        (
+            "{{#do dot#no size=1 | w}}",
+            "no figure \"dot#no\"; its figures: dot#fig-dot, dot#other",
+        ),
+        ("{{#do dot size=1 claim=\"area > 1\" | w}}", "is false"),
+        (
+            "{{#claim dot size=1 | goal.large = true}}",
+            "shows \"false\"",
+        ),
+    ] {
+        let problems = Book::of_chapter(&format!("# One\n\n{text}\n\n{dots}\n")).problems();
+        let found = problems
+            .iter()
+            .any(|problem| problem.starts_with("content/one.md:3: ") && problem.contains(expected));
+        assert!(found, "{text}: {problems:#?}");
+    }
+}
+
+#[test]
+fn the_search_finds_captions_notes_and_quizzes_in_their_sections_and_fuses_no_words() {
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](one.md)\n"),
+        (
+            "one.md",
+            "# One\n\n## A\n\n{{#figure dot | A caption.}}\n\nThen $p$, *so*.\n\n- x\n- y\n\n## B\n\nEnd{{#note | Aside.}} here.\n\n{{#quiz q}}\n",
+        ),
+        (
+            "quizzes/q.toml",
+            "[[question]]\nid = 'a'\nprompt = 'Why?'\nexplanation = 'E.'\n\
+             choices = [{ text = 'yes', right = true }, { text = 'no' }]\n",
+        ),
+    ]);
+    book.must_build();
+    let index = files_below(&book.out()).into_iter().find(|path| {
+        path.file_name().is_some_and(|name| {
+            name.to_string_lossy().starts_with("search-")
+                && path.extension().is_some_and(|e| e == "json")
+        })
+    });
+    let index = fs::read_to_string(index.unwrap()).unwrap();
+    for part in [
+        "A \\\"dot\\\" of size 3. A caption. Then p, so. x y",
+        "End Aside. here. ",
+        "Why? ",
+    ] {
+        assert!(index.contains(part), "{part}: {index}");
+    }
+    let place = |words: &str| index.find(words).unwrap();
+    assert!(
+        place("A caption.") < place("#b") && place("Why?") > place("Aside."),
+        "{index}"
+    );
+    assert!(
+        !index.contains("yesno") && !index.contains("noyes"),
+        "{index}"
+    );
+}
+
+#[test]
+fn marks_stay_with_their_formulas() {
+    let book = Book::of_chapter("# One\n\nOf ($a$), $b$: and $c$ or $d$'s.\n");
+    book.must_build();
+    let one = book.article("one.html");
+    let bound: Vec<&str> = one.split("<span class=\"bound\">").collect();
+    assert_eq!(bound.len(), 4, "{one}");
+    assert!(
+        bound[0].ends_with("<p>Of ") && bound[1].starts_with("(<math"),
+        "{one}"
+    );
+    assert!(bound[1].ends_with("</math>),</span> "), "{one}");
+    assert!(bound[2].contains("</math>:</span> and <math"), "{one}");
+    assert!(bound[3].ends_with("</math>’</span>s.</p>"), "{one}");
 }
 
 #[test]
@@ -503,7 +652,7 @@ fn drafts_are_listed_but_lead_nowhere() {
         "{page}"
     );
     assert!(
-        page.contains("<a class=\"next\" href=\"three.html\">"),
+        page.contains("<a class=\"next\" rel=\"next\" href=\"three.html\">"),
         "{page}"
     );
 }
@@ -581,7 +730,7 @@ fn the_site_works_below_any_path_and_holds_no_inline_code() {
             checked += 1;
         }
     }
-    assert!(checked >= 40, "{checked}");
+    assert!(checked >= 36, "{checked}");
     assert!(out.join("part/one.html.br").is_file() && out.join("part/one.html.gz").is_file());
 }
 
@@ -595,4 +744,55 @@ fn a_second_build_replaces_the_first() {
     assert!(!book.out().join("stale.html").exists());
     assert!(book.article("one.html").contains("New."));
     assert!(!book.out().with_extension("next").exists());
+}
+
+/// The chapters of the book itself: file and text.
+fn chapters() -> Vec<(String, String)> {
+    let content = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../content");
+    let mut found: Vec<(String, String)> = fs::read_dir(content)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
+        .map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, fs::read_to_string(path).unwrap())
+        })
+        .collect();
+    found.sort();
+    assert!(found.len() > 8);
+    found
+}
+
+#[test]
+fn nobody_reads_more_than_eight_paragraphs_without_something_to_look_at() {
+    let mut long = Vec::new();
+    for (name, text) in chapters() {
+        let source = Source::new(text, Place::new(name, 1));
+        long.extend(
+            stretches(&source)
+                .into_iter()
+                .filter(|stretch| stretch.paragraphs > 8),
+        );
+    }
+    assert!(long.is_empty(), "{long:#?}");
+}
+
+#[test]
+fn captions_are_short() {
+    let mut long = Vec::new();
+    for (name, text) in chapters() {
+        for (at, _) in text.match_indices("{{#figure ") {
+            let tag = &text[at..];
+            // Captions hold formulas and no directives with a bar of their own.
+            let Some((head, rest)) = tag.split_once(" | ") else {
+                continue;
+            };
+            let caption = rest.split("}}\n").next().unwrap_or(rest);
+            let words = caption.split_whitespace().count();
+            if words > 40 {
+                long.push(format!("{name}: {head}: {words} words"));
+            }
+        }
+    }
+    assert!(long.is_empty(), "{long:#?}");
 }

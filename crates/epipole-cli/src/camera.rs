@@ -129,6 +129,11 @@ pub(crate) struct Guess {
     from_exif: bool,
 }
 
+/// Whether some photographs say nothing of their focal length.
+pub(crate) fn some_unknown(guesses: &[Guess]) -> bool {
+    guesses.iter().any(|guess| !guess.from_exif)
+}
+
 /// What was guessed for some photographs. `None` if nothing was.
 pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     let first = guesses.first()?;

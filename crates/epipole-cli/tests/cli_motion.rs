@@ -48,6 +48,37 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.starts_with('#'))
 }
 
+/// The lens of these photographs is not in their data, and the guess is 4 % off: it is refined, and said.
+#[test]
+fn an_unknown_focal_length_is_refined() {
+    let folder = Folder::new("sfm-focal");
+    let cameras: Vec<Camera> = (0..5).map(around).collect();
+    photographs(&folder, "photos", &cameras);
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let truth = cameras[0].intrinsics.fu_px();
+    let run = |more: &[&str]| {
+        let result = json(&[&["sfm", path(&photos), "-o", path(&out)], more].concat());
+        let found = result["images"][0]["focal_px"].as_f64().unwrap();
+        let refined = result["focal_refined"].as_bool().unwrap();
+        (
+            found,
+            refined,
+            result["mean_reprojection_px"].as_f64().unwrap(),
+        )
+    };
+    let guess = 480.0;
+    let (kept, refined, guessed_px) = run(&["--keep-focal"]);
+    assert!(!refined && (kept - guess).abs() < 1e-9);
+    let (found, refined, refined_px) = run(&[]);
+    println!("truth {truth}: found {found}, {guessed_px} px, then {refined_px} px");
+    assert!(
+        refined && (found / truth - 1.0).abs() < 0.05,
+        "{found} of {truth}"
+    );
+    assert!((found / truth - 1.0).abs() < 0.5 * (guess / truth - 1.0).abs());
+    assert!(refined_px < guessed_px);
+}
+
 #[test]
 fn photographs_become_cameras_and_points() {
     let folder = Folder::new("sfm");

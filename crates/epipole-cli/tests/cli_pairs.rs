@@ -137,6 +137,70 @@ fn fits_of_essential_matrices_say_that_the_camera_may_have_only_turned() {
     assert!(result.get("could_be_turn").is_none());
 }
 
+/// Without intrinsics a turn cannot be told from a plane, but both from a scene with depth.
+#[test]
+fn fits_without_intrinsics_say_what_they_leave_open() {
+    let folder = Folder::new("fit-open");
+    let mut random = Random::new(7);
+    let unmoved = RigidTransform::identity();
+    for (model, motion, noise_px, expected) in [
+        ("fundamental", step(), 0.5, None),
+        (
+            "fundamental",
+            turn(),
+            0.5,
+            Some("a plane, or the camera only turned"),
+        ),
+        (
+            "fundamental",
+            turn(),
+            0.0,
+            Some("a plane, or the camera only turned"),
+        ),
+        ("fundamental", unmoved, 0.3, Some("hardly moved")),
+        ("homography", turn(), 0.3, None),
+        ("homography", unmoved, 0.0, Some("hardly moved")),
+        ("homography", unmoved, 0.3, Some("hardly moved")),
+    ] {
+        let file = folder.write("matches.txt", &rows(&mut random, &motion, noise_px));
+        let (result, told) = told(&["fit", "--model", model, path(&file)]);
+        let sentence = result["not_determined"].as_str();
+        match expected {
+            Some(words) => {
+                assert!(
+                    sentence.unwrap().contains(words),
+                    "{model} {motion}: {sentence:?}"
+                );
+                assert!(told.contains(words), "{model} {motion}: {told}");
+            }
+            None => {
+                assert!(sentence.is_none(), "{model} {motion}: {sentence:?}");
+                assert!(result.get("not_determined").is_some());
+            }
+        }
+    }
+}
+
+/// A row far beyond all images is left out, counted, and said.
+#[test]
+fn a_row_beyond_all_images_is_left_out() {
+    let folder = Folder::new("fit-far");
+    let mut random = Random::new(8);
+    let text = rows(&mut random, &step(), 0.3) + "1e12 5 7 9\n";
+    let file = folder.write("matches.txt", &text);
+    for model in ["fundamental", "essential", "similarity"] {
+        let intrinsics: &[&str] = if model == "essential" {
+            &["--k", K]
+        } else {
+            &[]
+        };
+        let (result, _) = told(&[&["fit", "--model", model, path(&file)], intrinsics].concat());
+        assert_eq!(result["num_left_out"], 1, "{model}");
+        let mask = numbers(&result["inliers"]);
+        assert!(mask.len() == 151 && mask[150] == 0.0, "{model}");
+    }
+}
+
 #[test]
 fn photographs_of_a_turn_have_no_direction() {
     let folder = Folder::new("pair-turn");

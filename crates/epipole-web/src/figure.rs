@@ -1,11 +1,11 @@
 //! One figure of a page.
 
-use crate::snapshot::{Listed, Refused, Snapshot, json};
+use crate::json::{Listed, Refused, json};
 use epipole_widgets::canvas::Picture;
 use epipole_widgets::contract::{Event, Handle, JobResult, Problem, Value};
 use epipole_widgets::pointing::{self, Direction};
 use epipole_widgets::theme::Theme;
-use epipole_widgets::{Figure as Model, gallery};
+use epipole_widgets::{Figure as Model, Snapshot, gallery};
 use image::RgbImage;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -129,6 +129,21 @@ impl Figure {
         self.send(&Event::HandleRemoved { id })
     }
 
+    /// Moves a handle to a place in the world units of its panel.
+    pub fn place(&mut self, id: &str, x: f64, y: f64) -> Option<String> {
+        self.send(&Event::moved(id, x, y))
+    }
+
+    /// A click in a panel, at a place in its world units.
+    pub fn click_in(&mut self, panel: &str, x: f64, y: f64) -> Option<String> {
+        self.send(&Event::clicked(panel, x, y))
+    }
+
+    /// The events that solve a challenge from the default state, JSON `[{"type", …}]`.
+    pub fn solution(&self, challenge: &str) -> String {
+        json(&self.figure.solution(challenge).unwrap_or_default())
+    }
+
     /// Returns to the default state.
     pub fn reset(&mut self) -> Option<String> {
         self.send(&Event::Reset)
@@ -213,7 +228,7 @@ impl Figure {
 
     /// What that computation needs: the second argument of `compute`.
     pub fn job_request(&self) -> Vec<u8> {
-        self.figure.job().map_or_else(Vec::new, |job| job.request)
+        self.figure.job().map_or_else(Vec::new, |job| job.request())
     }
 
     /// Hands over the result of a computation; one that the figure no longer waits for is dropped.

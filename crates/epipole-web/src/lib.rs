@@ -12,9 +12,9 @@
 mod figure;
 #[cfg(feature = "jobs")]
 mod job;
-mod panic;
 #[cfg(feature = "figures")]
-mod snapshot;
+mod json;
+mod panic;
 
 #[cfg(feature = "figures")]
 pub use figure::{Figure, figures};

@@ -8,13 +8,15 @@
 //! a frame is drawn after every event, as on a page. What long computations find is there from the
 //! start.
 
-use epipole_widgets::contract::{ControlKind, Event, Problem, Value};
+use epipole_widgets::Figure;
+use epipole_widgets::contract::{ControlKind, Event, Problem, Value, WIDTHS};
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
-use epipole_widgets::{Figure, POSTER_WIDTH};
 use std::time::Instant;
 
 const NUM_FRAMES: usize = 60;
+/// The broadest picture that pages show.
+const WIDTH: f64 = WIDTHS[2];
 const SCALE: f64 = 2.0;
 
 fn main() -> Result<(), Problem> {
@@ -24,7 +26,7 @@ fn main() -> Result<(), Problem> {
     for entry in FIGURES.iter().filter(|entry| is_wanted(entry.name)) {
         let mut figure = Figure::new(entry.name)?;
         figure.finish_job();
-        figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+        figure.draw(WIDTH, SCALE, Theme::Light)?;
         let slices = settle(&mut figure);
         report(entry.name, "a slice of refining", slices);
         report(entry.name, "drawing when settled", {
@@ -49,7 +51,8 @@ fn main() -> Result<(), Problem> {
             }
             report(entry.name, control.id, times);
             figure.update(&Event::Reset)?;
-            figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+            figure.finish_job();
+            figure.draw(WIDTH, SCALE, Theme::Light)?;
         }
         if let Some(handle) = figure.handles().first() {
             let mut times = Vec::new();
@@ -74,7 +77,7 @@ fn frame(figure: &mut Figure, events: &[Event]) -> Result<f64, Problem> {
     for event in events {
         figure.update(event)?;
     }
-    figure.draw(POSTER_WIDTH, SCALE, Theme::Light)?;
+    figure.draw(WIDTH, SCALE, Theme::Light)?;
     figure.readouts();
     figure.describe();
     Ok(begin.elapsed().as_secs_f64() * 1e3)

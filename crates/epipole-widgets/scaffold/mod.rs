@@ -2,6 +2,6 @@
 
 mod model;
 mod view;
+mod words;
 
-pub use model::NewFigure;
-pub use view::NewFigureView as View;
+pub(super) use view::NewFigureView as View;

@@ -21,11 +21,11 @@ mkdir -p "$gallery/$module"
 fill() {
     sed -e "s/new-figure/$name/g" -e "s/NewFigure/$type/g" -e "s/New figure/$title/g" "$1" >"$2"
 }
-fill "$here/mod.rs" "$gallery/$module/mod.rs"
-fill "$here/model.rs" "$gallery/$module/model.rs"
-fill "$here/view.rs" "$gallery/$module/view.rs"
+for file in mod model words view; do
+    fill "$here/$file.rs" "$gallery/$module/$file.rs"
+done
 list=$here/../src/gallery.rs
-awk -v line="pub mod $module;" -v entry="    $module::View," '
+awk -v line="mod $module;" -v entry="    $module::View," '
     /^(pub )?mod / && !done { last = 1 }
     last && !/^(pub )?mod / { print line; last = 0; done = 1 }
     /^\];/ { print entry }

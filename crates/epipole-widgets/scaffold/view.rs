@@ -2,48 +2,31 @@
 
 use super::model::NewFigure;
 use crate::canvas::{Canvas, Stroke};
-use crate::contract::{Axis, Layout, Model, Panel, Rect, View};
+use crate::contract::{Layout, View};
+use crate::kit::grid::{self, Grid};
+use crate::kit::plan;
 use crate::theme::Role;
-
-const MARGIN: f64 = 8.0;
 
 /// Draws [`NewFigure`].
 #[derive(Default)]
-pub struct NewFigureView;
+pub(crate) struct NewFigureView;
 
 impl View for NewFigureView {
     type Model = NewFigure;
 
     fn layout(&self, _: &NewFigure, width: f64) -> Layout {
-        let side = (width - 2.0 * MARGIN).clamp(1.0, 420.0);
-        let left = (width - side) / 2.0;
-        Layout {
-            width,
-            height: side + 2.0 * MARGIN,
-            panels: vec![Panel {
-                id: "plane",
-                rect: Rect::new(left, MARGIN, side, side),
-                x_axis: Axis {
-                    start: -1.0,
-                    end: 1.0,
-                },
-                y_axis: Axis {
-                    start: 1.0,
-                    end: -1.0,
-                },
-                clickable: false,
-            }],
-        }
+        let mut grid = Grid::new(width);
+        let [cell] = grid.row([0.75], 480.0);
+        grid.layout(vec![plan::panel("plan", cell, (0.0, 0.0), 1.1)])
     }
 
     fn draw(&mut self, model: &NewFigure, layout: &Layout, canvas: &mut Canvas) {
-        let plane = layout.panel("plane");
-        canvas.panel(plane.rect);
-        let middle = plane.canvas_from_world((0.0, 0.0));
-        let radius = model.radius_m() * plane.scale_x();
+        let plan = layout.panel("plan");
+        grid::title(canvas, plan.rect, "From above");
+        canvas.panel(plan.rect);
+        let middle = plan.canvas_from_world((0.0, 0.0));
+        let radius = model.radius_m() * plan.scale_x();
         canvas.circle(middle, radius, Stroke::solid(Role::Best, 2.0));
-        for handle in model.handles() {
-            canvas.grip(plane.canvas_from_world((handle.x, handle.y)), Role::Grip);
-        }
+        canvas.grip(plan.canvas_from_world(model.place()), Role::Grip);
     }
 }

@@ -13,6 +13,7 @@ mod marks;
 mod photograph;
 mod picture;
 mod polygons;
+mod scaled;
 mod stamp;
 mod strokes;
 mod style;
@@ -26,6 +27,7 @@ use crate::contract::{Problem, Rect};
 use crate::theme::{Rgb, Role, Theme};
 use clip::clip_polygon;
 use coverage::Coverage;
+use scaled::Scaled;
 use strokes::At;
 use tiny_skia::{Color, Pixmap};
 
@@ -36,6 +38,7 @@ pub type Place = (f64, f64);
 pub struct Canvas {
     pixmap: Pixmap,
     coverage: Coverage,
+    scaled: Scaled,
     scale: f64,
     theme: Theme,
     clip: Rect,
@@ -79,6 +82,7 @@ impl Canvas {
         Ok(Self {
             pixmap,
             coverage: buffer.coverage.sized(size.0 as usize, size.1 as usize),
+            scaled: buffer.scaled,
             scale,
             theme,
             clip: Rect::new(0.0, 0.0, width, height),
@@ -90,6 +94,7 @@ impl Canvas {
         Picture {
             pixmap: Some(self.pixmap),
             coverage: self.coverage,
+            scaled: self.scaled.after_frame(),
         }
     }
 

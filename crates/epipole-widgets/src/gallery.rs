@@ -1,6 +1,6 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-use crate::contract::{JobResult, Model, Problem, Progress, View};
+use crate::contract::{Declared, JobResult, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 mod bundle_adjustment;
@@ -12,8 +12,12 @@ pub mod harris;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
+mod same_picture;
+mod scale_ambiguity;
 mod scale_drift;
 mod stereo_slider;
+mod triangulate;
+mod two_cameras;
 mod two_view_sfm;
 pub mod window_shift;
 
@@ -46,13 +50,17 @@ macro_rules! figures {
 }
 
 figures![
+    two_cameras::View,
+    same_picture::View,
     window_shift::View,
     harris::View,
-    epipolar_click::EpipolarClickView,
+    epipolar_click::View,
     eight_point::View,
     ransac_budget::View,
     ransac_epipolar::View,
-    stereo_slider::StereoSliderView,
+    triangulate::View,
+    scale_ambiguity::View,
+    stereo_slider::View,
     disparity_map::View,
     four_poses::View,
     two_view_sfm::View,
@@ -108,7 +116,7 @@ fn unknown(name: &str, known: impl Iterator<Item = &'static str>) -> Problem {
 /// The template of `make new-figure`, compiled so that it cannot rot.
 #[cfg(test)]
 #[path = "../scaffold/mod.rs"]
-pub mod new_figure;
+mod new_figure;
 
 #[cfg(test)]
 mod tests {
@@ -120,10 +128,10 @@ mod tests {
         let mut stage = stage::set_up::<new_figure::View>();
         assert!(stage.challenges().iter().all(|challenge| !challenge.solved));
         for event in stage.solution("inside").unwrap() {
-            stage.update(&event).unwrap();
+            stage.model_mut().update(&event).unwrap();
         }
         assert!(stage.challenges().iter().all(|challenge| challenge.solved));
-        assert!(stage.update(&Event::Reset).is_ok());
+        assert!(stage.model_mut().update(&Event::Reset).is_ok());
     }
 
     #[test]

@@ -1,29 +1,17 @@
 //! A model together with its view, with the types erased, so that figures can stand in one list.
 
 use crate::canvas::Canvas;
-use crate::contract::{
-    Control, Event, Handle, Job, JobResult, Layout, Model, PhotoSlot, Problem, Readout, Space, View,
-};
+use crate::contract::{Aspect, Challenge, Declared, Event, Layout, Model, View, Words};
 use crate::figure::ChallengeStatus;
-use image::RgbImage;
 
 /// What [`Figure`](crate::Figure) needs of any model and view.
 pub(crate) trait Stage {
-    fn controls(&self) -> Vec<Control>;
-    fn handles(&self) -> Vec<Handle>;
-    fn spaces(&self) -> &'static [Space];
-    fn readouts(&self) -> Vec<Readout>;
-    fn describe(&self) -> String;
+    fn model(&self) -> &dyn Model;
+    fn model_mut(&mut self) -> &mut dyn Model;
+    fn words(&self) -> &dyn Words;
     fn challenges(&self) -> Vec<ChallengeStatus>;
     fn solution(&self, challenge: &str) -> Option<Vec<Event>>;
-    fn is_running(&self) -> bool;
-    fn update(&mut self, event: &Event) -> Result<(), Problem>;
-    fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool;
-    fn job(&self) -> Option<Job>;
-    fn job_done(&mut self, result: JobResult);
-    fn photo_slots(&self) -> &'static [PhotoSlot];
-    fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem>;
-    fn take_focal(&mut self, slot: &str, focal: f64);
+    fn aspect(&self) -> Aspect;
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
     fn refine(&mut self) -> bool;
@@ -43,73 +31,37 @@ pub(crate) fn set_up<V: View>() -> Box<dyn Stage> {
 }
 
 impl<V: View> Stage for Pair<V> {
-    fn controls(&self) -> Vec<Control> {
-        self.model.controls()
+    fn model(&self) -> &dyn Model {
+        &self.model
     }
 
-    fn handles(&self) -> Vec<Handle> {
-        self.model.handles()
+    fn model_mut(&mut self) -> &mut dyn Model {
+        &mut self.model
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        self.model.spaces()
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        self.model.readouts()
-    }
-
-    fn describe(&self) -> String {
-        self.model.describe()
+    fn words(&self) -> &dyn Words {
+        &self.model
     }
 
     fn challenges(&self) -> Vec<ChallengeStatus> {
-        let status = |challenge: &crate::contract::Challenge<V::Model>| ChallengeStatus {
+        let status = |challenge: &Challenge<V::Model>| ChallengeStatus {
             id: challenge.id,
             goal: challenge.goal,
             hint: challenge.hint,
+            why: challenge.why,
             solved: (challenge.check)(&self.model),
         };
         V::Model::challenges().iter().map(status).collect()
     }
 
     fn solution(&self, challenge: &str) -> Option<Vec<Event>> {
-        let found = V::Model::challenges()
-            .iter()
-            .find(|known| known.id == challenge);
+        let mut known = V::Model::challenges().iter();
+        let found = known.find(|known| known.id == challenge);
         found.map(|known| (known.solution)())
     }
 
-    fn is_running(&self) -> bool {
-        self.model.is_running()
-    }
-
-    fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        self.model.update(event)
-    }
-
-    fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
-        self.model.restore_handle(id, x, y)
-    }
-
-    fn job(&self) -> Option<Job> {
-        self.model.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.model.job_done(result);
-    }
-
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        self.model.photo_slots()
-    }
-
-    fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
-        self.model.take_photo(slot, photo)
-    }
-
-    fn take_focal(&mut self, slot: &str, focal: f64) {
-        self.model.take_focal(slot, focal);
+    fn aspect(&self) -> Aspect {
+        V::ASPECT
     }
 
     fn layout(&self, width: f64) -> Layout {

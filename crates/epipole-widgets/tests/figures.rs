@@ -6,7 +6,7 @@ mod common;
 
 use common::{assert_sound, random_event};
 use epipole::math::random::Random;
-use epipole_widgets::contract::{Control, ControlKind, Event, Problem, Value};
+use epipole_widgets::contract::{Control, ControlKind, Event, Place, Problem, Value};
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure, POSTER_WIDTH};
@@ -116,7 +116,7 @@ fn every_control_and_handle_changes_something_that_can_be_seen_and_read() {
             let mut changed = finished(name, &[Event::Set { id, value }]);
             assert_ne!(changed.state(), [], "{name}: {}", control.id);
             num_descriptions += usize::from(changed.describe() != describe);
-            if control.visible {
+            if control.place != Place::Hidden {
                 let reads_differently =
                     changed.describe() != describe || changed.readouts() != readouts;
                 assert!(reads_differently, "{name}: {}", control.id);

@@ -91,6 +91,13 @@ pub(super) fn add_elements(
     Ok(())
 }
 
+/// The style sheet that a figure's shadow root names while no script has run.
+pub(super) fn add_figure_styles(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
+    let made = bundle(tools, "web/src/figure.css", &[], fast, assets)?;
+    assets.figure_css = made.get("figure").cloned();
+    Ok(())
+}
+
 fn borrowed(flags: &[String]) -> Vec<&str> {
     flags.iter().map(String::as_str).collect()
 }

@@ -6,7 +6,7 @@ use crate::files;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word};
-use crate::turn::{self, find_turn};
+use crate::turn::{self, find_turn, left_open};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
@@ -38,7 +38,9 @@ enum Model {
     num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
     for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
     Ctrl-C), could_be_chance (whether wrong data would show as many inliers), mean_error_px (of the\n\
-    inliers), and for essential cam2_from_cam1 (rotation and translation of length 1) and could_be_turn\n\
+    inliers), num_left_out (rows beyond 10⁹ pixels), for homography and fundamental not_determined (a\n\
+    sentence where the inliers show no motion, or for fundamental a plane or a turn; else null), and for\n\
+    essential cam2_from_cam1 (rotation and translation of length 1) and could_be_turn\n\
     (whether a turn of the camera alone explains nearly all inliers: then that translation means\n\
     nothing).\n\n\
     Errors are distances of a point from the line, in image 2 from where homography or similarity put a\n\
@@ -68,6 +70,9 @@ struct Found {
     required_iterations: u64,
     stop: StopReason,
     could_be_chance: bool,
+    num_left_out: usize,
+    /// For F and H: what the inliers leave open, if anything.
+    not_determined: Option<Option<String>>,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
     could_be_turn: Option<bool>,
@@ -123,7 +128,15 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         )
         .field("stop", stop_word(found.stop))
         .field("could_be_chance", found.could_be_chance)
-        .field("mean_error_px", mean_error_px);
+        .field("mean_error_px", mean_error_px)
+        .field("num_left_out", found.num_left_out);
+    if found.num_left_out > 0 {
+        let count = found.num_left_out;
+        report = report.row("left out", format!("{count}, beyond 10⁹ pixels"));
+    }
+    if let Some(not_determined) = found.not_determined {
+        report = report.field("not_determined", not_determined);
+    }
     if let Some(motion) = &found.cam2_from_cam1 {
         report = report.field("cam2_from_cam1", Motion::from(motion));
     }
@@ -154,13 +167,27 @@ fn fit(
             let found = robust.run(HomographyEstimator::new(set()?)?, context)?;
             let h = found.model;
             let errors = pairs().map(|(a, b)| transfer_error_px(&h, a, b)).collect();
-            Ok(of_matrix(found, &h, errors))
+            let open = left_open(
+                pixels1,
+                pixels2,
+                &found.inliers,
+                false,
+                &robust.options(context),
+            );
+            Ok(told(of_matrix(found, &h, errors), open, context))
         }
         Model::Fundamental => {
             let found = robust.run(FundamentalEstimator::new(set()?)?, context)?;
             let f = found.model;
             let errors = pairs().map(|(a, b)| sampson_px(&f, a, b)).collect();
-            Ok(of_matrix(found, &f, errors))
+            let open = left_open(
+                pixels1,
+                pixels2,
+                &found.inliers,
+                true,
+                &robust.options(context),
+            );
+            Ok(told(of_matrix(found, &f, errors), open, context))
         }
         Model::Essential => {
             let k1 = arguments
@@ -195,6 +222,17 @@ fn fit(
     }
 }
 
+/// With what the inliers leave open, warned of where they are no chance.
+fn told(found: Found, open: Option<String>, context: &Context) -> Found {
+    if let (Some(sentence), false) = (&open, found.could_be_chance) {
+        context.warn(sentence);
+    }
+    Found {
+        not_determined: Some(open),
+        ..found
+    }
+}
+
 fn of_matrix<M>(report: RansacReport<M>, matrix: &Matrix3<f64>, errors_px: Vec<f64>) -> Found {
     of_report(report, row_major(matrix).to_vec(), errors_px)
 }
@@ -203,6 +241,8 @@ fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -
     Found {
         model,
         could_be_chance: report.could_be_chance(),
+        num_left_out: report.num_left_out,
+        not_determined: None,
         inliers: report.inliers,
         iterations: report.iterations,
         required_iterations: report.required_iterations,

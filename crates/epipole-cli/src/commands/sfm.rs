@@ -1,6 +1,6 @@
 //! `epipole sfm`: cameras and points from photographs.
 
-use crate::camera::{CameraArguments, sentence};
+use crate::camera::{CameraArguments, sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
@@ -22,9 +22,12 @@ use std::path::{Path, PathBuf};
 #[command(
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
     Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.\n\n\
-    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name and\n\
-    cam_from_world with rotation and translation), all of the largest component; components\n\
-    (num_registered and num_points of each), complete (false after Ctrl-C)."
+    Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
+    begin, and one factor for all focal lengths is refined.\n\n\
+    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px and\n\
+    cam_from_world with rotation and translation), all of the largest component; focal_refined (whether\n\
+    the focal lengths were), components (num_registered and num_points of each), complete (false after\n\
+    Ctrl-C)."
 )]
 pub(crate) struct Arguments {
     /// Photographs, or a folder of them.
@@ -32,9 +35,12 @@ pub(crate) struct Arguments {
     photos: Vec<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Refine the focal length that all photographs share.
+    /// Refine one factor for the focal lengths of all photographs, also where they are known.
     #[arg(long)]
     refine_focal: bool,
+    /// Keep the focal lengths, also where they are but a guess.
+    #[arg(long, conflicts_with = "refine_focal")]
+    keep_focal: bool,
     /// Refine two terms of radial distortion that all photographs share.
     #[arg(long)]
     refine_distortion: bool,
@@ -62,8 +68,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             image: photo.color,
         });
     }
+    let refine_focal = arguments.refine_focal || some_unknown(&guesses) && !arguments.keep_focal;
     if let Some(sentence) = sentence(&guesses) {
-        context.warn(&sentence);
+        let then = if refine_focal { ", to be refined" } else { "" };
+        context.warn(&format!("{sentence}{then}"));
     }
     if arguments.camera.k.is_some()
         && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
@@ -77,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut photo_options = PhotoOptions::default();
     photo_options.sift.max_features = arguments.max_features;
     let options = SfmOptions {
-        refine_focal: arguments.refine_focal,
+        refine_focal,
         refine_distortion: arguments.refine_distortion,
         seed: context.seed,
         ..SfmOptions::default()
@@ -123,8 +131,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         let images = input.images.iter().zip(&component.cameras);
         images
             .filter_map(|(image, camera)| {
-                let cam_from_world = Motion::from(&camera.as_ref()?.cam_from_world);
-                Some(json!({ "name": image.name, "cam_from_world": cam_from_world }))
+                let camera = camera.as_ref()?;
+                Some(json!({
+                    "name": image.name,
+                    "focal_px": camera.intrinsics.fu_px(),
+                    "cam_from_world": Motion::from(&camera.cam_from_world),
+                }))
             })
             .collect()
     };
@@ -134,7 +146,22 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .map(|c| json!({ "num_registered": c.num_registered(), "num_points": c.points.len() }))
         .collect();
     let registered_count = largest.num_registered();
-    Ok(Report::default()
+    let focals: Vec<(f64, f64)> = (intrinsics.iter().zip(&largest.cameras))
+        .filter_map(|(k, camera)| Some((k.fu_px(), camera.as_ref()?.intrinsics.fu_px())))
+        .collect();
+    let mut report = Report::default();
+    if let (true, Some((from, to))) = (refine_focal, focals.first()) {
+        // One factor for all.
+        report = report.row(
+            "focal length",
+            format!(
+                "{to:.1} px, refined from {from:.1} ({:.3} times)",
+                to / from
+            ),
+        );
+    }
+    Ok(report
+        .field("focal_refined", refine_focal)
         .field("num_registered", registered_count)
         .field("num_images", paths.len())
         .field("num_points", largest.points.len())

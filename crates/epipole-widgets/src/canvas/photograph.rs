@@ -3,6 +3,7 @@
 use super::Canvas;
 use crate::contract::Rect;
 use image::RgbImage;
+use std::ops::Range;
 
 impl Canvas {
     /// A photograph, scaled to fill `rect`.
@@ -22,44 +23,75 @@ impl Canvas {
         }
         let columns = Taps::new(left, right, photo_width, 0..pixmap_width);
         let rows = Taps::new(top, bottom, photo_height, 0..pixmap_height);
-        let stride = photo_width as usize * 3;
-        let mut source = vec![0u64; photo_width as usize];
-        let mut across = |row: usize, stretched: &mut [u16]| {
-            let bytes = &photograph.as_raw()[row * stride..][..stride];
-            for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
-                let [r, g, b] = [rgb[0], rgb[1], rgb[2]].map(u64::from);
-                *pixel = r | g << 16 | b << 32 | 255 << 48;
-            }
-            for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
-                let (a, b) = (source[column.first], source[column.second]);
-                let mixed = blend(a, b, column.weight_256.into());
-                pixel.copy_from_slice(&[0, 16, 32, 48].map(|bits| (mixed >> bits) as u16));
-            }
+        if columns.taps.is_empty() || rows.taps.is_empty() {
+            return;
+        }
+        let target = Target {
+            asked: [left, top, right, bottom],
+            columns: columns.visible(),
+            rows: rows.visible(),
         };
-        // Two neighboring rows of the photograph, stretched to the target's width and kept while
-        // they last, then blended: the inner loop runs along memory.
-        let length = columns.taps.len() * 4;
-        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u16; length]));
-        let target_stride = self.pixmap.width() as usize * 4;
-        let target = self.pixmap.data_mut();
-        for (y, tap) in rows.taps.iter().enumerate() {
-            if stretched[1].0 == tap.first {
-                stretched.swap(0, 1);
+        let stride = self.pixmap.width() as usize * 4;
+        let picture = (self.pixmap.data_mut(), stride);
+        self.scaled.draw(photograph, target, picture, |picture| {
+            scale(photograph, &columns, &rows, (picture, stride));
+        });
+    }
+}
+
+/// Which device pixels a photograph takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Target {
+    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
+    asked: [i64; 4],
+    /// What the picture has of it.
+    pub(super) columns: Range<usize>,
+    pub(super) rows: Range<usize>,
+}
+
+/// Draws the photograph into RGBA bytes with so many bytes a row.
+fn scale(
+    photograph: &RgbImage,
+    columns: &Taps,
+    rows: &Taps,
+    (target, target_stride): (&mut [u8], usize),
+) {
+    let stride = photograph.width() as usize * 3;
+    let photo_width = photograph.width();
+    let mut source = vec![0u64; photo_width as usize];
+    let mut across = |row: usize, stretched: &mut [u16]| {
+        let bytes = &photograph.as_raw()[row * stride..][..stride];
+        for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
+            let [r, g, b] = [rgb[0], rgb[1], rgb[2]].map(u64::from);
+            *pixel = r | g << 16 | b << 32 | 255 << 48;
+        }
+        for (pixel, column) in stretched.chunks_exact_mut(4).zip(&columns.taps) {
+            let (a, b) = (source[column.first], source[column.second]);
+            let mixed = blend(a, b, column.weight_256.into());
+            pixel.copy_from_slice(&[0, 16, 32, 48].map(|bits| (mixed >> bits) as u16));
+        }
+    };
+    // Two neighboring rows of the photograph, stretched to the target's width and kept while
+    // they last, then blended: the inner loop runs along memory.
+    let length = columns.taps.len() * 4;
+    let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u16; length]));
+    for (y, tap) in rows.taps.iter().enumerate() {
+        if stretched[1].0 == tap.first {
+            stretched.swap(0, 1);
+        }
+        for ((known, row), wanted) in stretched.iter_mut().zip([tap.first, tap.second]) {
+            if *known != wanted {
+                across(wanted, row);
+                *known = wanted;
             }
-            for ((known, row), wanted) in stretched.iter_mut().zip([tap.first, tap.second]) {
-                if *known != wanted {
-                    across(wanted, row);
-                    *known = wanted;
-                }
-            }
-            let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
-            let weight = tap.weight_256;
-            let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
-            let bytes = &mut target[start..][..length];
-            for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
-                let sum = a * (256 - weight) + b * weight;
-                *byte = ((sum + 128) >> 8) as u8;
-            }
+        }
+        let start = (rows.begin as usize + y) * target_stride + columns.begin as usize * 4;
+        let weight = tap.weight_256;
+        let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
+        let bytes = &mut target[start..][..length];
+        for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
+            let sum = a * (256 - weight) + b * weight;
+            *byte = ((sum + 128) >> 8) as u8;
         }
     }
 }
@@ -87,7 +119,7 @@ struct Tap {
 }
 
 impl Taps {
-    fn new(start: i64, end: i64, source_len: u32, visible: std::ops::Range<i64>) -> Self {
+    fn new(start: i64, end: i64, source_len: u32, visible: Range<i64>) -> Self {
         let step = f64::from(source_len) / (end - start) as f64;
         let last = f64::from(source_len) - 1.0;
         let begin = start.max(visible.start);
@@ -103,6 +135,12 @@ impl Taps {
             })
             .collect();
         Self { begin, taps }
+    }
+
+    /// The device pixels.
+    fn visible(&self) -> Range<usize> {
+        let begin = self.begin as usize;
+        begin..begin + self.taps.len()
     }
 }
 

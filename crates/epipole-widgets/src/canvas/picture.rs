@@ -1,6 +1,7 @@
 //! What is left when drawing has ended.
 
 use super::coverage::Coverage;
+use super::scaled::Scaled;
 use tiny_skia::Pixmap;
 
 /// A finished picture: opaque RGBA, 8 bits a channel, rows from top to bottom. Empty by default.
@@ -9,6 +10,7 @@ pub struct Picture {
     pub(super) pixmap: Option<Pixmap>,
     /// Memory for the next drawing.
     pub(super) coverage: Coverage,
+    pub(super) scaled: Scaled,
 }
 
 impl Picture {

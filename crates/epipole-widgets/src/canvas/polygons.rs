@@ -7,22 +7,28 @@ use super::strokes::At;
 const AT_ONCE: usize = 16;
 
 impl Coverage {
-    /// The area that a polygon winds around and nothing else; what lies outside of the picture is
-    /// cut off.
+    /// The area that a polygon winds around.
+    pub(super) fn add_polygon(&mut self, corners: &[At]) {
+        self.add_contours(&[corners]);
+    }
+
+    /// The area that closed contours wind around and nothing else: one that turns the other way cuts a
+    /// hole. What lies outside of the picture is cut off.
     ///
     /// Source: the signed-area accumulation of font rasterizers, e.g. R. Levien's `font-rs` (2016):
     /// each edge adds to each pixel what it changes of the area to its right, and a running sum
     /// along the row is the coverage.
-    pub(super) fn add_polygon(&mut self, corners: &[At]) {
-        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+    pub(super) fn add_contours(&mut self, contours: &[&[At]]) {
+        let edges = || {
+            (contours.iter())
+                .flat_map(|&corners| corners.iter().zip(corners.iter().cycle().skip(1)))
+        };
+        let corners = || contours.iter().copied().flatten();
         let (mut low, mut high) = ((f32::INFINITY, f32::INFINITY), (0.0_f32, 0.0_f32));
-        if corners
-            .iter()
-            .any(|at| !at.0.is_finite() || !at.1.is_finite())
-        {
+        if corners().any(|at| !at.0.is_finite() || !at.1.is_finite()) {
             return;
         }
-        for &(x, y) in corners {
+        for &(x, y) in corners() {
             low = (low.0.min(x), low.1.min(y));
             high = (high.0.max(x), high.1.max(y));
         }
@@ -136,6 +142,18 @@ mod tests {
         assert!((area(&arrow) - 450.0).abs() < 0.6, "{}", area(&arrow));
         let whole = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)];
         assert!((area(&whole) - 2400.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_contour_that_turns_the_other_way_is_a_hole() {
+        let outer = [(5.0, 5.0), (35.0, 5.0), (35.0, 35.0), (5.0, 35.0)];
+        let inner = [(10.0, 10.0), (10.0, 20.0), (20.0, 20.0), (20.0, 10.0)];
+        let mut coverage = Coverage::default().sized(60, 40);
+        coverage.add_contours(&[&outer, &inner]);
+        let alpha = coverage.into_alpha();
+        assert_eq!([alpha[15 * 60 + 15], alpha[25 * 60 + 25]], [0, 255]);
+        let sum: u32 = alpha.iter().map(|&alpha| u32::from(alpha)).sum();
+        assert_eq!(sum, 255 * 800);
     }
 
     #[test]

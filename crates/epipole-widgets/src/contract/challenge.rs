@@ -12,6 +12,8 @@ pub struct Challenge<M> {
     pub goal: &'static str,
     /// A nudge for a reader who is stuck.
     pub hint: &'static str,
+    /// Why that reaches it, in one sentence: what the reader has learned.
+    pub why: &'static str,
     /// Whether the present state reaches the goal.
     pub check: fn(&M) -> bool,
     /// Events that lead from the default state to the goal.

@@ -3,7 +3,26 @@
 use super::readout::format_number;
 use serde::Serialize;
 
+/// Where a page shows a control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// Beside or below the picture, always.
+    First,
+    /// With the others that a reader seldom wants, such as a seed: folded away.
+    More,
+    /// Nowhere: it is part of the permalink only.
+    Hidden,
+}
+
 /// A number that the reader slides.
+///
+/// ```
+/// use epipole_widgets::contract::Slider;
+/// const BASELINE: Slider = Slider::new("baseline", "Baseline").range(0.05, 0.5, 0.05).at(0.2).digits(2).unit("m");
+/// const SEED: Slider = Slider::seed(7.0);
+/// assert_eq!(BASELINE.snap(0.26), 0.25);
+/// ```
 #[derive(Debug, PartialEq)]
 pub struct Slider {
     /// Permanent name: attribute, URL parameter and property.
@@ -22,8 +41,8 @@ pub struct Slider {
     pub default: f64,
     /// Digits after the decimal point, enough to tell neighboring values apart.
     pub digits: usize,
-    /// False keeps it out of the page: it is then part of the permalink only.
-    pub visible: bool,
+    /// Where a page shows it.
+    pub place: Place,
 }
 
 /// Something that is on or off.
@@ -35,6 +54,8 @@ pub struct Toggle {
     pub label: &'static str,
     /// State at the start.
     pub default: bool,
+    /// Where a page shows it.
+    pub place: Place,
 }
 
 /// One of a few named options.
@@ -48,6 +69,8 @@ pub struct Choice {
     pub options: &'static [(&'static str, &'static str)],
     /// Index of the option at the start.
     pub default: usize,
+    /// Where a page shows it.
+    pub place: Place,
 }
 
 /// Something that happens when pressed.
@@ -59,6 +82,8 @@ pub struct Button {
     pub label: &'static str,
     /// What kind of action it is.
     pub role: ButtonRole,
+    /// Where a page shows it.
+    pub place: Place,
 }
 
 /// What pressing a button does, so that a page can place and mark it.
@@ -89,8 +114,8 @@ pub struct Control {
     pub value_text: String,
     /// False when it can do nothing now; it stays discoverable.
     pub enabled: bool,
-    /// False keeps it out of the page.
-    pub visible: bool,
+    /// Where a page shows it.
+    pub place: Place,
 }
 
 /// The four kinds of control.
@@ -140,19 +165,70 @@ pub enum ControlKind {
 }
 
 impl Slider {
+    /// From 0 to 1 in hundredths, at 0, until the methods below say otherwise.
+    pub const fn new(id: &'static str, label: &'static str) -> Self {
+        Self {
+            id,
+            label,
+            unit: "",
+            min: 0.0,
+            max: 1.0,
+            step: 0.01,
+            default: 0.0,
+            digits: 0,
+            place: Place::First,
+        }
+    }
+
     /// The seed of whatever a figure draws at random.
     pub const fn seed(default: f64) -> Self {
+        Self::new("seed", "Seed")
+            .range(1.0, 99.0, 1.0)
+            .at(default)
+            .more()
+    }
+
+    /// Its smallest and largest value, and the distance between neighboring ones.
+    #[must_use]
+    pub const fn range(self, min: f64, max: f64, step: f64) -> Self {
         Self {
-            id: "seed",
-            label: "Seed",
-            unit: "",
-            min: 1.0,
-            max: 99.0,
-            step: 1.0,
-            default,
-            digits: 0,
-            visible: true,
+            min,
+            max,
+            step,
+            ..self
         }
+    }
+
+    /// Its value at the start.
+    #[must_use]
+    pub const fn at(self, default: f64) -> Self {
+        Self { default, ..self }
+    }
+
+    /// Digits after the decimal point.
+    #[must_use]
+    pub const fn digits(self, digits: usize) -> Self {
+        Self { digits, ..self }
+    }
+
+    /// The unit after its value.
+    #[must_use]
+    pub const fn unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// Folded away with what a reader seldom wants.
+    #[must_use]
+    pub const fn more(self) -> Self {
+        let place = Place::More;
+        Self { place, ..self }
+    }
+
+    /// Part of the permalink only.
+    #[must_use]
+    pub const fn hidden(self) -> Self {
+        let place = Place::Hidden;
+        Self { place, ..self }
     }
 
     /// The nearest value on the slider's grid.
@@ -182,12 +258,36 @@ impl Slider {
                 value,
             },
             enabled: true,
-            visible: self.visible,
+            place: self.place,
         }
     }
 }
 
 impl Toggle {
+    /// Off at the start.
+    pub const fn new(id: &'static str, label: &'static str) -> Self {
+        Self {
+            id,
+            label,
+            default: false,
+            place: Place::First,
+        }
+    }
+
+    /// On at the start.
+    #[must_use]
+    pub const fn on(self) -> Self {
+        let default = true;
+        Self { default, ..self }
+    }
+
+    /// Folded away with what a reader seldom wants.
+    #[must_use]
+    pub const fn more(self) -> Self {
+        let place = Place::More;
+        Self { place, ..self }
+    }
+
     pub(super) fn with_value(&'static self, value: bool) -> Control {
         Control {
             id: self.id,
@@ -198,12 +298,40 @@ impl Toggle {
                 value,
             },
             enabled: true,
-            visible: true,
+            place: self.place,
         }
     }
 }
 
 impl Choice {
+    /// The first option at the start.
+    pub const fn new(
+        id: &'static str,
+        label: &'static str,
+        options: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        Self {
+            id,
+            label,
+            options,
+            default: 0,
+            place: Place::First,
+        }
+    }
+
+    /// The option with this index at the start.
+    #[must_use]
+    pub const fn at(self, default: usize) -> Self {
+        Self { default, ..self }
+    }
+
+    /// Folded away with what a reader seldom wants.
+    #[must_use]
+    pub const fn more(self) -> Self {
+        let place = Place::More;
+        Self { place, ..self }
+    }
+
     pub(super) fn with_value(&'static self, index: usize) -> Control {
         Control {
             id: self.id,
@@ -215,12 +343,29 @@ impl Choice {
                 value: self.options[index].0,
             },
             enabled: true,
-            visible: true,
+            place: self.place,
         }
     }
 }
 
 impl Button {
+    /// A button under the picture.
+    pub const fn new(id: &'static str, label: &'static str, role: ButtonRole) -> Self {
+        Self {
+            id,
+            label,
+            role,
+            place: Place::First,
+        }
+    }
+
+    /// Folded away with what a reader seldom wants.
+    #[must_use]
+    pub const fn more(self) -> Self {
+        let place = Place::More;
+        Self { place, ..self }
+    }
+
     /// The button as a control; `pressed` while the animation that it starts is running.
     pub fn control(&'static self, enabled: bool, pressed: bool) -> Control {
         Control {
@@ -232,7 +377,7 @@ impl Button {
                 pressed,
             },
             enabled,
-            visible: true,
+            place: self.place,
         }
     }
 }
@@ -247,17 +392,11 @@ pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
 mod tests {
     use super::*;
 
-    const SLIDER: Slider = Slider {
-        id: "baseline",
-        label: "Baseline",
-        unit: "m",
-        min: 0.05,
-        max: 0.5,
-        step: 0.1,
-        default: 0.25,
-        digits: 2,
-        visible: true,
-    };
+    const SLIDER: Slider = Slider::new("baseline", "Baseline")
+        .range(0.05, 0.5, 0.1)
+        .at(0.25)
+        .digits(2)
+        .unit("m");
 
     #[test]
     fn values_snap_to_the_grid_and_stay_in_range() {

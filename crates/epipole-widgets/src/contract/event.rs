@@ -1,5 +1,6 @@
 //! Events: the only way that a figure's state changes.
 
+use super::settings::Knob;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -51,6 +52,40 @@ pub enum Event {
     Reset,
 }
 
+impl Event {
+    /// A slider, toggle or choice takes a value.
+    ///
+    /// ```
+    /// use epipole_widgets::contract::{Event, Slider};
+    /// const BASELINE: Slider = Slider::new("baseline", "Baseline");
+    /// let event = Event::set(&BASELINE, 0.3);
+    /// assert_eq!(event, Event::Set { id: "baseline".into(), value: 0.3.into() });
+    /// ```
+    pub fn set(knob: impl Into<Knob>, value: impl Into<Value>) -> Self {
+        Self::Set {
+            id: knob.into().id().to_owned(),
+            value: value.into(),
+        }
+    }
+
+    /// A button is pressed.
+    pub fn press(id: &str) -> Self {
+        Self::Press { id: id.to_owned() }
+    }
+
+    /// A handle is moved to a place in the world units of its panel.
+    pub fn moved(id: &str, x: f64, y: f64) -> Self {
+        let id = id.to_owned();
+        Self::HandleMoved { id, x, y }
+    }
+
+    /// A panel is clicked at a place in its world units.
+    pub fn clicked(panel: &str, x: f64, y: f64) -> Self {
+        let panel = panel.to_owned();
+        Self::Clicked { panel, x, y }
+    }
+}
+
 /// The value of a control, as written in an attribute or a URL, or as a page's input gives it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -85,6 +120,18 @@ impl Value {
                 _ => None,
             },
         }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
     }
 }
 

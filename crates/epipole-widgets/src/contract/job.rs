@@ -7,24 +7,16 @@ use std::ops::ControlFlow;
 ///
 /// The model states what it needs; who runs it is not its business. A page runs it in a Web Worker,
 /// posters, tests and the command line at once: both give the same bytes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Job {
+pub trait Job {
     /// What the page says while it runs, such as "Looking for corners".
-    pub label: &'static str,
-    /// Everything that the computation depends on.
-    pub request: Vec<u8>,
-}
+    fn label(&self) -> &'static str;
 
-impl Job {
     /// A number that tells requests apart, so that an answer that comes too late is recognized.
-    pub fn key(&self) -> u64 {
-        // FNV-1a.
-        self.request
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-            })
-    }
+    fn key(&self) -> u64;
+
+    /// Everything that the computation depends on. Photographs among it make it large, so it is
+    /// asked for once there is somebody to carry it out.
+    fn request(&self) -> Vec<u8>;
 }
 
 /// Told the share that is done, 0 to 1; answers whether to go on.
@@ -42,21 +34,4 @@ pub struct PhotoSlot {
     pub label: &'static str,
     /// The largest width or height that is useful here; a page scales larger ones down and says so.
     pub max_side_px: u32,
-}
-
-/// Refuses a photograph for a slot of which a side is shorter than `min_side_px`.
-pub(crate) fn refuse_small(
-    slot: &str,
-    photo: &image::RgbImage,
-    min_side_px: u32,
-) -> Result<(), Problem> {
-    let (width, height) = photo.dimensions();
-    if width.min(height) >= min_side_px {
-        return Ok(());
-    }
-    Err(Problem::BadValue {
-        name: slot.to_owned(),
-        value: format!("{width} × {height} pixels"),
-        expected: format!("photographs of at least {min_side_px} pixels on each side"),
-    })
 }

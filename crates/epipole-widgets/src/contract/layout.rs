@@ -123,6 +123,11 @@ impl Panel {
     }
 }
 
+/// The widths that pages lay pictures out for, CSS pixels: a phone, a column, a broad page. In
+/// between a page scales the picture of the next smaller one, so a poster has the very shape of the
+/// living picture.
+pub const WIDTHS: [f64; 3] = [360.0, 720.0, 1088.0];
+
 /// The picture's size and its panels, for one width of the page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Layout {

@@ -1,25 +1,14 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Readout, Space,
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Space, Words,
 };
 use image::RgbImage;
 
 /// State and mathematics of a figure.
 ///
-/// A model is made in its default state, which must make the figure's point without being touched.
 /// Units are those of the world (meters, pixels of the photograph), never of the screen.
-pub trait Model: Sized + 'static {
-    /// Permanent name, as in `<epipole-figure name="…">`.
-    const NAME: &'static str;
-    /// Title of the figure.
-    const TITLE: &'static str;
-    /// What a reader can do with it: pointer and keys, one or two sentences.
-    const HELP: &'static str;
-
-    /// The default state.
-    fn new() -> Self;
-
+pub trait Model {
     /// Sliders, toggles, choices and buttons with their present values.
     fn controls(&self) -> Vec<Control>;
 
@@ -53,16 +42,8 @@ pub trait Model: Sized + 'static {
     }
 
     /// The computation that the present state waits for; `None` once its result is there.
-    fn job(&self) -> Option<Job> {
+    fn job(&self) -> Option<&dyn Job> {
         None
-    }
-
-    /// Carries out a job. A function of the request alone, so that it can run anywhere.
-    ///
-    /// # Errors
-    /// A sentence for the reader, also when `progress` ended it.
-    fn compute(_request: &[u8], _progress: Progress<'_>) -> JobResult {
-        Ok(Vec::new())
     }
 
     /// Takes the result of the job that the model waits for; never that of an older one.
@@ -84,12 +65,27 @@ pub trait Model: Sized + 'static {
     /// Takes the focal length that the file of a photograph tells, in units of the photograph's
     /// longer side. Comes after [`Model::take_photo`], if at all; always finite and positive.
     fn take_focal(&mut self, _slot: &str, _focal: f64) {}
+}
 
-    /// The numbers beside the picture. Every number is finite.
-    fn readouts(&self) -> Vec<Readout>;
+/// What a figure declares of itself before it has any state.
+pub trait Declared: Model + Words + Sized + 'static {
+    /// Permanent name, as in `<epipole-figure name="…">`.
+    const NAME: &'static str;
+    /// Title of the figure.
+    const TITLE: &'static str;
+    /// What a reader can do with it: pointer and keys, one or two sentences.
+    const HELP: &'static str;
 
-    /// What the figure shows now, in one or two plain sentences.
-    fn describe(&self) -> String;
+    /// The default state, which must make the figure's point without being touched.
+    fn new() -> Self;
+
+    /// Carries out a job. A function of the request alone, so that it can run anywhere.
+    ///
+    /// # Errors
+    /// A sentence for the reader, also when `progress` ended it.
+    fn compute(_request: &[u8], _progress: Progress<'_>) -> JobResult {
+        Ok(Vec::new())
+    }
 
     /// Goals for the reader.
     fn challenges() -> &'static [Challenge<Self>] {

@@ -15,6 +15,8 @@ pub struct Readout {
     pub unit: &'static str,
     /// The value as shown, with its unit.
     pub text: String,
+    /// Whether it carries the figure's point: then it is large and always there. The others fold.
+    pub main: bool,
 }
 
 /// What a readout can say.
@@ -51,6 +53,7 @@ impl Readout {
             value: ReadoutValue::Number(value),
             unit,
             text,
+            main: false,
         }
     }
 
@@ -68,7 +71,17 @@ impl Readout {
             value: ReadoutValue::Text(text.clone()),
             unit: "",
             text,
+            main: false,
         }
+    }
+}
+
+impl Readout {
+    /// One of the two to four that carry the figure's point.
+    #[must_use]
+    pub fn main(self) -> Self {
+        let main = true;
+        Self { main, ..self }
     }
 }
 

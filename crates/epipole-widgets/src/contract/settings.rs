@@ -15,8 +15,26 @@ pub enum Knob {
     Choice(&'static Choice),
 }
 
+impl From<&'static Slider> for Knob {
+    fn from(slider: &'static Slider) -> Self {
+        Self::Slider(slider)
+    }
+}
+
+impl From<&'static Toggle> for Knob {
+    fn from(toggle: &'static Toggle) -> Self {
+        Self::Toggle(toggle)
+    }
+}
+
+impl From<&'static Choice> for Knob {
+    fn from(choice: &'static Choice) -> Self {
+        Self::Choice(choice)
+    }
+}
+
 impl Knob {
-    fn id(self) -> &'static str {
+    pub(super) fn id(self) -> &'static str {
         match self {
             Self::Slider(slider) => slider.id,
             Self::Toggle(toggle) => toggle.id,
@@ -139,28 +157,14 @@ impl Settings {
 mod tests {
     use super::*;
 
-    const COUNT: Slider = Slider {
-        id: "count",
-        label: "Points",
-        unit: "",
-        min: 2.0,
-        max: 10.0,
-        step: 1.0,
-        default: 5.0,
-        digits: 0,
-        visible: true,
-    };
-    const NOISE: Toggle = Toggle {
-        id: "noise",
-        label: "Noise",
-        default: true,
-    };
-    const METHOD: Choice = Choice {
-        id: "method",
-        label: "Method",
-        options: &[("bm", "Block matching"), ("sgm", "Semi-global")],
-        default: 1,
-    };
+    const COUNT: Slider = Slider::new("count", "Points").range(2.0, 10.0, 1.0).at(5.0);
+    const NOISE: Toggle = Toggle::new("noise", "Noise").on();
+    const METHOD: Choice = Choice::new(
+        "method",
+        "Method",
+        &[("bm", "Block matching"), ("sgm", "Semi-global")],
+    )
+    .at(1);
     const KNOBS: &[Knob] = &[
         Knob::Slider(&COUNT),
         Knob::Toggle(&NOISE),

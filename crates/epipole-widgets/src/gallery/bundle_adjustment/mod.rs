@@ -1,11 +1,7 @@
 //! `bundle-adjustment`: disturbed cameras and points, and the loop that puts all of them right.
 
-mod answer;
-mod knobs;
 mod model;
-mod plots;
-mod run;
-mod scene;
+mod question;
 mod view;
 mod words;
 

@@ -4,17 +4,52 @@
 //! The job answers with all steps at once. How many of them have been taken is part of the
 //! settings, so a permalink shows the same one.
 
-use super::answer::{Answer, Request, State};
-use super::knobs::{DAMPING, DISTURBANCE, KNOBS, LOSS, NOISE, SEED, STEPS};
-use super::run::{self, MAX_STEPS};
-use super::scene::{SIZE, Scene};
-use super::words;
+use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
-    Challenge, Control, ControlKind, Event, Handle, Job, JobResult, Model, Problem, Progress,
-    Readout, Settings, Space, Value, format_number, round_to_digits,
+    Challenge, Choice, Control, ControlKind, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    Problem, Progress, Settings, Slider, Space, Value, format_number, round_to_digits,
 };
-use crate::orbit::{Orbit, RECENTER, SPACE, ZOOM};
-use crate::running::Running;
+use crate::kit::house::{House, SIZE};
+use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::question::{Asked, carry_out};
+use crate::kit::running::Running;
+
+const LOSS: Choice = Choice::new(
+    "loss",
+    "Loss",
+    &[("squares", "Squares"), ("huber", "Huber, 2 px")],
+);
+const WRONG: Slider = Slider::new("outliers", "Wrong features")
+    .range(0.0, 20.0, 1.0)
+    .at(0.0)
+    .unit("%");
+const DISTURBANCE: Slider = Slider::new("disturbance", "Disturbance at the start")
+    .range(0.0, 60.0, 1.0)
+    .at(8.0)
+    .unit("%");
+const DAMPING: Slider = Slider::new("damping", "First damping, log₁₀ λ")
+    .range(-6.0, 4.0, 1.0)
+    .at(-2.0);
+const STEPS: Slider = Slider::new("steps", "Steps taken")
+    .range(0.0, MAX_STEPS as f64, 1.0)
+    .at(MAX_STEPS as f64);
+const NOISE: Slider = Slider::new("noise", "Noise of the features")
+    .range(0.0, 3.0, 0.25)
+    .at(0.5)
+    .digits(2)
+    .unit("px")
+    .more();
+const SEED: Slider = Slider::seed(4.0);
+const KNOBS: &[Knob] = &[
+    Knob::Choice(&LOSS),
+    Knob::Slider(&WRONG),
+    Knob::Slider(&DISTURBANCE),
+    Knob::Slider(&DAMPING),
+    Knob::Slider(&STEPS),
+    Knob::Slider(&NOISE),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ZOOM),
+];
 
 const STEPS_PER_SECOND: f64 = 1.5;
 /// The dragged feature's place is kept to a tenth of a pixel.
@@ -26,22 +61,20 @@ const MARK: &str = "mark";
 pub(crate) struct BundleAdjustment {
     settings: Settings,
     orbit: Orbit,
-    scene: Option<Scene>,
+    house: Option<House>,
     /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
     mark: (f64, f64),
-    answer: Option<Answer>,
-    pending: Option<Job>,
-    problem: Option<String>,
+    asked: Asked<Question>,
     running: Running,
 }
 
 impl BundleAdjustment {
-    pub(super) fn scene(&self) -> Option<&Scene> {
-        self.scene.as_ref()
+    pub(super) fn house(&self) -> Option<&House> {
+        self.house.as_ref()
     }
 
-    pub(super) fn answer(&self) -> Option<&Answer> {
-        self.answer.as_ref()
+    pub(super) fn asked(&self) -> &Asked<Question> {
+        &self.asked
     }
 
     pub(super) fn orbit(&self) -> &Orbit {
@@ -56,10 +89,6 @@ impl BundleAdjustment {
         self.mark
     }
 
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
-    }
-
     pub(super) fn is_robust(&self) -> bool {
         self.settings.chosen(&LOSS) == 1
     }
@@ -67,41 +96,36 @@ impl BundleAdjustment {
     /// Steps that are shown: those asked for, or as many as there are.
     pub(super) fn num_taken(&self) -> usize {
         let asked = self.settings.count(&STEPS);
-        self.answer
-            .as_ref()
-            .map_or(asked, |answer| asked.min(answer.num_steps()))
+        let answer = self.asked.answer();
+        answer.map_or(asked, |answer| asked.min(answer.num_steps()))
     }
 
     /// Cameras and points at the start and after the steps that were taken.
     pub(super) fn states(&self) -> Option<[&State; 2]> {
-        let states = &self.answer.as_ref()?.states;
+        let states = &self.asked.answer()?.states;
         Some([states.first()?, states.get(self.num_taken())?])
     }
 
     pub(super) fn is_finished(&self) -> bool {
-        let answer = self.answer.as_ref();
+        let answer = self.asked.answer();
         answer.is_some_and(|answer| self.num_taken() == answer.num_steps())
     }
 
     /// How far the dragged feature is from where it belongs, pixels.
     pub(super) fn mark_off_px(&self) -> f64 {
-        let at_home = home(self.scene.as_ref());
+        let at_home = home(self.house.as_ref());
         libm::hypot(self.mark.0 - at_home.0, self.mark.1 - at_home.1)
     }
 
     fn ask(&mut self) {
-        let request = Request {
+        self.asked.ask(Question {
             disturbance: self.settings.number(&DISTURBANCE) / 100.0,
             noise_px: self.settings.number(&NOISE),
-            mark: self.mark.into(),
-            huber: self.is_robust(),
+            wrong: self.settings.number(&WRONG) / 100.0,
+            mark: self.mark,
+            is_robust: self.is_robust(),
             log_damping: self.settings.number(&DAMPING),
             seed: self.settings.count(&SEED) as u64,
-        };
-        self.problem = None;
-        self.pending = Some(Job {
-            label: words::WAITING,
-            request: request.to_bytes(),
         });
     }
 
@@ -114,42 +138,50 @@ impl BundleAdjustment {
 }
 
 /// Where the dragged feature belongs, pixels.
-fn home(scene: Option<&Scene>) -> (f64, f64) {
+fn home(house: Option<&House>) -> (f64, f64) {
     let keep = |value| round_to_digits(value, DIGITS);
-    scene.map_or((0.0, 0.0), |scene| {
-        let pixel = scene.mark();
+    house.map_or((0.0, 0.0), |house| {
+        let pixel = house.mark();
         (keep(pixel.x), keep(pixel.y))
     })
 }
 
-impl Model for BundleAdjustment {
+impl Declared for BundleAdjustment {
     const NAME: &'static str = "bundle-adjustment";
     const TITLE: &'static str = "Everything moves at once";
-    const HELP: &'static str = "Press Run, or take the steps one by one. Drag the marked feature in \
-        the photograph, or move it with the arrow keys, and see who believes it. Drag in the upper \
-        picture to look from elsewhere; with Shift, or the small cross, the scene moves; with Ctrl \
-        and the wheel, or + and −, it becomes larger. A click on a curve goes to that step.";
+    const HELP: &'static str = "Press Run, or take the steps one by one; a click on a curve goes to \
+        that step. Drag the marked feature in the photograph, or move it with the arrow keys. Drag \
+        in the view of space to look from elsewhere; with Shift, or the small cross, the scene \
+        moves; with Ctrl and the wheel, or + and −, it becomes larger.";
 
     fn new() -> Self {
-        // The scene is one of constants, which a test builds.
-        let scene = Scene::new().ok();
+        // The house is one of constants, which a test builds.
+        let house = House::new().ok();
         let mut model = Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-9.0, 34.0),
-            mark: home(scene.as_ref()),
-            scene,
-            answer: None,
-            pending: None,
-            problem: None,
+            mark: home(house.as_ref()),
+            house,
+            asked: Asked::default(),
             running: Running::at(STEPS_PER_SECOND),
         };
         model.ask();
         model
     }
 
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for BundleAdjustment {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        if let Some(answer) = &self.answer {
+        if let Some(answer) = self.asked.answer() {
             for control in controls.iter_mut().filter(|control| control.id == STEPS.id) {
                 control.value_text = format!("{} of {}", self.num_taken(), answer.num_steps());
                 // The slider ends where the loop has ended.
@@ -167,7 +199,7 @@ impl Model for BundleAdjustment {
                 }
             }
         }
-        let (can_run, taken) = (self.answer.is_some(), self.num_taken());
+        let (can_run, taken) = (self.asked.answer().is_some(), self.num_taken());
         controls.extend(self.running.controls(can_run, taken, self.is_finished()));
         controls.push(RECENTER.control(true, false));
         controls
@@ -242,84 +274,60 @@ impl Model for BundleAdjustment {
         self.running.is_running()
     }
 
-    fn job(&self) -> Option<Job> {
-        self.pending.clone()
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        run::compute(request, progress)
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
     }
 
     fn job_done(&mut self, result: JobResult) {
-        self.pending = None;
-        let scene = self.scene.as_ref();
-        match result.map(|bytes| Answer::from_bytes(&bytes, scene?)) {
-            Ok(Some(answer)) => self.answer = Some(answer),
-            Ok(None) => self.problem = Some(words::NO_ANSWER.to_owned()),
-            Err(problem) => self.problem = Some(format!("No adjustment: {problem}.")),
-        }
+        self.asked.take(result);
         self.running.stop_if(self.is_finished());
     }
-
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
-    }
-
-    fn describe(&self) -> String {
-        words::describe(self)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "liar",
-                goal: "Drag the marked feature at least 60 px away, and get the house right within \
-                       half a percent all the same.",
-                hint: "Who lets one bad feature pull harder than all others?",
-                check: |model| {
-                    let states = model.states();
-                    model.mark_off_px() >= 60.0
-                        && model.is_finished()
-                        && states.is_some_and(|[_, now]| now.off < 0.005)
-                },
-                solution: || {
-                    vec![
-                        Event::HandleMoved {
-                            id: MARK.to_owned(),
-                            x: 560.0,
-                            y: 60.0,
-                        },
-                        Event::Set {
-                            id: LOSS.id.to_owned(),
-                            value: Value::from("huber"),
-                        },
-                    ]
-                },
-            },
-            Challenge {
-                id: "refused",
-                goal: "Find a start from which a step is refused.",
-                hint: "Far from the solution, and hardly any brake.",
-                check: |model| {
-                    let answer = model.answer.as_ref();
-                    answer.is_some_and(|answer| answer.states.iter().any(|state| !state.accepted))
-                },
-                solution: || {
-                    vec![
-                        Event::Set {
-                            id: DISTURBANCE.id.to_owned(),
-                            value: Value::Number(50.0),
-                        },
-                        Event::Set {
-                            id: DAMPING.id.to_owned(),
-                            value: Value::Number(-6.0),
-                        },
-                    ]
-                },
-            },
-        ]
-    }
 }
+
+const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
+    Challenge {
+        id: "liar",
+        goal: "Drag the marked feature 60 px away, and keep the house within half a percent.",
+        hint: "Which loss lets one bad feature pull harder than all the others?",
+        why: "Huber's loss grows only linearly beyond 2 px, so one wrong feature pulls no harder than \
+              any other.",
+        check: |model| {
+            let states = model.states();
+            model.mark_off_px() >= 60.0
+                && model.is_finished()
+                && states.is_some_and(|[_, now]| now.off < 0.005)
+        },
+        solution: || vec![Event::moved(MARK, 560.0, 60.0), Event::set(&LOSS, "huber")],
+    },
+    Challenge {
+        id: "too-many",
+        goal: "Find out how many wrong features Huber's loss cannot bear: the house off by 5 %.",
+        hint: "Each still pulls with a constant force, wherever it is.",
+        why: "Huber's loss weakens wrong features but never drops them; enough of them still bend the \
+              house. That is why RANSAC comes first.",
+        check: |model| {
+            let states = model.states();
+            model.is_robust()
+                && model.is_finished()
+                && model.mark_off_px() < 60.0
+                && model.settings.number(&DISTURBANCE) <= DISTURBANCE.default
+                && states.is_some_and(|[_, now]| now.off >= 0.05)
+        },
+        solution: || vec![Event::set(&LOSS, "huber"), Event::set(&WRONG, 20.0)],
+    },
+    Challenge {
+        id: "refused",
+        goal: "Find a start from which a step is refused.",
+        hint: "Far from the solution, and with hardly any brake.",
+        why: "Far away the linear model is wrong, so its full step can raise the cost; then λ rises \
+              until a step goes downhill.",
+        check: |model| {
+            let answer = model.asked.answer();
+            answer.is_some_and(|answer| answer.states.iter().any(|state| !state.accepted))
+        },
+        solution: || vec![Event::set(&DISTURBANCE, 50.0), Event::set(&DAMPING, -6.0)],
+    },
+];
 
 #[cfg(test)]
 mod tests {
@@ -332,30 +340,17 @@ mod tests {
             model.update(event).unwrap();
         }
         if let Some(job) = model.job() {
-            let result = run::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            let result =
+                BundleAdjustment::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
             model.job_done(result);
         }
         model
     }
 
-    fn set(id: &str, value: f64) -> Event {
-        Event::Set {
-            id: id.to_owned(),
-            value: Value::Number(value),
-        }
-    }
-
     #[test]
     fn one_bad_feature_pulls_on_squares_and_not_on_huber() {
-        let drag = Event::HandleMoved {
-            id: MARK.to_owned(),
-            x: 620.0,
-            y: 20.0,
-        };
-        let robust = Event::Set {
-            id: LOSS.id.to_owned(),
-            value: Value::from("huber"),
-        };
+        let drag = Event::moved(MARK, 620.0, 20.0);
+        let robust = Event::set(&LOSS, "huber");
         let off = |model: &BundleAdjustment| model.states().unwrap()[1].off;
         let (honest, pulled) = (settled(&[]), settled(std::slice::from_ref(&drag)));
         let huber = settled(&[drag, robust]);
@@ -364,9 +359,26 @@ mod tests {
     }
 
     #[test]
+    fn some_wrong_features_spoil_squares_and_not_huber() {
+        let wrong = Event::set(&WRONG, 5.0);
+        let off = |model: &BundleAdjustment| model.states().unwrap()[1].off;
+        let squares = settled(std::slice::from_ref(&wrong));
+        let huber = settled(&[wrong, Event::set(&LOSS, "huber")]);
+        assert!(off(&squares) > 0.05, "{}", off(&squares));
+        assert!(off(&huber) < 0.005, "{}", off(&huber));
+    }
+
+    #[test]
+    fn a_tight_brake_is_slow_and_solves_nothing() {
+        let model = settled(&[Event::set(&DAMPING, 3.0), Event::set(&STEPS, 6.0)]);
+        assert!(model.states().unwrap()[1].off > 0.03);
+        assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));
+    }
+
+    #[test]
     fn without_noise_every_seed_finds_the_house_exactly() {
         for seed in 1..=20 {
-            let model = settled(&[set("noise", 0.0), set("seed", f64::from(seed))]);
+            let model = settled(&[Event::set(&NOISE, 0.0), Event::set(&SEED, f64::from(seed))]);
             let [start, now] = model.states().unwrap();
             assert!(start.rms_px > 10.0 && start.off > 0.03, "seed {seed}");
             // The dragged feature is kept to a tenth of a pixel.
@@ -379,11 +391,12 @@ mod tests {
     fn the_error_that_remains_is_the_noise_that_no_unknown_can_take_up() {
         let mut sum = 0.0;
         for seed in 1..=20 {
-            let model = settled(&[set("noise", 1.0), set("seed", f64::from(seed))]);
+            let model = settled(&[Event::set(&NOISE, 1.0), Event::set(&SEED, f64::from(seed))]);
             let rms_px = model.states().unwrap()[1].rms_px;
             sum += rms_px * rms_px;
         }
-        let answer = settled(&[]).answer.unwrap();
+        let model = settled(&[]);
+        let answer = model.asked.answer().unwrap();
         let num_points = answer.features.len();
         // One feature has no noise; seven freedoms change nothing.
         let freedoms = 6.0 * 4.0 + 3.0 * num_points as f64 - 7.0;
@@ -398,8 +411,8 @@ mod tests {
 
     #[test]
     fn the_cost_falls_with_every_step_that_is_kept_and_stays_otherwise() {
-        let model = settled(&[set("disturbance", 50.0), set("damping", -6.0)]);
-        let states = &model.answer.as_ref().unwrap().states;
+        let model = settled(&[Event::set(&DISTURBANCE, 50.0), Event::set(&DAMPING, -6.0)]);
+        let states = &model.asked.answer().unwrap().states;
         assert!(states.iter().any(|state| !state.accepted));
         for pair in states.windows(2) {
             assert_eq!(pair[1].accepted, pair[1].cost < pair[0].cost);

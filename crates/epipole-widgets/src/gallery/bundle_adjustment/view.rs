@@ -1,27 +1,20 @@
 //! House and cameras in space, one of the photographs with its errors, and the curves of the loop.
 
-use super::answer::State;
 use super::model::BundleAdjustment;
-use super::plots;
-use super::scene::{MARK, SHOWN, SIZE, Scene};
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, Rect, View};
-use crate::legend::{self, Entry, Swatch};
-use crate::orbit::Orbit;
-use crate::space::{Space, Subject, draw_handles};
+use super::question::State;
+use crate::canvas::{Canvas, Dash, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, Rect, View};
+use crate::kit::grid::{self, GAP, Grid, SMALL, TITLE};
+use crate::kit::house::{House, MARK, SHOWN, SIZE};
+use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::orbit::Orbit;
+use crate::kit::plot::{self, Ruler, decade};
+use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3};
 
-const TITLE: f64 = 24.0;
-const TEXT: f64 = 13.0;
-const NARROW: f64 = 560.0;
-const GAP: f64 = 12.0;
-/// Height of the plots with their titles and axes.
-const PLOTS: f64 = 172.0;
-/// Between the photograph and the legend below it.
-const LEGEND_GAP: f64 = 8.0;
-/// Share of a wide page that the space takes.
-const SPACE_SHARE: f64 = 0.56;
+/// Between a panel and the legend below it.
+const LEGEND_GAP: f64 = 6.0;
 /// What the reader looks at: the house and the cameras before it.
 const SUBJECT: Subject = Subject {
     middle: Point3::new(0.1, -0.15, -0.75),
@@ -32,11 +25,18 @@ const PICTURE_DEPTH: f64 = 0.42;
 /// The ground below the house.
 const GROUND: f64 = 0.4;
 const CAMERA_NAMES: [&str; 4] = ["camera 1", "camera 2", "camera 3", "camera 4"];
+/// The same where there is little room.
+const SHORT_NAMES: [&str; 4] = ["1", "2", "3", "4"];
+/// Powers of ten that each plot spans.
+const COST: [f64; 2] = [-1.5, 9.6];
+const DAMPING: [f64; 2] = [-8.0, 5.0];
+/// The axis of the steps is never shorter than this.
+const FEWEST: usize = 8;
 
 const START: Stroke = Stroke {
     role: Role::Reference,
     width: 1.25,
-    dash: crate::canvas::Dash::Dashed,
+    dash: Dash::Dashed,
     cased: false,
 };
 
@@ -44,92 +44,108 @@ const START: Stroke = Stroke {
 #[derive(Default)]
 pub(crate) struct BundleAdjustmentView;
 
-fn legend_entries() -> [Entry; 4] {
-    [
-        (Swatch::Line(START), "at the start"),
-        (Swatch::Line(Stroke::solid(Role::Best, 2.0)), "now"),
-        (
-            Swatch::Line(Stroke::solid(Role::Truth, 1.5).dotted()),
-            "truth",
-        ),
-        (
-            Swatch::Line(error_stroke()),
-            "reprojection error, to the feature",
-        ),
-    ]
-}
-
 fn error_stroke() -> Stroke {
     Stroke::solid(Role::Series(1), 2.0)
 }
 
+fn truth_stroke() -> Stroke {
+    Stroke::solid(Role::Truth, 1.5).dotted()
+}
+
+fn legend_entries() -> [Entry; 6] {
+    [
+        (Swatch::Line(START), "at the start"),
+        (Swatch::Line(Stroke::solid(Role::Best, 2.0)), "now"),
+        (Swatch::Line(truth_stroke()), "truth"),
+        (Swatch::Marker(Shape::Ring, Role::Ink), "feature"),
+        (Swatch::Marker(Shape::Cross, Role::Outlier), "wrong feature"),
+        (Swatch::Line(error_stroke()), "reprojection error"),
+    ]
+}
+
+fn rulers(model: &BundleAdjustment) -> [Ruler; 3] {
+    let num_steps = model
+        .asked()
+        .answer()
+        .map_or(FEWEST, |answer| answer.num_steps());
+    let [cost, damping] = [COST, DAMPING].map(|[low, high]| Ruler::decades(low, high));
+    [
+        Ruler::linear(-0.6, num_steps.max(FEWEST) as f64 + 0.6),
+        cost,
+        damping,
+    ]
+}
+
 impl View for BundleAdjustmentView {
     type Model = BundleAdjustment;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, model: &BundleAdjustment, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
         let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
         let legend_height = |width| LEGEND_GAP + legend::height(&legend_entries(), width, 0.0);
-        let (space, photo, top) = if width < NARROW {
-            let space = Rect::new(0.0, TITLE, width, (width * 0.8).max(220.0));
-            let photo = Rect::new(0.0, space.bottom() + TITLE + 6.0, width, width * aspect);
-            (space, photo, photo.bottom() + legend_height(width))
+        let (space, photo, plots) = if grid::is_broad(width) {
+            let shares = [0.385, 0.385, 0.23];
+            let photo = shares[1] * (width - 2.0 * GAP);
+            let height = photo * aspect + legend_height(photo);
+            let [space, photo, plots] = grid.shares(shares, height);
+            (space, photo, grid::stack(plots, [1.0; 2]))
         } else {
-            let left = SPACE_SHARE * width;
-            let photo_width = width - left - GAP;
-            let photo = Rect::new(left + GAP, TITLE, photo_width, photo_width * aspect);
-            let height = photo.height + legend_height(photo_width);
-            let space = Rect::new(0.0, TITLE, left, height);
-            (space, photo, space.bottom() + 8.0)
+            let shares = [0.55, 0.45];
+            let height = shares[1] * (width - GAP) * aspect;
+            let [space, photo] = grid.shares(shares, height);
+            grid.strip(legend_height(width));
+            let plots = if grid::is_narrow(width) { 104.0 } else { 94.0 };
+            (space, photo, grid.shares([1.0; 2], plots))
         };
-        let plots = Rect::new(0.0, top, width, PLOTS);
-        let [cost, damping] = plots::panels(model, plots, GAP);
-        Layout {
-            width,
-            height: plots.bottom(),
-            panels: vec![
-                Orbit::panel(space),
-                Panel::photograph("photo", photo, SIZE.0, SIZE.1),
-                cost,
-                damping,
-            ],
-        }
+        let photo = Rect::new(photo.x, photo.y, photo.width, photo.width * aspect);
+        let [x, cost, damping] = rulers(model);
+        let clickable = |panel: Panel| Panel {
+            clickable: true,
+            ..panel
+        };
+        grid.layout(vec![
+            Orbit::panel(space),
+            Panel::photograph("photo", photo, SIZE.0, SIZE.1),
+            clickable(plot::panel("cost", plots[0], &x, &cost)),
+            clickable(plot::panel("damping", plots[1], &x, &damping)),
+        ])
     }
 
     fn draw(&mut self, model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
         let [space, photo] = ["space", "photo"].map(|id| layout.panel(id));
-        let ink = TextStyle::new(Role::Ink, TEXT);
-        for (panel, title) in [
-            (space, "Space: a house and four cameras"),
-            (photo, "Photograph of camera 3"),
+        for (panel, titles) in [
+            (space, ["A house and four cameras", "In space"]),
+            (photo, ["What camera 3 sees", "Camera 3"]),
         ] {
             canvas.panel(panel.rect);
-            let place = (panel.rect.x + 2.0, panel.rect.y - TITLE / 2.0);
-            canvas.label(place, title, ink);
+            grid::fitting_title(canvas, panel.rect, &titles);
         }
-        if let Some(scene) = model.scene() {
-            draw_space(model, scene, space, canvas);
-            draw_photo(model, scene, photo, canvas);
+        if let Some(house) = model.house() {
+            draw_space(model, house, space, canvas);
+            draw_photo(model, house, photo, canvas);
         }
         draw_handles(canvas, space, model.orbit());
-        let Rect { x, width, .. } = photo.rect;
+        let is_broad = grid::is_broad(layout.width);
+        let left = if is_broad { photo.rect.x } else { 0.0 };
+        let right = if is_broad {
+            photo.rect.right()
+        } else {
+            layout.width
+        };
         let top = photo.rect.bottom() + LEGEND_GAP;
-        // As much margin on the right as on the left: the legend is as wide as the photograph.
-        legend::draw(canvas, &legend_entries(), width + 2.0 * x, x, top);
-        plots::draw(
-            model,
-            ["cost", "damping"].map(|id| layout.panel(id)),
-            canvas,
-        );
-        if let Some(problem) = model.problem() {
-            let style = TextStyle::new(Role::Ink, 14.0).cased();
-            canvas.paragraph(space.rect.inset(12.0), problem, style);
+        // As much margin on the right as on the left.
+        legend::draw(canvas, &legend_entries(), right + left, left, top);
+        draw_plots(model, layout, canvas);
+        if let Some(problem) = model.asked().problem() {
+            grid::notice(canvas, space.rect, problem);
         }
     }
 }
 
-fn draw_space(model: &BundleAdjustment, scene: &Scene, panel: &Panel, canvas: &mut Canvas) {
+fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
     // The cameras stand side by side, so a narrow panel shows them from farther off.
-    let narrowness = 1.5 * panel.rect.height / panel.rect.width.max(1.0);
+    let narrowness = 1.45 * panel.rect.height / panel.rect.width.max(1.0);
     let subject = Subject {
         radius: SUBJECT.radius * narrowness.max(1.0),
         ..SUBJECT
@@ -139,32 +155,34 @@ fn draw_space(model: &BundleAdjustment, scene: &Scene, panel: &Panel, canvas: &m
     };
     space.ground(&SUBJECT.middle, GROUND, 0.6, 6);
     let wires = |space: &mut Space, points: &[Point3<f64>], stroke: Stroke| {
-        for wire in &scene.wires {
+        for wire in &house.wires {
             for pair in wire.windows(2) {
                 space.line(&points[pair[0]], &points[pair[1]], stroke);
             }
         }
     };
+    let is_small = panel.rect.width < 300.0;
+    let names = if is_small { SHORT_NAMES } else { CAMERA_NAMES };
     if let Some([start, now]) = model.states() {
         wires(&mut space, &start.points, START);
         wires(&mut space, &now.points, Stroke::solid(Role::Best, 2.0));
-        for (index, camera) in now.cameras.iter().enumerate() {
+        for (index, (pose, was)) in now.poses.iter().zip(&start.poses).enumerate() {
             let (role, shape) = camera_mark(index);
-            space.frustum(camera, SIZE, PICTURE_DEPTH, role, shape);
+            let camera = house.camera(index, *pose);
+            space.frustum(&camera, SIZE, PICTURE_DEPTH, role, shape);
             let center = camera.center_in_world();
-            let was = start.cameras[index].center_in_world();
+            let was = house.camera(index, *was).center_in_world();
             space.line(&was, &center, START);
             space.marker(&was, 4.0, Shape::Cross, Role::Reference);
-            space.label(&center, CAMERA_NAMES[index], role);
+            space.label(&center, names[index], role);
         }
     } else {
-        for (index, camera) in scene.cameras.iter().enumerate() {
+        for (index, camera) in house.cameras.iter().enumerate() {
             let (role, shape) = camera_mark(index);
             space.frustum(camera, SIZE, PICTURE_DEPTH, role, shape);
         }
     }
-    let truth = Stroke::solid(Role::Truth, 1.5).dotted();
-    wires(&mut space, &scene.points, truth);
+    wires(&mut space, &house.points, truth_stroke());
     space.draw(canvas, panel);
 }
 
@@ -176,48 +194,106 @@ fn camera_mark(index: usize) -> (Role, Shape) {
     }
 }
 
-fn draw_photo(model: &BundleAdjustment, scene: &Scene, panel: &Panel, canvas: &mut Canvas) {
+fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
     let on_page = |pixel: &Point2<f64>| panel.canvas_from_world((pixel.x, pixel.y));
     let mark = panel.canvas_from_world(model.mark());
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
-        if let (Some([start, now]), Some(answer)) = (model.states(), model.answer()) {
+        if let (Some([start, now]), Some(answer)) = (model.states(), model.asked().answer()) {
             let places = |state: &State| -> Vec<Option<Place>> {
-                let shown = state.shown(SHOWN);
+                let camera = house.camera(SHOWN, state.poses[SHOWN]);
+                let shown = state.points.iter().map(|point| camera.project(point).ok());
                 shown
-                    .iter()
-                    .map(|pixel| pixel.as_ref().map(on_page))
+                    .map(|pixel| pixel.filter(is_near).as_ref().map(on_page))
                     .collect()
             };
-            let mut features: Vec<Place> = answer.features.iter().map(on_page).collect();
-            features[MARK] = mark;
-            draw_wires(scene, &places(start), START, canvas);
+            draw_wires(house, &places(start), START, canvas);
             let now = places(now);
-            draw_wires(scene, &now, Stroke::solid(Role::Best, 1.5), canvas);
-            for (feature, shown) in features.iter().zip(&now) {
+            draw_wires(house, &now, Stroke::solid(Role::Best, 1.5), canvas);
+            for (index, (feature, shown)) in answer.features.iter().zip(&now).enumerate() {
+                let place = match index == MARK {
+                    true => mark,
+                    false => on_page(&feature.pixel),
+                };
                 if let Some(shown) = shown {
-                    canvas.line(*shown, *feature, error_stroke());
+                    canvas.line(*shown, place, error_stroke());
                 }
-                canvas.circle(*feature, 2.5, Stroke::solid(Role::Ink, 1.0));
+                match feature.is_wrong {
+                    true => canvas.marker(place, 4.0, Shape::Cross, Role::Outlier, true),
+                    false => canvas.circle(place, 2.5, Stroke::solid(Role::Ink, 1.0)),
+                }
             }
         } else {
-            let shown = |point| scene.cameras[SHOWN].project(point).ok();
-            let shown = scene.points.iter().map(shown);
+            let shown = |point| house.cameras[SHOWN].project(point).ok();
+            let shown = house.points.iter().map(shown);
             let places: Vec<_> = shown.map(|p| p.as_ref().map(on_page)).collect();
-            let truth = Stroke::solid(Role::Truth, 1.5).dotted();
-            draw_wires(scene, &places, truth, canvas);
+            draw_wires(house, &places, truth_stroke(), canvas);
         }
         canvas.grip(mark, Role::Grip);
-        let style = TextStyle::new(Role::Muted, 12.0).cased();
-        let place = (panel.rect.x + 10.0, panel.rect.bottom() - 12.0);
-        canvas.label(place, "drag the marked feature", style);
+        let style = TextStyle::new(Role::Grip, SMALL).cased();
+        let place = (panel.rect.x + 8.0, panel.rect.bottom() - 12.0);
+        let words = if panel.rect.width > 220.0 {
+            "drag the marked feature"
+        } else {
+            "drag me"
+        };
+        canvas.label(place, words, style);
     });
 }
 
-fn draw_wires(scene: &Scene, places: &[Option<Place>], stroke: Stroke, canvas: &mut Canvas) {
-    for wire in &scene.wires {
+/// Whether a place is in the photograph or not far outside of it.
+fn is_near(pixel: &Point2<f64>) -> bool {
+    let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
+    (-width..2.0 * width).contains(&pixel.x) && (-height..2.0 * height).contains(&pixel.y)
+}
+
+fn draw_wires(house: &House, places: &[Option<Place>], stroke: Stroke, canvas: &mut Canvas) {
+    for wire in &house.wires {
         for pair in wire.windows(2) {
             if let (Some(a), Some(b)) = (places[pair[0]], places[pair[1]]) {
                 canvas.line(a, b, stroke);
+            }
+        }
+    }
+}
+
+/// What the cost and the damping were after each step.
+fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
+    let [x, cost, damping] = rulers(model);
+    let titles = [
+        ["Cost after each step, px²", "Cost, px²"],
+        ["Damping λ of each step", "Damping λ"],
+    ];
+    let of_cost = |state: &State| decade(state.cost);
+    let of_damping = |state: &State| decade(state.damping);
+    let values: [&dyn Fn(&State) -> f64; 2] = [&of_cost, &of_damping];
+    for (index, (id, y)) in [("cost", cost), ("damping", damping)]
+        .into_iter()
+        .enumerate()
+    {
+        let panel = layout.panel(id);
+        plot::draw_axes(canvas, panel, &x, &y);
+        let Rect { x: left, width, .. } = panel.rect;
+        let shift = left.min(plot::LEFT);
+        let above = Rect::new(left - shift, panel.rect.y, width + shift, TITLE);
+        grid::fitting_title(canvas, above, &titles[index]);
+        let Some(answer) = model.asked().answer() else {
+            continue;
+        };
+        plot::draw_now(canvas, panel, model.num_taken() as f64);
+        // What is beyond the axis, or zero, is drawn at its edge.
+        let (low, high) = (panel.y_axis.end, panel.y_axis.start);
+        let place =
+            |(step, state): (usize, &State)| (step as f64, values[index](state).clamp(low, high));
+        let role = Role::Series(index as u8);
+        let places = || answer.states.iter().enumerate().map(place);
+        plot::draw_curve(canvas, panel, places(), Stroke::solid(role, 2.0));
+        // Many steps stand close to each other.
+        let radius = (0.4 * panel.scale_x()).clamp(1.5, 3.5);
+        for (place, state) in places().zip(&answer.states) {
+            let at = panel.canvas_from_world(place);
+            match state.accepted {
+                true => canvas.marker(at, radius, Shape::Disk, role, true),
+                false => canvas.marker(at, radius + 1.0, Shape::Cross, Role::Outlier, true),
             }
         }
     }

@@ -1,63 +1,68 @@
 //! What `bundle-adjustment` says: readouts and description.
 
 use super::model::BundleAdjustment;
-use super::scene::NUM_CAMERAS;
-use crate::contract::{Readout, format_number};
-use crate::words::magnitude;
-
-pub(super) const WAITING: &str = "Adjusting cameras and points";
-pub(super) const NO_ANSWER: &str = "The adjustment could not be computed.";
+use super::question::Question;
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::house::NUM_CAMERAS;
+use crate::kit::question::Question as _;
+use crate::kit::words::magnitude;
 
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     format_number(value, if value < 0.995 { 2 } else { 1 })
 }
 
-pub(super) fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
-    let mut readouts = Vec::new();
-    if let Some(problem) = model.problem() {
-        readouts.push(Readout::words("problem", "Problem", problem));
+fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
+    // Before the answer the rows are there already, so that nothing jumps when it comes.
+    let unknown = if model.asked().problem().is_some() {
+        "–"
     } else {
-        // Before the answer the rows are there already, so that nothing jumps when it comes.
-        let found = values(model).unwrap_or_else(|| ROWS.map(|_| "…".to_owned()));
-        for ((id, label), text) in ROWS.into_iter().zip(found) {
-            readouts.push(Readout::words(id, label, text));
+        "…"
+    };
+    let found = values(model).unwrap_or_else(|| ROWS.map(|_| unknown.to_owned()));
+    let rows = ROWS.into_iter().zip(found).enumerate();
+    let row = |(index, ((id, label), text)): (usize, ((_, _), String))| {
+        let readout = Readout::words(id, label, text);
+        if index < NUM_MAIN {
+            readout.main()
+        } else {
+            readout
         }
-    }
+    };
+    let mut readouts: Vec<Readout> = rows.map(row).collect();
     let zoom = format_number(model.zoom(), 1);
     let from = format!("{}, {zoom} ×", model.orbit().words());
     readouts.push(Readout::words("viewpoint", "Seen from", from));
     readouts
 }
 
-const ROWS: [(&str, &str); 6] = [
-    ("error", "Reprojection error, RMS"),
-    ("off", "House off by"),
+/// As many of the rows carry the figure's point.
+const NUM_MAIN: usize = 4;
+const ROWS: [(&str, &str); 8] = [
+    ("error", "Error now"),
+    ("error-start", "Error at the start"),
+    ("off", "House off now"),
+    ("off-start", "House off at the start"),
     ("cost", "Cost"),
     ("damping-now", "Damping λ of this step"),
     ("unknowns", "Unknowns"),
     ("measured", "Numbers measured"),
 ];
 
-fn values(model: &BundleAdjustment) -> Option<[String; 6]> {
-    let ([start, now], answer) = (model.states()?, model.answer()?);
+fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
+    let ([start, now], answer) = (model.states()?, model.asked().answer()?);
     let num_unknowns = 6 * NUM_CAMERAS + 3 * answer.features.len();
-    let pixels = |value: f64| magnitude(value, 1e3);
+    let pixels = |value: f64| format!("{} px", magnitude(value, 1e3));
+    let width = |share: f64| format!("{} %", percent(share));
     let loss = match model.is_robust() {
         true => "Huber's loss",
         false => "squares",
     };
     Some([
-        format!(
-            "{} px (start: {})",
-            pixels(now.rms_px),
-            pixels(start.rms_px)
-        ),
-        format!(
-            "{} % of its width (start: {})",
-            percent(now.off),
-            percent(start.off)
-        ),
+        pixels(now.rms_px),
+        pixels(start.rms_px),
+        width(now.off),
+        width(start.off),
         format!("{} px², {loss}", magnitude(now.cost, 1e6)),
         magnitude(now.damping, 1.0),
         format!("{num_unknowns}, 7 of them free"),
@@ -65,12 +70,12 @@ fn values(model: &BundleAdjustment) -> Option<[String; 6]> {
     ])
 }
 
-pub(super) fn describe(model: &BundleAdjustment) -> String {
-    if let Some(problem) = model.problem() {
+fn describe(model: &BundleAdjustment) -> String {
+    if let Some(problem) = model.asked().problem() {
         return problem.to_owned();
     }
-    let (Some([start, now]), Some(answer)) = (model.states(), model.answer()) else {
-        return format!("{WAITING}.");
+    let (Some([start, now]), Some(answer)) = (model.states(), model.asked().answer()) else {
+        return format!("{}.", Question::LABEL);
     };
     let pixels = |value: f64| magnitude(value, 1e3);
     let taken = model.num_taken();
@@ -99,4 +104,14 @@ pub(super) fn describe(model: &BundleAdjustment) -> String {
         percent(start.off),
         percent(now.off)
     )
+}
+
+impl Words for BundleAdjustment {
+    fn readouts(&self) -> Vec<Readout> {
+        readouts(self)
+    }
+
+    fn describe(&self) -> String {
+        describe(self)
+    }
 }

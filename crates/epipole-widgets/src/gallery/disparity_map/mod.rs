@@ -1,7 +1,8 @@
 //! `disparity-map`: dense disparity of a rendered pair, beside the truth.
 
-mod answer;
 mod model;
+mod question;
 mod view;
+mod words;
 
 pub(crate) use view::DisparityMapView as View;

@@ -1,55 +1,32 @@
-//! How disparities are looked for, what is found, and a probe.
+//! How disparities are looked for, and a probe.
 
-use super::answer::{Answer, Method, Request, SIZE};
+use super::question::{Answer, Method, Question, SIZE};
 use crate::contract::{
-    Challenge, Choice, Control, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
-    Readout, Settings, Slider, Toggle, Value, format_number,
+    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
+    Progress, Settings, Slider, Toggle,
 };
+use crate::kit::probe::Probe;
+use crate::kit::question::{Asked, carry_out};
 
-const METHOD: Choice = Choice {
-    id: "method",
-    label: "Method",
-    options: &[("bm", "Block matching"), ("sgm", "Semi-global")],
-    default: 0,
-};
-const WINDOW: Slider = Slider {
-    id: "window",
-    label: "Window (block matching)",
-    unit: "px",
-    min: 5.0,
-    max: 21.0,
-    step: 2.0,
-    default: 11.0,
-    digits: 0,
-    visible: true,
-};
-const RANGE: Slider = Slider {
-    id: "range",
-    label: "Disparities looked for",
-    unit: "px",
-    min: 16.0,
-    max: 96.0,
-    step: 8.0,
-    default: 48.0,
-    digits: 0,
-    visible: true,
-};
-const BASELINE: Slider = Slider {
-    id: "baseline",
-    label: "Baseline",
-    unit: "m",
-    min: 0.02,
-    max: 0.2,
-    step: 0.02,
-    default: 0.08,
-    digits: 2,
-    visible: true,
-};
-const CHECKS: Toggle = Toggle {
-    id: "checks",
-    label: "Leave out uncertain answers",
-    default: true,
-};
+const METHOD: Choice = Choice::new(
+    "method",
+    "Method",
+    &[("bm", "Block matching"), ("sgm", "Semi-global")],
+);
+const WINDOW: Slider = Slider::new("window", "Window")
+    .range(5.0, 21.0, 2.0)
+    .at(11.0)
+    .unit("px");
+const RANGE: Slider = Slider::new("range", "Search range")
+    .range(16.0, 96.0, 8.0)
+    .at(48.0)
+    .unit("px");
+const BASELINE: Slider = Slider::new("baseline", "Baseline")
+    .range(0.02, 0.2, 0.02)
+    .at(0.08)
+    .digits(2)
+    .unit("m");
+const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain answers").on();
 const KNOBS: &[Knob] = &[
     Knob::Choice(&METHOD),
     Knob::Slider(&WINDOW),
@@ -64,33 +41,35 @@ const PROBE: (f64, f64) = (228.0, 165.0);
 /// The model of `disparity-map`.
 pub(crate) struct DisparityMap {
     settings: Settings,
-    probe: (f64, f64),
-    answer: Option<Answer>,
-    pending: Option<Job>,
-    problem: Option<String>,
-    /// Counts answers, so that the maps are colored anew when they change.
-    version: u64,
+    probe: Probe,
+    asked: Asked<Question>,
+}
+
+/// What is found and what is true at the probe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Probed {
+    pub(super) found_px: Option<f32>,
+    pub(super) truth_px: f32,
+    pub(super) is_hidden: bool,
 }
 
 impl DisparityMap {
-    pub(super) fn answer(&self) -> Option<&Answer> {
-        self.answer.as_ref()
+    pub(super) fn asked(&self) -> &Asked<Question> {
+        &self.asked
     }
 
-    pub(super) fn version(&self) -> u64 {
-        self.version
+    /// Column and row of the probe, pixels.
+    pub(super) fn probe_place(&self) -> (f64, f64) {
+        self.probe.place(SIZE)
     }
 
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
-    }
-
-    pub(super) fn is_waiting(&self) -> bool {
-        self.pending.is_some()
-    }
-
-    pub(super) fn probe(&self) -> (f64, f64) {
-        self.probe
+    pub(super) fn probed(&self, answer: &Answer) -> Option<Probed> {
+        let (u, v) = self.probe.pixel(SIZE);
+        Some(Probed {
+            found_px: answer.found.get(u, v),
+            truth_px: answer.truth.get(u, v)?,
+            is_hidden: answer.is_hidden(u, v),
+        })
     }
 
     /// The side of the window that is compared, pixels.
@@ -99,8 +78,8 @@ impl DisparityMap {
         (self.settings.chosen(&METHOD) == 0).then_some(window_px)
     }
 
-    fn request(&self) -> Request {
-        Request {
+    fn ask(&mut self) {
+        self.asked.ask(Question {
             baseline_m: self.settings.number(&BASELINE),
             method: match self.window_px() {
                 Some(window_px) => Method::Blocks(window_px),
@@ -108,27 +87,16 @@ impl DisparityMap {
             },
             num_disparities: self.settings.number(&RANGE) as u32,
             checks: self.settings.flag(&CHECKS),
-        }
-    }
-
-    fn ask(&mut self) {
-        self.problem = None;
-        self.pending = Some(Job {
-            label: "Matching every pixel",
-            request: self.request().to_bytes(),
         });
     }
 
-    /// What is found and what is true at the probe.
-    fn probed(&self) -> Option<(Option<f32>, f32, bool)> {
-        let answer = self.answer.as_ref()?;
-        let (u, v) = (self.probe.0 as u32, self.probe.1 as u32);
-        let truth = answer.truth.get(u, v)?;
-        Some((answer.found.get(u, v), truth, answer.is_hidden(u, v)))
+    fn is_answered(&self, check: impl Fn(&Question, &Answer) -> bool) -> bool {
+        let answered = self.asked.answered();
+        answered.is_some_and(|(question, answer)| check(question, answer))
     }
 }
 
-impl Model for DisparityMap {
+impl Declared for DisparityMap {
     const NAME: &'static str = "disparity-map";
     const TITLE: &'static str = "A disparity for every pixel";
     const HELP: &'static str = "Change how matches are looked for. Drag the probe over the left \
@@ -137,16 +105,23 @@ impl Model for DisparityMap {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            probe: PROBE,
-            answer: None,
-            pending: None,
-            problem: None,
-            version: 0,
+            probe: Probe::new("probe", "left", "Probe").at(PROBE.0, PROBE.1),
+            asked: Asked::default(),
         };
         model.ask();
         model
     }
 
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for DisparityMap {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         for control in &mut controls {
@@ -156,144 +131,68 @@ impl Model for DisparityMap {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (u, v) = self.probe;
-        vec![Handle {
-            id: "probe".to_owned(),
-            panel: "left",
-            label: "Probe".to_owned(),
-            value_text: format!("column {u}, row {v}"),
-            x: u,
-            y: v,
-            x_range: [0.0, f64::from(SIZE.0 - 1)],
-            y_range: [0.0, f64::from(SIZE.1 - 1)],
-            step: [2.0, 2.0],
-            digits: 0,
-            removable: false,
-        }]
+        vec![self.probe.handle(SIZE, 2.0)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } if self.settings.set(id, value)? == Some(true) => self.ask(),
-            Event::HandleMoved { x, y, .. } => self.probe = (*x, *y),
-            Event::Clicked { x, y, .. } => {
-                let keep = |value: f64, size: u32| value.round().clamp(0.0, f64::from(size - 1));
-                self.probe = (keep(*x, SIZE.0), keep(*y, SIZE.1));
-            }
-            _ => {}
+        if self.probe.update(event, SIZE) {
+            return Ok(());
+        }
+        if let Event::Set { id, value } = event
+            && self.settings.set(id, value)? == Some(true)
+        {
+            self.ask();
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<Job> {
-        self.pending.clone()
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        Request::compute(request, progress)
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
     }
 
     fn job_done(&mut self, result: JobResult) {
-        self.pending = None;
-        let request = self.request();
-        match result.map(|bytes| Answer::from_bytes(&bytes, &request)) {
-            Ok(Some(answer)) => {
-                self.answer = Some(answer);
-                self.version += 1;
-            }
-            Ok(None) => self.problem = Some("The disparity could not be computed.".to_owned()),
-            Err(problem) => self.problem = Some(format!("No disparity: {problem}.")),
-        }
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        let (Some(answer), Some((found, truth, hidden))) = (&self.answer, self.probed()) else {
-            return vec![Readout::words("state", "State", self.describe())];
-        };
-        let words = |id, label, text: &str| Readout::words(id, label, text);
-        let mut readouts = vec![
-            Readout::number("bad", "Bad-2.0, of the answers", 100.0 * answer.bad, 1, "%"),
-            Readout::number("coverage", "Coverage", 100.0 * answer.coverage, 1, "%"),
-            Readout::number("error", "Mean error", answer.mean_error_px, 2, "px"),
-        ];
-        readouts.push(match found {
-            Some(found) => Readout::number("found", "d at the probe", found.into(), 2, "px"),
-            None => words("found", "d at the probe", "no answer"),
-        });
-        readouts.push(Readout::number("truth", "True d", truth.into(), 2, "px"));
-        readouts.push(match found.and_then(|found| answer.depth_m(found)) {
-            Some(depth_m) => Readout::number("depth", "Depth found", depth_m, 3, "m"),
-            None => words("depth", "Depth found", "no answer"),
-        });
-        if let Some(depth_m) = answer.depth_m(truth) {
-            readouts.push(Readout::number("true-depth", "True depth", depth_m, 3, "m"));
-        }
-        if hidden {
-            readouts.push(words("hidden", "Here", "hidden from the right camera"));
-        }
-        readouts
-    }
-
-    fn describe(&self) -> String {
-        if let Some(problem) = &self.problem {
-            return problem.clone();
-        }
-        let (Some(answer), Some((found, truth, _))) = (&self.answer, self.probed()) else {
-            return "Matching every pixel.".to_owned();
-        };
-        let method = match self.window_px() {
-            Some(window_px) => format!("Block matching with {window_px} px windows"),
-            None => "Semi-global matching".to_owned(),
-        };
-        let at = match found {
-            Some(found) => format!("{} px is found", format_number(found.into(), 1)),
-            None => "nothing is found".to_owned(),
-        };
-        let range = match answer.reaches_nearest() {
-            true => "",
-            false => " The nearest things lie beyond the range of the search.",
-        };
-        format!(
-            "{method} answers for {} % of what both cameras see; {} % of the answers are more than \
-             2 px off. At the probe {at}, {} px is true.{range}",
-            format_number(100.0 * answer.coverage, 1),
-            format_number(100.0 * answer.bad, 1),
-            format_number(truth.into(), 1),
-        )
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "better",
-                goal: "Answer for 99 % of what both cameras see, with fewer than 1 % bad.",
-                hint: "Windows smear. Which method has none to speak of?",
-                check: |model| {
-                    let answer = model.answer.as_ref();
-                    answer.is_some_and(|answer| answer.coverage >= 0.99 && answer.bad < 0.01)
-                },
-                solution: || {
-                    vec![Event::Set {
-                        id: METHOD.id.to_owned(),
-                        value: Value::from("sgm"),
-                    }]
-                },
-            },
-            Challenge {
-                id: "too-near",
-                goal: "Make the nearest things too near for the search.",
-                hint: "Their disparity must be larger than all that are looked for.",
-                check: |model| {
-                    let answer = model.answer.as_ref();
-                    answer.is_some_and(|answer| !answer.reaches_nearest())
-                },
-                solution: || {
-                    vec![Event::Set {
-                        id: RANGE.id.to_owned(),
-                        value: Value::Number(16.0),
-                    }]
-                },
-            },
-        ]
+        self.asked.take(result);
     }
 }
+
+const CHALLENGES: &[Challenge<DisparityMap>] = &[
+    Challenge {
+        id: "too-near",
+        goal: "Make the nearest things too near for the search.",
+        hint: "Their disparity must be larger than all that are looked for.",
+        why: "The search range sets the nearest depth that can be found at all: Z = f B / d.",
+        check: |model| model.is_answered(|question, answer| !question.reaches_nearest(answer)),
+        solution: || vec![Event::set(&RANGE, 16.0)],
+    },
+    Challenge {
+        id: "sharp",
+        goal: "With block matching, get under 1.3 % bad answers.",
+        hint: "Which windows reach across fewer edges?",
+        why: "A small window smears less across the outlines of things, and pays with fewer answers.",
+        check: |model| {
+            model.is_answered(|question, answer| {
+                matches!(question.method, Method::Blocks(_)) && answer.scores.bad < 0.013
+            })
+        },
+        solution: || vec![Event::set(&WINDOW, 5.0)],
+    },
+    Challenge {
+        id: "wide",
+        goal: "With a baseline of 0.20 m, answer for 99 % of what both cameras see.",
+        hint: "Twice the baseline, twice the disparity.",
+        why: "A longer baseline stretches all disparities, so the search must reach farther, and views \
+              that differ more need a method that looks beyond its window.",
+        check: |model| {
+            model.is_answered(|question, answer| {
+                question.baseline_m == BASELINE.max && answer.scores.coverage >= 0.99
+            })
+        },
+        solution: || {
+            vec![
+                Event::set(&METHOD, "sgm"),
+                Event::set(&BASELINE, BASELINE.max),
+                Event::set(&RANGE, 96.0),
+            ]
+        },
+    },
+];

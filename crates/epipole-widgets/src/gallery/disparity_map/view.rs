@@ -1,105 +1,104 @@
 //! The pair, the truth, what is found and how far it is off; a legend for the colors.
 
-use super::answer::{Answer, BAD_PX, SIZE};
 use super::model::DisparityMap;
-use crate::canvas::{Canvas, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, Rect, View, format_number};
+use super::question::{Answer, BAD_PX, Question, SIZE};
+use crate::canvas::{Canvas, Place, Stroke, text_width};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::grid::{self, Grid, SMALL};
+use crate::kit::heat::{self, Fill, Heat};
+use crate::kit::question::Question as _;
 use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
-const GAP: f64 = 10.0;
-const TITLE: f64 = 22.0;
-const TEXT: f64 = 13.0;
-/// Below this width there are two pictures in a row, not three.
-const TWO_COLUMNS_BELOW: f64 = 520.0;
-/// Period of the stripes where there is no answer, pixels of the photograph.
-const STRIPE_PX: u32 = 6;
-const NAMES: [(&str, &str); 5] = [
-    ("left", "Left photograph"),
-    ("right", "Right photograph"),
-    ("truth", "True disparity"),
-    ("found", "Disparity found"),
-    ("error", "How far it is off"),
+/// Height over width of the photographs.
+const ASPECT: f64 = SIZE.1 as f64 / SIZE.0 as f64;
+/// Height of the legend below everything on a phone: the bar with its ends, two rows of swatches.
+const LEGEND: f64 = 84.0;
+/// What the smaller panels are, beside the larger ones.
+const SMALLER: f64 = 0.53;
+const ROW: f64 = 18.5;
+/// Name of each panel, and what stands above it, in full and in short.
+const NAMES: [(&str, &str, &str); 5] = [
+    ("left", "Left photograph", "Left"),
+    ("found", "Disparity found", "Found"),
+    ("error", "How far it is off", "Off by"),
+    ("right", "Right photograph", "Right"),
+    ("truth", "True disparity", "Truth"),
+];
+/// What the colors of the error map mean.
+const SWATCHES: [(Fill, &str); 5] = [
+    (Fill::Role(Role::Surface, 1.0), "exact"),
+    (Fill::Role(Role::Candidate, 1.0), "off by up to 2 px"),
+    (Fill::Role(Role::Outlier, 1.0), "off by more: bad"),
+    (Fill::Role(Role::Reference, 1.0), "hidden on the right"),
+    (Fill::Stripes, "no answer"),
 ];
 
 /// Draws [`DisparityMap`].
 #[derive(Default)]
 pub(crate) struct DisparityMapView {
-    maps: Option<(u64, Theme, [RgbImage; 3])>,
+    maps: Heat<3>,
 }
 
 impl View for DisparityMapView {
     type Model = DisparityMap;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, _: &DisparityMap, width: f64) -> Layout {
-        let columns = if width < TWO_COLUMNS_BELOW { 2 } else { 3 };
-        let (cell_width, cell_height) = cell(width, columns);
-        let panel = |(index, (id, _)): (usize, &(&'static str, &str))| {
-            let (row, column) = (index / columns, index % columns);
-            let x = column as f64 * (cell_width + GAP);
-            let y = TITLE + row as f64 * (cell_height + TITLE + 6.0);
-            let rect = Rect::new(x, y, cell_width, cell_height);
-            let mut panel = Panel::photograph(id, rect, SIZE.0, SIZE.1);
-            panel.clickable = *id == "left";
-            panel
-        };
-        let panels: Vec<Panel> = NAMES.iter().enumerate().map(panel).collect();
-        let height = panels
-            .iter()
-            .map(|panel| panel.rect.bottom())
-            .fold(0.0, f64::max)
-            + 2.0;
-        Layout {
-            width,
-            height,
-            panels,
+        let mut grid = Grid::new(width);
+        let (left, found, error, right, truth);
+        if grid::is_narrow(width) {
+            [left, found] = grid.row([ASPECT; 2], f64::INFINITY);
+            [error, right, truth] = grid.row([ASPECT; 3], f64::INFINITY);
+            grid.strip(LEGEND);
+        } else {
+            [left, found, error] = grid.row([ASPECT; 3], f64::INFINITY);
+            let [row] = grid.shares([1.0], SMALLER * left.height);
+            let small = Rect {
+                width: row.height / ASPECT,
+                ..row
+            };
+            right = small;
+            truth = Rect {
+                x: small.right() + grid::GAP,
+                ..small
+            };
         }
+        let rects = [left, found, error, right, truth];
+        let panels = NAMES.into_iter().zip(rects).map(|((id, ..), rect)| {
+            let mut panel = Panel::photograph(id, rect, SIZE.0, SIZE.1);
+            panel.clickable = id == "left";
+            panel
+        });
+        grid.layout(panels.collect())
     }
 
     fn draw(&mut self, model: &DisparityMap, layout: &Layout, canvas: &mut Canvas) {
-        for (id, name) in NAMES {
+        for (id, name, short) in NAMES {
             let rect = layout.panel(id).rect;
-            let style = TextStyle::new(Role::Ink, TEXT);
-            canvas.text((rect.x, rect.y - 7.0), name, style);
+            grid::fitting_title(canvas, rect, &[name, short]);
             canvas.panel(rect);
         }
-        let Some(answer) = model.answer() else {
-            let words = model.problem().unwrap_or("computing …");
-            let rect = layout.panel("left").rect.inset(10.0);
-            canvas.paragraph(rect, words, TextStyle::new(Role::Ink, TEXT));
-            return;
+        let asked = model.asked();
+        let found = layout.panel("found").rect;
+        let Some(answer) = asked.answer() else {
+            let words = asked.problem().unwrap_or(Question::LABEL);
+            grid::notice(canvas, layout.panel("left").rect, words);
+            return draw_legend(canvas, layout, None);
         };
         let [left, right] = &answer.pictures;
-        canvas.photograph(layout.panel("left").rect, left);
-        canvas.photograph(layout.panel("right").rect, right);
-        let maps = self.maps(model.version(), canvas.theme(), answer);
+        canvas.photograph(layout.panel("left").rect, left.image());
+        canvas.photograph(layout.panel("right").rect, right.image());
+        let theme = canvas.theme();
+        let maps = (self.maps).maps(asked.version(), theme, || colored(answer, theme));
         for (id, map) in ["truth", "found", "error"].into_iter().zip(maps) {
             canvas.photograph(layout.panel(id).rect, map);
         }
         draw_probe(model, answer, layout, canvas);
-        let error = layout.panel("error").rect;
-        let below = layout.width < TWO_COLUMNS_BELOW;
-        let legend_rect = Rect::new(error.right() + GAP, error.y, error.width, error.height);
-        legend(canvas, legend_rect, answer, below);
-        if model.is_waiting() || model.problem().is_some() {
-            let words = model.problem().unwrap_or("computing …");
-            let rect = layout.panel("found").rect.inset(8.0);
-            canvas.paragraph(rect, words, TextStyle::new(Role::Ink, TEXT).cased());
+        draw_legend(canvas, layout, Some(answer));
+        if let Some(problem) = asked.problem() {
+            grid::notice(canvas, found, problem);
         }
-    }
-}
-
-/// Width and height of one picture.
-fn cell(width: f64, columns: usize) -> (f64, f64) {
-    let width = ((width - GAP * (columns - 1) as f64) / columns as f64).max(1.0);
-    (width, width * f64::from(SIZE.1) / f64::from(SIZE.0))
-}
-
-impl DisparityMapView {
-    fn maps(&mut self, version: u64, theme: Theme, answer: &Answer) -> &[RgbImage; 3] {
-        let fresh = (self.maps.take()).filter(|(v, t, _)| (*v, *t) == (version, theme));
-        let make = || (version, theme, colored(answer, theme));
-        &self.maps.insert(fresh.unwrap_or_else(make)).2
     }
 }
 
@@ -110,7 +109,7 @@ fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     let map = |color: &dyn Fn(u32, u32) -> Rgb| {
         RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| image::Rgb(color(u, v)))
     };
-    let none = |u: u32, v: u32| stripes(theme, u, v);
+    let none = |u: u32, v: u32| heat::nothing(theme, u, v);
     [
         map(&|u, v| answer.truth.get(u, v).map_or_else(|| none(u, v), scale)),
         map(&|u, v| answer.found.get(u, v).map_or_else(|| none(u, v), scale)),
@@ -125,30 +124,20 @@ fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
 /// From nothing at no error to full at a bad one; bad answers stand out at once.
 fn error_color(theme: Theme, error_px: f32) -> Rgb {
     let share = error_px.abs() / BAD_PX;
-    match share > 1.0 {
-        true => theme.color(Role::Outlier),
-        false => mix(
-            theme.color(Role::Surface),
-            theme.color(Role::Candidate),
-            share,
-        ),
+    let [exact, off, bad] =
+        [Role::Surface, Role::Candidate, Role::Outlier].map(|role| theme.color(role));
+    if share > 1.0 {
+        bad
+    } else {
+        mix(exact, off, share)
     }
-}
-
-/// What stands for "no answer".
-fn stripes(theme: Theme, u: u32, v: u32) -> Rgb {
-    let role = match (u + v) % STRIPE_PX < STRIPE_PX / 2 {
-        true => Role::Surface,
-        false => Role::Edge,
-    };
-    theme.color(role)
 }
 
 /// The probe, its match in the right photograph, and the window that is compared.
 fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
-    let (u, v) = model.probe();
+    let (u, v) = model.probe_place();
     let found = answer.found.get(u as u32, v as u32);
-    for (id, _) in NAMES {
+    for (id, ..) in NAMES {
         let panel = layout.panel(id);
         let shift = match id {
             "right" => found,
@@ -156,60 +145,59 @@ fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &m
         };
         let Some(shift) = shift else { continue };
         let place = panel.canvas_from_world((u - f64::from(shift), v));
-        canvas.clipped(panel.rect, |canvas| {
-            if let (Some(window_px), "left" | "right") = (model.window_px(), id) {
+        let window = model
+            .window_px()
+            .filter(|_| ["left", "right"].contains(&id));
+        canvas.clipped(panel.rect, |canvas| match window {
+            Some(window_px) => {
                 let half = 0.5 * f64::from(window_px) * panel.scale_x();
-                let window = Rect::new(place.0 - half, place.1 - half, 2.0 * half, 2.0 * half);
-                canvas.stroke_rect(window, Stroke::solid(Role::Grip, 1.5).cased());
+                draw_window(canvas, place, half.max(3.0));
             }
-            match id {
-                "left" => canvas.grip(place, Role::Grip),
-                _ => canvas.circle(place, 5.0, Stroke::solid(Role::Grip, 2.0).cased()),
-            }
+            None if id == "left" => canvas.grip(place, Role::Grip),
+            None => canvas.circle(place, 5.0, Stroke::solid(Role::Grip, 2.0).cased()),
         });
     }
 }
 
-/// What the colors mean, in the empty cell of the grid.
-fn legend(canvas: &mut Canvas, rect: Rect, answer: &Answer, is_small: bool) {
-    let style = TextStyle::new(Role::Ink, 12.0);
-    let line = if is_small { 17.0 } else { 22.0 };
-    let bar = Rect::new(rect.x, rect.y + 2.0, rect.width.min(200.0), 12.0);
-    let num_steps = 40;
-    for step in 0..num_steps {
-        let (from, to) = (f64::from(step), f64::from(step + 1));
-        let x = |at: f64| bar.x + bar.width * at / f64::from(num_steps);
-        let color = canvas.theme().scale((from + 0.5) / f64::from(num_steps));
-        canvas.fill_color(
-            Rect::new(x(from), bar.y, x(to) - x(from), bar.height),
-            color,
-        );
+/// A window, nothing in it covered, and around it lines by which it is found and taken hold of.
+fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
+    let stroke = Stroke::solid(Role::Grip, 2.0).cased();
+    for (along, across) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+        let at = |distance: f64| (x + along * distance, y + across * distance);
+        canvas.line(at(half + 2.0), at(half + 11.0), stroke);
     }
-    canvas.stroke_rect(bar, Stroke::solid(Role::Edge, 1.0));
-    let y = bar.bottom() + 0.6 * line;
-    canvas.label((bar.x, y), "0 px, far", style);
-    let most = format!("{} px, near", format_number(answer.scale_px().into(), 0));
-    canvas.label((bar.right(), y), &most, style.end());
-    let theme = canvas.theme();
-    let rows = [
-        (Role::Surface, "exact"),
-        (Role::Candidate, "off by up to 2 px"),
-        (Role::Outlier, "off by more: bad"),
-        (Role::Reference, "hidden on the right"),
-    ];
-    let mut y = y + line;
-    let swatch = |y: f64| Rect::new(rect.x, y - 7.0, 14.0, 14.0);
-    for (role, words) in rows {
-        canvas.fill_color(swatch(y), theme.color(role));
-        canvas.stroke_rect(swatch(y), Stroke::solid(Role::Edge, 1.0));
-        canvas.label((rect.x + 20.0, y), words, style);
-        y += line;
+    let window = Rect::new(x - half, y - half, 2.0 * half, 2.0 * half);
+    canvas.stroke_rect(window, stroke);
+}
+
+/// What the colors mean: beside the small panels, or below everything.
+fn draw_legend(canvas: &mut Canvas, layout: &Layout, answer: Option<&Answer>) {
+    let truth = layout.panel("truth").rect;
+    let is_below = grid::is_narrow(layout.width);
+    let (x, y) = match is_below {
+        true => (0.0, truth.bottom() + 10.0),
+        false => (truth.right() + 2.0 * grid::GAP, truth.y + 1.0),
+    };
+    let room = layout.width - x;
+    let most = answer.map_or_else(
+        || "near".to_owned(),
+        |answer| format!("{} px, near", format_number(answer.scale_px().into(), 0)),
+    );
+    let bar = Rect::new(x, y, room.min(240.0), 11.0);
+    heat::bar(canvas, bar, ["0 px, far", &most], Theme::scale);
+    // Beside the bar where there is room, below it in columns of two on a phone.
+    let (mut left, top, rows) = match is_below {
+        true => (x, bar.bottom() + 2.0 * ROW, 2),
+        false => (bar.right() + 40.0, y + 8.0, SWATCHES.len()),
+    };
+    let mut widest = 0.0_f64;
+    for (index, (fill, words)) in SWATCHES.into_iter().enumerate() {
+        let row = index % rows;
+        if index > 0 && row == 0 {
+            left += widest + 32.0;
+            widest = 0.0;
+        }
+        heat::swatch(canvas, (left, top + row as f64 * ROW), fill, words);
+        widest = widest.max(text_width(words, SMALL));
     }
-    let stripe = |index: f64| Rect::new(rect.x + 4.0 * index, y - 7.0, 2.0, 14.0);
-    canvas.fill_color(swatch(y), theme.color(Role::Surface));
-    for index in 0..4 {
-        canvas.fill_color(stripe(f64::from(index)), theme.color(Role::Edge));
-    }
-    canvas.stroke_rect(swatch(y), Stroke::solid(Role::Edge, 1.0));
-    canvas.label((rect.x + 20.0, y), "no answer", style);
 }

@@ -1,6 +1,6 @@
 //! Matches of the still life's two photographs: exact by the scene's own geometry, then disturbed.
 
-use crate::scenes::{
+use crate::kit::scenes::{
     PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life, still_life_pair,
 };
 use epipole::camera::Camera;

@@ -4,7 +4,8 @@
 mod estimate;
 mod matches;
 mod model;
+mod question;
 mod view;
+mod words;
 
-pub use model::EightPoint;
 pub use view::EightPointView as View;

@@ -1,54 +1,32 @@
 //! The eight-point algorithm on matches of the still life, both with and without normalization.
 //!
 //! The state is the settings and the place of the probe. Matches are drawn when they are first
-//! needed, because following rays through the scene is the only part that takes time.
+//! needed; the photographs come from a worker, and nothing waits for them.
 
-use super::estimate::{Estimate, Meeting, line2};
+use super::estimate::{Estimate, line2};
 use super::matches::{MAX_USED, Matches, cameras, exact_match};
+use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Toggle,
-    Value, format_number,
+    Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
+    Settings, Slider, Toggle,
 };
-use crate::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
-use crate::words;
-use epipole::camera::Camera;
-use epipole::epipolar::{EightPoint as Solution, Epipole, epipoles, fundamental_from_cameras};
-use epipole::math::svd3;
+use crate::kit::probe::Probe;
+use crate::kit::question::{Asked, Question as _, carry_out};
+use crate::kit::scenes::PHOTO_SIZE;
+use epipole::epipolar::{Epipole, epipoles, fundamental_from_cameras};
 use nalgebra::{Matrix3, Point2};
 use std::cell::OnceCell;
 
-const COUNT: Slider = Slider {
-    id: "count",
-    label: "Number of matches",
-    unit: "",
-    min: 8.0,
-    max: MAX_USED as f64,
-    step: 1.0,
-    default: 16.0,
-    digits: 0,
-    visible: true,
-};
-const NOISE: Slider = Slider {
-    id: "noise",
-    label: "Pixel noise σ",
-    unit: "px",
-    min: 0.0,
-    max: 3.0,
-    step: 0.1,
-    default: 0.5,
-    digits: 1,
-    visible: true,
-};
-const NORMALIZE: Toggle = Toggle {
-    id: "normalize",
-    label: "Normalize the pixels",
-    default: true,
-};
-const RANK2: Toggle = Toggle {
-    id: "rank2",
-    label: "Enforce rank 2",
-    default: true,
-};
+const COUNT: Slider = Slider::new("count", "Number of matches")
+    .range(8.0, MAX_USED as f64, 1.0)
+    .at(16.0);
+const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
+    .range(0.0, 3.0, 0.1)
+    .at(0.5)
+    .digits(1)
+    .unit("px");
+const NORMALIZE: Toggle = Toggle::new("normalize", "Normalize").on();
+const RANK2: Toggle = Toggle::new("rank2", "Enforce rank 2").on();
 const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = &[
     Knob::Slider(&COUNT),
@@ -59,17 +37,24 @@ const KNOBS: &[Knob] = &[
 ];
 
 /// Where the probe begins: on the handle of the mug.
-const PROBE_PX: Point2<f64> = Point2::new(479.0, 327.0);
+const PROBE_PX: (f64, f64) = (479.0, 327.0);
 
 /// The model of `eight-point`.
 pub struct EightPoint {
     settings: Settings,
-    probe: Point2<f64>,
+    probe: Probe,
+    asked: Asked<Question>,
     matches: OnceCell<Matches>,
     estimate: OnceCell<Result<Estimate, String>>,
 }
 
 impl EightPoint {
+    /// The photographs, or why there are none.
+    pub(super) fn photographs(&self) -> Result<&Answer, &str> {
+        let why = || self.asked.problem().unwrap_or(Question::LABEL);
+        self.asked.answer().ok_or_else(why)
+    }
+
     fn matches(&self) -> &Matches {
         let seed = self.settings.count(&SEED) as u64;
         self.matches.get_or_init(|| Matches::draw(seed))
@@ -85,7 +70,7 @@ impl EightPoint {
 
     fn compute(&self) -> Result<Estimate, epipole::Error> {
         let matches = self.matches();
-        let used = matches.noisy(self.settings.count(&COUNT), self.settings.number(&NOISE));
+        let used = matches.noisy(self.settings.count(&COUNT), self.noise_px());
         Estimate::new(
             used,
             &matches.held_out,
@@ -102,8 +87,13 @@ impl EightPoint {
         self.settings.flag(&RANK2)
     }
 
-    pub(super) fn cameras(&self) -> [Camera; 2] {
-        cameras()
+    pub(super) fn noise_px(&self) -> f64 {
+        self.settings.number(&NOISE)
+    }
+
+    /// By how much the lines miss one another, pixels; `None` if they are nearly parallel.
+    pub(super) fn miss_px(&self) -> Option<f64> {
+        Some(self.estimate().ok()?.meeting?.miss_px)
     }
 
     /// F of the cameras themselves.
@@ -118,158 +108,41 @@ impl EightPoint {
     }
 
     pub(super) fn probe(&self) -> Point2<f64> {
-        self.probe
+        let (u, v) = self.probe.place(PHOTO_SIZE);
+        Point2::new(u, v)
     }
 
     /// The exact match of the probe, if photograph 2 shows it.
     pub(super) fn probe_match(&self) -> Option<Point2<f64>> {
-        exact_match(&self.probe)
+        exact_match(&self.probe())
     }
 
-    fn probe_px(&self) -> Option<f64> {
-        let line = line2(&self.estimate().ok()?.fundamental, &self.probe)?;
+    /// How far the match of the probe is from its line.
+    pub(super) fn probe_px(&self) -> Option<f64> {
+        let line = line2(&self.estimate().ok()?.fundamental, &self.probe())?;
         Some(line.signed_distance(&self.probe_match()?).abs())
-    }
-
-    fn handle(&self) -> Handle {
-        Handle {
-            id: "probe".to_owned(),
-            panel: "first",
-            label: "Probe in photograph 1".to_owned(),
-            value_text: format!("column {:.1}, row {:.1}", self.probe.x, self.probe.y),
-            x: self.probe.x,
-            y: self.probe.y,
-            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
-            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
-            step: [4.0, 4.0],
-            digits: 1,
-            removable: false,
-        }
-    }
-
-    fn put_probe(&mut self, x: f64, y: f64) {
-        if let Some((x, y)) = self.handle().admit(x, y) {
-            self.probe = Point2::new(x, y);
-        }
     }
 }
 
-impl Model for EightPoint {
+impl Declared for EightPoint {
     const NAME: &'static str = "eight-point";
     const TITLE: &'static str = "F from matches";
     const HELP: &'static str = "Drag the probe over photograph 1, or move it with the arrow keys: \
-        photograph 2 shows its line by the F that was found, and its true match. Change the number \
-        of matches and their noise, and switch normalization and rank 2 off and on.";
+        photograph 2 shows its epipolar line by the F that was found, and its true match. Change the \
+        matches and their noise, and switch normalization and rank 2 off and on.";
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            probe: PROBE_PX,
+            probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE_PX.0, PROBE_PX.1),
+            asked: Asked::about(Question),
             matches: OnceCell::new(),
             estimate: OnceCell::new(),
         }
     }
 
-    fn controls(&self) -> Vec<Control> {
-        self.settings.controls()
-    }
-
-    fn handles(&self) -> Vec<Handle> {
-        vec![self.handle()]
-    }
-
-    fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                let has_changed = self.settings.set(id, value)? == Some(true);
-                if has_changed {
-                    self.estimate.take();
-                }
-                if has_changed && id == SEED.id {
-                    self.matches.take();
-                }
-            }
-            Event::HandleMoved { x, y, .. } | Event::Clicked { x, y, .. } => self.put_probe(*x, *y),
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        let estimate = match self.estimate() {
-            Ok(estimate) => estimate,
-            Err(sentence) => return vec![Readout::words("state", "State", sentence)],
-        };
-        let solution = estimate.chosen();
-        let sigma = &solution.singular_values;
-        let values = [0, 7, 8].map(|k| words::magnitude(sigma[k], sigma[0]));
-        let of_f = svd3(&estimate.fundamental).singular_values;
-        let third = of_f[2] / of_f[0].max(f64::MIN_POSITIVE);
-        let condition = |solution: &Solution| words::magnitude(solution.condition_number, 0.0);
-        let number = |id, label, value| Readout::number(id, label, value, 2, "px");
-        vec![
-            Readout::words(
-                "condition-raw",
-                "Condition number, raw pixels",
-                condition(&estimate.raw),
-            ),
-            Readout::words(
-                "condition",
-                "Condition number, normalized",
-                condition(&estimate.normalized),
-            ),
-            Readout::words("values", "σ₁, σ₈, σ₉ of the rows", values.join(", ")),
-            Readout::words(
-                "third",
-                "Third singular value of F over its first",
-                words::magnitude(third, 1.0),
-            ),
-            Readout::words("meeting", "The lines", meeting_words(estimate.meeting)),
-            number("used", "Mean distance, matches used", estimate.used_px),
-            number(
-                "held-out",
-                "Mean distance, held-out points",
-                estimate.held_out_px,
-            ),
-            match self.probe_px() {
-                Some(distance) => number("probe-px", "Match of the probe from its line", distance),
-                None => Readout::words(
-                    "probe-px",
-                    "Match of the probe from its line",
-                    "not seen in photograph 2",
-                ),
-            },
-        ]
-    }
-
-    fn describe(&self) -> String {
-        let estimate = match self.estimate() {
-            Ok(estimate) => estimate,
-            Err(sentence) => return sentence.to_owned(),
-        };
-        let solution = estimate.chosen();
-        format!(
-            "F from {} matches with {} px of noise, {}, condition number {}. {}. Held-out points are \
-             {} px from their lines on average.",
-            estimate.used.len(),
-            format_number(self.settings.number(&NOISE), 1),
-            if self.is_normalized() {
-                "normalized"
-            } else {
-                "not normalized"
-            },
-            words::magnitude(solution.condition_number, 0.0),
-            match estimate.meeting {
-                Some(meeting) if meeting.miss_px < 1e-6 =>
-                    "All epipolar lines meet in the epipole".to_owned(),
-                Some(meeting) => format!(
-                    "Its rank is 3, so the epipolar lines miss one another, by {} px on average",
-                    format_number(meeting.miss_px, 2)
-                ),
-                None => "The epipolar lines are nearly parallel".to_owned(),
-            },
-            format_number(estimate.held_out_px, 2),
-        )
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
     }
 
     fn challenges() -> &'static [Challenge<Self>] {
@@ -277,79 +150,93 @@ impl Model for EightPoint {
     }
 }
 
-/// Whether and where the lines meet.
-fn meeting_words(meeting: Option<Meeting>) -> String {
-    match meeting {
-        Some(meeting) if meeting.miss_px < 1e-6 => {
-            format!("meet in {}", words::pixel(&meeting.place))
+impl Model for EightPoint {
+    fn controls(&self) -> Vec<Control> {
+        self.settings.controls()
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        vec![self.probe.handle(PHOTO_SIZE, 4.0)]
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if self.probe.update(event, PHOTO_SIZE) {
+            return Ok(());
         }
-        Some(meeting) => format!(
-            "miss one another by {} px",
-            format_number(meeting.miss_px, 2)
-        ),
-        None => "are nearly parallel".to_owned(),
+        if let Event::Set { id, value } = event {
+            let has_changed = self.settings.set(id, value)? == Some(true);
+            if has_changed {
+                self.estimate.take();
+            }
+            if has_changed && id == SEED.id {
+                self.matches.take();
+            }
+        }
+        Ok(())
+    }
+
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.asked.take(result);
     }
 }
 
 const CHALLENGES: &[Challenge<EightPoint>] = &[
     Challenge {
         id: "miss",
-        goal: "Make the epipolar lines miss one another by more than 1 px.",
-        hint: "Which step of the algorithm makes them meet?",
-        check: |model| {
-            let meeting = model.estimate().ok().and_then(|estimate| estimate.meeting);
-            meeting.is_some_and(|meeting| meeting.miss_px > 1.0)
-        },
-        solution: || vec![flag(&RANK2, false), number(&NOISE, 2.0)],
+        goal: "Make the epipolar lines miss one another by more than 2 px.",
+        hint: "Which step makes them meet?",
+        why: "An F of rank 3 sends no pixel to zero, so its lines have no common point; noise drives \
+              them apart.",
+        check: |model| model.miss_px().is_some_and(|miss_px| miss_px > 2.0),
+        solution: || vec![Event::set(&RANK2, false), Event::set(&NOISE, 3.0)],
+    },
+    Challenge {
+        id: "exact",
+        goal: "Without enforcing rank 2, make the lines meet within 0.05 px.",
+        hint: "Where does the third singular value come from?",
+        why: "Exact matches give rank 2 by themselves: the third singular value is made of noise.",
+        check: |model| !model.has_rank2() && model.miss_px().is_some_and(|miss_px| miss_px < 0.05),
+        solution: || vec![Event::set(&RANK2, false), Event::set(&NOISE, 0.0)],
     },
     Challenge {
         id: "more",
-        goal: "With a noise of 1 px or more, bring held-out points within 0.7 px of their lines.",
+        goal: "With 1 px of noise or more, bring held-out points within 0.7 px.",
         hint: "Errors of many matches average out.",
+        why: "Eight matches are fitted exactly, noise and all; sixty outvote one another's errors.",
         check: |model| {
-            model.settings.number(&NOISE) >= 1.0
-                && model
-                    .estimate()
-                    .is_ok_and(|estimate| estimate.held_out_px < 0.7)
+            let estimate = model.estimate();
+            model.noise_px() >= 1.0 && estimate.is_ok_and(|estimate| estimate.held_out_px < 0.7)
         },
-        solution: || vec![number(&NOISE, 1.0), number(&COUNT, 60.0)],
+        solution: || vec![Event::set(&NOISE, 1.0), Event::set(&COUNT, MAX_USED as f64)],
     },
     Challenge {
         id: "raw",
-        goal: "Find a state in which held-out points are more than 5 px from their lines.",
-        hint: "Few matches, more noise, and pixels as they are.",
+        goal: "With 60 matches, push held-out points beyond 5 px.",
+        hint: "More matches do not help pixels as they are.",
+        why: "In raw pixels the entries of a row run from 1 to 400 000, least squares serves the large \
+              ones, and no number of matches averages that away.",
         check: |model| {
-            model
-                .estimate()
-                .is_ok_and(|estimate| estimate.held_out_px > 5.0)
+            let is_far = |estimate: &Estimate| estimate.held_out_px > 5.0;
+            model.settings.count(&COUNT) == MAX_USED && model.estimate().is_ok_and(is_far)
         },
         solution: || {
             vec![
-                flag(&NORMALIZE, false),
-                number(&COUNT, 10.0),
-                number(&NOISE, 3.0),
+                Event::set(&NORMALIZE, false),
+                Event::set(&COUNT, MAX_USED as f64),
+                Event::set(&NOISE, 3.0),
             ]
         },
     },
 ];
 
-fn number(slider: &Slider, value: f64) -> Event {
-    Event::Set {
-        id: slider.id.to_owned(),
-        value: Value::Number(value),
-    }
-}
-
-fn flag(toggle: &Toggle, value: bool) -> Event {
-    Event::Set {
-        id: toggle.id.to_owned(),
-        value: Value::Flag(value),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Words;
 
     fn changed(events: &[Event]) -> EightPoint {
         let mut model = EightPoint::new();
@@ -360,9 +247,24 @@ mod tests {
     }
 
     #[test]
+    fn nothing_waits_for_the_photographs() {
+        let mut model = EightPoint::new();
+        assert!(model.job().is_some() && model.estimate().is_ok());
+        assert_eq!(model.photographs().err(), Some(Question::LABEL));
+        let (readouts, words) = (model.readouts(), model.describe());
+        model.job_done(Ok(vec![1, 2, 3]));
+        let problem = model.photographs().err().unwrap();
+        assert!(problem.starts_with("There are no photographs"));
+        assert_eq!((model.readouts(), model.describe()), (readouts, words));
+    }
+
+    #[test]
     fn without_noise_the_truth_is_found() {
         for is_normalized in [true, false] {
-            let model = changed(&[number(&NOISE, 0.0), flag(&NORMALIZE, is_normalized)]);
+            let model = changed(&[
+                Event::set(&NOISE, 0.0),
+                Event::set(&NORMALIZE, is_normalized),
+            ]);
             let estimate = model.estimate().unwrap();
             assert!(estimate.held_out_px < 1e-5, "{}", estimate.held_out_px);
             let truth = model.truth().unwrap();
@@ -383,7 +285,7 @@ mod tests {
             panic!("it is finite");
         };
         assert!((meeting.place - epipole).norm() < 1e-5);
-        let without = changed(&[flag(&RANK2, false)]);
+        let without = changed(&[Event::set(&RANK2, false)]);
         let estimate = without.estimate().unwrap();
         assert!(estimate.fundamental.determinant().abs() > 0.0);
         assert!(estimate.meeting.unwrap().miss_px > 0.1);

@@ -4,53 +4,61 @@
 use super::estimate::{Estimate, line2};
 use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
-use crate::labels::Labels;
-use crate::pair::{self, GAP, STACKED_BELOW, TEXT, TITLE, border_arrow, draw_line, draw_notice};
-use crate::photo::Photo;
-use crate::scenes::{PHOTO_SIZE, still_life};
+use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::kit::grid::{self, Grid, SMALL, TEXT};
+use crate::kit::labels::Labels;
+use crate::kit::pair::{border_arrow, draw_line};
+use crate::kit::plan;
+use crate::kit::plot::{self, Ruler};
+use crate::kit::scenes::PHOTO_SIZE;
 use crate::theme::Role;
 use epipole::epipolar::Epipole;
 use nalgebra::Point2;
 
-const SMALL: f64 = 12.0;
 const MARKER: f64 = 5.0;
 /// So many matches have their line drawn; more would hide the photograph.
 const NUM_LINES: usize = 10;
 /// The enlarged place shows so many pixels of photograph 2 to each side: the first that is enough.
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
-/// The decades that the singular values are plotted over, and their labels.
-const DECADES: (f64, f64) = (-3.0, 7.0);
-const DECADE_LABELS: [(f64, &str); 5] = [
-    (-2.0, "0.01"),
-    (0.0, "1"),
-    (2.0, "100"),
-    (4.0, "10⁴"),
-    (6.0, "10⁶"),
-];
+/// Height over width of the photographs.
+const ASPECT: f64 = 0.75;
+/// Photographs above the plots are no taller, CSS pixels.
+const TALLEST: f64 = 254.0;
+/// Height of the plots below the photographs, CSS pixels.
+const LOW: f64 = 104.0;
 
-/// The two photographs, kept between drawings.
+/// Draws [`EightPoint`].
 #[derive(Default)]
-pub struct EightPointView {
-    photos: [Photo; 2],
+pub struct EightPointView;
+
+fn rulers() -> [Ruler; 2] {
+    let names = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
+    [Ruler::things(names), Ruler::decades(-3.2, 6.6)]
+}
+
+/// The photographs, the enlarged place and the plot.
+fn cells(grid: &mut Grid, width: f64) -> [Rect; 4] {
+    if grid::is_broad(width) {
+        let [first, second, side] = grid.row([ASPECT, ASPECT, 1.05], 404.0);
+        let [meeting, values] = grid::stack(side, [1.0, 1.15]);
+        return [first, second, meeting, values];
+    }
+    let [first, second] = grid.row([ASPECT; 2], TALLEST);
+    let [meeting, values] = grid.shares([0.8, 1.0], LOW);
+    [first, second, meeting, values]
 }
 
 impl View for EightPointView {
     type Model = EightPoint;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, model: &EightPoint, width: f64) -> Layout {
-        let [first, second] = pair::panels(width, [PHOTO_SIZE; 2]);
-        let first = Panel {
-            clickable: true,
-            ..first
-        };
-        let is_stacked = width < STACKED_BELOW;
-        let top = second.rect.bottom() + GAP + TITLE;
-        let room = (width - GAP).max(2.0);
-        let height = if is_stacked { 190.0 } else { 230.0 };
-        let left = room * if is_stacked { 0.45 } else { 0.5 };
-        let meeting = Rect::new(0.0, top, left, height);
-        let values = Rect::new(left + GAP, top, room - left, height);
+        let mut grid = Grid::new(width);
+        let [first, second, meeting, values] = cells(&mut grid, width);
+        let (columns, rows) = PHOTO_SIZE;
+        let mut first = Panel::photograph("first", first, columns, rows);
+        first.clickable = true;
+        let second = Panel::photograph("second", second, columns, rows);
         let (place, half_width) = enlarged(model);
         // As many pixels to a CSS pixel along the rows as along the columns.
         let half_height = half_width * meeting.height / meeting.width;
@@ -58,93 +66,71 @@ impl View for EightPointView {
             start: middle - half,
             end: middle + half,
         };
-        Layout {
-            width,
-            height: values.bottom() + 24.0,
-            panels: vec![
-                first,
-                second,
-                Panel {
-                    id: "meeting",
-                    rect: meeting,
-                    x_axis: axis(place.x, half_width),
-                    y_axis: axis(place.y, half_height),
-                    clickable: false,
-                },
-                Panel {
-                    id: "values",
-                    rect: values,
-                    x_axis: Axis {
-                        start: if is_stacked { -1.4 } else { -0.4 },
-                        end: 9.6,
-                    },
-                    y_axis: Axis {
-                        start: DECADES.1,
-                        end: DECADES.0,
-                    },
-                    clickable: false,
-                },
-            ],
-        }
+        let meeting = Panel {
+            id: "meeting",
+            rect: meeting,
+            x_axis: axis(place.x, half_width),
+            y_axis: axis(place.y, half_height),
+            clickable: false,
+        };
+        let [x, y] = rulers();
+        let values = plot::panel("values", values, &x, &y);
+        grid.layout(vec![first, second, meeting, values])
     }
 
     fn draw(&mut self, model: &EightPoint, layout: &Layout, canvas: &mut Canvas) {
-        let (first, second) = (layout.panel("first"), layout.panel("second"));
-        self.draw_photographs(model, [first, second], canvas);
-        let (meeting, values) = (layout.panel("meeting"), layout.panel("values"));
-        let is_narrow = layout.width < STACKED_BELOW;
-        let titles = if is_narrow {
-            ["At the epipole", "Singular values"]
-        } else {
-            [
-                "Where the lines meet in photograph 2, enlarged",
-                "Singular values of the stacked rows",
-            ]
-        };
-        for (panel, title) in [(meeting, titles[0]), (values, titles[1])] {
-            pair::draw_title(canvas, panel.rect, title);
+        let [first, second, meeting, values] =
+            ["first", "second", "meeting", "values"].map(|id| layout.panel(id));
+        let titles: [(&Panel, &[&str]); 4] = [
+            (first, &["Photograph 1: drag the probe", "Photograph 1"]),
+            (
+                second,
+                &["Photograph 2: lines by the F found", "Photograph 2"],
+            ),
+            (
+                meeting,
+                &[
+                    "Where the lines meet, enlarged",
+                    "Where lines meet",
+                    "Meeting",
+                ],
+            ),
+            (
+                values,
+                &["Singular values of the rows", "Singular values", "Values"],
+            ),
+        ];
+        for (panel, wordings) in titles {
+            grid::fitting_title(canvas, panel.rect, wordings);
             canvas.panel(panel.rect);
         }
-        let estimate = match model.estimate() {
-            Ok(estimate) => estimate,
-            Err(sentence) => return draw_notice(canvas, second.rect, sentence),
-        };
-        canvas.clipped(first.rect, |canvas| {
-            draw_first(model, estimate, first, canvas)
-        });
-        canvas.clipped(second.rect, |canvas| {
-            draw_second(model, estimate, second, canvas)
-        });
-        canvas.clipped(meeting.rect.inset(1.0), |canvas| {
-            draw_meeting(model, estimate, meeting, canvas);
-        });
-        draw_values(model, estimate, values, canvas);
-    }
-
-    fn refine(&mut self, model: &EightPoint) -> bool {
-        let (cameras, scene) = (model.cameras(), still_life());
-        let mut photos = self.photos.iter_mut().zip(&cameras);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
-    }
-}
-
-impl EightPointView {
-    fn draw_photographs(&mut self, model: &EightPoint, panels: [&Panel; 2], canvas: &mut Canvas) {
-        let (cameras, scene) = (model.cameras(), still_life());
-        let titles = [
-            "Photograph 1: drag the probe",
-            "Photograph 2: lines by the F found",
-        ];
-        for index in 0..2 {
-            let rect = panels[index].rect;
-            pair::draw_title(canvas, rect, titles[index]);
-            match self.photos[index].picture(&scene, &cameras[index], [0.0; 3], PHOTO_SIZE) {
-                Ok(picture) => canvas.photograph(rect, picture),
-                Err(error) => {
-                    canvas.panel(rect);
-                    draw_notice(canvas, rect, &error.to_string());
-                }
+        let [x, y] = rulers();
+        plot::draw_axes(canvas, values, &x, &y);
+        let problem = match model.photographs() {
+            Ok(photographs) => {
+                canvas.photograph(first.rect, photographs[0].image());
+                canvas.photograph(second.rect, photographs[1].image());
+                None
             }
+            Err(problem) => Some(problem),
+        };
+        match model.estimate() {
+            Ok(estimate) => {
+                canvas.clipped(first.rect, |canvas| {
+                    draw_first(model, estimate, first, canvas)
+                });
+                canvas.clipped(second.rect, |canvas| {
+                    draw_second(model, estimate, second, canvas)
+                });
+                canvas.clipped(meeting.rect.inset(1.0), |canvas| {
+                    draw_meeting(model, estimate, meeting, canvas);
+                });
+                draw_values(model, estimate, values, canvas);
+            }
+            Err(sentence) => grid::notice(canvas, second.rect, sentence),
+        }
+        if let Some(problem) = problem {
+            grid::notice(canvas, first.rect, problem);
         }
     }
 }
@@ -219,23 +205,16 @@ fn draw_lines(estimate: &Estimate, panel: &Panel, canvas: &mut Canvas, cased: bo
 /// The lines around the place where they meet, and where they should have met.
 fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
     if estimate.meeting.is_none() {
-        return draw_notice(canvas, panel.rect, "The lines are nearly parallel.");
+        return grid::notice(canvas, panel.rect, "The lines are nearly parallel.");
     }
     draw_lines(estimate, panel, canvas, false);
     let mut labels = Labels::new(panel.rect.inset(2.0));
-    // A bar, so that the enlargement can be read off.
-    let bar_px = (panel.x_axis.end - panel.x_axis.start) / 10.0;
-    let length = bar_px * panel.scale_x();
-    let (x, y) = (panel.rect.x + 10.0, panel.rect.bottom() - 12.0);
-    let text = format!("{} px", format_number(bar_px, 0));
-    canvas.line(
-        (x, y),
-        (x + length, y),
-        Stroke::solid(Role::Ink, 2.0).cased(),
-    );
+    plan::draw_rule(canvas, panel, |length| {
+        format!("{} px", format_number(length, usize::from(length < 1.0)))
+    });
+    let lower = panel.rect.bottom() - 24.0;
+    labels.keep_rect_free(Rect::new(panel.rect.x, lower, panel.rect.width, 24.0));
     let style = TextStyle::new(Role::Ink, SMALL).cased();
-    canvas.label((x + length + 6.0, y), &text, style);
-    labels.keep_rect_free(Rect::new(x, y - 8.0, length + 50.0, 16.0));
     if let Some(Epipole::Finite(truth)) = model.true_epipole2() {
         let place = panel.canvas_from_world((truth.x, truth.y));
         if panel.rect.contains(place) {
@@ -247,50 +226,27 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
             let away_px = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
             let text = format!("truth: {} px", format_number(away_px, 0));
             labels.keep_free(from, 6.0);
-            labels.draw(canvas, &Labels::around(from, 9.0), &text, style);
+            // Near the arrow, or farther off where the rule is in the way.
+            let places = [9.0, 26.0].map(|distance| Labels::around(from, distance));
+            labels.draw(canvas, places.as_flattened(), &text, style);
         }
     }
 }
 
-/// Both lists of singular values over a logarithmic scale.
+/// Both lists of singular values, in decades.
 fn draw_values(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
-    let style = TextStyle::new(Role::Muted, SMALL);
-    let (low, _) = DECADES;
-    for (decade, text) in DECADE_LABELS {
-        let (from, y) = panel.canvas_from_world((0.6, decade));
-        let to = panel.rect.right() - 1.0;
-        canvas.line((from, y), (to, y), Stroke::solid(Role::Grid, 1.0));
-        canvas.label((panel.rect.x + 5.0, y), text, style);
-    }
-    for k in 1..=9 {
-        let x = panel.canvas_from_world((f64::from(k), low)).0;
-        let text = format!(
-            "σ{}",
-            ['₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][k as usize - 1]
-        );
-        canvas.label((x, panel.rect.bottom() + 12.0), &text, style.middle());
-    }
     let mut labels = Labels::new(panel.rect.inset(2.0));
-    let scale_width = panel.canvas_from_world((0.5, low)).0 - panel.rect.x;
-    labels.keep_rect_free(Rect {
-        width: scale_width,
-        ..panel.rect
-    });
     let [raw, normalized] = estimate.singular_values();
     let lists = [
-        (raw, Role::Outlier, Shape::Square, "raw pixels", false),
-        (normalized, Role::Inlier, Shape::Disk, "normalized", true),
+        (raw, Role::Outlier, Shape::Square, "raw pixels"),
+        (normalized, Role::Inlier, Shape::Disk, "normalized"),
     ];
     let mut texts = Vec::new();
-    for (values, role, shape, name, is_normalized) in lists {
-        let places: Vec<Place> = values
-            .iter()
-            .enumerate()
-            .map(|(k, value)| {
-                let decade = libm::log10(value.max(f64::MIN_POSITIVE)).max(low);
-                panel.canvas_from_world((k as f64 + 1.0, decade))
-            })
+    for (index, (values, role, shape, name)) in lists.into_iter().enumerate() {
+        let places: Vec<(f64, f64)> = (values.iter().enumerate())
+            .map(|(k, value)| (k as f64 + 1.0, plot::decade(*value).max(panel.y_axis.end)))
             .collect();
+        let is_normalized = index == 1;
         let is_chosen = is_normalized == model.is_normalized();
         let stroke = Stroke::solid(role, if is_chosen { 2.5 } else { 1.25 });
         let stroke = if is_normalized {
@@ -298,26 +254,18 @@ fn draw_values(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &
         } else {
             stroke.dashed()
         };
-        canvas.clipped(panel.rect.inset(1.0), |canvas| {
-            canvas.polyline(&places, stroke)
-        });
-        for &(x, y) in &places {
+        plot::draw_curve(canvas, panel, places.iter().copied(), stroke);
+        for place in &places {
+            let (x, y) = panel.canvas_from_world(*place);
             let place = (x, y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0));
             canvas.marker(place, if is_chosen { 4.5 } else { 3.5 }, shape, role, false);
-            labels.keep_free(place, 7.0);
+            labels.keep_free(place, 6.0);
         }
-        // A phone has no room for more than the name; the stroke says which one is in use.
-        let is_wide = panel.rect.width > 250.0;
-        let text = if is_chosen && is_wide {
-            format!("{name}, in use")
-        } else {
-            name.to_owned()
-        };
-        let anchor = if is_normalized { places[4] } else { places[2] };
-        texts.push((anchor, text, role));
+        let anchor = panel.canvas_from_world(places[if is_normalized { 4 } else { 3 }]);
+        texts.push((anchor, name, role));
     }
     for (anchor, text, role) in texts {
         let style = TextStyle::new(role, SMALL).cased();
-        labels.draw(canvas, &Labels::around(anchor, 8.0), &text, style);
+        labels.draw(canvas, &Labels::around(anchor, 8.0), text, style);
     }
 }

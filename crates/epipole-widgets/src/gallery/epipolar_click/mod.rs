@@ -1,8 +1,8 @@
 //! `epipolar-click`: a point in one photograph, its epipolar line in the other.
 
-mod knobs;
+mod geometry;
 mod model;
 mod view;
 mod words;
 
-pub(super) use view::EpipolarClickView;
+pub(crate) use view::EpipolarClickView as View;

@@ -1,105 +1,89 @@
-//! State and mathematics of `epipolar-click`: points of one photograph, their epipolar lines and
-//! true matches in another.
+//! Points of one photograph, and where the camera of the other one stands.
 
-use super::knobs::{ADD, BASELINE, FORWARD, KNOBS, MAX_POINTS, REMOVE, SELECTED, TURN};
-use super::words;
+use super::geometry::{self, Geometry, Match, find_match};
 use crate::contract::{
-    Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Slider, Value,
+    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
+    Settings, Slider, Value,
 };
-use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life_pair};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
-use epipole::epipolar::{
-    Epipole, epipolar_line1, epipolar_line2, epipoles, fundamental_from_cameras,
-};
-use epipole::math::Line2;
-use epipole::synthetic::Transfer;
-use nalgebra::{Matrix3, Point2};
+use epipole::epipolar::Epipole;
+use nalgebra::Point2;
+
+const MAX_POINTS: usize = 6;
+const BASELINE: Slider = Slider::new("baseline", "Camera 2 to the right")
+    .range(0.0, 0.8, 0.02)
+    .at(0.2)
+    .digits(2)
+    .unit("m");
+const FORWARD: Slider = Slider::new("forward", "Camera 2 forward")
+    .range(-0.6, 0.7, 0.02)
+    .at(0.2)
+    .digits(2)
+    .unit("m");
+const TURN: Slider = Slider::new("turn", "Camera 2 turned left")
+    .range(-15.0, 30.0, 1.0)
+    .at(4.0)
+    .unit("°");
+/// The point that the readouts speak of; 0 stands for the last one, until one is touched.
+const SELECTED: Slider = Slider::new("selected", "Selected point")
+    .range(0.0, MAX_POINTS as f64, 1.0)
+    .at(0.0)
+    .hidden();
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&BASELINE),
+    Knob::Slider(&FORWARD),
+    Knob::Slider(&TURN),
+    Knob::Slider(&SELECTED),
+];
+const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
+const REMOVE: Button = Button::new("remove", "Remove a point", ButtonRole::Action).more();
 
 /// Where points begin, pixels: the first [`NUM_AT_START`] at the start, the others when added. They
-/// are on the sun in a picture, the vase's rim, the mug's handle, a corner of the cloth, the tin and
-/// the apple.
+/// are on the sun in a picture, the vase's rim, the mug's handle, the border of the cloth, the tin and
+/// an orange.
 const PLACES_PX: [(f64, f64); MAX_POINTS] = [
     (216.0, 60.0),
     (332.0, 130.0),
     (479.0, 327.0),
-    (142.0, 455.0),
+    (300.0, 410.0),
     (505.0, 280.0),
-    (100.0, 246.0),
+    (291.0, 332.0),
 ];
 const NUM_AT_START: usize = 4;
+const POINT_IDS: [&str; MAX_POINTS] = ["p1", "p2", "p3", "p4", "p5", "p6"];
 /// Digits that a point's place is kept with.
 const DIGITS: usize = 1;
+/// Two points on one epipolar line are no farther from it than this, pixels; and they are at least so
+/// far from each other.
+const SAME_LINE_PX: f64 = 2.0;
+const APART_PX: f64 = 60.0;
 
-/// Points clicked in photograph 1, and where camera 2 stands.
+/// The model of `epipolar-click`.
 pub(crate) struct EpipolarClick {
     settings: Settings,
     points: [Option<Point2<f64>>; MAX_POINTS],
 }
 
-/// The epipolar geometry of the two cameras.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Geometry {
-    pub(super) fundamental: Matrix3<f64>,
-    pub(super) epipole1: Epipole,
-    pub(super) epipole2: Epipole,
-}
-
-/// Where a point of photograph 1 is in photograph 2.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Match {
-    /// There it is.
-    Visible(Point2<f64>),
-    /// It would be there, but this hides it.
-    Hidden(Point2<f64>, &'static str),
-    /// It would be beyond the picture's edge.
-    Outside(Point2<f64>),
-    /// Camera 2 has gone past it.
-    Behind,
-    /// Camera 1 sees nothing there.
-    Nothing,
-}
-
-impl Match {
-    /// The pixel of photograph 2, inside the picture or not, hidden or not.
-    pub(super) fn pixel(self) -> Option<Point2<f64>> {
-        match self {
-            Self::Visible(pixel) | Self::Hidden(pixel, _) | Self::Outside(pixel) => Some(pixel),
-            Self::Behind | Self::Nothing => None,
-        }
-    }
-}
-
 impl EpipolarClick {
-    /// The first and the second camera. The second is the first, moved and turned in its own
-    /// horizontal plane.
     pub(super) fn cameras(&self) -> [Camera; 2] {
-        let (right_m, forward_m, left_deg) = self.motion();
-        still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
+        geometry::cameras(self.motion())
     }
 
     /// Camera 2 in the frame of camera 1: meters to the right, meters forward, and degrees to the
     /// left.
     pub(super) fn motion(&self) -> (f64, f64, f64) {
-        (
-            self.settings.number(&BASELINE),
-            self.settings.number(&FORWARD),
-            self.settings.number(&TURN),
-        )
+        let number = |slider| self.settings.number(slider);
+        (number(&BASELINE), number(&FORWARD), number(&TURN))
     }
 
     /// None while both cameras stand at the same place.
     pub(super) fn geometry(&self) -> Option<Geometry> {
-        if self.settings.number(&BASELINE) == 0.0 && self.settings.number(&FORWARD) == 0.0 {
+        let (right_m, forward_m, _) = self.motion();
+        if right_m == 0.0 && forward_m == 0.0 {
             return None;
         }
-        let [first, second] = self.cameras();
-        let fundamental = fundamental_from_cameras(&first, &second).ok()?;
-        let (epipole1, epipole2) = epipoles(&fundamental).ok()?;
-        Some(Geometry {
-            fundamental,
-            epipole1,
-            epipole2,
-        })
+        Geometry::of(&self.cameras())
     }
 
     /// The points with their index.
@@ -108,59 +92,39 @@ impl EpipolarClick {
         points.filter_map(|(index, point)| Some((index, (*point)?)))
     }
 
-    pub(super) fn point(&self, index: usize) -> Option<Point2<f64>> {
-        self.points[index]
-    }
-
-    /// The index of the point that the readouts speak of.
-    pub(super) fn selected(&self) -> Option<usize> {
+    /// The point that the readouts speak of, with its index.
+    pub(super) fn selected(&self) -> Option<(usize, Point2<f64>)> {
         let chosen = self.settings.count(&SELECTED).checked_sub(1);
-        chosen
-            .filter(|&index| self.points[index].is_some())
-            .or_else(|| self.points().last().map(|(index, _)| index))
+        self.points()
+            .find(|(index, _)| chosen == Some(*index))
+            .or_else(|| self.points().last())
     }
 
-    /// Where a pixel of photograph 1 is in photograph 2, by the scene's exact depth.
     pub(super) fn find_match(&self, pixel1: &Point2<f64>) -> Match {
-        let [first, second] = self.cameras();
-        match scenes::still_life().transfer(&first, &second, pixel1) {
-            Transfer::Visible { pixel2, .. } | Transfer::Occluded { pixel2, .. }
-                if !in_picture(&pixel2) =>
-            {
-                Match::Outside(pixel2)
-            }
-            Transfer::Visible { pixel2, .. } => Match::Visible(pixel2),
-            Transfer::Occluded { pixel2, by, .. } => Match::Hidden(pixel2, by),
-            Transfer::BehindCamera { .. } => Match::Behind,
-            Transfer::Nothing => Match::Nothing,
-        }
+        find_match(&self.cameras(), pixel1)
     }
 
-    /// The epipolar line of a pixel of photograph 1; `None` for the epipole itself, too.
-    pub(super) fn line2(&self, geometry: &Geometry, pixel1: &Point2<f64>) -> Option<Line2> {
-        epipolar_line2(&geometry.fundamental, pixel1).ok()
-    }
-
-    /// The line of photograph 1 through a pixel and the epipole: all its points share one line in
-    /// photograph 2.
-    pub(super) fn line1(&self, geometry: &Geometry, pixel1: &Point2<f64>) -> Option<Line2> {
-        let line2 = self.line2(geometry, pixel1)?;
-        // Any point of the line in photograph 2 gives it, unless it is the epipole there.
-        let center = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) * 0.5;
-        let foot = line2.nearest(&center);
-        let other = Point2::new(foot.x - 500.0 * line2.b, foot.y + 500.0 * line2.a);
-        let nearness = |line: &Line2| line.signed_distance(pixel1).abs();
-        [foot, other]
-            .iter()
-            .filter_map(|pixel2| epipolar_line1(&geometry.fundamental, pixel2).ok())
-            .min_by(|a, b| nearness(a).total_cmp(&nearness(b)))
+    /// Whether some point lies on the line of another one, apart from it.
+    fn shares_a_line(&self) -> bool {
+        let Some(geometry) = self.geometry() else {
+            return false;
+        };
+        self.points().any(|(index, point)| {
+            let line = geometry.line1(&point);
+            line.is_some_and(|line| {
+                self.points().any(|(other, place)| {
+                    other != index
+                        && (place - point).norm() >= APART_PX
+                        && line.signed_distance(&place).abs() <= SAME_LINE_PX
+                })
+            })
+        })
     }
 
     fn select(&mut self, index: usize) {
         // A number within the slider's range is accepted.
-        let _ = self
-            .settings
-            .set(SELECTED.id, &Value::Number((index + 1) as f64));
+        let chosen = Value::Number((index + 1) as f64);
+        let _ = self.settings.set(SELECTED.id, &chosen);
     }
 
     fn handle(&self, index: usize, point: Point2<f64>) -> Handle {
@@ -194,36 +158,39 @@ impl EpipolarClick {
     fn remove(&mut self, index: usize) {
         self.points[index] = None;
         // The selection is said in full from now on, so that a permalink restores it.
-        let next = self.selected().unwrap_or(0);
+        let next = self.selected().map_or(0, |(index, _)| index);
         self.select(next);
     }
 }
-
-const POINT_IDS: [&str; MAX_POINTS] = ["p1", "p2", "p3", "p4", "p5", "p6"];
 
 fn index_of(id: &str) -> Option<usize> {
     POINT_IDS.iter().position(|known| *known == id)
 }
 
-impl Model for EpipolarClick {
+impl Declared for EpipolarClick {
     const NAME: &'static str = "epipolar-click";
     const TITLE: &'static str = "One point, one line";
-    const HELP: &'static str = "Click in photograph 1 to add a point, and drag points or move them \
-        with the arrow keys: each has its epipolar line in photograph 2. Move and turn the second \
-        camera with the sliders.";
+    const HELP: &'static str = "Click in photograph 1 to add a point. Drag points, or move them with \
+        the arrow keys: each has its epipolar line in photograph 2. Move and turn the second camera \
+        with the sliders.";
 
     fn new() -> Self {
-        let mut points = [None; MAX_POINTS];
-        for index in 0..NUM_AT_START {
+        let place = |index: usize| {
             let (u, v) = PLACES_PX[index];
-            points[index] = Some(Point2::new(u, v));
-        }
+            (index < NUM_AT_START).then(|| Point2::new(u, v))
+        };
         Self {
             settings: Settings::new(KNOBS),
-            points,
+            points: std::array::from_fn(place),
         }
     }
 
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for EpipolarClick {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         let count = self.points().count();
@@ -243,7 +210,7 @@ impl Model for EpipolarClick {
             Event::Set { id, value } => {
                 self.settings.set(id, value)?;
                 if id == SELECTED.id {
-                    let effective = self.selected().unwrap_or(0);
+                    let effective = self.selected().map_or(0, |(index, _)| index);
                     self.select(effective);
                 }
             }
@@ -270,7 +237,8 @@ impl Model for EpipolarClick {
             }
             // With every point in use, a click moves the selected one.
             Event::Clicked { x, y, .. } => {
-                if let Some(index) = self.free().or_else(|| self.selected()) {
+                let selected = self.selected().map(|(index, _)| index);
+                if let Some(index) = self.free().or(selected) {
                     self.put(index, *x, *y);
                 }
             }
@@ -286,26 +254,16 @@ impl Model for EpipolarClick {
         self.put(index, x, y);
         true
     }
-
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
-    }
-
-    fn describe(&self) -> String {
-        words::describe(self)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
-    }
 }
 
 const CHALLENGES: &[Challenge<EpipolarClick>] = &[
     Challenge {
         id: "epipole-inside",
         goal: "Bring the epipole e₂ into photograph 2.",
-        hint: "The epipole is where camera 2 sees camera 1, before or behind it. Which motion puts \
-               one camera in front of the other?",
+        hint: "The epipole is where camera 2 sees camera 1, before or behind it. Which motion puts one \
+               in front of the other?",
+        why: "Moving forward turns the baseline towards the optical axis, and the epipole is where the \
+              baseline meets the image.",
         check: |model| {
             let geometry = model.geometry();
             geometry.is_some_and(|geometry| match geometry.epipole2 {
@@ -313,52 +271,42 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
                 Epipole::AtInfinity(_) => false,
             })
         },
-        solution: || vec![set(&BASELINE, 0.1), set(&FORWARD, 0.4), set(&TURN, 0.0)],
+        solution: || vec![Event::set(&FORWARD, 0.7)],
     },
     Challenge {
-        id: "rows",
-        goal: "Make the epipolar lines of both photographs rows, so that every match is on the \
-               row of its point.",
-        hint: "Both epipoles must be infinitely far to the side.",
-        check: |model| {
-            let geometry = model.geometry();
-            geometry.is_some_and(|geometry| {
-                [geometry.epipole1, geometry.epipole2]
-                    .iter()
-                    .all(|epipole| matches!(epipole, Epipole::AtInfinity(d) if d.y.abs() < 1e-6))
-            })
+        id: "same-line",
+        goal: "Give two points of photograph 1 the same epipolar line.",
+        hint: "The dotted line through a point holds all points that share its line.",
+        why: "A plane through the baseline cuts both images in a line each, so all points of one line \
+              share the other.",
+        check: EpipolarClick::shares_a_line,
+        solution: || {
+            let model = EpipolarClick::new();
+            let (_, point) = model.points().next().unwrap_or_default();
+            let line = model.geometry().and_then(|geometry| geometry.line1(&point));
+            let place = line.map_or(point, |line| line.nearest(&Point2::new(400.0, 90.0)));
+            vec![Event::moved("p2", place.x, place.y)]
         },
-        solution: || vec![set(&FORWARD, 0.0), set(&TURN, 0.0)],
     },
     Challenge {
         id: "hidden",
         goal: "Find a point whose match is hidden behind something.",
-        hint: "Try the wall or the table just beside a near thing.",
+        hint: "Try the wall or the table just beside something near.",
+        why: "The line says where a match would be, not whether camera 2 sees it: near things hide \
+              different places from different cameras.",
         check: |model| {
             let mut points = model.points();
             points.any(|(_, point)| matches!(model.find_match(&point), Match::Hidden(..)))
         },
-        solution: || {
-            vec![Event::HandleMoved {
-                id: "p1".to_owned(),
-                x: 262.0,
-                y: 205.0,
-            }]
-        },
+        solution: || vec![Event::moved("p1", 262.0, 205.0)],
     },
 ];
-
-fn set(slider: &Slider, value: f64) -> Event {
-    Event::Set {
-        id: slider.id.to_owned(),
-        value: Value::Number(value),
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::epipolar::sampson_px;
+    use crate::contract::Words;
+    use epipole::synthetic::{Sampling, Scene};
 
     fn changed(events: &[Event]) -> EpipolarClick {
         let mut model = EpipolarClick::new();
@@ -368,25 +316,10 @@ mod tests {
         model
     }
 
-    #[test]
-    fn every_match_is_on_its_line() {
-        for (right, forward, turn) in [(0.5, -0.4, 14.0), (0.1, 0.4, 0.0), (0.8, 0.0, 30.0)] {
-            let model = changed(&[
-                set(&BASELINE, right),
-                set(&FORWARD, forward),
-                set(&TURN, turn),
-            ]);
-            let geometry = model.geometry().unwrap();
-            for (_, point) in model.points() {
-                let Some(pixel2) = model.find_match(&point).pixel() else {
-                    continue;
-                };
-                let line = model.line2(&geometry, &point).unwrap();
-                assert!(line.signed_distance(&pixel2).abs() < 1e-6);
-                assert!(sampson_px(&geometry.fundamental, &point, &pixel2) < 1e-6);
-                let line1 = model.line1(&geometry, &point).unwrap();
-                assert!(line1.signed_distance(&point).abs() < 1e-6);
-            }
+    fn epipole_column(model: &EpipolarClick) -> f64 {
+        match model.geometry().unwrap().epipole2 {
+            Epipole::Finite(pixel) => pixel.x,
+            Epipole::AtInfinity(_) => f64::INFINITY,
         }
     }
 
@@ -399,47 +332,72 @@ mod tests {
         }
     }
 
+    /// What the caption asks for: from the start, the slider alone brings the epipole in, and it comes
+    /// nearer all the way.
     #[test]
-    fn the_epipole_is_camera_1_seen_by_camera_2() {
-        let model = EpipolarClick::new();
-        let [first, second] = model.cameras();
-        let seen = second.project(&first.center_in_world()).unwrap();
-        let Epipole::Finite(pixel) = model.geometry().unwrap().epipole2 else {
-            panic!("it is finite");
-        };
-        assert!((pixel - seen).norm() < 1e-6);
+    fn moving_camera_2_forward_brings_the_epipole_into_the_picture() {
+        let mut last = epipole_column(&EpipolarClick::new());
+        assert!(last > 700.0, "{last}");
+        let num_steps = ((FORWARD.max - FORWARD.default) / FORWARD.step).round() as usize;
+        for step in 1..=num_steps {
+            let forward_m = FORWARD.snap(FORWARD.default + step as f64 * FORWARD.step);
+            let column = epipole_column(&changed(&[Event::set(&FORWARD, forward_m)]));
+            assert!(column < last, "{column} {last}");
+            last = column;
+        }
+        assert!((0.0..639.0).contains(&last), "{last}");
     }
 
     #[test]
-    fn turned_left_means_that_things_move_right_in_the_picture() {
-        let still = changed(&[set(&BASELINE, 0.0), set(&FORWARD, 0.0), set(&TURN, 0.0)]);
-        let turned = changed(&[set(&BASELINE, 0.0), set(&FORWARD, 0.0), set(&TURN, 10.0)]);
-        let point = Point2::new(300.0, 240.0);
-        let (a, b) = (still.find_match(&point), turned.find_match(&point));
-        assert!(b.pixel().unwrap().x > a.pixel().unwrap().x + 50.0);
-        assert!(turned.geometry().is_none());
-        assert_eq!(turned.describe(), words::NO_BASELINE);
+    fn camera_2_is_never_inside_a_thing() {
+        let ends = |slider: &Slider| [slider.min, 0.5 * (slider.min + slider.max), slider.max];
+        for right_m in ends(&BASELINE) {
+            for forward_m in ends(&FORWARD) {
+                let [_, second] = geometry::cameras((right_m, forward_m, 0.0));
+                let small = Camera {
+                    intrinsics: second.intrinsics.scaled(0.0125).unwrap(),
+                    ..second
+                };
+                let photograph = Scene::still_life().render(&small, 8, 6, Sampling::Draft);
+                assert!(photograph.is_ok(), "{right_m} {forward_m}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_step_there_is_a_sentence() {
+        let model = changed(&[Event::set(&BASELINE, 0.0), Event::set(&FORWARD, 0.0)]);
+        assert!(model.geometry().is_none());
+        assert!(model.describe().starts_with("Both photographs"));
+        let ids = |model: &EpipolarClick| {
+            let main = model.readouts().into_iter().filter(|readout| readout.main);
+            main.map(|readout| readout.id).collect::<Vec<_>>()
+        };
+        assert_eq!(ids(&model), ids(&EpipolarClick::new()));
     }
 
     #[test]
     fn points_are_added_until_there_is_no_room() {
         let mut model = EpipolarClick::new();
-        let click = |x: f64| Event::Clicked {
-            panel: "first".into(),
-            x,
-            y: 33.333,
-        };
         for x in [10.0, 20.0, 30.04] {
-            model.update(&click(x)).unwrap();
+            model.update(&Event::clicked("first", x, 33.333)).unwrap();
         }
         assert_eq!(model.points().count(), MAX_POINTS);
         assert_eq!(model.points[5], Some(Point2::new(30.0, 33.3)));
-        assert_eq!(model.selected(), Some(5));
-        model
-            .update(&Event::Press {
-                id: "remove".into(),
-            })
-            .unwrap();
-        assert_eq!(model.selected(), Some(4));
+        assert_eq!(model.selected().unwrap().0, 5);
+        model.update(&Event::press(REMOVE.id)).unwrap();
+        assert_eq!(model.selected().unwrap().0, 4);
+    }
+
+    #[test]
+    fn no_goal_is_reached_by_standing_to_the_side() {
+        let model = changed(&[
+            Event::set(&BASELINE, 0.3),
+            Event::set(&TURN, 0.0),
+            Event::set(&FORWARD, 0.0),
+        ]);
+        for challenge in CHALLENGES {
+            assert!(!(challenge.check)(&model), "{}", challenge.id);
+        }
     }
 }

@@ -1,18 +1,22 @@
-//! Drawing of `epipolar-click`: two photographs, points in the first, lines in the second.
+//! Two photographs, points in the first, lines in the second.
 
-use super::model::{EpipolarClick, Geometry, Match};
-use super::words as said;
+use super::geometry::{Geometry, Match};
+use super::model::EpipolarClick;
+use super::words::NO_BASELINE;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, View};
-use crate::labels::Labels;
-use crate::pair::{self, TEXT, border_arrow, draw_epipole, draw_line, draw_notice};
-use crate::photo::Photo;
-use crate::scenes::{self, PHOTO_SIZE};
+use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::grid::{self, Grid, TEXT};
+use crate::kit::labels::Labels;
+use crate::kit::pair::{border_arrow, draw_epipole, draw_line};
+use crate::kit::photo::Photo;
+use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
 use crate::theme::Role;
 
 const MARKER: f64 = 5.5;
+/// A tall photograph must not push everything else off the screen.
+const TALLEST: f64 = 430.0;
 
-/// The two photographs, kept between drawings.
+/// Draws [`EpipolarClick`].
 #[derive(Default)]
 pub(crate) struct EpipolarClickView {
     photos: [Photo; 2],
@@ -21,17 +25,16 @@ pub(crate) struct EpipolarClickView {
 impl View for EpipolarClickView {
     type Model = EpipolarClick;
 
+    const ASPECT: Aspect = Aspect::Broad;
+
     fn layout(&self, _model: &EpipolarClick, width: f64) -> Layout {
-        let [first, second] = pair::panels(width, [PHOTO_SIZE; 2]);
-        let first = Panel {
-            clickable: true,
-            ..first
-        };
-        Layout {
-            width,
-            height: second.rect.bottom(),
-            panels: vec![first, second],
-        }
+        let mut grid = Grid::new(width);
+        let aspect = f64::from(PHOTO_HEIGHT) / f64::from(PHOTO_WIDTH);
+        let [first, second] = grid.row([aspect; 2], TALLEST);
+        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
+        let mut first = photograph("first", first);
+        first.clickable = true;
+        grid.layout(vec![first, photograph("second", second)])
     }
 
     fn draw(&mut self, model: &EpipolarClick, layout: &Layout, canvas: &mut Canvas) {
@@ -45,7 +48,7 @@ impl View for EpipolarClickView {
             draw_second(model, geometry.as_ref(), second, canvas);
         });
         if geometry.is_none() {
-            draw_notice(canvas, second.rect, said::NO_BASELINE);
+            grid::notice(canvas, second.rect, NO_BASELINE);
         }
     }
 
@@ -65,18 +68,21 @@ impl EpipolarClickView {
     ) {
         let (cameras, scene) = (model.cameras(), scenes::still_life());
         let titles = [
-            "Photograph 1: click or drag a point",
-            "Photograph 2: its match is on its line",
+            ["Photograph 1: click or drag a point", "1: click or drag"],
+            [
+                "Photograph 2: its match is on its line",
+                "2: matches on lines",
+            ],
         ];
         for index in 0..2 {
             let rect = panels[index].rect;
-            pair::draw_title(canvas, rect, titles[index]);
+            grid::fitting_title(canvas, rect, &titles[index]);
             let picture = self.photos[index].picture(&scene, &cameras[index], [0.0; 3], PHOTO_SIZE);
             match picture {
                 Ok(picture) => canvas.photograph(rect, picture),
                 Err(error) => {
                     canvas.panel(rect);
-                    draw_notice(canvas, rect, &error.to_string());
+                    grid::notice(canvas, rect, &error.to_string());
                 }
             }
         }
@@ -97,7 +103,7 @@ fn draw_first(
     let mut labels = Labels::new(panel.rect);
     if let Some(geometry) = geometry {
         for (index, point) in model.points() {
-            if let Some(line) = model.line1(geometry, &point) {
+            if let Some(line) = geometry.line1(&point) {
                 let (role, _) = series(index);
                 let stroke = Stroke::solid(role, 1.25).dotted();
                 let (from, to) = draw_line(canvas, panel, &line, stroke);
@@ -130,9 +136,9 @@ fn draw_second(
 ) {
     let mut labels = Labels::new(panel.rect);
     if let Some(geometry) = geometry {
-        let selected = model.selected();
+        let selected = model.selected().map(|(index, _)| index);
         for (index, point) in model.points() {
-            if let Some(line) = model.line2(geometry, &point) {
+            if let Some(line) = geometry.line2(&point) {
                 let (role, _) = series(index);
                 let width = if selected == Some(index) { 2.5 } else { 1.75 };
                 let stroke = Stroke::solid(role, width).cased();
@@ -178,7 +184,10 @@ fn draw_second(
 
 /// A ring around the point that the readouts speak of.
 fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mut Canvas) {
-    if model.selected() == Some(index) {
+    if model
+        .selected()
+        .is_some_and(|(selected, _)| selected == index)
+    {
         let ring = Stroke::solid(Role::Grip, 2.0).cased();
         canvas.circle(place, MARKER + 5.0, ring);
     }

@@ -1,126 +1,154 @@
-//! What `epipolar-click` says: its readouts, its description, and how it says matches and motions.
+//! What `epipolar-click` says.
 
-use super::model::{EpipolarClick, Match};
-use crate::contract::{Readout, format_number};
-use crate::words::{self, pixel, side};
+use super::geometry::Match;
+use super::model::EpipolarClick;
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::words::{self, pixel, side};
+use epipole::epipolar::Epipole;
 
 /// What the figure says when both cameras stand at one place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
     no epipolar geometry: a point fixes its match without any depth, and no line is left over. \
     Move camera 2.";
 
-pub(super) fn readouts(model: &EpipolarClick) -> Vec<Readout> {
-    let selected = model
-        .selected()
-        .and_then(|index| Some((index, model.point(index)?)));
-    let mut readouts = vec![match selected {
-        Some((index, point)) => Readout::words(
-            "point",
-            "Selected point",
-            format!("{} at {}", index + 1, pixel(&point)),
-        ),
-        None => Readout::words("point", "Selected point", "none"),
-    }];
-    let geometry = model.geometry();
-    if let Some((_, point)) = selected {
-        let matched = model.find_match(&point);
-        readouts.push(Readout::words(
-            "match",
-            "Its match in photograph 2",
-            found(matched),
-        ));
-        if let Some(geometry) = &geometry {
-            let line = model.line2(geometry, &point);
-            readouts.push(Readout::words(
-                "line",
-                "Its epipolar line F x₁",
-                line.map_or_else(
-                    || "none: the point is the epipole".to_owned(),
-                    |line| words::line(&line),
-                ),
-            ));
-            readouts.push(match (line, matched.pixel()) {
-                (Some(line), Some(pixel2)) => Readout::number(
-                    "residual",
-                    "Distance of the match from the line",
-                    line.signed_distance(&pixel2).abs(),
-                    3,
-                    "px",
-                ),
-                _ => Readout::words("residual", "Distance of the match from the line", "none"),
-            });
-        }
-    }
-    match &geometry {
-        Some(geometry) => {
-            for (id, label, epipole) in [
-                ("e1", "Epipole e₁ in photograph 1", geometry.epipole1),
-                ("e2", "Epipole e₂ in photograph 2", geometry.epipole2),
-            ] {
-                readouts.push(Readout::words(id, label, words::epipole(&epipole)));
+impl Words for EpipolarClick {
+    fn readouts(&self) -> Vec<Readout> {
+        let selected = self.selected();
+        let matched = selected.map(|(_, point)| self.find_match(&point));
+        let pixel2 = matched.and_then(Match::pixel);
+        let geometry = self.geometry();
+        let line = selected
+            .zip(geometry)
+            .and_then(|((_, point), geometry)| geometry.line2(&point));
+        let distance = line
+            .zip(pixel2)
+            .map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
+        let text = |id, label, text: String| Readout::words(id, label, text);
+        let none = || "none".to_owned();
+        let of_geometry = |say: &dyn Fn(&super::geometry::Geometry) -> String| {
+            geometry.as_ref().map_or_else(none, say)
+        };
+        vec![
+            text(
+                "match",
+                "Its match",
+                pixel2.map_or_else(none, |pixel2| pixel(&pixel2)),
+            )
+            .main(),
+            match distance {
+                Some(distance) => {
+                    Readout::number("residual", "Match to its line", distance, 3, "px")
+                }
+                None => text("residual", "Match to its line", none()),
             }
-            readouts.push(Readout::words(
+            .main(),
+            text(
+                "e2",
+                "Epipole e₂",
+                of_geometry(&|geometry| short(&geometry.epipole2)),
+            )
+            .main(),
+            text(
+                "point",
+                "Selected point",
+                selected.map_or_else(none, |(index, point)| {
+                    format!("{} at {}", index + 1, pixel(&point))
+                }),
+            ),
+            text(
+                "sight",
+                "Camera 2 sees it",
+                matched.map_or_else(none, sight),
+            ),
+            text(
+                "line",
+                "Its line F x₁",
+                line.map_or_else(none, |line| words::line(&line)),
+            ),
+            text(
+                "e1",
+                "Epipole e₁",
+                of_geometry(&|geometry| short(&geometry.epipole1)),
+            ),
+            text(
                 "f",
                 "F, by rows",
-                words::matrix(&geometry.fundamental),
-            ));
-        }
-        None => readouts.push(Readout::words("f", "F, by rows", "not determined")),
+                of_geometry(&|geometry| words::matrix(&geometry.fundamental)),
+            ),
+            text(
+                "e",
+                "E, by rows",
+                of_geometry(&|geometry| words::matrix(&geometry.essential)),
+            ),
+        ]
     }
-    readouts
-}
 
-pub(super) fn describe(model: &EpipolarClick) -> String {
-    let (right_m, forward_m, left_deg) = model.motion();
-    let Some(geometry) = model.geometry() else {
-        return NO_BASELINE.to_owned();
-    };
-    let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
-    let count = model.points().count();
-    if count == 0 {
-        text.push_str("No point is chosen in photograph 1");
-    } else {
-        let seen = model
+    fn describe(&self) -> String {
+        let Some(geometry) = self.geometry() else {
+            return NO_BASELINE.to_owned();
+        };
+        let (right_m, forward_m, left_deg) = self.motion();
+        let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
+        let count = self.points().count();
+        let seen = self
             .points()
-            .filter(|(_, point)| matches!(model.find_match(point), Match::Visible(_)))
+            .filter(|(_, point)| matches!(self.find_match(point), Match::Visible(_)))
             .count();
-        let points = if count == 1 { "point" } else { "points" };
-        let lines = if count == 1 { "line" } else { "lines" };
-        text.push_str(&format!(
-            "The epipolar {lines} of {count} {points} of photograph 1 each hold the match, \
-             which is visible in photograph 2 for {}",
-            if seen == count {
-                "all of them".to_owned()
-            } else if seen == 0 {
-                "none of them".to_owned()
-            } else {
-                format!("{seen} of them")
+        let seen = match seen {
+            0 => "none".to_owned(),
+            all if all == count => "all".to_owned(),
+            some => some.to_string(),
+        };
+        text.push_str(&match count {
+            0 => "No point is chosen in photograph 1".to_owned(),
+            1 => {
+                let visible = if seen == "none" { "out of sight" } else { "visible" };
+                format!(
+                    "The epipolar line of the point in photograph 1 holds its match, which is {visible} \
+                     in photograph 2"
+                )
             }
+            _ => format!(
+                "The epipolar lines of {count} points in photograph 1 hold their matches, of which \
+                 {seen} can be seen in photograph 2"
+            ),
+        });
+        text.push_str(&format!(
+            "; the epipole e₂, where all lines meet, is {}.",
+            words::epipole(&geometry.epipole2)
         ));
+        if let Some((index, point)) = self.selected() {
+            text.push_str(&format!(" Point {} is at {}.", index + 1, pixel(&point)));
+        }
+        text
     }
-    text.push_str(&format!(
-        "; the epipole e₂, where all lines meet, is {}.",
-        words::epipole(&geometry.epipole2)
-    ));
-    if let Some((index, point)) = model.selected().zip(model.points().last().map(|(_, p)| p)) {
-        let point = model.point(index).unwrap_or(point);
-        text.push_str(&format!(" Point {} is at {}.", index + 1, pixel(&point)));
-    }
-    text
 }
 
-/// A match, such as "at (251.0, 202.3)".
-fn found(found: Match) -> String {
+/// An epipole, such as "(1273, 240)".
+fn short(epipole: &Epipole) -> String {
+    match epipole {
+        Epipole::Finite(place) => format!(
+            "({}, {})",
+            format_number(place.x, 0),
+            format_number(place.y, 0)
+        ),
+        Epipole::AtInfinity(_) => "at infinity".to_owned(),
+    }
+}
+
+/// Whether camera 2 sees a match, such as "no: the jug hides it".
+fn sight(found: Match) -> String {
     match found {
-        Match::Visible(place) => format!("at {}", pixel(&place)),
-        Match::Hidden(place, by) => format!("at {}, but hidden by {by}", pixel(&place)),
-        Match::Outside(place) => format!("at {}, {}", pixel(&place), side(&place)),
-        Match::Behind => "none: it is behind camera 2".to_owned(),
-        Match::Nothing => "none: camera 1 sees nothing there".to_owned(),
+        Match::Visible(_) => "yes".to_owned(),
+        Match::Hidden(_, by) => format!("no: {by} hides it"),
+        Match::Outside(place) => format!("no: it is {}", side(&place)),
+        Match::Behind => "no: it is behind camera 2".to_owned(),
+        Match::Nothing => "no: camera 1 sees nothing there".to_owned(),
     }
 }
 
-/// Where camera 2 stands, such as "0.50 m to the right of camera 1 and 0.40 m behind it, turned 14° to the left".
+/// Where camera 2 stands, such as "0.50 m to the right of camera 1 and 0.40 m behind it, turned 14° to
+/// the left".
 fn motion(right_m: f64, forward_m: f64, left_deg: f64) -> String {
     let number = |value: f64| format_number(value.abs(), 2);
     let mut parts = Vec::new();

@@ -1,6 +1,8 @@
-//! `four-poses`: the four poses that an essential matrix allows, and the one in front.
+//! `four-poses`: what an essential matrix says of two cameras, four times, from above.
 
 mod model;
+mod poses;
 mod view;
+mod words;
 
 pub(crate) use view::FourPosesView as View;

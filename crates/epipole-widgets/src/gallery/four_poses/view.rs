@@ -1,22 +1,23 @@
-//! Four views from above: the same rays, under each of the four poses.
+//! The four poses from above, side by side: what is in front of both cameras, and what is not.
 
-use super::model::{EDGES, FourPoses, Pose, X_RANGE, Z_RANGE};
-use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, View};
-use crate::labels::Labels;
+use super::model::{FourPoses, X_RANGE, Z_RANGE};
+use super::poses::{EDGES, FOCAL_PX, Pose, RIDGE, SIZE};
+use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, Rect, View};
+use crate::kit::grid::{self, Grid, TEXT};
+use crate::kit::labels::Labels;
+use crate::kit::pair::border_arrow;
+use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
-use epipole::camera::RigidTransform;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point2, Point3, Vector3};
 
-const GAP: f64 = 10.0;
-const TITLE: f64 = 24.0;
-const TEXT: f64 = 13.0;
-const NARROW: f64 = 500.0;
-/// What a panel shows to the right of camera 1 and before it.
-const HALF_WIDTH: f64 = 4.6;
-const HALF_HEIGHT: f64 = 4.2;
-/// How long and how wide the triangle is that stands for a camera.
-const LENS: f64 = 0.55;
+/// What a panel shows around camera 1 at least: to each side, and along its axis.
+const HALF_WIDTH: f64 = 3.2;
+const HALF_DEPTH: f64 = 3.9;
+/// Height of a panel on a phone, CSS pixels.
+const LOW: f64 = 150.0;
+/// How far before a camera its image plane is drawn.
+const LENS: f64 = 0.6;
 const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(1), Shape::Square),
@@ -34,75 +35,63 @@ pub(crate) struct FourPosesView;
 
 impl View for FourPosesView {
     type Model = FourPoses;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, _: &FourPoses, width: f64) -> Layout {
-        let cell = ((width - GAP) / 2.0).max(1.0);
-        let height = cell * HALF_HEIGHT / HALF_WIDTH;
-        let panel = |(index, (id, _)): (usize, &(&'static str, &str))| {
-            let x = (index % 2) as f64 * (cell + GAP);
-            let y = TITLE + (index / 2) as f64 * (height + TITLE + 6.0);
-            Panel {
-                id,
-                rect: Rect::new(x, y, cell, height),
-                x_axis: Axis {
-                    start: -HALF_WIDTH,
-                    end: HALF_WIDTH,
-                },
-                y_axis: Axis {
-                    start: HALF_HEIGHT,
-                    end: -HALF_HEIGHT,
-                },
-                clickable: false,
-            }
+        let mut grid = Grid::new(width);
+        let rects = if grid::is_narrow(width) {
+            let [first, second] = grid.shares([1.0; 2], LOW);
+            let [third, fourth] = grid.shares([1.0; 2], LOW);
+            [first, second, third, fourth]
+        } else {
+            grid.row([1.3; 4], 400.0)
         };
-        Layout {
-            width,
-            height: 2.0 * (height + TITLE) + 8.0,
-            panels: PANELS.iter().enumerate().map(panel).collect(),
-        }
+        let panels = PANELS.into_iter().zip(rects).map(|((id, _), rect)| {
+            let half_depth = HALF_DEPTH.max(HALF_WIDTH * rect.height / rect.width.max(1.0));
+            plan::panel(id, rect, (0.0, 0.0), half_depth)
+        });
+        grid.layout(panels.collect())
     }
 
     fn draw(&mut self, model: &FourPoses, layout: &Layout, canvas: &mut Canvas) {
         for (index, (id, name)) in PANELS.into_iter().enumerate() {
             let panel = layout.panel(id);
             canvas.panel(panel.rect);
-            let pose = model.poses().get(index);
-            let place = (panel.rect.x, panel.rect.y - TITLE / 2.0);
-            let style = TextStyle::new(Role::Ink, TEXT);
-            canvas.label(place, name, style);
-            if let Some(pose) = pose {
-                draw_count(model, pose, panel, layout.width < NARROW, canvas);
+            grid::title(canvas, panel.rect, name);
+            if index == 0 {
+                draw_room(panel, canvas);
+            }
+            if let Some(pose) = model.poses().get(index) {
+                draw_count(model, pose, panel, canvas);
                 draw_pose(pose, panel, index == 0, canvas);
             }
         }
         let first = layout.panel(PANELS[0].0);
-        let (x, z) = model.place();
-        let rect = first.rect.inset(1.0);
-        canvas.clipped(rect, |canvas| {
-            let (left, far) = first.canvas_from_world((X_RANGE[0], Z_RANGE[1]));
-            let (right, near) = first.canvas_from_world((X_RANGE[1], Z_RANGE[0]));
-            let room = Rect::new(left, far, right - left, near - far);
-            canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
-            canvas.grip(first.canvas_from_world((x, z)), Role::Grip);
-        });
+        canvas.grip(first.canvas_from_world(model.place()), Role::Grip);
         if model.poses().is_empty() {
-            let words = "No step, no E: move camera 2.";
-            let style = TextStyle::new(Role::Ink, TEXT).cased();
-            canvas.paragraph(rect.inset(8.0), words, style);
+            grid::notice(canvas, first.rect, "No step, no E: move camera 2.");
         }
     }
 }
 
-/// How many points are in front of both cameras, at the right end of the title.
-fn draw_count(model: &FourPoses, pose: &Pose, panel: &Panel, is_narrow: bool, canvas: &mut Canvas) {
+/// Where camera 2 may stand.
+fn draw_room(panel: &Panel, canvas: &mut Canvas) {
+    let (left, far) = panel.canvas_from_world((X_RANGE[0], Z_RANGE[1]));
+    let (right, near) = panel.canvas_from_world((X_RANGE[1], Z_RANGE[0]));
+    let room = Rect::new(left, far, right - left, near - far);
+    canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
+}
+
+/// How many points are in front of both cameras.
+fn draw_count(model: &FourPoses, pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let (count, all) = (pose.num_in_front(), model.num_matches());
     let wins = count == all && all > 0;
-    let text = match is_narrow {
+    let text = match panel.rect.width < 240.0 {
         true => format!("{count} of {all}"),
-        false => format!("{count} of {all} in front of both"),
+        false => format!("{count} of {all} in front"),
     };
     let role = if wins { Role::Inlier } else { Role::Outlier };
-    let place = (panel.rect.right(), panel.rect.y - TITLE / 2.0);
+    let place = (panel.rect.right(), panel.rect.y - grid::TITLE / 2.0);
     canvas.label(place, &text, TextStyle::new(role, TEXT).end());
     if wins {
         canvas.stroke_rect(panel.rect, Stroke::solid(Role::Inlier, 3.0));
@@ -116,55 +105,62 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
         Point3::origin(),
         Point3::from(world_from_cam2.translation.vector),
     ];
-    canvas.clipped(panel.rect.inset(1.5), |canvas| {
-        for (from, to) in EDGES {
-            // A wall from before the cameras to behind them would pass through infinity.
-            if let (Some(a), Some(b)) = (&pose.crossings[from], &pose.crossings[to])
-                && a.in_front == b.in_front
-            {
-                let stroke = Stroke::solid(Role::Reference, 1.5);
-                canvas.line(at(&a.point), at(&b.point), stroke);
-            }
-        }
+    let inner = panel.rect.inset(1.5);
+    canvas.clipped(inner, |canvas| {
+        draw_house(pose, panel, canvas);
         // The rays of the ridge's end: backward ones dotted.
-        if let Some(crossing) = &pose.crossings[4] {
-            for index in 0..2 {
+        if let Some(crossing) = &pose.crossings[RIDGE] {
+            for (index, center) in centers.iter().enumerate() {
                 let stroke = Stroke::solid(CAMERAS[index].0, 1.25);
                 let stroke = match crossing.in_front[index] {
                     true => stroke,
                     false => stroke.dotted(),
                 };
-                canvas.line(at(&centers[index]), at(&crossing.point), stroke);
+                canvas.line(at(center), at(&crossing.point), stroke);
             }
         }
-        canvas.line(
-            at(&centers[0]),
-            at(&centers[1]),
-            Stroke::solid(Role::Ink, 1.5),
-        );
-        draw_camera(&RigidTransform::identity(), 0, panel, canvas);
-        draw_camera(&world_from_cam2, 1, panel, canvas);
-        for crossing in pose.crossings.iter().flatten() {
-            let place = at(&crossing.point);
-            match crossing.is_good() {
-                true => canvas.marker(place, 4.5, Shape::Disk, Role::Inlier, true),
-                false => canvas.marker(place, 4.5, Shape::Cross, Role::Outlier, true),
-            }
+        let baseline = Stroke::solid(Role::Ink, 1.5);
+        canvas.line(at(&centers[0]), at(&centers[1]), baseline);
+        let ahead = [Vector3::z(), world_from_cam2.rotation * Vector3::z()];
+        for index in 0..2 {
+            let camera = PlanCamera {
+                center: Point2::new(centers[index].x, centers[index].z),
+                heading_rad: libm::atan2(ahead[index].x, ahead[index].z),
+                half_width: f64::from(SIZE.0) / 2.0 / FOCAL_PX,
+                mark: CAMERAS[index],
+            };
+            camera.draw(canvas, panel, LENS);
         }
     });
     let mut labels = Labels::new(panel.rect.inset(4.0));
+    for crossing in pose.crossings.iter().flatten() {
+        let place = at(&crossing.point);
+        let role = if crossing.is_good() {
+            Role::Inlier
+        } else {
+            Role::Outlier
+        };
+        if !inner.contains(place) {
+            // Too far away to be shown: where it is.
+            if let Some((from, to)) = border_arrow(inner, place) {
+                canvas.arrow(shorter(from, to), to, Stroke::solid(role, 1.5));
+            }
+            continue;
+        }
+        match crossing.is_good() {
+            true => canvas.marker(place, 4.0, Shape::Disk, role, true),
+            false => canvas.marker(place, 4.0, Shape::Cross, role, true),
+        }
+        labels.keep_free(place, 6.0);
+    }
     for center in &centers {
         labels.keep_free(at(center), 9.0);
     }
-    for crossing in pose.crossings.iter().flatten() {
-        labels.keep_free(at(&crossing.point), 6.0);
-    }
     for (index, center) in centers.iter().enumerate() {
         let style = TextStyle::new(CAMERAS[index].0, TEXT).cased();
-        let name = if panel.rect.width < 250.0 {
-            ["1", "2"][index]
-        } else {
-            ["camera 1", "camera 2"][index]
+        let name = match panel.rect.width < 240.0 {
+            true => ["1", "2"][index],
+            false => ["camera 1", "camera 2"][index],
         };
         let distance = if is_held && index == 1 { 12.0 } else { 8.0 };
         let mut around = Labels::around(at(center), distance);
@@ -173,17 +169,38 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     }
 }
 
-/// A camera from above: its center, and a triangle open to where it looks.
-fn draw_camera(world_from_cam: &RigidTransform, index: usize, panel: &Panel, canvas: &mut Canvas) {
-    let (role, shape) = CAMERAS[index];
-    let center = Point3::from(world_from_cam.translation.vector);
-    let side = |sideways: f64| {
-        let ray = world_from_cam.rotation * Vector3::new(sideways * LENS, 0.0, LENS * 1.2);
-        panel.canvas_from_world((center.x + ray.x, center.z + ray.z))
-    };
-    let place = panel.canvas_from_world((center.x, center.z));
-    let (left, right) = (side(-0.64), side(0.64));
-    canvas.polygon(&[place, left, right], role, 0.25);
-    canvas.polygon_outline(&[place, left, right], Stroke::solid(role, 1.5));
-    canvas.marker(place, 4.5, shape, role, true);
+/// Walls and ridge, as far as both ends of each are on one side of the cameras: a wall from before them
+/// to behind them would pass through infinity.
+fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
+    let at = |point: &Point3<f64>| panel.canvas_from_world((point.x, point.z));
+    let base: Vec<Place> = pose.crossings[..4]
+        .iter()
+        .flatten()
+        .map(|c| at(&c.point))
+        .collect();
+    let sides: Vec<[bool; 2]> = pose
+        .crossings
+        .iter()
+        .flatten()
+        .map(|c| c.in_front)
+        .collect();
+    if base.len() == 4 && sides.windows(2).all(|pair| pair[0] == pair[1]) {
+        canvas.polygon(&base, Role::Reference, 0.16);
+    }
+    for (from, to) in EDGES {
+        if let (Some(a), Some(b)) = (&pose.crossings[from], &pose.crossings[to])
+            && a.in_front == b.in_front
+        {
+            canvas.line(
+                at(&a.point),
+                at(&b.point),
+                Stroke::solid(Role::Reference, 1.5),
+            );
+        }
+    }
+}
+
+/// An arrow's start, nearer to its point.
+fn shorter(from: Place, to: Place) -> Place {
+    ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0)
 }

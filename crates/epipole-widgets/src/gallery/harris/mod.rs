@@ -1,8 +1,8 @@
 //! `harris`: an image and its corner response, with a probe for the structure tensor.
 
-mod answer;
 mod model;
+mod question;
 mod view;
+mod words;
 
-pub use model::Harris;
 pub use view::HarrisView as View;

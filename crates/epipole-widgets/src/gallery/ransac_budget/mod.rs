@@ -1,7 +1,7 @@
-//! `ransac-budget`: how many samples are needed, against the share of inliers.
+//! `ransac-budget`: how many samples are needed, against the inlier ratio.
 
 mod model;
 mod view;
+mod words;
 
-pub use model::RansacBudget;
 pub use view::RansacBudgetView as View;

@@ -2,49 +2,36 @@
 //! sizes.
 
 use crate::contract::{
-    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number,
 };
 use epipole::robust::num_trials_with_replacement;
 
-/// Sample sizes, and what needs them.
-pub(super) const SIZES: [(usize, &str); 5] = [
-    (2, "a line"),
-    (4, "a homography"),
-    (5, "E"),
-    (7, "F from seven"),
-    (8, "F from eight"),
-];
+/// Sample sizes: of a line, a homography, E, and F from seven or from eight matches.
+pub(super) const SIZES: [usize; 5] = [2, 4, 5, 7, 8];
 
-/// Smallest and largest share of inliers, and the one at first.
-pub(super) const SHARES: [f64; 2] = [0.1, 0.99];
-const SHARE: f64 = 0.5;
+/// Smallest and largest inlier ratio, and the one at first.
+pub(super) const RATIOS: [f64; 2] = [0.1, 0.99];
+const RATIO: f64 = 0.5;
 
-const CONFIDENCE: Slider = Slider {
-    id: "p",
-    label: "Confidence p",
-    unit: "",
-    min: 0.5,
-    max: 0.999,
-    step: 0.001,
-    default: 0.99,
-    digits: 3,
-    visible: true,
-};
+const CONFIDENCE: Slider = Slider::new("p", "Confidence p")
+    .range(0.5, 0.999, 0.001)
+    .at(0.99)
+    .digits(3);
 const KNOBS: &[Knob] = &[Knob::Slider(&CONFIDENCE)];
 
 /// The model of `ransac-budget`.
 pub struct RansacBudget {
     settings: Settings,
-    share: f64,
+    inlier_ratio: f64,
 }
 
 impl RansacBudget {
-    pub(super) fn share(&self) -> f64 {
-        self.share
+    pub(super) fn inlier_ratio(&self) -> f64 {
+        self.inlier_ratio
     }
 
-    fn confidence(&self) -> f64 {
+    pub(super) fn confidence(&self) -> f64 {
         self.settings.number(&CONFIDENCE)
     }
 
@@ -53,43 +40,52 @@ impl RansacBudget {
         num_trials_with_replacement(w, size, self.confidence()).ok()
     }
 
-    fn now(&self, size: usize) -> u64 {
-        self.trials(size, self.share()).unwrap_or(u64::MAX)
+    pub(super) fn now(&self, size: usize) -> u64 {
+        self.trials(size, self.inlier_ratio).unwrap_or(u64::MAX)
+    }
+
+    fn handle(&self) -> Handle {
+        Handle {
+            id: "share".to_owned(),
+            panel: "plot",
+            label: "Inlier ratio w".to_owned(),
+            value_text: format!("{} % inliers", format_number(100.0 * self.inlier_ratio, 0)),
+            x: self.inlier_ratio,
+            y: 0.0,
+            x_range: RATIOS,
+            y_range: [0.0, 0.0],
+            step: [0.01, 0.0],
+            digits: 2,
+            removable: false,
+        }
     }
 }
 
-impl Model for RansacBudget {
+impl Declared for RansacBudget {
     const NAME: &'static str = "ransac-budget";
     const TITLE: &'static str = "How many samples?";
-    const HELP: &'static str = "Drag the dashed line to a share of inliers, or click where it should be, \
-        and change the confidence.";
+    const HELP: &'static str = "Drag the dashed line to an inlier ratio, or click where it should be, and \
+        change the confidence.";
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            share: SHARE,
+            inlier_ratio: RATIO,
         }
     }
 
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for RansacBudget {
     fn controls(&self) -> Vec<Control> {
         self.settings.controls()
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let share = self.share();
-        vec![Handle {
-            id: "share".to_owned(),
-            panel: "plot",
-            label: "Share of inliers w".to_owned(),
-            value_text: format!("{} % inliers", format_number(100.0 * share, 0)),
-            x: share,
-            y: 0.0,
-            x_range: SHARES,
-            y_range: [0.0, 0.0],
-            step: [0.01, 0.0],
-            digits: 2,
-            removable: false,
-        }]
+        vec![self.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
@@ -98,73 +94,47 @@ impl Model for RansacBudget {
                 self.settings.set(id, value)?;
             }
             Event::Clicked { x, .. } | Event::HandleMoved { x, .. } => {
-                let handles = self.handles();
-                if let Some((share, _)) = handles[0].admit(*x, 0.0) {
-                    self.share = share;
+                if let Some((ratio, _)) = self.handle().admit(*x, 0.0) {
+                    self.inlier_ratio = ratio;
                 }
             }
             _ => {}
         }
         Ok(())
     }
-
-    fn readouts(&self) -> Vec<Readout> {
-        const LABELS: [(&str, &str); 5] = [
-            ("n2", "s = 2, a line"),
-            ("n4", "s = 4, a homography"),
-            ("n5", "s = 5, E"),
-            ("n7", "s = 7, F"),
-            ("n8", "s = 8, F"),
-        ];
-        let counts = LABELS.iter().zip(SIZES);
-        counts
-            .map(|((id, label), (size, _))| {
-                Readout::number(id, label, self.now(size) as f64, 0, "")
-            })
-            .collect()
-    }
-
-    fn describe(&self) -> String {
-        format!(
-            "With {} % inliers and a confidence of {} %, a line needs {} samples of 2, a homography {} \
-             of 4, E {} of 5, and F {} of 7 or {} of 8.",
-            format_number(100.0 * self.share(), 0),
-            format_number(100.0 * self.confidence(), 1),
-            self.now(2),
-            self.now(4),
-            self.now(5),
-            self.now(7),
-            self.now(8),
-        )
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "cheap",
-                goal: "Find the share of inliers from which on fewer than 20 samples of 8 will do.",
-                hint: "Go to the right.",
-                check: |model| model.now(8) < 20,
-                solution: || vec![moved(0.9)],
-            },
-            Challenge {
-                id: "dear",
-                goal: "Make samples of 8 a thousand times as dear as samples of 2.",
-                hint: "How do the curves run apart?",
-                check: |model| model.now(8) >= 1000 * model.now(2),
-                solution: || vec![moved(0.25)],
-            },
-        ]
-    }
 }
 
-fn moved(share: f64) -> Event {
-    Event::HandleMoved {
-        id: "share".to_owned(),
-        x: share,
-        y: 0.0,
-    }
-}
+const CHALLENGES: &[Challenge<RansacBudget>] = &[
+    Challenge {
+        id: "dear",
+        goal: "Make samples of 8 a thousand times as expensive as samples of 2.",
+        hint: "Where do the curves run apart?",
+        why: "The ratio of the two is about 1/w⁶: with w near 0.3 that is more than a thousand.",
+        check: |model| model.now(8) >= 1000 * model.now(2),
+        solution: || vec![Event::moved("share", 0.25, 0.0)],
+    },
+    Challenge {
+        id: "sure",
+        goal: "At an inlier ratio of 50 %, get along with fewer than 600 samples of 8.",
+        hint: "How sure do you have to be?",
+        why: "From 90 % to 99 % confidence the number only doubles: being sure is cheap, being without \
+              inliers is not.",
+        check: |model| model.inlier_ratio == 0.5 && model.now(8) < 600,
+        solution: || vec![Event::set(&CONFIDENCE, 0.9)],
+    },
+    Challenge {
+        id: "cheap",
+        goal: "With p = 0.99, find the lowest inlier ratio where 20 samples of 8 are enough.",
+        hint: "One percent less, and 20 are not enough.",
+        why: "At 83 % inliers a sample of eight is still spoiled three times in four, and 20 of them are \
+              enough all the same.",
+        check: |model| {
+            let less = model.trials(8, model.inlier_ratio - 0.01);
+            model.confidence() == 0.99 && model.now(8) <= 20 && less.is_none_or(|less| less > 20)
+        },
+        solution: || vec![Event::moved("share", 0.83, 0.0)],
+    },
+];
 
 #[cfg(test)]
 mod tests {
@@ -173,9 +143,6 @@ mod tests {
     #[test]
     fn the_numbers_are_those_of_the_chapter() {
         let model = RansacBudget::new();
-        assert_eq!(
-            SIZES.map(|(size, _)| model.now(size)),
-            [17, 72, 146, 588, 1177]
-        );
+        assert_eq!(SIZES.map(|size| model.now(size)), [17, 72, 146, 588, 1177]);
     }
 }

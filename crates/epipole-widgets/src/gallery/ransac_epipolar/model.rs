@@ -1,22 +1,72 @@
 //! Matches of two photographs, of which some are wrong, and the loop that finds F all the same.
 //!
-//! The photographs and their matches come from a job. How many samples have been drawn is part of
+//! The photographs and their matches come from a worker. How many samples have been drawn is part of
 //! the settings; the loop is deterministic, so a permalink replays it.
 
-use super::answer::{Answer, Match, Request, STILL_LIFE_SIZE};
-use super::knobs::{EPSILON, ITERATIONS, KNOBS, LOCAL, OWN, RATIO, SEED, SHOW, SLOTS, SOURCE};
-use super::run::{MAX_SAMPLES, Question, Run};
-use super::words;
+use super::question::{Answer, Match, Question, STILL_LIFE_SIZE};
+use super::votes::Votes;
 use crate::contract::{
-    Challenge, Control, Event, Handle, Job, JobResult, Model, PhotoSlot, Problem, Progress,
-    Readout, Settings, Slider, Value, format_number, refuse_small,
+    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot,
+    Problem, Progress, Settings, Slider, Toggle, Value,
 };
-use crate::running::Running;
+use crate::kit::picture::{Own, pair_slots};
+use crate::kit::probe::Probe;
+use crate::kit::question::{Asked, carry_out};
+use crate::kit::running::Running;
+use crate::kit::samples::{Rules, Samples};
+use epipole::epipolar::FundamentalEstimator;
 use image::RgbImage;
+use nalgebra::Point2;
 
+const SOURCE: Choice = Choice::new(
+    "source",
+    "Photographs",
+    &[("still-life", "Still life"), ("own", "Your photographs")],
+)
+.more();
+const OWN: usize = 1;
+const SHOW: Choice = Choice::new(
+    "show",
+    "Show",
+    &[
+        ("matches", "Matches"),
+        ("outliers", "Outliers only"),
+        ("lines", "Epipolar lines"),
+    ],
+);
+const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
+    .range(0.5, 1.0, 0.05)
+    .at(0.9)
+    .digits(2);
+const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
+    .range(0.2, 10.0, 0.2)
+    .at(1.0)
+    .digits(1)
+    .unit("px");
+const LOCAL: Toggle = Toggle::new("local", "Local optimization").more();
+const SEED: Slider = Slider::seed(1.0);
+const MAX_SAMPLES: usize = 1000;
+/// Asked for; the loop ends before when enough have been drawn.
+const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
+    .range(0.0, MAX_SAMPLES as f64, 1.0)
+    .at(MAX_SAMPLES as f64)
+    .hidden();
+const KNOBS: &[Knob] = &[
+    Knob::Choice(&SOURCE),
+    Knob::Choice(&SHOW),
+    Knob::Slider(&EPSILON),
+    Knob::Slider(&RATIO),
+    Knob::Toggle(&LOCAL),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ITERATIONS),
+];
+
+const SLOTS: &[PhotoSlot] = &pair_slots(640);
 /// Smaller photographs have no features to speak of.
 const MIN_SIDE_PX: u32 = 32;
 const SAMPLES_PER_SECOND: f64 = 8.0;
+/// Where the probe is at first: on the jug of the still life.
+const PROBE: (f64, f64) = (244.0, 170.0);
 
 /// What is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,148 +79,118 @@ pub(super) enum Show {
 /// The model of `ransac-epipolar`.
 pub struct RansacEpipolar {
     settings: Settings,
-    own: [Option<RgbImage>; 2],
-    answer: Option<Answer>,
-    pending: Option<Job>,
-    run: Option<Run>,
-    problem: Option<String>,
+    own: Own<2>,
+    asked: Asked<Question>,
+    votes: Option<Votes>,
+    /// Why there is no F, as a sentence.
+    refusal: Option<String>,
     running: Running,
-    /// A place in photograph 1 whose epipolar line is drawn, pixels.
-    probe: (f64, f64),
+    probe: Probe,
 }
 
-/// Where the probe is at first: on the jug of the still life.
-const PROBE: (f64, f64) = (244.0, 170.0);
-
 impl RansacEpipolar {
-    pub(super) fn photographs(&self) -> Option<&[RgbImage; 2]> {
-        Some(&self.answer.as_ref()?.photographs)
+    pub(super) fn answer(&self) -> Option<&Answer> {
+        self.asked.answer()
     }
 
     /// Width and height of both photographs, pixels, also before they are there.
     pub(super) fn sizes(&self) -> [(u32, u32); 2] {
-        if self.settings.chosen(&SOURCE) != OWN {
-            return [STILL_LIFE_SIZE; 2];
-        }
-        let size = |photograph: &Option<RgbImage>| {
-            photograph
-                .as_ref()
-                .map_or(STILL_LIFE_SIZE, RgbImage::dimensions)
-        };
-        [size(&self.own[0]), size(&self.own[1])]
+        let is_own = self.settings.chosen(&SOURCE) == OWN;
+        let own = |index| self.own.get(index).filter(|_| is_own);
+        [0, 1].map(|index| own(index).map_or(STILL_LIFE_SIZE, |picture| picture.size()))
     }
 
-    /// A place in photograph 1, pixels; photographs of another size may have moved it.
-    pub(super) fn probe(&self) -> (f64, f64) {
-        let [(width, height), _] = self.sizes();
-        let within = |value: f64, size: u32| value.clamp(0.0, f64::from(size - 1));
-        (within(self.probe.0, width), within(self.probe.1, height))
+    /// A place in photograph 1, pixels.
+    pub(super) fn probe(&self) -> Point2<f64> {
+        let (u, v) = self.probe.place(self.sizes()[0]);
+        Point2::new(u, v)
     }
 
     /// The matches that pass the ratio test.
     pub(super) fn matches(&self) -> Vec<&Match> {
         let most = self.settings.number(&RATIO) as f32;
         let passes = |found: &&Match| found.ratio <= most;
-        let answer = self.answer.iter();
-        answer
-            .flat_map(|answer| answer.matches.iter().filter(passes))
-            .collect()
+        let all = self.answer().into_iter().flat_map(|answer| &answer.matches);
+        all.filter(passes).collect()
     }
 
-    pub(super) fn run(&self) -> Option<&Run> {
-        self.run.as_ref()
+    pub(super) fn votes(&self) -> Option<&Votes> {
+        self.votes.as_ref()
     }
 
     pub(super) fn show(&self) -> Show {
         [Show::Matches, Show::Outliers, Show::Lines][self.settings.chosen(&SHOW)]
     }
 
-    /// Why there is nothing to see, as a sentence.
     pub(super) fn epsilon_px(&self) -> f64 {
         self.settings.number(&EPSILON)
     }
 
+    /// Why there is nothing to see, as a sentence.
     pub(super) fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
+        self.asked.problem().or(self.refusal.as_deref())
+    }
+
+    fn samples(&self) -> Option<&Samples<FundamentalEstimator>> {
+        self.votes.as_ref().map(Votes::samples)
     }
 
     pub(super) fn is_finished(&self) -> bool {
-        self.run.as_ref().is_some_and(Run::is_finished)
+        self.samples().is_some_and(Samples::is_finished)
     }
 
-    /// States the search for matches that the present photographs need.
+    fn num_samples(&self) -> usize {
+        self.samples().map_or(0, Samples::count)
+    }
+
+    /// Asks for the matches of the present photographs.
     fn ask(&mut self) {
-        (self.answer, self.run, self.problem) = (None, None, None);
-        let request = match (self.settings.chosen(&SOURCE), &self.own) {
-            (OWN, [Some(first), Some(second)]) => {
-                let bytes = |photograph: &RgbImage| {
-                    let (width, height) = photograph.dimensions();
-                    (width, height, photograph.as_raw().clone())
-                };
-                Some(Request::Own([bytes(first), bytes(second)]))
-            }
-            (OWN, own) => {
-                let sentence = match own {
-                    [None, None] => "Choose two photographs of one scene, taken from two places.",
-                    [None, _] => "Photograph 2 is there; now choose photograph 1.",
-                    _ => "Photograph 1 is there; now choose photograph 2.",
-                };
-                self.problem = Some(sentence.to_owned());
-                None
-            }
-            _ => Some(Request::StillLife),
-        };
-        self.pending = request.map(|request| Job {
-            label: "Matching features",
-            request: request.to_bytes(),
-        });
+        self.running.stop();
+        (self.votes, self.refusal) = (None, None);
+        self.asked.forget();
+        match (self.settings.chosen(&SOURCE), self.own.all()) {
+            (OWN, Some(photographs)) => self.asked.ask(Question::Own(photographs)),
+            (OWN, None) => self.asked.refuse(self.own.wanted()),
+            _ => self.asked.ask(Question::StillLife),
+        }
     }
 
-    /// Begins the loop if its question is a new one, and draws as many samples as the settings say.
+    /// Begins the loop if its rules are new, and draws as many samples as the settings say.
     fn draw(&mut self) {
-        if self.answer.is_none() {
+        if self.answer().is_none() {
             return;
         }
-        let question = Question {
-            epsilon_px: self.settings.number(&EPSILON),
+        let rules = Rules {
+            epsilon_px: self.epsilon_px(),
             seed: self.settings.count(&SEED) as u64,
+            max_samples: MAX_SAMPLES,
             local_optimization: self.settings.flag(&LOCAL),
         };
-        let iterations = self.settings.count(&ITERATIONS);
-        let goes_on = |run: &Run| run.question() == question && run.iterations() <= iterations;
-        if !self.run.as_ref().is_some_and(goes_on) {
-            self.problem = None;
-            match Run::new(&self.matches(), question) {
-                Ok(run) => self.run = Some(run),
-                Err(error) => {
-                    self.run = None;
-                    self.problem = Some(format!("There is no F: {error}."));
-                }
-            }
+        let count = self.settings.count(&ITERATIONS);
+        let samples = self.samples();
+        if !samples.is_some_and(|samples| *samples.rules() == rules && samples.count() <= count) {
+            let begun = Votes::new(&self.matches(), rules);
+            self.refusal = (begun.as_ref().err()).map(|error| format!("There is no F: {error}."));
+            self.votes = begun.ok();
         }
-        if let Some(run) = &mut self.run {
-            run.draw_to(iterations);
+        if let Some(votes) = &mut self.votes {
+            votes.draw_to(count);
         }
         self.running
-            .stop_if(self.run.is_none() || self.is_finished());
+            .stop_if(self.votes.is_none() || self.is_finished());
     }
 
-    /// Draws to so many samples in all. The number asked for is kept: another question may need
-    /// more of them.
-    fn draw_to(&mut self, iterations: usize) -> Result<(), Problem> {
-        let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
+    /// Draws to so many samples in all. The number asked for is kept: other rules may need more.
+    fn draw_to(&mut self, count: usize) -> Result<(), Problem> {
+        let value = Value::Number(count.min(MAX_SAMPLES) as f64);
         self.settings.set(ITERATIONS.id, &value)?;
         self.draw();
         Ok(())
     }
 
-    fn iterations(&self) -> usize {
-        self.run.as_ref().map_or(0, Run::iterations)
-    }
-
-    /// How many inliers of the best so far are right, where the truth is known.
+    /// How many voters of the best F are right, where the truth is known.
     pub(super) fn num_right(&self) -> Option<usize> {
-        let best = self.run.as_ref()?.best()?;
+        let best = self.votes()?.best()?;
         let mut count = 0;
         for (found, is_inlier) in self.matches().iter().zip(&best.is_inlier) {
             count += usize::from(found.is_right? && *is_inlier);
@@ -179,88 +199,67 @@ impl RansacEpipolar {
     }
 }
 
-impl Model for RansacEpipolar {
+impl Declared for RansacEpipolar {
     const NAME: &'static str = "ransac-epipolar";
     const TITLE: &'static str = "Votes for a geometry";
-    const HELP: &'static str = "Run or step through the samples: each is seven matches, which give \
-        F, for which the other matches vote. Change the threshold, let more wrong matches in with \
-        the ratio test, or choose two photographs of your own. The probe in photograph 1 has its \
-        epipolar line in photograph 2.";
+    const HELP: &'static str = "Run or step through the samples: seven matches give F, and the others \
+        vote. Change the threshold, let more wrong matches in with the ratio test, or choose two \
+        photographs of your own. Drag the probe in photograph 1: its epipolar line is in photograph 2.";
 
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            own: [None, None],
-            answer: None,
-            pending: None,
-            run: None,
-            problem: None,
+            own: Own::new(SLOTS, MIN_SIDE_PX),
+            asked: Asked::default(),
+            votes: None,
+            refusal: None,
             running: Running::at(SAMPLES_PER_SECOND),
-            probe: PROBE,
+            probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE.0, PROBE.1),
         };
         model.ask();
         model
     }
 
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for RansacEpipolar {
     fn controls(&self) -> Vec<Control> {
-        let (can_run, drawn) = (self.run.is_some(), self.iterations());
+        let (can_run, drawn) = (self.votes.is_some(), self.num_samples());
         let mut controls = self.settings.controls();
         controls.extend(self.running.controls(can_run, drawn, self.is_finished()));
         controls
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (u, v) = self.probe();
-        let [(width, height), _] = self.sizes();
-        vec![Handle {
-            id: "probe".to_owned(),
-            panel: "first",
-            label: "Probe in photograph 1".to_owned(),
-            value_text: format!(
-                "column {}, row {}",
-                format_number(u, 0),
-                format_number(v, 0)
-            ),
-            x: u,
-            y: v,
-            x_range: [0.0, f64::from(width - 1)],
-            y_range: [0.0, f64::from(height - 1)],
-            step: [4.0, 4.0],
-            digits: 0,
-            removable: false,
-        }]
+        vec![self.probe.handle(self.sizes()[0], 4.0)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::HandleMoved { x, y, .. } => self.probe = (*x, *y),
-            Event::Set { id, value } => {
-                let has_changed = self.settings.set(id, value)? == Some(true);
-                match &**id {
-                    _ if !has_changed => {}
-                    id if id == SOURCE.id => {
-                        self.running.stop();
-                        self.ask();
-                    }
-                    id if id == RATIO.id => {
-                        self.run = None;
-                        self.draw();
-                    }
-                    _ => self.draw(),
+        if self.probe.update(event, self.sizes()[0]) {
+            return Ok(());
+        }
+        let (drawn, is_finished) = (self.num_samples(), self.is_finished());
+        if let Some(count) = self.running.update(event, drawn, is_finished) {
+            return self.draw_to(count);
+        }
+        if let Event::Set { id, value } = event {
+            let has_changed = self.settings.set(id, value)? == Some(true);
+            match &**id {
+                _ if !has_changed => {}
+                id if id == SOURCE.id => self.ask(),
+                id if id == RATIO.id => {
+                    self.votes = None;
+                    self.draw();
                 }
+                _ => self.draw(),
             }
-            Event::Press { id } => {
-                let (drawn, finished) = (self.iterations(), self.is_finished());
-                if let Some(iterations) = self.running.press(id, drawn, finished) {
-                    self.draw_to(iterations)?;
-                }
-            }
-            Event::Tick { dt_s } => {
-                if let Some(iterations) = self.running.tick(*dt_s, self.iterations()) {
-                    self.draw_to(iterations)?;
-                }
-            }
-            _ => {}
         }
         Ok(())
     }
@@ -269,23 +268,13 @@ impl Model for RansacEpipolar {
         self.running.is_running()
     }
 
-    fn job(&self) -> Option<Job> {
-        self.pending.clone()
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        Request::compute(request, progress)
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
     }
 
     fn job_done(&mut self, result: JobResult) {
-        self.pending = None;
-        match result.map(|bytes| Answer::from_bytes(&bytes)) {
-            Ok(Some(answer)) => {
-                self.answer = Some(answer);
-                self.draw();
-            }
-            Ok(None) => self.problem = Some("The matches could not be found.".to_owned()),
-            Err(problem) => self.problem = Some(format!("There are no matches: {problem}.")),
+        if self.asked.take(result) {
+            self.draw();
         }
     }
 
@@ -294,26 +283,11 @@ impl Model for RansacEpipolar {
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
-        refuse_small(slot, &photo, MIN_SIDE_PX)?;
-        let index = usize::from(slot != SLOTS[0].id);
-        self.own[index] = Some(photo);
-        self.settings
-            .set(SOURCE.id, &Value::from(SOURCE.options[OWN].0))?;
-        self.running.stop();
+        self.own.take(slot, photo)?;
+        let own = Value::from(SOURCE.options[OWN].0);
+        self.settings.set(SOURCE.id, &own)?;
         self.ask();
         Ok(())
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
-    }
-
-    fn describe(&self) -> String {
-        words::describe(self)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -322,43 +296,41 @@ const CHALLENGES: &[Challenge<RansacEpipolar>] = &[
         id: "expensive",
         goal: "Let in so many wrong matches that more than 500 samples are needed.",
         hint: "Which test had kept them out?",
+        why: "Seven matches must all be right at once, so a few more wrong ones cost many more samples.",
         check: |model| {
-            let budget = model.run.as_ref().and_then(Run::budget);
+            let budget = model.samples().and_then(Samples::budget);
             model.is_finished() && budget.is_some_and(|budget| budget > 500)
         },
-        solution: || vec![set(&RATIO, 1.0), set(&EPSILON, 0.4)],
+        solution: || vec![Event::set(&RATIO, 1.0), Event::set(&EPSILON, 0.4)],
     },
     Challenge {
         id: "bribed",
         goal: "Make at least 20 wrong matches vote for the best F.",
         hint: "How near is near enough?",
+        why: "A wide band along each epipolar line is a large part of the picture, and wrong matches \
+              land in it by chance.",
         check: |model| {
-            let best = model.run.as_ref().and_then(Run::best);
+            let best = model.votes().and_then(Votes::best);
             match (best, model.num_right()) {
-                (Some(best), Some(num_right)) => best.num_inliers - num_right >= 20,
+                (Some(best), Some(num_right)) => best.num_votes - num_right >= 20,
                 _ => false,
             }
         },
-        solution: || vec![set(&EPSILON, 8.0), set(&RATIO, 1.0)],
+        solution: || vec![Event::set(&EPSILON, 8.0), Event::set(&RATIO, 1.0)],
     },
 ];
-
-fn set(slider: &Slider, value: f64) -> Event {
-    Event::Set {
-        id: slider.id.to_owned(),
-        value: Value::Number(value),
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{photograph, still_life_pair};
+    use crate::contract::Words;
+    use crate::kit::scenes::{photograph, still_life_pair};
     use std::ops::ControlFlow;
 
     fn finish(model: &mut RansacEpipolar) {
         while let Some(job) = model.job() {
-            let result = RansacEpipolar::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            let result =
+                RansacEpipolar::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
             model.job_done(result);
         }
     }
@@ -367,11 +339,11 @@ mod tests {
     fn the_vote_is_right_about_the_still_life() {
         let mut model = RansacEpipolar::new();
         finish(&mut model);
-        let run = model.run().unwrap();
-        let best = run.best().unwrap();
-        assert!(run.is_confident());
+        let votes = model.votes().unwrap();
+        let best = votes.best().unwrap();
+        assert!(votes.samples().is_confident());
         let num_right = model.num_right().unwrap();
-        assert!(best.num_inliers > 100 && 20 * num_right > 19 * best.num_inliers);
+        assert!(best.num_votes > 100 && 20 * num_right > 19 * best.num_votes);
         // The outliers are wrong: right matches are hardly ever outvoted.
         let matches = model.matches();
         let all_right = matches
@@ -398,7 +370,7 @@ mod tests {
         );
         model.take_photo("first", first).unwrap();
         finish(&mut model);
-        assert!(model.run().unwrap().best().unwrap().num_inliers > 20);
+        assert!(model.votes().unwrap().best().unwrap().num_votes > 20);
         assert_eq!(model.num_right(), None, "nobody knows the truth");
         // A gray card has no features, and that is no reason to fail.
         model.take_photo("first", RgbImage::new(64, 64)).unwrap();

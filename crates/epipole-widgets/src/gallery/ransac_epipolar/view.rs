@@ -1,16 +1,18 @@
 //! Two photographs, their matches from one to the other, and what the votes make of them.
 
 use super::model::{RansacEpipolar, Show};
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, View};
-use crate::legend::{self, Entry, Swatch};
-use crate::pair::{self, TEXT, draw_line};
+use super::question::Question;
+use crate::canvas::{Canvas, Place, Shape, Stroke};
+use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::grid::{self, GAP, Grid};
+use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::pair::draw_line;
+use crate::kit::question::Question as _;
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
-use nalgebra::Point2;
 
-/// Room to the sides of the legend.
-const MARGIN: f64 = 2.0;
+/// A tall photograph must not push everything else off the screen.
+const TALLEST: f64 = 372.0;
 /// So many inliers and so many outliers have their connection drawn on a wide page; more would hide
 /// everything.
 const NUM_CONNECTED: f64 = 70.0;
@@ -25,14 +27,14 @@ fn legend_of(model: &RansacEpipolar) -> Vec<Entry> {
     let inlier = match model.show() {
         Show::Lines => (
             Swatch::Line(Stroke::solid(Role::Series(0), 2.0)),
-            "epipolar line of an inlier",
+            "line of an inlier",
         ),
-        _ => (Swatch::Line(inlier_stroke()), "inlier of the best F"),
+        _ => (Swatch::Line(inlier_stroke()), "inlier"),
     };
     let mut entries = vec![
         inlier,
         (Swatch::Line(outlier_stroke()), "outlier"),
-        (Swatch::Line(sample_stroke()), "last sample of seven"),
+        (Swatch::Line(sample_stroke()), "last sample"),
     ];
     match model.show() {
         Show::Matches => {}
@@ -57,25 +59,27 @@ fn sample_stroke() -> Stroke {
 impl View for RansacEpipolarView {
     type Model = RansacEpipolar;
 
+    const ASPECT: Aspect = Aspect::Broad;
+
     fn layout(&self, model: &RansacEpipolar, width: f64) -> Layout {
-        let [first, second] = pair::panels(width, model.sizes());
-        let bottom = first.rect.bottom().max(second.rect.bottom());
-        Layout {
-            width,
-            height: bottom + 8.0 + legend::height(&legend_of(model), width, MARGIN),
-            panels: vec![first, second],
-        }
+        let sizes = model.sizes();
+        let aspect = |(columns, rows): (u32, u32)| f64::from(rows) / f64::from(columns);
+        let mut grid = Grid::new(width);
+        let [left, right] = grid.row(sizes.map(aspect), TALLEST);
+        grid.strip(GAP / 2.0 + legend::height(&legend_of(model), width, 0.0));
+        let [(width1, height1), (width2, height2)] = sizes;
+        let mut first = Panel::photograph("first", left, width1, height1);
+        first.clickable = true;
+        let second = Panel::photograph("second", right, width2, height2);
+        grid.layout(vec![first, second])
     }
 
     fn draw(&mut self, model: &RansacEpipolar, layout: &Layout, canvas: &mut Canvas) {
         let panels = [layout.panel("first"), layout.panel("second")];
         for (index, panel) in panels.iter().enumerate() {
             canvas.panel(panel.rect);
-            if let Some(photographs) = model.photographs() {
-                canvas.photograph(panel.rect, &photographs[index]);
-            } else if model.problem().is_none() {
-                let style = TextStyle::new(Role::Muted, TEXT).middle();
-                canvas.label(panel.rect.center(), "matching features …", style);
+            if let Some(answer) = model.answer() {
+                canvas.photograph(panel.rect, answer.photographs[index].image());
             }
         }
         match model.show() {
@@ -84,17 +88,18 @@ impl View for RansacEpipolarView {
         }
         draw_sample(model, panels, canvas);
         draw_probe(model, panels, canvas);
-        for (panel, title) in panels.iter().zip(["Photograph 1", "Photograph 2"]) {
-            pair::draw_title(canvas, panel.rect, title);
+        let titles: [&[&str]; 2] = [
+            &["Photograph 1: drag the probe", "Photograph 1"],
+            &["Photograph 2: its epipolar line", "Photograph 2"],
+        ];
+        for (panel, wordings) in panels.into_iter().zip(titles) {
+            grid::fitting_title(canvas, panel.rect, wordings);
         }
-        if let Some(problem) = model.problem() {
-            pair::draw_notice(canvas, panels[0].rect, problem);
-        } else if let Some(status) = status(model) {
-            let place = (panels[0].rect.x + 10.0, panels[0].rect.y + 20.0);
-            canvas.text(place, status, TextStyle::new(Role::Ink, TEXT).cased());
+        if let Some(notice) = notice(model) {
+            grid::notice(canvas, panels[0].rect, notice);
         }
-        let top = layout.height - legend::height(&legend_of(model), layout.width, MARGIN);
-        legend::draw(canvas, &legend_of(model), layout.width, MARGIN, top);
+        let top = panels[0].rect.bottom().max(panels[1].rect.bottom()) + GAP / 2.0;
+        legend::draw(canvas, &legend_of(model), layout.width, 0.0, top);
     }
 }
 
@@ -105,8 +110,8 @@ fn ends(model: &RansacEpipolar, [first, second]: [&Panel; 2]) -> Vec<Ends> {
     let matches = model.matches();
     let places = matches.iter().map(|found| {
         [
-            first.canvas_from_world((found.pixel1.x, found.pixel1.y)),
-            second.canvas_from_world((found.pixel2.x, found.pixel2.y)),
+            first.canvas_from_world((found.places[0][0], found.places[0][1])),
+            second.canvas_from_world((found.places[1][0], found.places[1][1])),
         ]
     });
     places.collect()
@@ -120,7 +125,7 @@ fn thinned<T: Copy>(list: &[T], count: usize) -> Vec<T> {
 
 fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas: &mut Canvas) {
     let ends = ends(model, panels);
-    let Some(best) = model.run().and_then(|run| run.best()) else {
+    let Some(best) = model.votes().and_then(|votes| votes.best()) else {
         for place in ends.iter().flatten() {
             canvas.marker(*place, 3.0, Shape::Disk, Role::Muted, true);
         }
@@ -139,11 +144,11 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
         (&inliers, inlier_stroke(), Shape::Disk),
     ];
     let num_groups = if show == Show::Outliers { 1 } else { 2 };
-    // On a phone the photographs are small and below each other.
-    let smaller = (panels[0].rect.width.max(panels[0].rect.height) / 370.0).min(1.0);
-    let is_stacked = panels[1].rect.y > panels[0].rect.bottom();
-    let share = if is_stacked { 0.4 } else { smaller };
-    let num_connected = (NUM_CONNECTED * share) as usize;
+    // On a phone the photographs are small.
+    let side = panels[0].rect.width.max(panels[0].rect.height);
+    let num_connected = (NUM_CONNECTED * (side / 370.0).min(1.0)) as usize;
+    let is_small = side < 250.0;
+    let radius = if is_small { 1.75 } else { 2.5 };
     for (group, stroke, _) in &groups[..num_groups] {
         for [from, to] in thinned(group, num_connected) {
             canvas.line(from, to, *stroke);
@@ -151,20 +156,14 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
     }
     for (group, stroke, shape) in &groups[..num_groups] {
         for place in group.iter().flatten() {
-            canvas.marker(
-                *place,
-                if is_stacked { 2.0 } else { 2.5 },
-                *shape,
-                stroke.role,
-                true,
-            );
+            canvas.marker(*place, radius, *shape, stroke.role, !is_small);
         }
     }
 }
 
 /// The epipolar lines of some inliers, and the inliers on them.
 fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
-    let Some(best) = model.run().and_then(|run| run.best()) else {
+    let Some(best) = model.votes().and_then(|votes| votes.best()) else {
         return;
     };
     let matches = model.matches();
@@ -172,7 +171,7 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
     let chosen = thinned(&indices, NUM_LINES);
     canvas.clipped(panels[1].rect, |canvas| {
         for (k, &index) in chosen.iter().enumerate() {
-            if let Ok(line) = epipolar_line2(&best.fundamental, &matches[index].pixel1) {
+            if let Ok(line) = epipolar_line2(&best.fundamental, &matches[index].pixel1()) {
                 let stroke = Stroke::solid(Role::Series(k as u8), 1.75).cased();
                 draw_line(canvas, panels[1], &line, stroke);
             }
@@ -189,12 +188,12 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
 
 /// While the loop goes on, the seven matches of the last sample.
 fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
-    let candidate = model.run().and_then(|run| run.candidate());
-    let Some(candidate) = candidate.filter(|_| !model.is_finished()) else {
+    let last = model.votes().and_then(|votes| votes.samples().last());
+    let Some(last) = last.filter(|_| !model.is_finished()) else {
         return;
     };
     let ends = ends(model, panels);
-    for &index in &candidate.sample {
+    for &index in &last.sample {
         let [from, to] = ends[index];
         canvas.line(from, to, sample_stroke().cased());
         for place in [from, to] {
@@ -205,12 +204,12 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
 
 /// A place in photograph 1, and the line on which the best F expects its match.
 fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
-    if model.photographs().is_none() {
+    if model.answer().is_none() {
         return;
     }
-    let (u, v) = model.probe();
-    let best = model.run().and_then(|run| run.best());
-    let line = best.and_then(|best| epipolar_line2(&best.fundamental, &Point2::new(u, v)).ok());
+    let probe = model.probe();
+    let best = model.votes().and_then(|votes| votes.best());
+    let line = best.and_then(|best| epipolar_line2(&best.fundamental, &probe).ok());
     if let Some(line) = line {
         canvas.clipped(second.rect, |canvas| {
             draw_line(
@@ -221,27 +220,16 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
             );
         });
     }
-    canvas.marker(
-        first.canvas_from_world((u, v)),
-        6.0,
-        Shape::Ring,
-        Role::Grip,
-        true,
-    );
+    canvas.grip(first.canvas_from_world((probe.x, probe.y)), Role::Grip);
 }
 
-/// A word on where the loop stands.
-fn status(model: &RansacEpipolar) -> Option<&'static str> {
-    let run = model.run()?;
-    if model.is_finished() {
-        Some(if run.is_confident() {
-            "enough samples drawn"
-        } else {
-            "as many samples as it may draw"
-        })
-    } else if run.candidate().is_none() {
-        Some("press Run or Step")
-    } else {
-        None
+/// What the reader should know or do before there is an F to see.
+fn notice(model: &RansacEpipolar) -> Option<&str> {
+    if model.answer().is_none() {
+        return Some(model.problem().unwrap_or(Question::LABEL));
     }
+    let is_untouched = model
+        .votes()
+        .is_some_and(|votes| votes.samples().count() == 0);
+    (model.problem()).or(is_untouched.then_some("Press Run or Step."))
 }

@@ -1,113 +1,103 @@
-//! What `ransac-epipolar` says: its readouts and its description.
+//! What `ransac-epipolar` says.
 
 use super::model::{RansacEpipolar, Show};
-use crate::contract::{Readout, format_number};
-use crate::words;
+use super::question::Question;
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::question::Question as _;
+use crate::kit::words;
 use epipole::epipolar::epipolar_line2;
-use nalgebra::Point2;
 
-pub(super) fn readouts(model: &RansacEpipolar) -> Vec<Readout> {
-    let Some(run) = model.run() else {
-        return vec![Readout::words("state", "State", describe(model))];
-    };
-    let of = |count: usize| format!("{count} of {}", model.matches().len());
-    let votes = match run.candidate() {
-        Some(candidate) => of(candidate.num_inliers),
-        None => "no sample yet".to_owned(),
-    };
-    let needed = "Samples needed (99 %)";
-    let mut readouts = vec![
-        Readout::count("matches", "Matches", model.matches().len()),
-        Readout::count("iterations", "Samples drawn", run.iterations()),
-        match run.budget() {
-            Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
-            None => Readout::words("budget", needed, "more than a million"),
-        },
-        Readout::words("inliers", "Inliers of the last sample", votes),
-    ];
-    match run.best() {
-        Some(best) => readouts.extend([
-            Readout::words("best", "Inliers of the best", of(best.num_inliers)),
-            Readout::number(
-                "sampson",
-                "Their mean Sampson distance",
-                best.mean_px,
-                3,
-                "px",
+/// Stands for a number until there is one.
+const WAITING: &str = "none yet";
+
+impl Words for RansacEpipolar {
+    fn readouts(&self) -> Vec<Readout> {
+        let votes = self.votes();
+        let best = votes.and_then(|votes| votes.best());
+        let right = match (best, self.num_right()) {
+            (Some(best), Some(count)) => format!("{count} of {}", best.num_votes),
+            (Some(_), None) => "not known".to_owned(),
+            (None, _) => WAITING.to_owned(),
+        };
+        let all = self.matches();
+        let of = |count: usize| format!("{count} of {}", all.len());
+        let words = |id, label, value: Option<String>| {
+            Readout::words(id, label, value.unwrap_or_else(|| WAITING.to_owned()))
+        };
+        let [drawn, needed] = votes.map_or_else(
+            || {
+                [
+                    ("iterations", "Samples drawn"),
+                    ("budget", "Samples needed"),
+                ]
+                .map(|(id, label)| words(id, label, None))
+            },
+            |votes| votes.samples().readouts(),
+        );
+        let mut readouts = vec![
+            words(
+                "best",
+                "Votes for the best F",
+                best.map(|best| of(best.num_votes)),
+            )
+            .main(),
+            Readout::words("right", "Right ones among them", right).main(),
+            drawn.main(),
+            needed.main(),
+            words(
+                "inliers",
+                "Votes for the last sample",
+                votes.and_then(|votes| votes.num_votes_of_last()).map(of),
             ),
-        ]),
-        None => readouts.push(Readout::words("best", "Inliers of the best", "none yet")),
-    }
-    if let (Some(best), Some(num_right)) = (run.best(), model.num_right()) {
-        let all = model.matches();
-        let right = all
-            .iter()
-            .filter(|found| found.is_right == Some(true))
-            .count();
-        readouts.push(Readout::words(
-            "right",
-            "Right matches among the inliers",
-            format!("{num_right} of {}", best.num_inliers),
-        ));
-        readouts.push(Readout::words(
-            "found",
-            "Right matches in all",
-            right.to_string(),
-        ));
-    }
-    if let Some(best) = run.best() {
-        let (u, v) = model.probe();
-        if let Ok(line) = epipolar_line2(&best.fundamental, &Point2::new(u, v)) {
-            readouts.push(Readout::words(
-                "line",
-                "Line of the probe",
-                words::line(&line),
-            ));
+        ];
+        if let Some(best) = best {
+            let (label, unit) = ("Mean Sampson distance", "px");
+            readouts.push(Readout::number("sampson", label, best.mean_px, 3, unit));
+            if self.num_right().is_some() {
+                let right = all.iter().filter(|found| found.is_right == Some(true));
+                readouts.push(Readout::count(
+                    "found",
+                    "Right matches in all",
+                    right.count(),
+                ));
+            }
+            if let Ok(line) = epipolar_line2(&best.fundamental, &self.probe()) {
+                let line = words::line(&line);
+                readouts.push(Readout::words("line", "Line of the probe", line));
+            }
+            let f = words::matrix(&best.fundamental);
+            readouts.push(Readout::words("f", "F of all its voters, by rows", f));
         }
-        let f = words::matrix(&best.fundamental);
-        readouts.push(Readout::words("f", "F refitted to the inliers, by rows", f));
+        readouts
     }
-    readouts
-}
 
-pub(super) fn describe(model: &RansacEpipolar) -> String {
-    if let Some(problem) = model.problem() {
-        return problem.to_owned();
-    }
-    let Some(run) = model.run() else {
-        return "Matching the features of two photographs.".to_owned();
-    };
-    let num_matches = model.matches().len();
-    let Some(best) = run.best() else {
-        return format!("{num_matches} matches, some of them wrong; no F found yet.");
-    };
-    let plural = if run.iterations() == 1 {
-        "sample"
-    } else {
-        "samples"
-    };
-    let right = model.num_right().map_or_else(String::new, |count| {
-        format!(", {count} of which are right by the scene's true geometry")
-    });
-    let end = match run.budget() {
-        _ if run.is_confident() => " That is enough for 99 % confidence.".to_owned(),
-        _ if run.is_finished() => {
-            " More would be needed for 99 % confidence, but the figure stops here.".to_owned()
+    fn describe(&self) -> String {
+        if let Some(problem) = self.problem() {
+            return problem.to_owned();
         }
-        Some(budget) => format!(" {budget} samples are needed for 99 % confidence."),
-        None => String::new(),
-    };
-    let show = match model.show() {
-        Show::Matches => "",
-        Show::Outliers => " Outliers are shown.",
-        Show::Lines => " Epipolar lines are shown.",
-    };
-    format!(
-        "After {} {plural}, {} of {num_matches} matches agree on one F within {} px{right}. \
-             Their mean Sampson distance is {} px.{end}{show}",
-        run.iterations(),
-        best.num_inliers,
-        format_number(model.epsilon_px(), 1),
-        format_number(best.mean_px, 2),
-    )
+        let Some(votes) = self.votes() else {
+            return format!("{}.", Question::LABEL);
+        };
+        let num_matches = self.matches().len();
+        let Some(best) = votes.best() else {
+            return format!("{num_matches} matches, some of them wrong; no F found yet.");
+        };
+        let right = self.num_right().map_or_else(String::new, |count| {
+            format!(", {count} of them right by the scene's true geometry")
+        });
+        let show = match self.show() {
+            Show::Matches => "",
+            Show::Outliers => " Outliers are shown.",
+            Show::Lines => " Epipolar lines are shown.",
+        };
+        format!(
+            "After {}, {} of {num_matches} matches agree on one F within {} px{right}. Their mean \
+             Sampson distance is {} px. {}{show}",
+            votes.samples().count_words(),
+            best.num_votes,
+            format_number(self.epsilon_px(), 1),
+            format_number(best.mean_px, 2),
+            votes.samples().outlook(),
+        )
+    }
 }

@@ -1,10 +1,9 @@
 //! `ransac-race`: least squares against RANSAC on a hidden line.
 
-mod knobs;
+mod fits;
 mod model;
-mod run;
+mod points;
 mod view;
 mod words;
 
-pub use model::RansacRace;
 pub use view::RansacRaceView as View;

@@ -2,154 +2,74 @@
 //! sample.
 //!
 //! The state is the settings, the points and how many samples have been drawn. Everything else is
-//! computed from these anew after each event: a run of a few hundred samples takes well under a
-//! millisecond, and so a permalink replays exactly.
+//! computed from these anew after each event, and so a permalink replays exactly.
 
-use super::knobs::{COUNT, EPSILON, ITERATIONS, KNOBS, OUTLIERS, SEED};
-use super::run::{Best, Candidate, MAX_SAMPLES, Outcome, Question, run};
-use super::words;
+use super::fits::Fits;
+use super::points::{DIGITS, DataPoint, HEIGHT_PX, WIDTH_PX, scatter};
 use crate::contract::{
-    Challenge, Control, Event, Handle, Model, Problem, Readout, Settings, Value, format_number,
-    round_to_digits,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Value,
+    format_number, round_to_digits,
 };
-use crate::running::Running;
-use epipole::math::{Line2, random::Random};
+use crate::kit::running::Running;
+use crate::kit::samples::Rules;
+use epipole::math::Line2;
 use nalgebra::Point2;
 
-/// The plane that the points lie in, pixels.
-pub(super) const WIDTH_PX: f64 = 640.0;
-/// The plane that the points lie in, pixels.
-pub(super) const HEIGHT_PX: f64 = 400.0;
-/// Standard deviation of a good point's distance from the true line.
-const NOISE_PX: f64 = 4.0;
+const MAX_SAMPLES: usize = 500;
+const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
+    .range(0.0, 0.9, 0.05)
+    .at(0.4)
+    .digits(2);
+const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
+    .range(2.0, 40.0, 1.0)
+    .at(10.0)
+    .unit("px");
+const COUNT: Slider = Slider::new("points", "Number of points")
+    .range(8.0, 120.0, 2.0)
+    .at(60.0)
+    .more();
+const SEED: Slider = Slider::seed(36.0);
+/// Asked for; the loop ends before when enough have been drawn.
+const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
+    .range(0.0, MAX_SAMPLES as f64, 1.0)
+    .at(3.0)
+    .hidden();
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&OUTLIERS),
+    Knob::Slider(&EPSILON),
+    Knob::Slider(&COUNT),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ITERATIONS),
+];
+
 const MAX_ADDED: usize = 24;
 const SAMPLES_PER_SECOND: f64 = 4.0;
-/// Places of points are kept to a tenth of a pixel.
-const DIGITS: usize = 1;
-
-/// A point and where it came from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Datum {
-    /// Number in its name, from 1.
-    pub(super) number: usize,
-    pub(super) place: Point2<f64>,
-    pub(super) added: bool,
-}
 
 /// The model of `ransac-race`.
 pub struct RansacRace {
     settings: Settings,
     truth: Line2,
-    data: Vec<Datum>,
-    outcome: Outcome,
+    points: Vec<DataPoint>,
+    fits: Fits,
     running: Running,
 }
 
 impl RansacRace {
-    pub(super) fn data(&self) -> &[Datum] {
-        &self.data
+    pub(super) fn points(&self) -> &[DataPoint] {
+        &self.points
     }
 
-    pub(super) fn outcome(&self) -> &Outcome {
-        &self.outcome
-    }
-
-    pub(super) fn truth(&self) -> &Line2 {
-        &self.truth
-    }
-
-    pub(super) fn least_squares(&self) -> Option<&Line2> {
-        self.outcome.least_squares.as_ref()
-    }
-
-    pub(super) fn candidate(&self) -> Option<&Candidate> {
-        self.outcome.candidate.as_ref()
-    }
-
-    pub(super) fn best(&self) -> Option<&Best> {
-        self.outcome.best.as_ref()
-    }
-
-    pub(super) fn finished(&self) -> bool {
-        self.outcome.finished
+    pub(super) fn fits(&self) -> &Fits {
+        &self.fits
     }
 
     pub(super) fn epsilon_px(&self) -> f64 {
         self.settings.number(&EPSILON)
     }
 
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.outcome.problem.as_deref()
-    }
-
-    /// New points on a new hidden line; what the reader had moved or added is gone.
-    fn scatter(&mut self) {
-        let mut random = Random::new(self.settings.count(&SEED) as u64);
-        let count = self.settings.count(&COUNT);
-        let num_outliers = (self.settings.number(&OUTLIERS) * count as f64).round() as usize;
-        let place = |u: f64, v: f64| {
-            let keep =
-                |value: f64, size: f64| round_to_digits(value.clamp(4.0, size - 4.0), DIGITS);
-            Point2::new(keep(u, WIDTH_PX), keep(v, HEIGHT_PX))
-        };
-        let angle = random.uniform(-0.42, 0.42);
-        let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-        let middle_v = HEIGHT_PX / 2.0 + random.uniform(-50.0, 50.0);
-        let middle = Point2::new(WIDTH_PX / 2.0, middle_v);
-        self.truth = Line2 {
-            a: -sin,
-            b: cos,
-            c: sin * middle.x - cos * middle.y,
-        };
-        let mut places = Vec::with_capacity(count);
-        for _ in num_outliers..count {
-            let along = random.uniform(-0.46, 0.46) * WIDTH_PX;
-            let across = NOISE_PX * random.normal();
-            places.push(place(
-                middle.x + along * cos - across * sin,
-                middle.y + along * sin + across * cos,
-            ));
-        }
-        for _ in 0..num_outliers {
-            // Half of the outliers anywhere, half on one side, as a repeated pattern gives them.
-            let (u, v) = (random.unit(), random.unit());
-            let side = random.unit() < 0.5;
-            let (u, v) = if side {
-                (0.55 + 0.42 * u, 0.04 + 0.3 * v)
-            } else {
-                (u, v)
-            };
-            let v = if side && sin < 0.0 { 1.0 - v } else { v };
-            places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
-        }
-        let datum = |(index, place)| Datum {
-            number: index + 1,
-            place,
-            added: false,
-        };
-        self.data = places.into_iter().enumerate().map(datum).collect();
-    }
-
     /// Fits both ways to the present points and replays the samples.
     fn compute(&mut self) {
-        let places: Vec<Point2<f64>> = self.data.iter().map(|datum| datum.place).collect();
-        self.outcome = run(&Question {
-            places: &places,
-            epsilon_px: self.epsilon_px(),
-            seed: self.settings.count(&SEED) as u64,
-            iterations: self.settings.count(&ITERATIONS),
-        });
-    }
-
-    pub(super) fn angles_deg(&self) -> Angles {
-        let least_squares = self.least_squares();
-        let ransac = self.best().map(|best| &best.line);
-        let between = |a: Option<&Line2>, b: Option<&Line2>| Some(angle_between_deg(a?, b?));
-        Angles {
-            between: between(least_squares, ransac),
-            least_squares: between(least_squares, Some(&self.truth)),
-            ransac: between(ransac, Some(&self.truth)),
-        }
+        self.fits = fit_as(&self.settings, self.truth, &self.points);
     }
 
     /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
@@ -158,39 +78,45 @@ impl RansacRace {
         let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
         self.settings.set(ITERATIONS.id, &value)?;
         self.compute();
-        self.running.stop_if(self.outcome.finished);
+        self.running.stop_if(self.fits.is_finished());
         Ok(())
     }
 
     fn add(&mut self, number: usize, u: f64, v: f64) -> bool {
-        let added = self.data.iter().filter(|datum| datum.added).count();
-        if added >= MAX_ADDED || self.data.iter().any(|datum| datum.number == number) {
+        let added = self.points.iter().filter(|point| point.added).count();
+        if added >= MAX_ADDED || self.points.iter().any(|point| point.number == number) {
             return false;
         }
         let place = Point2::new(round_to_digits(u, DIGITS), round_to_digits(v, DIGITS));
-        self.data.push(Datum {
+        self.points.push(DataPoint {
             number,
             place,
             added: true,
         });
-        self.data.sort_by_key(|datum| datum.number);
+        self.points.sort_by_key(|point| point.number);
         self.compute();
         true
     }
 }
 
-/// Acute angles between lines, degrees; `None` for what has no line yet.
-pub(super) struct Angles {
-    pub(super) between: Option<f64>,
-    pub(super) least_squares: Option<f64>,
-    pub(super) ransac: Option<f64>,
+fn scatter_as(settings: &Settings) -> (Line2, Vec<DataPoint>) {
+    scatter(
+        settings.count(&SEED) as u64,
+        settings.count(&COUNT),
+        settings.number(&OUTLIERS),
+    )
 }
 
-/// The acute angle between two lines, degrees.
-fn angle_between_deg(one: &Line2, other: &Line2) -> f64 {
-    let cross = one.a * other.b - one.b * other.a;
-    let dot = one.a * other.a + one.b * other.b;
-    libm::atan2(cross.abs(), dot.abs()).to_degrees()
+fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
+    let places: Vec<Point2<f64>> = points.iter().map(|point| point.place).collect();
+    let rules = Rules {
+        epsilon_px: settings.number(&EPSILON),
+        seed: settings.count(&SEED) as u64,
+        max_samples: MAX_SAMPLES,
+        // The reader sees the plain loop: candidates come straight from two points.
+        local_optimization: false,
+    };
+    Fits::new(&places, truth, rules, settings.count(&ITERATIONS))
 }
 
 fn number_of(id: &str) -> Option<usize> {
@@ -198,103 +124,94 @@ fn number_of(id: &str) -> Option<usize> {
     (id == format!("p{number}")).then_some(number)
 }
 
-impl Model for RansacRace {
+impl Declared for RansacRace {
     const NAME: &'static str = "ransac-race";
     const TITLE: &'static str = "The race";
-    const HELP: &'static str = "Run or step through the samples. Drag a point, or choose one and \
-        move it with the arrow keys; click on an empty place to add a point, press Delete to \
-        remove it.";
+    const HELP: &'static str = "Run or step through the samples. Half of the outliers lie anywhere, half \
+        in one region. Drag a point, or choose one and move it with the arrow keys; click an empty \
+        place to add a point, press Delete to remove it.";
 
     fn new() -> Self {
-        let mut model = Self {
-            settings: Settings::new(KNOBS),
-            truth: Line2 {
-                a: 0.0,
-                b: 1.0,
-                c: 0.0,
-            },
-            data: Vec::new(),
-            outcome: Outcome::default(),
+        let settings = Settings::new(KNOBS);
+        let (truth, points) = scatter_as(&settings);
+        Self {
+            fits: fit_as(&settings, truth, &points),
+            settings,
+            truth,
+            points,
             running: Running::at(SAMPLES_PER_SECOND),
-        };
-        model.scatter();
-        model.compute();
-        model
+        }
     }
 
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for RansacRace {
     fn controls(&self) -> Vec<Control> {
-        let (drawn, finished) = (self.outcome.iterations, self.outcome.finished);
-        let can_run = self.outcome.problem.is_none();
+        let (drawn, finished) = (self.fits.num_samples(), self.fits.is_finished());
+        let can_run = self.fits.problem.is_none();
         let mut controls = self.settings.controls();
         controls.extend(self.running.controls(can_run, drawn, finished));
         controls
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let handle = |datum: &Datum| Handle {
-            id: format!("p{}", datum.number),
+        let handle = |point: &DataPoint| Handle {
+            id: format!("p{}", point.number),
             panel: "plane",
-            label: format!("Point {}", datum.number),
+            label: format!("Point {}", point.number),
             value_text: format!(
                 "{} px across, {} px down",
-                format_number(datum.place.x, 0),
-                format_number(datum.place.y, 0)
+                format_number(point.place.x, 0),
+                format_number(point.place.y, 0)
             ),
-            x: datum.place.x,
-            y: datum.place.y,
+            x: point.place.x,
+            y: point.place.y,
             x_range: [0.0, WIDTH_PX],
             y_range: [0.0, HEIGHT_PX],
             step: [10.0, 10.0],
             digits: DIGITS,
-            removable: self.data.len() > 2,
+            removable: self.points.len() > 2,
         };
-        self.data.iter().map(handle).collect()
+        self.points.iter().map(handle).collect()
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        let (drawn, is_finished) = (self.fits.num_samples(), self.fits.is_finished());
+        if let Some(count) = self.running.update(event, drawn, is_finished) {
+            return self.run_to(count);
+        }
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) {
-                    if [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
-                        self.scatter();
-                    }
-                    let iterations = self.settings.count(&ITERATIONS);
-                    self.run_to(iterations)?;
+                let has_changed = self.settings.set(id, value)? == Some(true);
+                if has_changed && [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
+                    // What the reader had moved or added is gone.
+                    (self.truth, self.points) = scatter_as(&self.settings);
                 }
-            }
-            Event::Press { id } => {
-                let (drawn, finished) = (self.outcome.iterations, self.outcome.finished);
-                if let Some(iterations) = self.running.press(id, drawn, finished) {
-                    self.run_to(iterations)?;
+                if has_changed {
+                    self.run_to(self.settings.count(&ITERATIONS))?;
                 }
             }
             Event::HandleMoved { id, x, y } => {
                 let number = number_of(id);
-                if let Some(datum) = self.data.iter_mut().find(|d| Some(d.number) == number) {
-                    datum.place = Point2::new(*x, *y);
+                if let Some(point) = self.points.iter_mut().find(|d| Some(d.number) == number) {
+                    point.place = Point2::new(*x, *y);
                     self.compute();
                 }
             }
             Event::HandleRemoved { id } => {
                 let number = number_of(id);
-                self.data.retain(|datum| Some(datum.number) != number);
+                self.points.retain(|point| Some(point.number) != number);
                 self.compute();
             }
             Event::Clicked { x, y, .. } => {
-                let last = self
-                    .data
-                    .iter()
-                    .map(|datum| datum.number)
-                    .max()
-                    .unwrap_or(0);
-                self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
+                let numbers = self.points.iter().map(|point| point.number);
+                let last = numbers.fold(self.settings.count(&COUNT), usize::max);
+                self.add(last + 1, *x, *y);
             }
-            Event::Tick { dt_s } => {
-                if let Some(iterations) = self.running.tick(*dt_s, self.outcome.iterations) {
-                    self.run_to(iterations)?;
-                }
-            }
-            Event::Reset => {}
+            _ => {}
         }
         Ok(())
     }
@@ -309,68 +226,138 @@ impl Model for RansacRace {
     fn is_running(&self) -> bool {
         self.running.is_running()
     }
-
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
-    }
-
-    fn describe(&self) -> String {
-        words::describe(self)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "agree",
-                goal: "Make least squares and RANSAC agree within 1°.",
-                hint: "What is it that only one of the two can bear?",
-                check: |model| model.angles_deg().between.is_some_and(|angle| angle < 1.0),
-                solution: || vec![set("outliers", 0.0), set("iterations", 40.0)],
-            },
-            Challenge {
-                id: "long-run",
-                goal: "Find data for which more than 100 samples are needed.",
-                hint: "Every sample must be lucky twice.",
-                check: |model| model.outcome.budget.is_some_and(|budget| budget > 100),
-                solution: || {
-                    vec![
-                        set("epsilon", 4.0),
-                        set("outliers", 0.9),
-                        set("iterations", 500.0),
-                    ]
-                },
-            },
-            Challenge {
-                id: "one-bad-point",
-                goal: "Without outliers, drag one point until least squares is 5° off while RANSAC \
-                       stays within 2°.",
-                hint: "Few points, and a long lever.",
-                check: |model| {
-                    let angles = model.angles_deg();
-                    model.settings.number(&OUTLIERS) == 0.0
-                        && angles.least_squares.is_some_and(|angle| angle > 5.0)
-                        && angles.ransac.is_some_and(|angle| angle < 2.0)
-                },
-                solution: || {
-                    vec![
-                        set("outliers", 0.0),
-                        set("points", 8.0),
-                        set("iterations", 20.0),
-                        Event::HandleMoved {
-                            id: "p1".to_owned(),
-                            x: 640.0,
-                            y: 480.0,
-                        },
-                    ]
-                },
-            },
-        ]
-    }
 }
 
-fn set(id: &str, value: f64) -> Event {
-    Event::Set {
-        id: id.to_owned(),
-        value: Value::Number(value),
+const CHALLENGES: &[Challenge<RansacRace>] = &[
+    Challenge {
+        id: "agree",
+        goal: "Make least squares and RANSAC agree within 1°.",
+        hint: "What can only one of the two bear?",
+        why: "Without outliers both see the same good points, and a vote has nothing to throw out.",
+        check: |model| {
+            model
+                .fits
+                .angles_deg()
+                .between
+                .is_some_and(|angle| angle < 1.0)
+        },
+        solution: || vec![Event::set(&OUTLIERS, 0.0), Event::set(&ITERATIONS, 40.0)],
+    },
+    Challenge {
+        id: "one-bad-point",
+        goal: "With 20 points and no outliers, drag one until least squares, not RANSAC, is 5° off.",
+        hint: "The longer the lever, the better.",
+        why: "Cost grows with the square of the distance, so one far point outweighs many near ones; \
+              in a vote it is one vote less.",
+        check: |model| {
+            let angles = model.fits.angles_deg();
+            model.settings.number(&OUTLIERS) == 0.0
+                && model.points.len() >= 20
+                && angles.least_squares.is_some_and(|angle| angle > 5.0)
+                && angles.ransac.is_some_and(|angle| angle < 2.0)
+        },
+        solution: || {
+            vec![
+                Event::set(&OUTLIERS, 0.0),
+                Event::set(&COUNT, 20.0),
+                Event::set(&ITERATIONS, 20.0),
+                Event::moved("p1", 630.0, 10.0),
+            ]
+        },
+    },
+    Challenge {
+        id: "long-run",
+        goal: "Make RANSAC draw more than 200 samples before it stops.",
+        hint: "Both points of a sample must be inliers.",
+        why: "A sample is good with probability w², so a third of the inlier ratio takes nine times the \
+              samples.",
+        check: |model| model.fits.is_finished() && model.fits.num_samples() > 200,
+        solution: || {
+            vec![
+                Event::set(&EPSILON, 4.0),
+                Event::set(&OUTLIERS, 0.9),
+                Event::set(&ITERATIONS, MAX_SAMPLES as f64),
+            ]
+        },
+    },
+    Challenge {
+        id: "fooled",
+        goal: "Fool RANSAC: let it finish more than 10° from the hidden line.",
+        hint: "A wrong line only needs more votes than the right one.",
+        why: "RANSAC returns the line with the most votes; with few inliers and a wide band, outliers \
+              that lie together outvote them.",
+        check: |model| {
+            let angle = model.fits.angles_deg().ransac;
+            model.fits.is_finished() && angle.is_some_and(|angle| angle > 10.0)
+        },
+        solution: || {
+            vec![
+                Event::set(&OUTLIERS, 0.8),
+                Event::set(&EPSILON, 30.0),
+                Event::set(&ITERATIONS, MAX_SAMPLES as f64),
+            ]
+        },
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::super::fits::Ending;
+    use super::*;
+    use crate::contract::Words;
+    use crate::kit::samples::Samples;
+
+    fn after(events: &[Event]) -> RansacRace {
+        let mut model = RansacRace::new();
+        for event in events {
+            model.update(event).unwrap();
+        }
+        model
+    }
+
+    fn best(model: &RansacRace) -> usize {
+        model.fits.best.as_ref().map_or(0, |best| best.num_votes())
+    }
+
+    /// How often the best line gains votes from here to the end.
+    fn num_improvements(model: &mut RansacRace) -> usize {
+        let (mut count, mut votes) = (0, best(model));
+        while !model.fits.is_finished() {
+            model.update(&Event::press("step")).unwrap();
+            count += usize::from(best(model) > votes);
+            votes = votes.max(best(model));
+        }
+        count
+    }
+
+    #[test]
+    fn there_is_something_to_watch() {
+        // At first RANSAC is the nearer one already, and the reader still sees it improve twice.
+        let mut model = RansacRace::new();
+        let angles = model.fits.angles_deg();
+        assert!(angles.ransac.unwrap() < 2.0 && angles.least_squares.unwrap() > 8.0);
+        assert!(num_improvements(&mut model) >= 2);
+        assert_eq!(model.fits.ending(), Some(Ending::Right));
+        // From the very start as well, with as many outliers as inliers, too.
+        for outliers in [0.4, 0.5] {
+            let zero = Event::set(&ITERATIONS, 0.0);
+            let mut model = after(&[Event::set(&OUTLIERS, outliers), zero]);
+            assert!(num_improvements(&mut model) > 2, "{outliers}");
+            assert!(model.fits.angles_deg().ransac.unwrap() < 1.0);
+        }
+    }
+
+    #[test]
+    fn four_outliers_to_an_inlier_take_more_than_a_hundred_samples() {
+        let mut model = after(&[Event::set(&OUTLIERS, 0.8), Event::set(&ITERATIONS, 25.0)]);
+        let budget = model.fits.samples.as_ref().and_then(Samples::budget);
+        assert!(budget.unwrap() > 100 && model.fits.ending().is_none());
+        model.run_to(MAX_SAMPLES).unwrap();
+        assert!(model.fits.num_samples() > 100);
+        assert_eq!(model.fits.ending(), Some(Ending::Right));
+        // With a wide band a wrong line wins, and the figure says so.
+        model.update(&Event::set(&EPSILON, 20.0)).unwrap();
+        assert_eq!(model.fits.ending(), Some(Ending::Outvoted));
+        assert!(model.describe().contains("A wrong line has won"));
     }
 }

@@ -5,6 +5,10 @@ use epipole::math::random::Random;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
+use std::ops::RangeInclusive;
+
+/// How many steps a drive can have; an even number.
+pub(super) const STEPS: RangeInclusive<usize> = 40..=120;
 
 /// Steps that a corner of the block takes, at most.
 const CORNER: usize = 5;

@@ -1,16 +1,54 @@
 //! A drive around a block: how its scale drifts, how far it has come, and how its loop is closed.
 
-use super::answer::Answer;
-use super::closing::Kind;
-use super::drive::Errors;
-use super::knobs::{CLOSURE, DRIFT, KNOBS, NOISE, SEED, STEPS, STEREO};
-use super::request::{self, Request};
-use super::words;
+use super::drive::{self, Drive, Errors};
+use super::question::{Answer, Judged, Kind, Question};
 use crate::contract::{
-    Challenge, Control, Event, Handle, Job, JobResult, Model, Problem, Progress, Readout, Settings,
-    Value,
+    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
+    Progress, Settings, Slider, Toggle,
 };
+use crate::kit::question::{Asked, carry_out};
 
+const CLOSURE: Choice = Choice::new(
+    "closure",
+    "Loop closure",
+    &[
+        ("none", "None"),
+        ("rigid", "Rigid, SE(3)"),
+        ("similarity", "Similarity, Sim(3)"),
+    ],
+)
+.at(2);
+const DRIFT: Slider = Slider::new("drift", "Drift of scale per step")
+    .range(-2.0, 2.0, 0.1)
+    .at(1.0)
+    .digits(1)
+    .unit("%");
+const NOISE: Slider = Slider::new("noise", "Noise of each step")
+    .range(0.0, 3.0, 0.1)
+    .at(0.5)
+    .digits(1)
+    .unit("%");
+const STEREO: Toggle = Toggle::new("stereo", "Stereo rig");
+const STEPS: Slider = Slider::new("steps", "Steps around the block")
+    .range(
+        *drive::STEPS.start() as f64,
+        *drive::STEPS.end() as f64,
+        4.0,
+    )
+    .at(80.0)
+    .more();
+const SEED: Slider = Slider::seed(7.0);
+const KNOBS: &[Knob] = &[
+    Knob::Choice(&CLOSURE),
+    Knob::Slider(&DRIFT),
+    Knob::Toggle(&STEREO),
+    Knob::Slider(&NOISE),
+    Knob::Slider(&STEPS),
+    Knob::Slider(&SEED),
+];
+
+/// The handle that goes back and forth along the way.
+const TRAVELED: &str = "traveled";
 /// The fewest steps that can be looked at.
 const FEWEST: usize = 2;
 
@@ -19,39 +57,51 @@ pub(crate) struct ScaleDrift {
     settings: Settings,
     /// Steps that the reader has gone back to; `None` all the way home, however long that is.
     stop: Option<usize>,
-    answer: Answer,
-    pending: Option<Job>,
+    drive: Drive,
+    /// What odometry believes, as far as the camera has come.
+    before: Judged,
+    asked: Asked<Question>,
 }
 
 impl ScaleDrift {
-    /// What follows from the state. While the job is out, errors and the closed path are the last.
-    pub(super) fn answer(&self) -> &Answer {
-        &self.answer
+    /// All of the drive, however far the camera has come.
+    pub(super) fn drive(&self) -> &Drive {
+        &self.drive
     }
 
-    /// Whether the job is out.
-    pub(super) fn is_waiting(&self) -> bool {
-        self.pending.is_some()
+    /// What odometry believes. Its error is the last that is known.
+    pub(super) fn before(&self) -> &Judged {
+        &self.before
+    }
+
+    /// What closing the loop made of it; while the question is out, of the last drive.
+    pub(super) fn after(&self) -> Option<&Judged> {
+        let answer = self.asked.answer().filter(|_| self.is_home())?;
+        answer.closed.as_ref().filter(|_| self.kind().is_some())
+    }
+
+    /// How many times as large the places at home look on the return, as measured there.
+    pub(super) fn seen(&self) -> Option<f64> {
+        let answer = self.asked.answer().filter(|_| self.is_home());
+        answer.and_then(|answer| answer.seen)
+    }
+
+    pub(super) fn asked(&self) -> &Asked<Question> {
+        &self.asked
     }
 
     /// Drives anew, and asks for the path to be judged and its loop to be closed.
     fn refresh(&mut self) {
         let errors = errors_of(&self.settings);
         let (num_steps, traveled) = (self.num_steps(), self.traveled());
-        let last = Answer::open(num_steps, traveled, &errors);
-        let last = std::mem::replace(&mut self.answer, last);
-        self.answer.before.error = last.before.error;
-        if self.is_home() {
-            self.answer.seen = last.seen;
-            self.answer.after = last.after.filter(|_| self.kind().is_some());
-        }
-        let request = Request {
+        self.drive = Drive::new(num_steps, &errors);
+        self.before = before(&self.drive, traveled, self.asked.answer());
+        self.asked.ask(Question {
             num_steps,
             traveled,
             errors,
             kind: self.kind(),
-        };
-        self.pending = Some(request.job());
+        });
     }
 
     pub(super) fn drift_percent(&self) -> f64 {
@@ -81,16 +131,21 @@ impl ScaleDrift {
 
     /// The trajectory error of the closed path, once it is that of this state.
     fn error_after(&self) -> Option<f64> {
-        if self.is_waiting() {
-            return None;
-        }
-        let after = self.answer().after.as_ref()?;
-        after.as_ref().ok()?.error
+        self.after().filter(|_| !self.asked.is_waiting())?.error
     }
 
     fn go_to(&mut self, step: f64) {
         let step = step.max(FEWEST as f64).round() as usize;
         self.stop = (step < self.num_steps()).then_some(step);
+    }
+}
+
+/// The first `traveled` steps of what odometry believes, with the error that is known.
+fn before(drive: &Drive, traveled: usize, answer: Option<&Answer>) -> Judged {
+    Judged {
+        poses: drive.believed[..=traveled].to_vec(),
+        scale: drive.scale[..=traveled].to_vec(),
+        error: answer.and_then(|answer| answer.error),
     }
 }
 
@@ -103,7 +158,7 @@ fn errors_of(settings: &Settings) -> Errors {
     }
 }
 
-impl Model for ScaleDrift {
+impl Declared for ScaleDrift {
     const NAME: &'static str = "scale-drift";
     const TITLE: &'static str = "Coming home with the wrong scale";
     const HELP: &'static str = "Change how much the scale drifts, and how the loop is closed. Drag the \
@@ -112,16 +167,28 @@ impl Model for ScaleDrift {
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
         let num_steps = settings.count(&STEPS);
+        let drive = Drive::new(num_steps, &errors_of(&settings));
         let mut model = Self {
-            answer: Answer::open(num_steps, num_steps, &errors_of(&settings)),
             settings,
             stop: None,
-            pending: None,
+            before: before(&drive, num_steps, None),
+            drive,
+            asked: Asked::default(),
         };
         model.refresh();
         model
     }
 
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for ScaleDrift {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         for control in &mut controls {
@@ -134,7 +201,7 @@ impl Model for ScaleDrift {
     fn handles(&self) -> Vec<Handle> {
         let (traveled, all) = (self.traveled(), self.num_steps());
         vec![Handle {
-            id: "traveled".to_owned(),
+            id: TRAVELED.to_owned(),
             panel: "track",
             label: "Steps traveled".to_owned(),
             value_text: match self.is_home() {
@@ -166,103 +233,65 @@ impl Model for ScaleDrift {
         Ok(())
     }
 
-    fn job(&self) -> Option<Job> {
-        self.pending.clone()
-    }
-
-    fn compute(request: &[u8], _: Progress<'_>) -> JobResult {
-        request::compute(request)
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
     }
 
     fn job_done(&mut self, result: JobResult) {
-        self.pending = None;
-        match result.map(|bytes| request::read(&bytes)) {
-            Ok(Some(told)) => self.answer.take(&told),
-            Ok(None) => self.answer.after = Some(Err(words::NO_ANSWER.to_owned())),
-            Err(problem) => {
-                self.answer.after = Some(Err(format!("The path cannot be judged: {problem}.")));
-            }
-        }
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
-    }
-
-    fn describe(&self) -> String {
-        words::describe(self)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "unnoticed",
-                goal: "Stop on the way where everything comes out one and a half times as large.",
-                hint: "Drag the handle below the plot. Does anything on the way tell you?",
-                check: |model| {
-                    let scale = model.answer().before.scale_at_end();
-                    !model.is_home() && (1.45..1.55).contains(&scale)
-                },
-                solution: || {
-                    vec![Event::HandleMoved {
-                        id: "traveled".to_owned(),
-                        x: 40.0,
-                        y: 0.0,
-                    }]
-                },
-            },
-            Challenge {
-                id: "half",
-                goal: "Come home with everything half as large as at the start.",
-                hint: "The drift can be negative.",
-                check: |model| {
-                    let scale = model.answer().before.scale_at_end();
-                    model.is_home() && (0.47..0.53).contains(&scale)
-                },
-                solution: || vec![set(DRIFT.id, Value::Number(-0.9))],
-            },
-            Challenge {
-                id: "rigid",
-                goal: "Leave the noise, close the loop with rigid motions, and bring the trajectory \
-                    error below a tenth of a step.",
-                hint: "Rigid motions suffice where nothing drifts in scale. Who measures the scale?",
-                check: |model| {
-                    let is_noisy = model.settings.number(&NOISE) >= NOISE.default;
-                    let error = model.error_after();
-                    is_noisy && model.kind() == Some(Kind::Rigid) && error.is_some_and(|e| e < 0.1)
-                },
-                solution: || {
-                    vec![
-                        set(STEREO.id, Value::Flag(true)),
-                        set(CLOSURE.id, Value::from("rigid")),
-                    ]
-                },
-            },
-            Challenge {
-                id: "uneven",
-                goal: "Similarities undo a drift that is the same in every step. Find a path that they \
-                    leave off by half a step or more.",
-                hint: "The graph spreads what it learns at home evenly over the way. What is not even?",
-                check: |model| {
-                    let error = model.error_after();
-                    model.kind() == Some(Kind::Similarity) && error.is_some_and(|e| e > 0.5)
-                },
-                solution: || vec![set(NOISE.id, Value::Number(3.0))],
-            },
-        ]
+        self.asked.take(result);
+        self.before.error = self.asked.answer().and_then(|answer| answer.error);
     }
 }
 
-fn set(id: &str, value: Value) -> Event {
-    Event::Set {
-        id: id.to_owned(),
-        value,
-    }
-}
+const CHALLENGES: &[Challenge<ScaleDrift>] = &[
+    Challenge {
+        id: "unnoticed",
+        goal: "Stop on the way where everything comes out one and a half times too large.",
+        hint: "Drag the handle below the plot. Does anything on the way tell you?",
+        why: "Every step agrees with its neighbors, so no photograph on the way objects to the wrong \
+              scale.",
+        check: |model| !model.is_home() && (1.45..1.55).contains(&model.before.scale_at_end()),
+        solution: || vec![Event::moved(TRAVELED, 40.0, 0.0)],
+    },
+    Challenge {
+        id: "half",
+        goal: "Come home with everything half as large as at the start.",
+        hint: "The drift can be negative, and it compounds.",
+        why: "Scale compounds: less than one percent a step, 80 times over, halves everything.",
+        check: |model| model.is_home() && (0.47..0.53).contains(&model.before.scale_at_end()),
+        solution: || vec![Event::set(&DRIFT, -0.9)],
+    },
+    Challenge {
+        id: "rigid",
+        goal: "Keep the noise, close the loop rigidly, and get the error below 0.1 steps.",
+        hint: "Rigid motions are enough where the scale does not drift. What measures it?",
+        why: "A stereo rig measures every step in meters, so only place and direction drift, and \
+              rigid motions undo that.",
+        check: |model| {
+            let is_noisy = model.settings.number(&NOISE) >= NOISE.default;
+            let error = model.error_after();
+            is_noisy && model.kind() == Some(Kind::Rigid) && error.is_some_and(|e| e < 0.1)
+        },
+        solution: || vec![Event::set(&STEREO, true), Event::set(&CLOSURE, "rigid")],
+    },
+    Challenge {
+        id: "uneven",
+        goal: "Find a path that similarities leave off by half a step or more.",
+        hint: "The graph spreads evenly what it learns at home. What is not even?",
+        why: "One loop tells only the sum of all errors; where on the way each of them happened stays \
+              unknown.",
+        check: |model| {
+            let error = model.error_after();
+            model.kind() == Some(Kind::Similarity) && error.is_some_and(|e| e > 0.5)
+        },
+        solution: || vec![Event::set(&NOISE, 3.0)],
+    },
+];
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Words;
     use std::ops::ControlFlow;
 
     fn after(events: &[Event]) -> ScaleDrift {
@@ -271,24 +300,31 @@ mod tests {
             model.update(event).unwrap();
         }
         if let Some(job) = model.job() {
-            let result = ScaleDrift::compute(&job.request, &mut |_| ControlFlow::Continue(()));
+            let result = ScaleDrift::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
             model.job_done(result);
         }
         model
     }
 
     fn stop_at(x: f64) -> Event {
-        let id = "traveled".to_owned();
-        Event::HandleMoved { id, x, y: 0.0 }
+        Event::moved(TRAVELED, x, 0.0)
     }
 
     #[test]
     fn the_default_shows_what_closing_the_loop_repairs() {
         let model = after(&[]);
-        let before = &model.answer().before;
+        let before = model.before();
         assert!((2.0..2.6).contains(&before.scale_at_end()));
         let (before, after) = (before.error.unwrap(), model.error_after().unwrap());
         assert!(after < 0.1 * before, "{before} to {after}");
+    }
+
+    #[test]
+    fn rigid_motions_close_the_gap_and_solve_nothing() {
+        let model = after(&[Event::set(&CLOSURE, "rigid")]);
+        let closed = model.after().unwrap();
+        assert!(closed.gap() < 0.1 && closed.scale_at_end() > 2.0);
+        assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));
     }
 
     #[test]
@@ -296,7 +332,7 @@ mod tests {
         let mut model = after(&[]);
         let before = model.error_after().unwrap();
         assert!(before < 0.1, "{before}");
-        let rigid = set(CLOSURE.id, Value::from("rigid"));
+        let rigid = Event::set(&CLOSURE, "rigid");
         model.update(&rigid).unwrap();
         assert_eq!(model.error_after(), None);
         assert!(!model.describe().contains("takes the trajectory error"));
@@ -305,22 +341,23 @@ mod tests {
 
     #[test]
     fn whoever_is_home_stays_home_when_the_way_becomes_longer() {
-        let longer = set(STEPS.id, Value::Number(120.0));
+        let longer = Event::set(&STEPS, 120.0);
         let model = after(&[stop_at(80.0), longer.clone()]);
         assert_eq!((model.traveled(), model.is_home()), (120, true));
         let model = after(&[stop_at(60.0), longer]);
         assert_eq!((model.traveled(), model.is_home()), (60, false));
-        let model = after(&[stop_at(60.0), set(STEPS.id, Value::Number(40.0))]);
+        let model = after(&[stop_at(60.0), Event::set(&STEPS, 40.0)]);
         assert_eq!((model.traveled(), model.is_home()), (40, true));
     }
 
     #[test]
     fn equal_states_say_the_same_whatever_came_before() {
-        let there = [set(DRIFT.id, Value::Number(-2.0)), stop_at(20.0)];
-        let back = [set(DRIFT.id, Value::Number(1.0)), stop_at(80.0)];
+        let there = [Event::set(&DRIFT, -2.0), stop_at(20.0)];
+        let back = [Event::set(&DRIFT, 1.0), stop_at(80.0)];
         let model = after(&[there, back].concat());
         let fresh = after(&[]);
-        assert_eq!(model.answer(), fresh.answer());
+        assert_eq!(model.before(), fresh.before());
+        assert_eq!(model.after(), fresh.after());
         assert_eq!(model.readouts(), fresh.readouts());
     }
 
@@ -329,12 +366,12 @@ mod tests {
         for drift in [DRIFT.min, DRIFT.max] {
             for closure in ["rigid", "similarity"] {
                 let model = after(&[
-                    set(DRIFT.id, Value::Number(drift)),
-                    set(NOISE.id, Value::Number(NOISE.max)),
-                    set(STEPS.id, Value::Number(STEPS.max)),
-                    set(CLOSURE.id, Value::from(closure)),
+                    Event::set(&DRIFT, drift),
+                    Event::set(&NOISE, NOISE.max),
+                    Event::set(&STEPS, STEPS.max),
+                    Event::set(&CLOSURE, closure),
                 ]);
-                let closed = model.answer().after.as_ref().unwrap().as_ref().unwrap();
+                let closed = model.after().unwrap();
                 assert!(closed.scale.iter().all(|scale| scale.is_finite()));
                 assert!(closed.gap() < 1.0, "{drift}, {closure}: {}", closed.gap());
             }

@@ -1,13 +1,9 @@
 //! What `scale-drift` says: readouts and description.
 
-use super::answer::{Answer, Judged};
-use super::closing::Kind;
 use super::model::ScaleDrift;
-use super::request::WAITING;
-use crate::contract::{Readout, format_number};
-
-/// What is said if a worker's answer makes no sense.
-pub(super) const NO_ANSWER: &str = "The path could not be judged.";
+use super::question::{Judged, Kind, Question};
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::question::Question as _;
 
 fn steps(length: f64) -> String {
     format!("{} steps", format_number(length, 2))
@@ -28,28 +24,30 @@ fn percent(share: f64) -> String {
 fn error(model: &ScaleDrift, judged: &Judged) -> String {
     match judged.error {
         Some(error) => steps(error),
-        None if model.is_waiting() => "…".to_owned(),
+        None if model.asked().is_waiting() => "…".to_owned(),
         None => "none yet on a straight line".to_owned(),
     }
 }
 
-/// What it is now, and what it was before the loop was closed.
-fn pair(answer: &Answer, say: impl Fn(&Judged) -> String) -> String {
-    let before = say(&answer.before);
-    match &answer.after {
-        Some(Ok(after)) => format!("{} (before: {before})", say(after)),
-        _ => before,
-    }
-}
-
-pub(super) fn readouts(model: &ScaleDrift) -> Vec<Readout> {
-    let answer = model.answer();
-    let gap = match model.is_home() {
-        true => pair(answer, |judged| steps(judged.gap())),
+fn readouts(model: &ScaleDrift) -> Vec<Readout> {
+    let before = model.before();
+    // What there is no value of keeps its place.
+    let missing = if model.asked().is_waiting() {
+        "…"
+    } else {
+        "–"
+    };
+    let closed =
+        |say: &dyn Fn(&Judged) -> String| model.after().map_or_else(|| missing.to_owned(), say);
+    let error = |judged: &Judged| judged.error.map_or_else(|| missing.to_owned(), steps);
+    let scale = |judged: &Judged| times(judged.scale_at_end());
+    let gap = |judged: &Judged| match model.is_home() {
+        true => steps(judged.gap()),
         false => "not home yet".to_owned(),
     };
-    let loop_says = match (answer.seen, model.kind()) {
-        (None, _) if model.is_home() => "…".to_owned(),
+    let worst = |judged: &Judged| percent(judged.worst_scale());
+    let loop_says = match (model.seen(), model.kind()) {
+        (None, _) if model.is_home() => missing.to_owned(),
         (None, _) => "not home yet".to_owned(),
         (Some(_), None) => "not asked".to_owned(),
         (Some(seen), Some(Kind::Similarity)) => {
@@ -57,34 +55,21 @@ pub(super) fn readouts(model: &ScaleDrift) -> Vec<Readout> {
         }
         (Some(_), Some(Kind::Rigid)) => "home again, nothing of scale".to_owned(),
     };
-    let mut readouts = vec![
-        Readout::words(
-            "scale",
-            "Scale of the last frame",
-            pair(answer, |judged| times(judged.scale_at_end())),
-        ),
-        Readout::words("gap", "Gap on coming home", gap),
-        Readout::words(
-            "error",
-            "Trajectory error (aligned, RMS)",
-            pair(answer, |judged| error(model, judged)),
-        ),
-        Readout::words(
-            "worst",
-            "Largest error of scale",
-            pair(answer, |judged| percent(judged.worst_scale())),
-        ),
+    vec![
+        Readout::words("error-before", "Error, odometry", error(before)).main(),
+        Readout::words("error", "Error, loop closed", closed(&error)).main(),
+        Readout::words("scale-before", "Scale, odometry", scale(before)).main(),
+        Readout::words("scale", "Scale, loop closed", closed(&scale)).main(),
+        Readout::words("gap-before", "Gap at home, odometry", gap(before)),
+        Readout::words("gap", "Gap at home, loop closed", closed(&gap)),
+        Readout::words("worst-before", "Worst scale, odometry", worst(before)),
+        Readout::words("worst", "Worst scale, loop closed", closed(&worst)),
         Readout::words("loop", "The loop says", loop_says),
-    ];
-    if let Some(Err(problem)) = &answer.after {
-        readouts.push(Readout::words("problem", "Problem", problem.clone()));
-    }
-    readouts
+    ]
 }
 
-pub(super) fn describe(model: &ScaleDrift) -> String {
-    let answer = model.answer();
-    let before = &answer.before;
+fn describe(model: &ScaleDrift) -> String {
+    let before = model.before();
     let who = match model.is_metric() {
         true => "A stereo rig".to_owned(),
         false => format!(
@@ -117,10 +102,12 @@ pub(super) fn describe(model: &ScaleDrift) -> String {
         true => format!("the path misses the start by {gap}"),
         false => format!("{size}, and the path misses the start by {gap}"),
     };
-    let ending = match (&answer.after, model.kind()) {
-        _ if model.is_waiting() => format!("{WAITING}."),
-        (Some(Err(problem)), _) => problem.clone(),
-        (Some(Ok(after)), Some(kind)) => {
+    let ending = match (model.after(), model.kind()) {
+        _ if model.asked().is_waiting() => format!("{}.", Question::LABEL),
+        _ if model.asked().problem().is_some() => {
+            model.asked().problem().unwrap_or_default().to_owned()
+        }
+        (Some(after), Some(kind)) => {
             let means = match kind {
                 Kind::Rigid => "rigid motions",
                 Kind::Similarity => "similarities",
@@ -146,4 +133,14 @@ fn capital(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().chain(letters).collect()
     })
+}
+
+impl Words for ScaleDrift {
+    fn readouts(&self) -> Vec<Readout> {
+        readouts(self)
+    }
+
+    fn describe(&self) -> String {
+        describe(self)
+    }
 }

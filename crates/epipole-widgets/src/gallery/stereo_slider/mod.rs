@@ -1,6 +1,8 @@
-//! `stereo-slider`: two photographs in a row, the disparity between them, and the depth it gives.
+//! `stereo-slider`: depth from disparity, and what a pixel of error costs.
 
 mod model;
+mod rig;
 mod view;
+mod words;
 
-pub(super) use view::StereoSliderView;
+pub(crate) use view::StereoSliderView as View;

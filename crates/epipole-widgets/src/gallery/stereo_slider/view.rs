@@ -1,116 +1,150 @@
-//! Drawing of `stereo-slider`: both photographs on top, the view from above below.
+//! Both photographs, depth over disparity below them, and the view from above beside.
 
-use super::model::{DEPTH_RANGE_M, Measured, NO_BASELINE, Sight, StereoSlider, reach};
+mod from_above;
+
+use super::model::{DEPTH_RANGE_M, StereoSlider};
+use super::rig::{ERROR_PX, Measured, Rig, Sight};
+use super::words::NO_BASELINE;
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
-use crate::labels::Labels;
-use crate::photo::Photo;
-use crate::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::grid::{self, Grid, TEXT, TITLE};
+use crate::kit::labels::Labels;
+use crate::kit::photo::Photo;
+use crate::kit::plan::draw_span;
+use crate::kit::plot::{self, Ruler};
+use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
 use crate::theme::Role;
 
-const TEXT: f64 = 13.0;
-const SMALL: f64 = 12.0;
-/// Height of a line of text above a panel.
-const TITLE: f64 = 24.0;
 const MARKER: f64 = 4.5;
 /// Each camera has a hue and a shape, in its photograph and in the view from above.
-const CAMERAS: [(Role, Shape); 2] = [
+pub(super) const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(1), Shape::Square),
 ];
-/// The table: left, right, near and far edge, meters.
-const TABLE_M: [f64; 4] = [-0.95, 0.95, 0.35, 11.35];
 /// What an uncertain pixel leaves open.
-const UNCERTAIN: Role = Role::Series(3);
+pub(super) const UNCERTAIN: Role = Role::Series(3);
+/// Height over width of a photograph.
+const PHOTO_ASPECT: f64 = PHOTO_HEIGHT as f64 / PHOTO_WIDTH as f64;
+/// Height of the view from above on a phone, CSS pixels.
+const LOW: f64 = 186.0;
+/// Disparities and depths that the curve is drawn for.
+const MOST_PX: f64 = 120.0;
+const MOST_M: f64 = 11.0;
 
 /// The two photographs, kept between drawings.
-#[derive(Default)]
 pub(crate) struct StereoSliderView {
     photos: [Photo; 2],
 }
 
+impl Default for StereoSliderView {
+    fn default() -> Self {
+        Self {
+            photos: [(); 2].map(|()| Photo::following(scenes::moved_ball)),
+        }
+    }
+}
+
+fn rulers() -> (Ruler, Ruler) {
+    let disparity = Ruler::linear(0.0, MOST_PX).named("disparity d, px");
+    (disparity, Ruler::linear(0.0, MOST_M).shown(1.0, " m"))
+}
+
 impl View for StereoSliderView {
     type Model = StereoSlider;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, _model: &StereoSlider, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let photo = |id, rect| {
+            let mut panel = Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
+            panel.clickable = true;
+            panel
+        };
         // Side by side on every page: that both are on the same row is the point.
-        let gap = if width < 500.0 { 6.0 } else { 12.0 };
-        let photo_width = ((width - gap) / 2.0).max(1.0);
-        let photo_height = photo_width * f64::from(PHOTO_HEIGHT) / f64::from(PHOTO_WIDTH);
-        let photo = |id, x| {
-            let rect = Rect::new(x, TITLE, photo_width, photo_height);
-            Panel {
-                clickable: true,
-                ..Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT)
-            }
-        };
-        let top_y = TITLE + photo_height + 10.0 + TITLE;
-        let top_height = (width * 0.44).clamp(280.0, 340.0);
-        let top = Panel {
-            id: "top",
-            rect: Rect::new(0.0, top_y, width, top_height),
-            x_axis: Axis {
-                start: -1.15,
-                end: 1.15,
-            },
-            y_axis: Axis {
-                start: DEPTH_RANGE_M[1] + 0.8,
-                end: -1.3,
-            },
-            clickable: true,
-        };
-        Layout {
-            width,
-            height: top_y + top_height,
-            panels: vec![photo("left", 0.0), photo("right", photo_width + gap), top],
+        if grid::is_narrow(width) {
+            let [left, right] = grid.row([PHOTO_ASPECT; 2], f64::INFINITY);
+            let [top] = grid.shares([1.0], LOW);
+            let panels = vec![
+                photo("left", left),
+                photo("right", right),
+                from_above::panel(top),
+            ];
+            return grid.layout(panels);
         }
+        let [whole] = grid.shares([1.0], (0.4 * width).clamp(330.0, 440.0));
+        let [seen, top] = grid::columns(whole, [1.85, 1.0]);
+        let [left, right] = grid::columns(seen, [1.0, 1.0]).map(|cell| Rect {
+            height: cell.width * PHOTO_ASPECT,
+            ..cell
+        });
+        let below = left.bottom() + grid::GAP + TITLE;
+        let curve = Rect::new(seen.x, below, seen.width, (whole.bottom() - below).max(1.0));
+        let (x, y) = rulers();
+        let panels = vec![
+            photo("left", left),
+            photo("right", right),
+            plot::panel("curve", curve, &x, &y),
+            from_above::panel(top),
+        ];
+        grid.layout(panels)
     }
 
     fn draw(&mut self, model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
-        self.draw_photographs(model, layout, canvas);
-        draw_from_above(model, layout, canvas);
+        let rig = model.rig();
+        self.draw_photographs(&rig, layout, canvas);
+        from_above::draw(&rig, layout.panel("top"), canvas);
+        let curve = layout.panels.iter().find(|panel| panel.id == "curve");
+        if let Some(curve) = curve {
+            draw_curve(&rig, curve, canvas);
+        }
+        if rig.measured().is_none() {
+            let room = curve.unwrap_or(layout.panel("top"));
+            grid::notice(canvas, room.rect, NO_BASELINE);
+        }
     }
 
     fn refine(&mut self, model: &StereoSlider) -> bool {
-        let (Ok(cameras), Ok(scene)) = (model.cameras(), scenes::long_table(model.object_m()))
+        let rig = model.rig();
+        let (Ok(cameras), Ok(scene)) = (rig.cameras(), scenes::long_table((rig.x_m, rig.z_m)))
         else {
             return false;
         };
-        let arrangement = model.object_in_world().coords.into();
+        let arrangement = rig.ball_in_world().coords.into();
         let mut photos = self.photos.iter_mut().zip(&cameras);
         photos.any(|(photo, camera)| photo.refine(&scene, camera, arrangement, PHOTO_SIZE))
     }
 }
 
 impl StereoSliderView {
-    fn draw_photographs(&mut self, model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
+    fn draw_photographs(&mut self, rig: &Rig, layout: &Layout, canvas: &mut Canvas) {
         let panels = [layout.panel("left"), layout.panel("right")];
         let made = (|| {
-            let scene = scenes::long_table(model.object_m())?;
-            Ok((model.cameras()?, model.pixels()?, model.sights()?, scene))
+            let scene = scenes::long_table((rig.x_m, rig.z_m))?;
+            Ok((rig.cameras()?, rig.pixels()?, rig.sights()?, scene))
         })();
         let (cameras, pixels, sights, scene) = match made {
             Ok(made) => made,
-            Err(error) => return draw_refusal(canvas, layout, &error),
+            Err(error) => return refuse(canvas, panels, &error),
         };
-        let arrangement = model.object_in_world().coords.into();
+        let arrangement = rig.ball_in_world().coords.into();
         for index in 0..2 {
             let rect = panels[index].rect;
-            let title = ["Left photograph", "Right photograph"][index];
+            let said = title(index, sights[index], pixels[index].x, rect.width);
             let (role, shape) = CAMERAS[index];
-            canvas.marker((rect.x + 6.0, TITLE / 2.0), 5.0, shape, role, false);
-            let place = (rect.x + 18.0, TITLE / 2.0);
-            canvas.label(place, title, TextStyle::new(Role::Ink, TEXT));
-            let picture =
-                self.photos[index].picture(&scene, &cameras[index], arrangement, PHOTO_SIZE);
-            match picture {
+            let middle = rect.y - TITLE / 2.0;
+            canvas.marker((rect.x + 6.0, middle), 5.0, shape, role, false);
+            let place = (rect.x + 18.0, middle);
+            canvas.label(place, &said, TextStyle::new(Role::Ink, TEXT));
+            let photo = &mut self.photos[index];
+            match photo.picture(&scene, &cameras[index], arrangement, PHOTO_SIZE) {
                 Ok(picture) => canvas.photograph(rect, picture),
-                Err(error) => return draw_refusal(canvas, layout, &error),
+                Err(error) => return refuse(canvas, panels, &error),
             }
         }
         // One row through both photographs, and through the gap between them.
+        let rect = panels[0].rect;
         let row = panels[0].canvas_from_world((0.0, pixels[0].y)).1;
-        let both = Rect::new(0.0, panels[0].rect.y, layout.width, panels[0].rect.height);
+        let both = Rect::new(rect.x, rect.y, panels[1].rect.right() - rect.x, rect.height);
         let stroke = Stroke::solid(Role::Ink, 1.0).dashed().cased();
         canvas.clipped(both, |canvas| {
             canvas.line((both.x, row), (both.right(), row), stroke);
@@ -119,247 +153,106 @@ impl StereoSliderView {
             let panel = panels[index];
             let (role, shape) = CAMERAS[index];
             let place = panel.canvas_from_world((pixels[index].x, pixels[index].y));
-            let mut labels = Labels::new(panel.rect);
-            let style = TextStyle::new(role, TEXT).cased();
-            if sights[index] == Sight::Outside {
-                let at = (panel.rect.center().0, place.1 - 16.0);
-                let text = "the ball is outside";
-                let style = TextStyle::new(Role::Ink, TEXT).cased();
-                labels.draw(canvas, &[(at, Align::Middle)], text, style);
-                continue;
-            }
             canvas.clipped(panel.rect, |canvas| {
-                if index == 1 {
+                if index == 1 && sights[1] != Sight::Outside {
                     let left = panel.canvas_from_world((pixels[0].x, pixels[0].y));
-                    draw_disparity(canvas, &mut labels, left, place, model.measured());
+                    draw_disparity(canvas, panel.rect, left, place, rig.measured());
                 }
                 match sights[index] {
+                    Sight::Outside => {}
                     Sight::Clear => canvas.marker(place, MARKER, shape, role, true),
-                    _ => canvas.hollow_marker(place, MARKER, shape, role, true),
+                    Sight::Hidden(_) => canvas.hollow_marker(place, MARKER, shape, role, true),
                 }
             });
-            labels.keep_free(place, 6.0);
-            let text = match sights[index] {
-                Sight::Hidden(by) => format!("hidden by {by}"),
-                _ => format!("u = {}", format_number(pixels[index].x, 1)),
-            };
-            let above = ((place.0, place.1 - 19.0), Align::Middle);
-            let higher = ((place.0, place.1 - 36.0), Align::Middle);
-            labels.draw(canvas, &[above, higher], &text, style);
         }
     }
 }
 
-/// Why there are no photographs, in their place.
-fn draw_refusal(canvas: &mut Canvas, layout: &Layout, error: &epipole::Error) {
-    for id in ["left", "right"] {
-        let rect = layout.panel(id).rect;
-        canvas.panel(rect);
-        let style = TextStyle::new(Role::Ink, TEXT);
-        canvas.paragraph(rect.inset(10.0), &error.to_string(), style);
+/// What stands above a photograph.
+fn title(index: usize, sight: Sight, column_px: f64, width: f64) -> String {
+    let name = match width < 220.0 {
+        true => ["Left: ", "Right: "][index],
+        false => ["Left photograph, ", "Right photograph, "][index],
+    };
+    match sight {
+        Sight::Clear => format!("{name}u = {}", format_number(column_px, 1)),
+        Sight::Hidden(by) => format!("{name}{by} hides it"),
+        Sight::Outside => format!("{name}it is outside"),
     }
 }
 
-/// In the right photograph: where the left one has the object, and how far it moved.
+/// Why there are no photographs, in their place.
+fn refuse(canvas: &mut Canvas, panels: [&Panel; 2], error: &epipole::Error) {
+    for panel in panels {
+        canvas.panel(panel.rect);
+        grid::notice(canvas, panel.rect, &error.to_string());
+    }
+}
+
+/// In the right photograph: where the left one has the ball, and how far it moved.
 fn draw_disparity(
     canvas: &mut Canvas,
-    labels: &mut Labels,
+    rect: Rect,
     left: Place,
     right: Place,
     measured: Option<Measured>,
 ) {
     let Some(measured) = measured else { return };
-    let y = left.1 + 16.0;
+    let y = left.1 + 15.0;
     let stroke = Stroke::solid(Role::Ink, 1.5).cased();
-    canvas.line((right.0, y), (left.0, y), stroke);
-    for x in [right.0, left.0] {
-        canvas.line((x, y - 5.0), (x, y + 5.0), stroke);
-    }
+    draw_span(canvas, (right.0, y), (left.0, y), stroke);
     let (role, shape) = CAMERAS[0];
     canvas.hollow_marker(left, MARKER, shape, role, true);
-    labels.keep_free(left, 6.0);
-    let text = format!("d = {} px", format_number(measured.disparity_px, 1));
-    let below = (((left.0 + right.0) / 2.0, y + 17.0), Align::Middle);
+    let text = match rect.width < 220.0 {
+        true => "d".to_owned(),
+        false => format!("d = {} px", format_number(measured.disparity_px, 1)),
+    };
+    let below = (((left.0 + right.0) / 2.0, y + 14.0), Align::Middle);
     let style = TextStyle::new(Role::Ink, TEXT).cased();
-    labels.draw(canvas, &[below], &text, style);
+    Labels::new(rect.inset(2.0)).draw(canvas, &[below], &text, style);
 }
 
-fn draw_from_above(model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
-    let panel = layout.panel("top");
-    let rect = panel.rect;
-    let narrow = layout.width < 500.0;
-    let title = if narrow {
-        "From above, stretched sideways"
-    } else {
-        "From above, stretched sideways so that the baseline can be seen"
+/// Depth over disparity for this rig, and what a pixel more or less means here.
+fn draw_curve(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
+    let (x, y) = rulers();
+    grid::title(canvas, panel.rect, "Depth Z over disparity d: Z = f B / d");
+    plot::draw_axes(canvas, panel, &x, &y);
+    let Some(measured) = rig.measured() else {
+        return;
     };
-    let place = (rect.x, rect.y - TITLE / 2.0);
-    canvas.label(place, title, TextStyle::new(Role::Ink, TEXT));
-    canvas.panel(rect);
-    let at = |x: f64, z: f64| panel.canvas_from_world((x, z));
-    let inner = rect.inset(1.0);
-    let mut labels = Labels::new(rect.inset(2.0));
-    canvas.clipped(inner, |canvas| draw_grid(canvas, panel, &mut labels));
-
-    let (x_m, z_m) = model.object_m();
-    let baseline_m = model.baseline_m();
-    let measured = model.measured();
-    canvas.clipped(inner, |canvas| {
-        if let Some(measured) = measured {
-            draw_uncertainty(canvas, panel, model, measured);
-        }
-        // Field of view of both cameras.
-        let half = f64::from(PHOTO_WIDTH) / 2.0 / model.focal_px();
-        for camera_x in [0.0, baseline_m] {
-            for side in [-1.0, 1.0] {
-                let far = panel.y_axis.start;
-                let edge = at(camera_x + side * half * far, far);
-                canvas.line(at(camera_x, 0.0), edge, Stroke::solid(Role::Edge, 1.0));
-            }
-        }
-        for (index, camera_x) in [0.0, baseline_m].into_iter().enumerate() {
-            let (role, _) = CAMERAS[index];
-            let stroke = Stroke::solid(role, 1.75);
-            canvas.line(at(camera_x, 0.0), at(x_m, z_m), stroke);
-            let beyond = panel.y_axis.start / z_m;
-            let end = at(camera_x + (x_m - camera_x) * beyond, panel.y_axis.start);
-            canvas.line(at(x_m, z_m), end, Stroke::solid(role, 1.0).dotted());
-        }
-        draw_cameras(canvas, panel, &mut labels, baseline_m);
-        canvas.grip(at(x_m, z_m), Role::Grip);
-    });
-    match measured {
-        Some(measured) => draw_numbers(canvas, panel, &mut labels, model, measured),
-        None => {
-            let text_rect = Rect::new(rect.x + 44.0, rect.y + 14.0, rect.width - 60.0, 90.0);
-            let style = TextStyle::new(Role::Ink, TEXT).cased();
-            canvas.paragraph(text_rect, NO_BASELINE, style);
-        }
-    }
-}
-
-fn draw_grid(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels) {
-    let rect = panel.rect;
-    let (left, far) = panel.canvas_from_world((TABLE_M[0], TABLE_M[3]));
-    let (right, near) = panel.canvas_from_world((TABLE_M[1], TABLE_M[2]));
-    let table = Rect::new(left, far, right - left, near - far);
-    canvas.fill_rect(table, Role::Background, 1.0);
-    for x in [left, right] {
-        canvas.line((x, far), (x, near), Stroke::solid(Role::Grid, 1.0));
-    }
-    canvas.line((left, near), (right, near), Stroke::solid(Role::Grid, 1.0));
-    let style = TextStyle::new(Role::Muted, SMALL);
-    let place = ((right - 6.0, near - 10.0), Align::End);
-    labels.draw(canvas, &[place], "table", style);
-    for meters in 0..=10 {
-        let z = f64::from(meters);
-        let y = panel.canvas_from_world((0.0, z)).1;
-        canvas.line(
-            (rect.x, y),
-            (rect.right(), y),
-            Stroke::solid(Role::Grid, 1.0),
-        );
-        if meters % 2 == 0 && meters > 0 {
-            canvas.label((rect.x + 8.0, y), &format!("{meters} m"), style.cased());
-        }
-    }
-}
-
-fn draw_cameras(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels, baseline_m: f64) {
-    let (left, y) = panel.canvas_from_world((0.0, 0.0));
-    let right = panel.canvas_from_world((baseline_m, 0.0)).0;
-    let stroke = Stroke::solid(Role::Ink, 1.5);
-    canvas.line((left, y + 14.0), (right, y + 14.0), stroke);
-    for (index, x) in [left, right].into_iter().enumerate() {
-        let (role, shape) = CAMERAS[index];
-        canvas.line((x, y + 10.0), (x, y + 18.0), stroke);
-        canvas.marker((x, y), 5.5, shape, role, true);
-        let style = TextStyle::new(role, TEXT).cased();
-        let (place, text) = if index == 0 {
-            (((x - 12.0, y), Align::End), "left camera")
-        } else {
-            (((x + 12.0, y), Align::Start), "right camera")
-        };
-        labels.draw(canvas, &[place], text, style);
-    }
-    labels.keep_rect_free(Rect::new(left - 6.0, y - 6.0, right - left + 12.0, 24.0));
-    let text = format!("B = {} m", format_number(baseline_m, 2));
-    let style = TextStyle::new(Role::Ink, TEXT).cased();
-    let place = ((right + 12.0, y + 19.0), Align::Start);
-    labels.draw(canvas, &[place], &text, style);
-}
-
-/// The depths that one pixel more or less leaves open: a band, and the part of the left ray in it.
-fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, model: &StereoSlider, measured: Measured) {
-    let (x_m, z_m) = model.object_m();
-    let near_m = measured.interval.near_m;
-    let far_m = measured.interval.far_m.unwrap_or(f64::INFINITY);
-    let shown_far_m = far_m.min(panel.y_axis.start);
-    let along_left = |z: f64| panel.canvas_from_world((x_m / z_m * z, z));
-    let (near, far) = (along_left(near_m), along_left(shown_far_m));
-    let rect = panel.rect;
-    let band = Rect::new(rect.x, far.1, rect.width, near.1 - far.1);
-    canvas.fill_rect(band, UNCERTAIN, 0.14);
-    for (y, is_edge) in [(near.1, true), (far.1, far_m < panel.y_axis.start)] {
-        if is_edge {
-            let stroke = Stroke::solid(UNCERTAIN, 1.0);
-            canvas.line((rect.x, y), (rect.right(), y), stroke);
-        }
-    }
-    // All places that the right camera allows: between the rays through the columns one pixel
-    // to either side.
-    let right = panel.canvas_from_world((model.baseline_m(), 0.0));
-    canvas.polygon(&[right, near, far], UNCERTAIN, 0.35);
-    canvas.line(near, far, Stroke::solid(UNCERTAIN, 5.0));
-}
-
-fn draw_numbers(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    labels: &mut Labels,
-    model: &StereoSlider,
-    measured: Measured,
-) {
-    let (x_m, z_m) = model.object_m();
-    let rect = panel.rect;
-    let near_m = measured.interval.near_m;
-    let far_m = measured.interval.far_m.unwrap_or(f64::INFINITY);
-    let far_y = panel
-        .canvas_from_world((0.0, far_m.min(panel.y_axis.start)))
-        .1;
-    let near_y = panel.canvas_from_world((0.0, near_m)).1;
-    let object = panel.canvas_from_world((x_m, z_m));
-    labels.keep_free(object, 10.0);
-    // Nothing is written across the edges of the band.
-    for y in [near_y, far_y] {
-        for index in 0..=(rect.width / 8.0) as usize {
-            labels.keep_free((rect.x + 8.0 * index as f64, y), 2.0);
-        }
-    }
-    let reach = reach(&measured.interval);
-    let text = if rect.width < 500.0 {
-        format!("±1 px: {reach}")
-    } else {
-        format!("±1 px of disparity: {reach}")
-    };
-    // On the side away from the object.
-    let (x, align) = if x_m < 0.0 {
-        (rect.right() - 8.0, Align::End)
-    } else {
-        (rect.x + 44.0, Align::Start)
-    };
-    let places = [far_y - 12.0, near_y + 12.0, (near_y + far_y) / 2.0].map(|y| ((x, y), align));
-    let style = TextStyle::new(UNCERTAIN, TEXT).cased();
-    labels.draw(canvas, &places, &text, style);
-    let text = format!("Z = {} m", format_number(measured.depth_m, 2));
-    let (x, y) = object;
-    let places = [
-        ((x + 15.0, y + 18.0), Align::Start),
-        ((x + 17.0, y), Align::Start),
-        ((x + 15.0, y - 18.0), Align::Start),
-        ((x - 17.0, y), Align::End),
-        ((x - 15.0, y - 18.0), Align::End),
+    let (d, near_m) = (measured.disparity_px, measured.interval.near_m);
+    let far_m = measured.interval.far_m.unwrap_or(1e3);
+    let at = |d: f64, z: f64| panel.canvas_from_world((d, z.min(1e3)));
+    let bands = [
+        [
+            (d - ERROR_PX, 0.0),
+            (d - ERROR_PX, far_m),
+            (d + ERROR_PX, near_m),
+            (d + ERROR_PX, 0.0),
+        ],
+        [
+            (0.0, far_m),
+            (d - ERROR_PX, far_m),
+            (d + ERROR_PX, near_m),
+            (0.0, near_m),
+        ],
     ];
-    let style = TextStyle::new(Role::Ink, TEXT).cased();
-    labels.draw(canvas, &places, &text, style);
+    canvas.clipped(panel.rect.inset(1.0), |canvas| {
+        for band in bands {
+            canvas.polygon(&band.map(|(d, z)| at(d.max(0.0), z)), UNCERTAIN, 0.25);
+        }
+    });
+    let product = rig.focal_px * rig.baseline_m;
+    // Evenly along the curve, not along an axis: it is as steep as it is flat.
+    let [nearest, farthest] = [0.5 * DEPTH_RANGE_M[0], MOST_M];
+    let places = (0..=96).map(|step| {
+        let share = f64::from(step) / 96.0;
+        let depth_m = nearest * libm::pow(farthest / nearest, share);
+        (product / depth_m, depth_m)
+    });
+    plot::draw_curve(canvas, panel, places, Stroke::solid(Role::Ink, 2.0));
+    if d <= MOST_PX {
+        let place = at(d, measured.depth_m);
+        canvas.marker(place, MARKER, Shape::Disk, Role::Grip, true);
+    }
 }

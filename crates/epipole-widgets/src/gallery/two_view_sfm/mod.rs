@@ -1,8 +1,8 @@
 //! `two-view-sfm`: from two photographs to a colored cloud, stage by stage.
 
-mod answer;
 mod model;
-mod pipeline;
+mod question;
+mod verdict;
 mod view;
 mod words;
 

@@ -1,77 +1,61 @@
 //! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
 
-use super::answer::{Answer, Request, Source};
-use super::pipeline;
-use super::words;
+use super::question::{Answer, Question, Source};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Control, ControlKind, Event, Handle, Job, JobResult,
-    Knob, Model, PhotoSlot, Problem, Progress, Readout, Settings, Slider, Space, Value,
-    refuse_small,
+    Button, ButtonRole, Challenge, Choice, Control, ControlKind, Declared, Event, Handle, Job,
+    JobResult, Knob, Model, PhotoSlot, Problem, Progress, Settings, Slider, Space, Value,
+    format_number,
 };
-use crate::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::picture::{Own, Picture};
+use crate::kit::question::{Asked, carry_out};
 use image::RgbImage;
 
-const STAGE: Choice = Choice {
-    id: "stage",
-    label: "Stage",
-    options: &[
-        ("detect", "1 Detect features"),
-        ("match", "2 Match them"),
+const STAGE: Choice = Choice::new(
+    "stage",
+    "Stage",
+    &[
+        ("detect", "1 Detect"),
+        ("match", "2 Match"),
         ("ransac", "3 RANSAC"),
-        ("pose", "4 Pose of camera 2"),
-        ("cloud", "5 Cloud of points"),
+        ("pose", "4 Pose"),
+        ("cloud", "5 Triangulate"),
+        ("adjust", "6 Adjust"),
     ],
-    default: 4,
-};
-const NEXT: Button = Button {
-    id: "next",
-    label: "Next stage",
-    role: ButtonRole::Step,
-};
-const PAIR: Choice = Choice {
-    id: "pair",
-    label: "Photographs",
-    options: &[
+)
+.at(5);
+const NEXT: Button = Button::new("next", "Next stage", ButtonRole::Step);
+const PAIR: Choice = Choice::new(
+    "pair",
+    "Photographs",
+    &[
         ("step", "A step aside"),
         ("turn", "Only turned"),
         ("own", "Yours"),
     ],
-    default: 0,
-};
+)
+.more();
 const OWN: usize = 2;
-const RATIO: Slider = Slider {
-    id: "ratio",
-    label: "Largest ratio of distances",
-    unit: "",
-    min: 0.5,
-    max: 0.95,
-    step: 0.05,
-    default: 0.8,
-    digits: 2,
-    visible: true,
-};
-const THRESHOLD: Slider = Slider {
-    id: "threshold",
-    label: "Inliers within ε",
-    unit: "px",
-    min: 0.5,
-    max: 4.0,
-    step: 0.5,
-    default: 1.5,
-    digits: 1,
-    visible: true,
-};
-const FOCAL: Slider = Slider {
-    id: "focal",
-    label: "Focal length ÷ longer side",
-    unit: "",
-    min: 0.4,
-    max: 3.0,
-    step: 0.05,
-    default: 1.25,
-    digits: 2,
-    visible: true,
-};
+const RATIO: Slider = Slider::new("ratio", "Ratio test, at most")
+    .range(0.5, 0.95, 0.05)
+    .at(0.8)
+    .digits(2)
+    .more();
+const THRESHOLD: Slider = Slider::new("threshold", "Inliers within ε")
+    .range(0.5, 4.0, 0.5)
+    .at(1.5)
+    .digits(1)
+    .unit("px")
+    .more();
+const FOCAL: Slider = Slider::new("focal", "Focal length assumed")
+    .range(0.4, 3.0, 0.05)
+    .at(1.25)
+    .digits(2);
+const KNOCK: Slider = Slider::new("knock", "Knock camera 2 by")
+    .range(0.0, 10.0, 0.5)
+    .at(2.0)
+    .digits(1)
+    .unit("°");
 /// What most telephones' main cameras have: 27 mm, in units of 36 mm.
 const USUAL_FOCAL: f64 = 0.75;
 const KNOBS: &[Knob] = &[
@@ -79,6 +63,7 @@ const KNOBS: &[Knob] = &[
     Knob::Choice(&PAIR),
     Knob::Slider(&RATIO),
     Knob::Slider(&THRESHOLD),
+    Knob::Slider(&KNOCK),
     Knob::Slider(&FOCAL),
     Knob::Slider(&ZOOM),
 ];
@@ -106,7 +91,17 @@ pub(super) enum Stage {
     Ransac,
     Pose,
     Cloud,
+    Adjust,
 }
+
+const STAGES: [Stage; 6] = [
+    Stage::Detect,
+    Stage::Match,
+    Stage::Ransac,
+    Stage::Pose,
+    Stage::Cloud,
+    Stage::Adjust,
+];
 
 /// Who says how long the focal length is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,26 +120,22 @@ pub(super) enum FocalFrom {
 pub(crate) struct TwoViewSfm {
     settings: Settings,
     orbit: Orbit,
-    own: [Option<RgbImage>; 2],
-    answer: Option<Answer>,
-    pending: Option<Job>,
-    problem: Option<String>,
+    own: Own<2>,
     focal_from: FocalFrom,
+    asked: Asked<Question>,
 }
 
 impl TwoViewSfm {
     pub(super) fn stage(&self) -> Stage {
-        [
-            Stage::Detect,
-            Stage::Match,
-            Stage::Ransac,
-            Stage::Pose,
-            Stage::Cloud,
-        ][self.settings.chosen(&STAGE)]
+        STAGES[self.settings.chosen(&STAGE)]
+    }
+
+    pub(super) fn asked(&self) -> &Asked<Question> {
+        &self.asked
     }
 
     pub(super) fn answer(&self) -> Option<&Answer> {
-        self.answer.as_ref()
+        self.asked.answer()
     }
 
     pub(super) fn orbit(&self) -> &Orbit {
@@ -159,6 +150,10 @@ impl TwoViewSfm {
         self.settings.number(&FOCAL)
     }
 
+    pub(super) fn knock_deg(&self) -> f64 {
+        self.settings.number(&KNOCK)
+    }
+
     pub(super) fn focal_from(&self) -> FocalFrom {
         self.focal_from
     }
@@ -167,73 +162,68 @@ impl TwoViewSfm {
         self.settings.chosen(&PAIR) == OWN
     }
 
-    /// Photographs that are there before anything is computed.
-    pub(super) fn own(&self, index: usize) -> Option<&RgbImage> {
-        self.own[index].as_ref().filter(|_| self.is_own())
+    /// A photograph, perhaps before anything is computed.
+    pub(super) fn picture(&self, index: usize) -> Option<&Picture> {
+        let answered = self.answer().map(|answer| &answer.pictures[index]);
+        answered.or_else(|| self.own.get(index).filter(|_| self.is_own()))
     }
 
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
+    /// Where the photographs come from; `None` while the reader has not chosen both.
+    fn source(&self) -> Option<Source> {
+        match self.settings.chosen(&PAIR) {
+            0 => Some(Source::Step),
+            1 => Some(Source::Turn),
+            _ => self.own.all().map(Source::Own),
+        }
     }
 
-    pub(super) fn is_waiting(&self) -> bool {
-        self.pending.is_some()
+    /// How far camera 2 is turned against camera 1 as the stage has it, degrees.
+    pub(super) fn turn_deg(&self) -> Option<f64> {
+        let (question, answer) = self.asked.answered()?;
+        let motion = question.motion(answer, self.stage())?;
+        Some(motion.rotation.angle().to_degrees())
     }
 
     /// The true angle between the cameras of a rendered pair, degrees.
     pub(super) fn true_turn_deg(&self) -> Option<f64> {
-        match self.settings.chosen(&PAIR) {
-            0 => pipeline::true_turn_deg(&Source::Step),
-            1 => pipeline::true_turn_deg(&Source::Turn),
-            _ => None,
-        }
-    }
-
-    fn request(&self) -> Option<Request> {
-        let source = match self.settings.chosen(&PAIR) {
-            0 => Source::Step,
-            1 => Source::Turn,
-            _ => {
-                let [Some(first), Some(second)] = &self.own else {
-                    return None;
-                };
-                Source::Own(Box::new([first.into(), second.into()]))
-            }
-        };
-        Some(Request {
-            source,
-            focal: self.focal(),
-            max_ratio: self.settings.number(&RATIO) as f32,
-            max_error_px: self.settings.number(&THRESHOLD),
-        })
+        self.source()?.true_turn_deg()
     }
 
     /// States the computation that the present settings need.
     fn ask(&mut self) {
-        let request = self.request();
-        self.problem = None;
-        if request.is_none() {
-            self.answer = None;
-            self.problem = Some(match self.own.iter().flatten().count() {
-                0 => words::NO_PHOTOGRAPHS.to_owned(),
-                _ => words::ONE_PHOTOGRAPH.to_owned(),
-            });
-        }
-        self.pending = request.map(|request| Job {
-            label: words::WAITING,
-            request: request.to_bytes(),
+        let Some(source) = self.source() else {
+            return self.asked.refuse(self.own.wanted());
+        };
+        self.asked.ask(Question {
+            source,
+            focal: self.focal(),
+            max_ratio: self.settings.number(&RATIO) as f32,
+            max_error_px: self.settings.number(&THRESHOLD),
+            knock_deg: self.knock_deg(),
         });
     }
 
+    /// Other photographs: nothing that is known is of them.
+    fn begin(&mut self) {
+        self.asked.forget();
+        self.ask();
+    }
+
     fn is_last_stage(&self) -> bool {
-        self.stage() == Stage::Cloud
+        self.stage() == Stage::Adjust
     }
 }
 
-impl Model for TwoViewSfm {
+/// A focal length in units of the longer side, and the lens that a full-frame camera would have.
+pub(super) fn focal_text(value: f64) -> String {
+    let mm = format_number(36.0 * value, 0);
+    format!("{} (as {mm} mm)", format_number(value, 2))
+}
+
+impl Declared for TwoViewSfm {
     const NAME: &'static str = "two-view-sfm";
-    const TITLE: &'static str = "From two photographs to a cloud";
-    const HELP: &'static str = "Go through the stages. Drag in the lower picture, or use the arrow \
+    const TITLE: &'static str = "Two photographs, one cloud";
+    const HELP: &'static str = "Go through the stages. Drag in the view of space, or use the arrow \
         keys on its handle, to look from elsewhere; with Shift, or the small cross, the scene moves; \
         with Ctrl and the wheel, or + and −, it becomes larger. On a touchscreen drag the handle, \
         or use two fingers.";
@@ -241,24 +231,32 @@ impl Model for TwoViewSfm {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            orbit: Orbit::new(-40.0, 25.0),
-            own: [None, None],
-            answer: None,
-            pending: None,
-            problem: None,
+            orbit: Orbit::new(-56.0, 22.0),
+            own: Own::new(SLOTS, MIN_SIDE_PX),
             focal_from: FocalFrom::Known,
+            asked: Asked::default(),
         };
         model.ask();
         model
     }
 
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for TwoViewSfm {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         for control in &mut controls {
             if let (ControlKind::Slider { value, .. }, true) =
                 (&control.kind, control.id == FOCAL.id)
             {
-                control.value_text = words::focal(*value);
+                control.value_text = focal_text(*value);
             }
         }
         controls.push(NEXT.control(!self.is_last_stage(), false));
@@ -281,14 +279,13 @@ impl Model for TwoViewSfm {
         match event {
             Event::Set { id, value } => {
                 let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == PAIR.id {
-                    self.answer = None;
-                }
                 if changed && id == FOCAL.id {
                     self.focal_from = FocalFrom::Reader;
                 }
-                if changed && id != STAGE.id {
-                    self.ask();
+                match &**id {
+                    id if changed && id == PAIR.id => self.begin(),
+                    id if changed && id != STAGE.id => self.ask(),
+                    _ => {}
                 }
             }
             Event::Press { id } if id == NEXT.id && !self.is_last_stage() => {
@@ -300,23 +297,12 @@ impl Model for TwoViewSfm {
         Ok(())
     }
 
-    fn job(&self) -> Option<Job> {
-        self.pending.clone()
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        pipeline::compute(request, progress)
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
     }
 
     fn job_done(&mut self, result: JobResult) {
-        self.pending = None;
-        let request = self.request();
-        let read = |bytes: Vec<u8>| Answer::from_bytes(&bytes, request.as_ref()?);
-        match result.map(read) {
-            Ok(Some(answer)) => self.answer = Some(answer),
-            Ok(None) => self.problem = Some(words::NO_ANSWER.to_owned()),
-            Err(problem) => self.problem = Some(words::sentence(&problem.to_string())),
-        }
+        self.asked.take(result);
     }
 
     fn photo_slots(&self) -> &'static [PhotoSlot] {
@@ -324,17 +310,15 @@ impl Model for TwoViewSfm {
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
-        refuse_small(slot, &photo, MIN_SIDE_PX)?;
+        self.own.take(slot, photo)?;
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
             self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
             self.focal_from = FocalFrom::Guess;
-            self.settings
-                .set(PAIR.id, &Value::from(PAIR.options[OWN].0))?;
+            let own = Value::from(PAIR.options[OWN].0);
+            self.settings.set(PAIR.id, &own)?;
         }
-        self.own[usize::from(slot == SLOTS[1].id)] = Some(photo);
-        self.answer = None;
-        self.ask();
+        self.begin();
         Ok(())
     }
 
@@ -346,46 +330,88 @@ impl Model for TwoViewSfm {
             self.ask();
         }
     }
+}
 
-    fn readouts(&self) -> Vec<Readout> {
-        words::readouts(self)
+const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
+    Challenge {
+        id: "plan",
+        goal: "Look down on the table from more than 60° and find the books.",
+        hint: "Drag downward in the view of space.",
+        why: "Two photographs taken side by side hold the plan of the table, which neither of them \
+              shows.",
+        check: |model| {
+            let has_cloud = model.answer().is_some_and(|answer| answer.motion.is_some());
+            has_cloud && model.stage() >= Stage::Cloud && model.orbit.rise_deg() > 60.0
+        },
+        solution: || vec![Event::moved(SPACE.orbit, 0.0, 75.0)],
+    },
+    Challenge {
+        id: "lens",
+        goal: "Get the rotation wrong by 2° or more without disturbing a single match.",
+        hint: "What do the pixels not say by themselves?",
+        why: "A focal length turns pixels into angles: a wrong one bends every ray, and the pose \
+              bends with them.",
+        check: |model| {
+            let wrong = model.turn_deg().zip(model.true_turn_deg());
+            model.is_last_stage()
+                && wrong.is_some_and(|(found, truth)| (found - truth).abs() >= 2.0)
+        },
+        solution: || vec![Event::set(&FOCAL, 2.5)],
+    },
+    Challenge {
+        id: "purer",
+        goal: "Make 95 % of the matches inliers, and leave ε as it is.",
+        hint: "Accept fewer matches, and only clear ones.",
+        why: "The ratio test drops features that look like several others, and those are where the \
+              wrong matches come from.",
+        check: |model| {
+            let is_step = model.settings.chosen(&PAIR) == 0;
+            let untouched = model.settings.number(&THRESHOLD) == THRESHOLD.default;
+            let pure = |answer: &Answer| 100 * answer.num_inliers() >= 95 * answer.matches.len();
+            is_step && untouched && model.answer().is_some_and(pure)
+        },
+        solution: || vec![Event::set(&RATIO, 0.6)],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ops::ControlFlow;
+
+    fn settled(events: &[Event]) -> TwoViewSfm {
+        let mut model = TwoViewSfm::new();
+        for event in events {
+            model.update(event).unwrap();
+        }
+        if let Some(job) = model.job() {
+            let request = job.request();
+            let result = TwoViewSfm::compute(&request, &mut |_| ControlFlow::Continue(()));
+            model.job_done(result);
+        }
+        model
     }
 
-    fn describe(&self) -> String {
-        words::describe(self)
+    #[test]
+    fn the_adjustment_undoes_what_knocking_a_camera_did() {
+        let errors = [0.0, KNOCK.default, KNOCK.max].map(|knock| {
+            let model = settled(&[Event::set(&KNOCK, knock)]);
+            let motion = model.answer().unwrap().motion.as_ref().unwrap();
+            let truth = model.true_turn_deg().unwrap();
+            assert!((model.turn_deg().unwrap() - truth).abs() < 0.1, "{knock}");
+            motion.error_px
+        });
+        // RANSAC has fitted its pose to all inliers, so nothing is left to adjust.
+        assert!((errors[0][0] - errors[0][1]).abs() < 0.002, "{errors:?}");
+        assert!(errors[1][0] > 5.0 && errors[2][0] > 25.0, "{errors:?}");
+        assert!(errors.iter().all(|error| error[1] < 0.2), "{errors:?}");
     }
 
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "above",
-                goal: "Look at the cloud from high above, so that you see the plan of the table.",
-                hint: "Drag downwards, to more than 60°.",
-                check: |model| model.is_last_stage() && model.orbit.rise_deg() > 60.0,
-                solution: || {
-                    vec![Event::HandleMoved {
-                        id: SPACE.orbit.to_owned(),
-                        x: 0.0,
-                        y: 75.0,
-                    }]
-                },
-            },
-            Challenge {
-                id: "no-depth",
-                goal: "Find a pair that matches well and still gives no depth.",
-                hint: "What if the camera stays where it is?",
-                check: |model| {
-                    let answer = model.answer.as_ref();
-                    answer
-                        .is_some_and(|answer| answer.num_inliers() > 50 && answer.motion.is_none())
-                },
-                solution: || {
-                    vec![Event::Set {
-                        id: PAIR.id.to_owned(),
-                        value: Value::from("turn"),
-                    }]
-                },
-            },
-        ]
+    #[test]
+    fn a_camera_that_only_turned_gives_no_cloud_and_solves_nothing() {
+        let model = settled(&[Event::set(&PAIR, "turn")]);
+        let answer = model.answer().unwrap();
+        assert!(answer.num_inliers() > 1000 && answer.motion.is_none());
+        assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));
     }
 }

@@ -1,25 +1,22 @@
-//! The two photographs with what each stage finds, and below them cameras and points in space.
+//! The two photographs with what each stage finds, and beside them cameras and points in space.
 
-use super::answer::{Answer, pixel};
 use super::model::{Stage, TwoViewSfm};
+use super::question::{Answer, Question};
 use super::words;
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, Rect, View};
-use crate::orbit::Orbit;
-use crate::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
-use crate::space::{Space, Subject, draw_handles};
+use crate::contract::{Aspect, Layout, Panel, Rect, View};
+use crate::kit::grid::{self, Grid, TEXT, TITLE};
+use crate::kit::orbit::Orbit;
+use crate::kit::question::Question as _;
+use crate::kit::scenes::PHOTO_SIZE;
+use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
-use epipole::camera::Camera;
-use image::RgbImage;
-use nalgebra::Point3;
+use nalgebra::{Point2, Point3};
 
-const TITLE: f64 = 24.0;
-const TEXT: f64 = 13.0;
-const NARROW: f64 = 500.0;
-/// A tall photograph must not push everything else off the screen.
-const TALLEST: f64 = 300.0;
 /// More lines than this hide the photographs.
-const MOST_LINES: usize = 50;
+const MOST_LINES: usize = 32;
+/// Rays of more points than this hide the points.
+const MOST_RAYS: usize = 24;
 /// Each camera has a hue and a shape, above its photograph and in space.
 const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
@@ -29,265 +26,312 @@ const PHOTOS: [&str; 2] = ["first", "second"];
 
 /// Draws [`TwoViewSfm`].
 #[derive(Default)]
-pub(crate) struct TwoViewSfmView;
+pub(crate) struct TwoViewSfmView {
+    /// What the reader looks at, of a version of the answer.
+    framed: Option<(u64, Frame)>,
+}
+
+/// The part of space that is shown.
+#[derive(Clone, Copy)]
+struct Frame {
+    subject: Subject,
+    /// The height of the grid: below nearly all points, y being down.
+    floor: f64,
+}
 
 impl View for TwoViewSfmView {
     type Model = TwoViewSfm;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, model: &TwoViewSfm, width: f64) -> Layout {
-        let gap = if width < NARROW { 6.0 } else { 12.0 };
-        let room = ((width - gap) / 2.0).max(1.0);
-        let sizes = [0, 1].map(|index| size(model, index));
-        let tall = sizes.map(|(w, h)| room * f64::from(h) / f64::from(w));
-        let height = tall[0].max(tall[1]).min(TALLEST);
-        let photo = |index: usize| {
-            let (w, h) = sizes[index];
-            let scale = (room / f64::from(w)).min(height / f64::from(h));
-            let (w_css, h_css) = (scale * f64::from(w), scale * f64::from(h));
-            let x = index as f64 * (room + gap) + (room - w_css) / 2.0;
-            let y = TITLE + (height - h_css) / 2.0;
-            Panel::photograph(PHOTOS[index], Rect::new(x, y, w_css, h_css), w, h)
+        let mut grid = Grid::new(width);
+        let (photos, space) = if grid::is_narrow(width) {
+            let photos = grid.shares([1.0, 1.0], 128.0);
+            let [space] = grid.shares([1.0], 188.0);
+            (photos, space)
+        } else {
+            let height = 395.0;
+            let column = 4.0 / 3.0 * (height - TITLE - grid::GAP) / 2.0;
+            let [photos, space] = grid.shares([column, width - column - grid::GAP], height);
+            (grid::stack(photos, [1.0; 2]), space)
         };
-        let y = TITLE + height + 10.0 + TITLE;
-        let space_height = (width * 0.5).clamp(260.0, 400.0);
-        let space = Orbit::panel(Rect::new(0.0, y, width, space_height));
-        Layout {
-            width,
-            height: y + space_height,
-            panels: vec![photo(0), photo(1), space],
-        }
+        let photo = |index: usize| {
+            let (columns, rows) = size(model, index);
+            let cell = photos[index];
+            let scale = (cell.width / f64::from(columns)).min(cell.height / f64::from(rows));
+            let size = (scale * f64::from(columns), scale * f64::from(rows));
+            Panel::photograph(
+                PHOTOS[index],
+                Rect::new(cell.x, cell.y, size.0, size.1),
+                columns,
+                rows,
+            )
+        };
+        grid.layout(vec![photo(0), photo(1), Orbit::panel(space)])
     }
 
     fn draw(&mut self, model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
         let space = layout.panel("space");
-        for index in 0..2 {
-            draw_photo(model, layout, canvas, index);
-        }
-        let place = (space.rect.x, space.rect.y - TITLE / 2.0);
-        canvas.label(place, title(model), TextStyle::new(Role::Ink, TEXT));
         canvas.panel(space.rect);
-        if let Some(answer) = model.answer() {
-            draw_features(model, answer, layout, canvas);
-            draw_space(model, answer, space, canvas);
+        for (index, id) in PHOTOS.into_iter().enumerate() {
+            match model.picture(index) {
+                Some(picture) => canvas.photograph(layout.panel(id).rect, picture.image()),
+                None => canvas.panel(layout.panel(id).rect),
+            }
+        }
+        let asked = model.asked();
+        if let Some((question, answer)) = asked.answered() {
+            let known = self
+                .framed
+                .filter(|(version, _)| *version == asked.version());
+            let frame = known.map_or_else(|| frame(answer), |(_, frame)| frame);
+            self.framed = Some((asked.version(), frame));
+            draw_features(model.stage(), answer, layout, canvas);
+            draw_space(model, (question, answer), frame, space, canvas);
         }
         draw_handles(canvas, space, model.orbit());
+        draw_titles(model, layout, canvas);
         let failed = model.answer().and_then(words::failure);
         let failed = failed.filter(|_| model.stage() >= Stage::Ransac);
-        let words = model.problem().map(str::to_owned).or(failed);
-        let words = words.or_else(|| model.is_waiting().then(|| "computing …".to_owned()));
-        if let Some(words) = words {
-            let rect = space.rect.inset(12.0);
-            let rect = Rect::new(rect.x, rect.y, rect.width.min(520.0), rect.height);
-            canvas.paragraph(rect, &words, TextStyle::new(Role::Ink, 14.0).cased());
+        let waiting = asked.is_waiting().then(|| format!("{} …", Question::LABEL));
+        let problem = asked.problem().map(str::to_owned);
+        if let Some(words) = problem.or(failed).or(waiting) {
+            grid::notice(canvas, space.rect, &words);
         }
     }
 }
 
-/// What the lower picture shows.
-fn title(model: &TwoViewSfm) -> &'static str {
-    match model.stage() {
-        Stage::Detect => "Space: camera 1 with its features",
-        Stage::Match => "Space: camera 1, features with a match",
-        Stage::Ransac => "Space: camera 1 with the inliers",
-        Stage::Pose => "Space: both cameras, one step apart",
-        Stage::Cloud => "Space: cameras and triangulated points",
+/// What is above the panels; lines between the photographs run below it.
+fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
+    for (index, id) in PHOTOS.into_iter().enumerate() {
+        let Rect { x, y, .. } = layout.panel(id).rect;
+        let (role, shape) = CAMERAS[index];
+        canvas.marker((x + 6.0, y - TITLE / 2.0), 5.0, shape, role, true);
+        let style = TextStyle::new(Role::Ink, TEXT).cased();
+        canvas.label(
+            (x + 18.0, y - TITLE / 2.0),
+            ["Camera 1", "Camera 2"][index],
+            style,
+        );
     }
+    let has_motion = model.answer().is_none_or(|answer| answer.motion.is_some());
+    let title = match model.stage() {
+        Stage::Detect => "In space: each feature of camera 1 is a ray",
+        Stage::Match => "In space: rays of features with a match",
+        Stage::Ransac => "In space: rays of the inliers",
+        _ if !has_motion => "In space: rays of the inliers, all from one place",
+        Stage::Pose => "In space: camera 2, one step aside",
+        Stage::Cloud => "In space: points, camera 2 knocked askew",
+        Stage::Adjust => "In space: points and cameras, adjusted",
+    };
+    grid::title(canvas, layout.panel("space").rect, title);
 }
 
 /// The size of a photograph, also before it is there.
 fn size(model: &TwoViewSfm, index: usize) -> (u32, u32) {
-    let answered = model.answer().map(|answer| &answer.pictures[index]);
-    let picture = answered.or_else(|| model.own(index));
-    picture.map_or((PHOTO_WIDTH, PHOTO_HEIGHT), RgbImage::dimensions)
+    model
+        .picture(index)
+        .map_or(PHOTO_SIZE, |picture| picture.size())
 }
 
-fn draw_photo(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas, index: usize) {
-    let rect = layout.panel(PHOTOS[index]).rect;
-    let (role, shape) = CAMERAS[index];
-    canvas.marker((rect.x + 6.0, TITLE / 2.0), 5.0, shape, role, false);
-    let title = ["Camera 1", "Camera 2"][index];
-    let style = TextStyle::new(Role::Ink, TEXT);
-    canvas.label((rect.x + 18.0, TITLE / 2.0), title, style);
-    let answered = model.answer().map(|answer| &answer.pictures[index]);
-    match answered.or_else(|| model.own(index)) {
-        Some(picture) => canvas.photograph(rect, picture),
-        None => canvas.panel(rect),
-    }
-}
-
-/// A feature, match or point in both photographs.
-fn draw_features(model: &TwoViewSfm, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
+/// Features, matches or points in both photographs.
+fn draw_features(stage: Stage, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
     let panels = PHOTOS.map(|id| layout.panel(id));
-    let radius = if layout.width < NARROW { 1.0 } else { 1.6 };
-    let place = |index: usize, at: (f64, f64)| panels[index].canvas_from_world(at);
-    let color = |canvas: &Canvas, role| canvas.theme().color(role);
-    let stage = model.stage();
+    let radius = (panels[0].rect.width / 230.0).clamp(0.7, 1.6);
+    let place = |index: usize, at: &Point2<f64>| panels[index].canvas_from_world((at.x, at.y));
+    let role = role_of(stage);
+    let color = canvas.theme().color(role);
     if stage == Stage::Detect {
-        for index in 0..2 {
-            let fill = color(canvas, Role::Candidate);
-            for &at in &answer.keypoints[index] {
-                canvas.dot(place(index, at), radius, fill);
+        for (index, places) in answer.keypoints.iter().enumerate() {
+            for at in places {
+                canvas.dot(place(index, at), radius, color);
             }
         }
         return;
     }
-    let is_shown = |n: usize| stage == Stage::Match || answer.inliers[n];
-    let role = match stage {
-        Stage::Match => Role::Candidate,
-        _ => Role::Inlier,
+    let shown: Vec<[Point2<f64>; 2]> = match stage {
+        Stage::Match => answer
+            .matches
+            .iter()
+            .map(|pair| answer.pixels(*pair))
+            .collect(),
+        _ => answer
+            .matches_that(true)
+            .map(|pair| answer.pixels(pair))
+            .collect(),
     };
-    for (n, pair) in answer.matches.iter().enumerate() {
-        if is_shown(n) {
-            for index in 0..2 {
-                let fill = color(canvas, role);
-                canvas.dot(place(index, pair[index]), radius, fill);
-            }
+    for pair in &shown {
+        for (index, at) in pair.iter().enumerate() {
+            canvas.dot(place(index, at), radius, color);
         }
     }
     if stage > Stage::Ransac {
         return;
     }
-    let line = |canvas: &mut Canvas, n: usize, stroke| {
-        let [a, b] = answer.matches[n];
-        canvas.line(place(0, a), place(1, b), stroke);
-    };
-    let shown: Vec<usize> = (0..answer.matches.len()).filter(|&n| is_shown(n)).collect();
-    for n in spread(&shown) {
-        line(canvas, n, Stroke::solid(role, 1.0));
+    for [a, b] in spread(&shown, MOST_LINES) {
+        canvas.line(place(0, a), place(1, b), Stroke::solid(role, 1.0));
     }
-    if stage == Stage::Ransac {
-        let outliers: Vec<usize> = (0..answer.matches.len())
-            .filter(|&n| !answer.inliers[n])
-            .collect();
-        for n in spread(&outliers) {
-            line(canvas, n, Stroke::solid(Role::Outlier, 1.0).dashed());
-            for index in 0..2 {
-                let at = place(index, answer.matches[n][index]);
-                canvas.marker(at, 3.0, Shape::Cross, Role::Outlier, true);
-            }
+    if stage == Stage::Match {
+        return;
+    }
+    let outliers: Vec<[Point2<f64>; 2]> =
+        (answer.matches_that(false).map(|pair| answer.pixels(pair))).collect();
+    for pair in spread(&outliers, MOST_LINES) {
+        let [a, b] = [0, 1].map(|index| place(index, &pair[index]));
+        canvas.line(a, b, Stroke::solid(Role::Outlier, 1.0).dashed());
+        for at in [a, b] {
+            canvas.marker(at, 3.0, Shape::Cross, Role::Outlier, true);
         }
-        legend(canvas, panels[0].rect, outliers.len(), shown.len());
     }
+    legend(canvas, panels[0].rect, outliers.len(), shown.len());
 }
 
 fn legend(canvas: &mut Canvas, rect: Rect, num_outliers: usize, num_inliers: usize) {
-    if rect.width < 300.0 {
-        return;
+    let rows = [
+        (Role::Inlier, format!("{num_inliers} inliers")),
+        (Role::Outlier, format!("{num_outliers} outliers, dashed")),
+    ];
+    for (row, (role, text)) in rows.into_iter().enumerate() {
+        let place = (rect.x + 8.0, rect.y + 14.0 + 18.0 * row as f64);
+        canvas.label(place, &text, TextStyle::new(role, TEXT).cased());
     }
-    let style = TextStyle::new(Role::Inlier, TEXT).cased();
-    let text = format!("{num_inliers} inliers");
-    canvas.label((rect.x + 8.0, rect.y + 14.0), &text, style);
-    let style = TextStyle::new(Role::Outlier, TEXT).cased();
-    let text = format!("{num_outliers} outliers, dashed");
-    canvas.label((rect.x + 8.0, rect.y + 32.0), &text, style);
 }
 
 /// Some of many, evenly.
-fn spread(all: &[usize]) -> impl Iterator<Item = usize> {
-    let stride = all.len().div_ceil(MOST_LINES).max(1);
-    all.iter().copied().step_by(stride)
+fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let stride = all.len().div_ceil(most).max(1);
+    all.iter().step_by(stride)
 }
 
-/// What the reader looks at: the cameras and most of the points.
-fn subject(answer: &Answer) -> Subject {
-    let usual = Subject {
-        middle: Point3::new(0.0, 0.0, 2.0),
-        radius: 2.4,
-    };
+/// The cameras and most of the points; without points, the space before camera 1.
+fn frame(answer: &Answer) -> Frame {
     let Some(motion) = &answer.motion else {
-        return usual;
+        return Frame {
+            subject: Subject {
+                middle: Point3::new(0.0, 0.0, 1.2),
+                radius: 1.6,
+            },
+            floor: 1.0,
+        };
     };
-    let points: Vec<Point3<f64>> = motion.points.iter().map(|p| p.position()).collect();
-    let share = |values: Vec<f64>, share: f64| quantile(values, share).unwrap_or(0.0);
-    let along = |axis: usize| share(points.iter().map(|p| p[axis]).collect(), 0.5);
-    let cloud = Point3::new(along(0), along(1), along(2));
-    let reach = share(points.iter().map(|p| (p - cloud).norm()).collect(), 0.8);
-    // Between the cloud and the cameras, nearer to the cloud.
-    let middle = cloud * 0.53;
-    Subject {
-        middle,
-        radius: (0.5 * cloud.coords.norm()).max(0.7 * reach).max(1e-6),
+    let center = motion.cam2_from_cam1.inverse().translation.vector;
+    let range = |axis: usize| {
+        let along = || {
+            motion
+                .points
+                .iter()
+                .map(|point| point.place[axis])
+                .collect()
+        };
+        let [low, high] = [0.04, 0.96].map(|share| quantile(along(), share).unwrap_or(0.0));
+        let cameras = (center[axis].min(0.0), center[axis].max(0.0));
+        (low.min(cameras.0), high.max(cameras.1))
+    };
+    let ranges = [0, 1, 2].map(range);
+    let [x, y, z] = ranges.map(|(low, high)| low + MIDDLE * (high - low));
+    let squares = ranges.map(|(low, high)| (high - low) * (high - low));
+    Frame {
+        subject: Subject {
+            middle: Point3::new(x, y, z),
+            radius: (FILL * squares.iter().sum::<f64>().sqrt()).max(1e-6),
+        },
+        floor: ranges[1].1,
     }
 }
 
-fn draw_space(model: &TwoViewSfm, answer: &Answer, panel: &Panel, canvas: &mut Canvas) {
-    let subject = subject(answer);
+/// Where in the box around all that is there the reader looks: what is near looks larger.
+const MIDDLE: f64 = 0.48;
+/// The radius of what is shown in a broad panel, as a share of the diagonal of that box.
+const FILL: f64 = 0.33;
+
+fn draw_space(
+    model: &TwoViewSfm,
+    (question, answer): (&Question, &Answer),
+    Frame { subject, floor }: Frame,
+    panel: &Panel,
+    canvas: &mut Canvas,
+) {
+    // A narrow panel shows all of it from farther off.
+    let breadth = panel.rect.width / panel.rect.height.max(1.0);
+    let radius = subject.radius * (1.7 / breadth).clamp(1.0, 1.4);
+    let subject = Subject { radius, ..subject };
     let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
         return;
     };
     let stage = model.stage();
-    let picture_depth = 0.22 * subject.radius;
-    let cameras = answer.cameras();
-    let [Some(first), second] = &cameras else {
+    let Some((first, second)) = question.cameras(answer, stage) else {
         return;
     };
-    let second = second.as_ref().filter(|_| stage >= Stage::Pose);
-    space.ground(
-        &subject.middle,
-        floor(answer, &subject),
-        0.35 * subject.radius,
-        8,
-    );
-    for (index, camera) in [Some(first), second].into_iter().enumerate() {
+    // A picture by itself is put up where the scene will be.
+    let depth = subject.radius * if second.is_none() { 0.9 } else { 0.24 };
+    space.ground(&subject.middle, floor, 0.35 * subject.radius, 8);
+    for (index, camera) in [Some(&first), second.as_ref()].into_iter().enumerate() {
         if let Some(camera) = camera {
             let (role, shape) = CAMERAS[index];
-            let size = answer.pictures[index].dimensions();
-            space.frustum(camera, size, picture_depth, role, shape);
+            space.frustum(camera, answer.pictures[index].size(), depth, role, shape);
             let name = ["camera 1", "camera 2"][index];
             space.label(&camera.center_in_world(), name, role);
         }
     }
     if second.is_none() {
-        space.axes(first, 0.3 * subject.radius);
+        space.axes(&first, 0.3 * subject.radius);
     }
-    if let Some(second) = second {
-        let centers = (first.center_in_world(), second.center_in_world());
-        space.line(&centers.0, &centers.1, Stroke::solid(Role::Ink, 2.0));
+    let centers = [Some(&first), second.as_ref()]
+        .map(|camera| camera.map_or_else(Point3::origin, |camera| camera.center_in_world()));
+    if second.is_some() {
+        space.line(&centers[0], &centers[1], Stroke::solid(Role::Ink, 2.0));
     }
     match (&answer.motion, stage) {
-        (Some(motion), Stage::Cloud) => {
+        (Some(motion), Stage::Cloud | Stage::Adjust) => {
+            let radius = (panel.rect.height / 140.0).clamp(1.6, 3.2);
             for point in &motion.points {
-                space.dot(&point.position(), 2.6, point.color);
+                let place = match stage {
+                    Stage::Cloud => &point.triangulated,
+                    _ => &point.place,
+                };
+                space.dot(place, radius, point.color);
             }
         }
-        _ => features_on_picture(answer, stage, first, picture_depth, &mut space, canvas),
+        _ => {
+            let pixels = features_of_camera_1(stage, answer);
+            let color = canvas.theme().color(role_of(stage));
+            for pixel in &pixels {
+                space.dot(&space.on_picture(&first, pixel, depth), 1.0, color);
+            }
+            if second.is_none() {
+                for pixel in spread(&pixels, MOST_RAYS) {
+                    let far = space.on_picture(&first, pixel, 2.4 * depth);
+                    space.line(&centers[0], &far, Stroke::solid(role_of(stage), 0.75));
+                }
+            }
+        }
+    }
+    if let (Some(motion), Stage::Pose) = (&answer.motion, stage) {
+        for point in spread(&motion.points, MOST_RAYS) {
+            for (center, (role, _)) in centers.iter().zip(CAMERAS) {
+                space.line(center, &point.place, Stroke::solid(role, 0.75));
+            }
+        }
     }
     space.draw(canvas, panel);
 }
 
-/// The features of camera 1 on its picture, put up in front of it.
-fn features_on_picture(
-    answer: &Answer,
-    stage: Stage,
-    camera: &Camera,
-    depth: f64,
-    space: &mut Space,
-    canvas: &Canvas,
-) {
-    let (role, places): (Role, Vec<(f64, f64)>) = match stage {
-        Stage::Detect => (Role::Candidate, answer.keypoints[0].clone()),
-        Stage::Match => (
-            Role::Candidate,
-            answer.matches.iter().map(|pair| pair[0]).collect(),
-        ),
-        _ => {
-            let inliers = answer.matches.iter().zip(&answer.inliers);
-            let inliers = inliers.filter(|(_, is_inlier)| **is_inlier);
-            (Role::Inlier, inliers.map(|(pair, _)| pair[0]).collect())
-        }
-    };
-    let color = canvas.theme().color(role);
-    for place in places {
-        space.dot(&space.on_picture(camera, &pixel(place), depth), 1.0, color);
+/// What a feature is at a stage.
+fn role_of(stage: Stage) -> Role {
+    match stage {
+        Stage::Detect | Stage::Match => Role::Candidate,
+        _ => Role::Inlier,
     }
 }
 
-/// The height of the grid: below nearly all points, y being down.
-fn floor(answer: &Answer, subject: &Subject) -> f64 {
-    let heights: Vec<f64> = (answer.motion.iter())
-        .flat_map(|motion| motion.points.iter().map(|point| point.position().y))
-        .collect();
-    quantile(heights, 0.95).unwrap_or(0.5 * subject.radius)
+/// The features that a stage is about, in the photograph of camera 1.
+fn features_of_camera_1(stage: Stage, answer: &Answer) -> Vec<Point2<f64>> {
+    let first = |pair: (u32, u32)| answer.pixels(pair)[0];
+    match stage {
+        Stage::Detect => answer.keypoints[0].clone(),
+        Stage::Match => answer.matches.iter().map(|pair| first(*pair)).collect(),
+        _ => answer.matches_that(true).map(first).collect(),
+    }
 }
 
 /// The value that a share of all values, 0 to 1, is below.
@@ -303,9 +347,9 @@ mod tests {
     #[test]
     fn lines_are_spread_over_all_matches() {
         let all: Vec<usize> = (0..1000).collect();
-        let some: Vec<usize> = spread(&all).collect();
-        assert!(some.len() <= MOST_LINES && some[some.len() - 1] >= 980);
-        assert_eq!(spread(&all[..5]).count(), 5);
-        assert_eq!(spread(&[]).count(), 0);
+        let some: Vec<&usize> = spread(&all, MOST_LINES).collect();
+        assert!(some.len() <= MOST_LINES && *some[some.len() - 1] >= 980);
+        assert_eq!(spread(&all[..5], MOST_LINES).count(), 5);
+        assert_eq!(spread(&all[..0], MOST_LINES).count(), 0);
     }
 }

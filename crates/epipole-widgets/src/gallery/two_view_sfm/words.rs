@@ -1,31 +1,10 @@
 //! What `two-view-sfm` says: readouts, description, sentences.
 
-use super::answer::{Answer, Motion, Verdict};
-use super::model::{FocalFrom, Stage, TwoViewSfm};
-use super::pipeline::MIN_NUM_MATCHES;
-use crate::contract::{Readout, format_number};
-
-pub(super) const WAITING: &str = "Following the pipeline";
-pub(super) const NO_PHOTOGRAPHS: &str =
-    "Choose two photographs of the same thing, taken a step apart.";
-pub(super) const ONE_PHOTOGRAPH: &str =
-    "One photograph is there. Choose the other one, of the same thing, taken a step aside.";
-pub(super) const NO_ANSWER: &str = "The motion could not be computed.";
-
-/// A problem as a sentence.
-pub(super) fn sentence(problem: &str) -> String {
-    let mut letters = problem.chars();
-    let first: String = letters
-        .next()
-        .map_or(String::new(), |c| c.to_uppercase().collect());
-    format!("{first}{}.", letters.as_str())
-}
-
-/// A focal length in units of the longer side, and the lens that a full-frame camera would have.
-pub(super) fn focal(value: f64) -> String {
-    let mm = format_number(36.0 * value, 0);
-    format!("{} (as {mm} mm)", format_number(value, 2))
-}
+use super::model::{FocalFrom, Stage, TwoViewSfm, focal_text};
+use super::question::{Answer, Question};
+use super::verdict::{MIN_NUM_MATCHES, Verdict};
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::question::Question as _;
 
 fn degrees(value: f64) -> String {
     format!("{}°", format_number(value, 1))
@@ -70,24 +49,54 @@ fn caution(answer: &Answer) -> &'static str {
     }
 }
 
-fn turn_deg(motion: &Motion) -> f64 {
-    motion.cam2_from_cam1().rotation.angle().to_degrees()
-}
-
-pub(super) fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
-    let mut readouts = Vec::new();
-    match (model.answer(), model.problem()) {
-        (Some(answer), _) => stages(model, answer, &mut readouts),
-        (None, Some(problem)) => readouts.push(Readout::words("state", "State", problem)),
-        (None, None) => awaited(model, &mut readouts),
-    }
+/// What each stage up to the present one has found. What it does not know yet is a dash, so that
+/// every number keeps its place.
+fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
+    let (stage, answer) = (model.stage(), model.answer());
+    let unknown = if answer.is_some() || model.asked().problem().is_some() {
+        "–"
+    } else {
+        "…"
+    };
+    let say = |id, label, from: Stage, text: Option<String>| {
+        let text = text.filter(|_| stage >= from);
+        Readout::words(id, label, text.unwrap_or_else(|| unknown.to_owned()))
+    };
+    let motion = answer.and_then(|answer| answer.motion.as_ref());
+    let number =
+        |value: f64, digits: usize, unit: &str| format!("{}{unit}", format_number(value, digits));
+    let inliers = answer.map(|answer| match stage >= Stage::Ransac {
+        true => format!("{} of {}", answer.num_inliers(), answer.matches.len()),
+        false => format!("? of {}", answer.matches.len()),
+    });
+    let error = |index: usize| motion.map(|motion| number(motion.error_px[index], 2, " px"));
+    let features = answer.map(|answer| {
+        let [first, second] = answer.keypoints.each_ref().map(Vec::len);
+        format!("{first} and {second}")
+    });
+    let matches = answer.map(|answer| answer.matches.len().to_string());
+    let in_front = motion.map(|motion| motion.num_in_front.map(|n| n.to_string()).join(", "));
+    let turn = model.turn_deg().map(|turn| number(turn, 2, "°"));
+    let truth = model.true_turn_deg().map(|turn| number(turn, 2, "°"));
+    let points = motion.map(|motion| motion.points.len().to_string());
+    let mut readouts = vec![
+        say("inliers", "Inliers", Stage::Match, inliers).main(),
+        say("points", "Points", Stage::Cloud, points).main(),
+        say("error-before", "Error before", Stage::Cloud, error(0)).main(),
+        say("error", "Error adjusted", Stage::Adjust, error(1)).main(),
+        say("features", "Features", Stage::Detect, features),
+        say("matches", "Matches", Stage::Match, matches),
+        say("in-front", "In front, four poses", Stage::Pose, in_front),
+        say("rotation", "Rotation", Stage::Pose, turn),
+        say("truth", "True rotation", Stage::Pose, truth),
+    ];
     if model.is_own() {
         let from = match model.focal_from() {
             FocalFrom::Known | FocalFrom::Reader => "as you set it",
             FocalFrom::File => "from the file",
             FocalFrom::Guess => "a guess",
         };
-        let text = format!("{}, {from}", focal(model.focal()));
+        let text = format!("{}, {from}", focal_text(model.focal()));
         readouts.push(Readout::words("lens", "Focal length", text));
     }
     let zoom = format_number(model.zoom(), 1);
@@ -96,85 +105,18 @@ pub(super) fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
     readouts
 }
 
-/// The readouts of the stages before anything is found: a page may show the finished picture beside
-/// them, and nothing should jump when their values come.
-fn awaited(model: &TwoViewSfm, readouts: &mut Vec<Readout>) {
-    let rows = [
-        (Stage::Detect, "features", "Features"),
-        (Stage::Match, "matches", "Matches"),
-        (Stage::Ransac, "inliers", "Inliers"),
-        (Stage::Pose, "rotation", "Rotation"),
-        (Stage::Pose, "truth", "True rotation"),
-        (Stage::Pose, "in-front", "In front, four poses"),
-        (Stage::Cloud, "points", "Points"),
-        (Stage::Cloud, "error", "Error, RMS"),
-        (Stage::Cloud, "error-before", "Before adjustment"),
-    ];
-    for (stage, id, label) in rows {
-        let is_untold = id == "truth" && model.true_turn_deg().is_none();
-        if model.stage() >= stage && !is_untold {
-            readouts.push(Readout::words(id, label, "…"));
-        }
-    }
-}
-
-/// What each stage up to the present one has found.
-fn stages(model: &TwoViewSfm, answer: &Answer, readouts: &mut Vec<Readout>) {
-    let stage = model.stage();
-    let counts = answer.keypoints.each_ref().map(Vec::len);
-    let features = format!("{} and {}", counts[0], counts[1]);
-    readouts.push(Readout::words("features", "Features", features));
-    if stage >= Stage::Match {
-        readouts.push(Readout::count("matches", "Matches", answer.matches.len()));
-    }
-    if stage >= Stage::Ransac {
-        let share = 100.0 * answer.num_inliers() as f64 / answer.matches.len().max(1) as f64;
-        let inliers = format!("{} ({} %)", answer.num_inliers(), format_number(share, 0));
-        readouts.push(Readout::words("inliers", "Inliers", inliers));
-    }
-    let Some(motion) = answer.motion.as_ref().filter(|_| stage >= Stage::Pose) else {
-        return;
-    };
-    readouts.push(Readout::number(
-        "rotation",
-        "Rotation",
-        turn_deg(motion),
-        2,
-        "°",
-    ));
-    if let Some(angle_deg) = model.true_turn_deg() {
-        readouts.push(Readout::number("truth", "True rotation", angle_deg, 2, "°"));
-    }
-    let counts = motion.num_in_front.map(|count| count.to_string());
-    readouts.push(Readout::words(
-        "in-front",
-        "In front, four poses",
-        counts.join(", "),
-    ));
-    if stage == Stage::Cloud {
-        readouts.push(Readout::count("points", "Points", motion.points.len()));
-        let [before_px, after_px] = motion.error_px;
-        readouts.push(Readout::number("error", "Error, RMS", after_px, 3, "px"));
-        readouts.push(Readout::number(
-            "error-before",
-            "Before adjustment",
-            before_px,
-            3,
-            "px",
-        ));
-    }
-}
-
-pub(super) fn describe(model: &TwoViewSfm) -> String {
-    if let Some(problem) = model.problem() {
+fn describe(model: &TwoViewSfm) -> String {
+    if let Some(problem) = model.asked().problem() {
         return problem.to_owned();
     }
     let Some(answer) = model.answer() else {
-        return format!("{WAITING}.");
+        return format!("{}.", Question::LABEL);
     };
     let stage = model.stage();
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     let counts = answer.keypoints.each_ref().map(Vec::len);
+    let turn = degrees(model.turn_deg().unwrap_or(0.0));
+    let knock = format_number(model.knock_deg(), 1);
     match (stage, failure(answer), &answer.motion) {
         (Stage::Detect, ..) => format!(
             "{} features in the first photograph and {} in the second.",
@@ -184,7 +126,7 @@ pub(super) fn describe(model: &TwoViewSfm) -> String {
             format!("{matches} features of the first photograph have a partner in the second.")
         }
         (_, Some(failure), _) => failure,
-        (_, None, None) => NO_ANSWER.to_owned(),
+        (_, None, None) => format!("{}.", Question::FAILED),
         (Stage::Ransac, ..) => format!(
             "{inliers} of {matches} matches agree with one motion of the camera; the other {} are \
              dropped.",
@@ -194,19 +136,35 @@ pub(super) fn describe(model: &TwoViewSfm) -> String {
             let [first, others @ ..] = motion.num_in_front;
             let others = others.map(|count| count.to_string()).join(", ");
             format!(
-                "Camera 2 is turned by {} against camera 1. Of the four poses that E allows, one \
+                "Camera 2 is turned by {turn} against camera 1. Of the four poses that E allows, one \
                  puts {first} of {inliers} points in front of both cameras, the others {others}.{}",
-                degrees(turn_deg(motion)),
                 caution(answer)
             )
         }
-        (_, _, Some(motion)) => format!(
-            "{} points in color and the two cameras, seen from {}. Projections miss their \
-             features by {} px (RMS).{}",
+        (Stage::Cloud, _, Some(motion)) => format!(
+            "Camera 2 has been knocked {knock}° askew. {} points, triangulated all the same, miss \
+             their features by {} px (RMS).",
+            motion.points.len(),
+            format_number(motion.error_px[0], 2),
+        ),
+        (Stage::Adjust, _, Some(motion)) => format!(
+            "{} points in color and the two cameras, seen from {}. Camera 2 had been knocked {knock}° \
+             askew; the adjustment takes the error from {} px to {} px (RMS).{}",
             motion.points.len(),
             model.orbit().words(),
+            format_number(motion.error_px[0], 2),
             format_number(motion.error_px[1], 2),
             caution(answer)
         ),
+    }
+}
+
+impl Words for TwoViewSfm {
+    fn readouts(&self) -> Vec<Readout> {
+        readouts(self)
+    }
+
+    fn describe(&self) -> String {
+        describe(self)
     }
 }

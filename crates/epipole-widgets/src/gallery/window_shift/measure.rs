@@ -1,7 +1,7 @@
 //! The picture, and what is found at a place of the window: the change under every shift, and the
 //! structure tensor.
 
-use crate::scenes::square_picture;
+use crate::kit::scenes::square_picture;
 use epipole::feature::{ShiftSurface, StructureTensorOptions, Window, WindowTensor, shift_surface};
 use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32};
 use image::RgbImage;

@@ -4,6 +4,7 @@
 mod measure;
 mod model;
 mod view;
+mod words;
 
 pub use model::WindowShift;
 pub use view::WindowShiftView as View;

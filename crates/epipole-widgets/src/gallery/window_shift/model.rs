@@ -2,50 +2,34 @@
 
 use super::measure::{Found, LARGEST_HALF, REACH, SHOWN, Verdict, find, take_picture};
 use crate::contract::{
-    Challenge, Control, Event, Handle, Knob, Model, Problem, Readout, Settings, Slider, Value,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number,
 };
 use epipole::imaging::GrayImage32;
 use image::RgbImage;
 
-const WINDOW: Slider = Slider {
-    id: "window",
-    label: "Window",
-    unit: "px",
-    min: 5.0,
-    max: 21.0,
-    step: 2.0,
-    default: 13.0,
-    digits: 0,
-    visible: true,
-};
-const NOISE: Slider = Slider {
-    id: "noise",
-    label: "Noise σ",
-    unit: "gray levels",
-    min: 0.0,
-    max: 30.0,
-    step: 1.0,
-    default: 2.0,
-    digits: 0,
-    visible: true,
-};
-const THRESHOLD: Slider = Slider {
-    id: "threshold",
-    label: "An eigenvalue is large from, per pixel",
-    unit: "",
-    min: 20.0,
-    max: 600.0,
-    step: 20.0,
-    default: 100.0,
-    digits: 0,
-    visible: true,
-};
+const WINDOW: Slider = Slider::new("window", "Window")
+    .range(5.0, 21.0, 2.0)
+    .at(13.0)
+    .unit("px");
+const NOISE: Slider = Slider::new("noise", "Noise σ")
+    .range(0.0, 30.0, 1.0)
+    .at(2.0)
+    .unit("gray levels");
+const THRESHOLD: Slider = Slider::new("threshold", "Large eigenvalue: above")
+    .range(20.0, 600.0, 20.0)
+    .at(100.0);
 const KNOBS: &[Knob] = &[
     Knob::Slider(&WINDOW),
     Knob::Slider(&NOISE),
     Knob::Slider(&THRESHOLD),
 ];
+
+/// Where the window is at the start, on a corner of the square, and the shift to try.
+const PLACE: (f64, f64) = (151.0, 143.0);
+const SHIFT: (f64, f64) = (-5.0, 4.0);
+/// Right of here the square does not reach into any window.
+const PLAIN_FROM: f64 = 190.0;
 
 /// The model of `window-shift`.
 pub struct WindowShift {
@@ -90,8 +74,12 @@ impl WindowShift {
         found.map_err(|error| format!("{error}."))
     }
 
+    pub(super) fn threshold(&self) -> f64 {
+        self.settings.number(&THRESHOLD)
+    }
+
     pub(super) fn verdict(&self, found: &Found) -> Verdict {
-        found.verdict(self.settings.number(&THRESHOLD))
+        found.verdict(self.threshold())
     }
 
     fn is_on(&self, verdict: Verdict) -> bool {
@@ -105,7 +93,7 @@ impl WindowShift {
     }
 }
 
-impl Model for WindowShift {
+impl Declared for WindowShift {
     const NAME: &'static str = "window-shift";
     const TITLE: &'static str = "What does a shift change?";
     const HELP: &'static str = "Drag the window over the picture, or move it with the arrow keys; \
@@ -114,19 +102,23 @@ impl Model for WindowShift {
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
         let (picture, gray) = take_picture(NOISE.default);
-        // On a corner of the square.
-        let window = (151.0, 143.0);
         Self {
-            found: find(&gray, window, settings.count(&WINDOW)),
+            found: find(&gray, PLACE, settings.count(&WINDOW)),
             settings,
-            window,
-            shift: (-5.0, 4.0),
+            window: PLACE,
+            shift: SHIFT,
             picture,
             gray,
             version: 0,
         }
     }
 
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for WindowShift {
     fn controls(&self) -> Vec<Control> {
         self.settings.controls()
     }
@@ -208,92 +200,46 @@ impl Model for WindowShift {
         }
         Ok(())
     }
-
-    fn readouts(&self) -> Vec<Readout> {
-        let Ok(found) = self.found() else {
-            return vec![Readout::words("state", "State", self.describe())];
-        };
-        let verdict = match self.verdict(found) {
-            Verdict::Flat => "flat: no shift changes it",
-            Verdict::Edge => "edge: one direction is free",
-            Verdict::Corner => "corner: every shift changes it",
-        };
-        let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift;
-        let change = found.change(du as i32, dv as i32);
-        let estimate = found.estimate(self.shift);
-        vec![
-            Readout::words("verdict", "The window lies on", verdict),
-            Readout::number("lambda1", "λ₁ per pixel", large, 0, ""),
-            Readout::number("lambda2", "λ₂ per pixel", small, 0, ""),
-            Readout::number("change", "Squared change per pixel", change, 0, ""),
-            Readout::number("estimate", "Taylor's estimate of it", estimate, 0, ""),
-        ]
-    }
-
-    fn describe(&self) -> String {
-        let found = match self.found() {
-            Ok(found) => found,
-            Err(problem) => return problem,
-        };
-        let what = match self.verdict(found) {
-            Verdict::Flat => "a flat place: shifts change it little in any direction",
-            Verdict::Edge => "an edge: shifts along it change little, shifts across it much",
-            Verdict::Corner => "a corner: every shift changes it",
-        };
-        let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift;
-        format!(
-            "The window at column {}, row {} lies on {what}. Per pixel λ₁ is {} and λ₂ is {}; \
-             from {} on one is large. A shift by {} columns and {} rows changes it by {}.",
-            self.window.0,
-            self.window.1,
-            format_number(large, 0),
-            format_number(small, 0),
-            format_number(self.settings.number(&THRESHOLD), 0),
-            format_number(du, 0),
-            format_number(dv, 0),
-            format_number(found.change(du as i32, dv as i32), 0),
-        )
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[
-            Challenge {
-                id: "edge",
-                goal: "Put the window where it can slide one way without being noticed.",
-                hint: "The valley of the surface points along it.",
-                check: |model| model.is_on(Verdict::Edge),
-                solution: || {
-                    vec![Event::HandleMoved {
-                        id: "place".to_owned(),
-                        x: 165.0,
-                        y: 102.0,
-                    }]
-                },
-            },
-            Challenge {
-                id: "noise",
-                goal: "Turn a flat place into a \"corner\" by noise alone.",
-                hint: "Go far to the right of the square; how much noise does it take?",
-                check: |model| {
-                    // Right of here the square does not reach into any window.
-                    model.window.0 >= 190.0 && model.is_on(Verdict::Corner)
-                },
-                solution: || {
-                    vec![
-                        Event::HandleMoved {
-                            id: "place".to_owned(),
-                            x: 200.0,
-                            y: 120.0,
-                        },
-                        Event::Set {
-                            id: "noise".to_owned(),
-                            value: Value::Number(30.0),
-                        },
-                    ]
-                },
-            },
-        ]
-    }
 }
+
+const CHALLENGES: &[Challenge<WindowShift>] = &[
+    Challenge {
+        id: "noise",
+        goal: "Turn a plain place into a \"corner\" by noise alone.",
+        hint: "Go far to the right of the square. How much noise does it take?",
+        why: "Noise has slopes in every direction, so both eigenvalues grow with its variance: a \
+              threshold must stay above it.",
+        check: |model| model.window.0 >= PLAIN_FROM && model.is_on(Verdict::Corner),
+        solution: || {
+            vec![
+                Event::moved("place", 200.0, 120.0),
+                Event::set(&NOISE, 30.0),
+            ]
+        },
+    },
+    Challenge {
+        id: "demoted",
+        goal: "Leave the window on the corner, and make it count as an edge.",
+        hint: "A corner needs two large eigenvalues. Large compared with what?",
+        why: "Corner and edge are a choice of threshold: between the two eigenvalues, one counts as \
+              large and the other does not.",
+        check: |model| model.window == PLACE && model.is_on(Verdict::Edge),
+        solution: || vec![Event::set(&THRESHOLD, 460.0)],
+    },
+    Challenge {
+        id: "misled",
+        goal: "On the corner, find a shift where Taylor is off by a factor of four.",
+        hint: "The estimate is a bowl that never ends. Does the picture go on for ever?",
+        why: "The structure tensor knows slopes at one place only, so its estimate holds for small \
+              shifts and fails for large ones.",
+        check: |model| {
+            let (du, dv) = model.shift;
+            model.window == PLACE
+                && model.found().is_ok_and(|found| {
+                    let change = found.change(du as i32, dv as i32);
+                    found.estimate(model.shift) >= 4.0 * change && change > 0.0
+                })
+        },
+        solution: || vec![Event::moved("shift", 8.0, 8.0)],
+    },
+];

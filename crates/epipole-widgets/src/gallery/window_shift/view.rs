@@ -1,50 +1,47 @@
 //! The picture with its window, the squared change as a map, and the same as a surface.
 
-use super::measure::{CHANGE, Found, REACH, SHOWN, Verdict};
+mod surface;
+
+use super::measure::{CHANGE, Found, REACH, SHOWN};
 use super::model::WindowShift;
 use crate::canvas::{Canvas, Place, Stroke, TextStyle, text_width};
-use crate::contract::{Axis, Layout, Panel, Rect, View, format_number};
-use crate::theme::{Rgb, Role, Theme};
+use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::kit::grid::{self, Grid, SMALL};
+use crate::kit::heat::{self, Fill, Heat};
+use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
-const GAP: f64 = 12.0;
-const TITLE: f64 = 24.0;
 const LEGEND: f64 = 26.0;
-const SMALL: f64 = 12.0;
-/// Below this width the picture stands above the two others.
-const STACKED_BELOW: f64 = 560.0;
 /// Pixels of the map for a pixel of shift.
 const FINE: usize = 16;
 /// Root mean square change from one level line to the next, gray levels.
 const LEVEL: f64 = 15.0;
-/// Squared change at the top of the surface, gray levels squared.
-const TOP: f64 = 11_000.0;
+/// Height of the surface on a phone, CSS pixels.
+const LOW: f64 = 138.0;
 
 /// Draws [`WindowShift`].
 #[derive(Default)]
 pub struct WindowShiftView {
-    map: Option<(u64, Theme, RgbImage)>,
+    map: Heat,
 }
 
 impl View for WindowShiftView {
     type Model = WindowShift;
+    const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, _: &WindowShift, width: f64) -> Layout {
         let (left, top, width_px, height_px) = SHOWN;
-        let shape = f64::from(width_px) / f64::from(height_px);
-        let stacked = width < STACKED_BELOW;
-        let (picture, side) = if stacked {
-            let rect = Rect::new(0.0, TITLE, width, width / shape);
-            (rect, ((width - GAP) / 2.0).max(1.0))
+        let aspect = f64::from(height_px) / f64::from(width_px);
+        let mut grid = Grid::new(width);
+        let (picture, map, surface);
+        if grid::is_narrow(width) {
+            [picture, map] = grid.row([aspect, 1.0], f64::INFINITY);
+            grid.strip(LEGEND);
+            [surface] = grid.shares([1.0], LOW);
         } else {
-            let side = (width - 2.0 * GAP) / (shape + 2.0);
-            (Rect::new(0.0, TITLE, side * shape, side), side)
-        };
-        let (x, y) = if stacked {
-            (0.0, picture.bottom() + LEGEND + TITLE)
-        } else {
-            (picture.right() + GAP, TITLE)
-        };
+            [picture, map, surface] = grid.row([aspect, 1.0, 1.0], f64::INFINITY);
+            grid.strip(LEGEND);
+        }
         let axis = |from: u32, size: u32| Axis {
             start: f64::from(from) - 0.5,
             end: f64::from(from + size) - 0.5,
@@ -54,69 +51,43 @@ impl View for WindowShiftView {
             start: -reach,
             end: reach,
         };
-        let panel = |id, rect, clickable| Panel {
+        let panel = |id, rect, x_axis, y_axis, clickable| Panel {
             id,
             rect,
-            x_axis: around,
-            y_axis: around,
+            x_axis,
+            y_axis,
             clickable,
         };
-        let map = panel("map", Rect::new(x, y, side, side), true);
-        let rect = Rect::new(map.rect.right() + GAP, y, side, side);
-        let surface = panel("surface", rect, false);
-        Layout {
-            width,
-            height: map.rect.bottom() + LEGEND,
-            panels: vec![
-                Panel {
-                    id: "picture",
-                    rect: picture,
-                    x_axis: axis(left, width_px),
-                    y_axis: axis(top, height_px),
-                    clickable: true,
-                },
-                map,
-                surface,
-            ],
-        }
+        let (columns, rows) = (axis(left, width_px), axis(top, height_px));
+        grid.layout(vec![
+            panel("picture", picture, columns, rows, true),
+            panel("map", map, around, around, true),
+            panel("surface", surface, around, around, false),
+        ])
     }
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
         let panels = ["picture", "map", "surface"].map(|id| layout.panel(id));
         let titles = ["Picture", "Change by shift", "The same as a surface"];
         for (panel, text) in panels.into_iter().zip(titles) {
-            let place = (panel.rect.x, panel.rect.y - 8.0);
-            canvas.text(place, text, TextStyle::new(Role::Ink, 13.0));
+            grid::title(canvas, panel.rect, text);
             canvas.panel(panel.rect);
         }
         let [picture, map, surface] = panels;
         let found = match model.found() {
             Ok(found) => found,
-            Err(problem) => {
-                let style = TextStyle::new(Role::Muted, 13.0);
-                canvas.paragraph(picture.rect.inset(8.0), &problem, style);
-                return;
-            }
+            Err(problem) => return grid::notice(canvas, picture.rect, &problem),
         };
         canvas.photograph(picture.rect, model.picture());
         canvas.clipped(picture.rect, |canvas| windows(canvas, picture, model));
-        canvas.photograph(map.rect, self.map(model.version(), found, canvas.theme()));
+        let theme = canvas.theme();
+        let [colors] = (self.map).maps(model.version(), theme, || [colored(found, theme)]);
+        canvas.photograph(map.rect, colors);
         canvas.clipped(map.rect, |canvas| ellipse(canvas, map, model, found));
         canvas.clipped(surface.rect, |canvas| {
-            mesh(canvas, surface.rect, model, found)
+            surface::draw(canvas, surface.rect, model.shift(), found);
         });
-        legend(canvas, picture.rect, map.rect, model.verdict(found), found);
-    }
-}
-
-impl WindowShiftView {
-    fn map(&mut self, version: u64, found: &Found, theme: Theme) -> &RgbImage {
-        let key = (version, theme);
-        let fresh = self.map.take().filter(|(v, t, _)| (*v, *t) == key);
-        let (_, _, map) = self
-            .map
-            .insert(fresh.unwrap_or_else(|| (key.0, key.1, colored(found, theme))));
-        map
+        draw_legend(canvas, layout, model, found);
     }
 }
 
@@ -174,60 +145,6 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
     canvas.grip(shift, Role::Grip);
 }
 
-/// The squared change as a net over the shifts, seen from above and in front.
-fn mesh(canvas: &mut Canvas, rect: Rect, model: &WindowShift, found: &Found) {
-    let reach = REACH as i32;
-    let (half_width, half_depth) = (rect.width * 0.47, rect.height * 0.2);
-    let ground = rect.bottom() - half_depth - 10.0;
-    let height = ground - half_depth - rect.y - 4.0;
-    let project = |du: f64, dv: f64, change: f64| -> Place {
-        let (x, y) = (du / f64::from(reach), dv / f64::from(reach));
-        (
-            rect.center().0 + 0.5 * (x - y) * half_width,
-            ground + 0.5 * (x + y) * half_depth - (change / TOP).min(1.05) * height,
-        )
-    };
-    let corner = |du: i32, dv: i32| project(f64::from(du), f64::from(dv), found.change(du, dv));
-    let [surface, change] = [Role::Surface, Role::Candidate].map(|role| canvas.theme().color(role));
-    // Far cells first, so that near ones cover them.
-    for diagonal in -2 * reach..2 * reach {
-        for du in (-reach).max(diagonal - reach + 1)..reach.min(diagonal + reach + 1) {
-            let dv = diagonal - du;
-            let cell = [(0, 0), (1, 0), (1, 1), (0, 1)];
-            let places = cell.map(|(x, y)| corner(du + x, dv + y));
-            let changes = cell.map(|(x, y)| found.change(du + x, dv + y));
-            let mean = changes.iter().sum::<f64>() / 4.0;
-            let share = (mean.sqrt() / 150.0).min(1.0);
-            canvas.polygon_color(&places, mix(surface, change, 0.1 + 0.6 * share));
-            // The sides towards the viewer are drawn with the cells that lie there.
-            let [back, right, front, left] = places;
-            let mut sides = vec![left, back, right];
-            if du == reach - 1 {
-                sides.push(front);
-            }
-            if dv == reach - 1 {
-                sides.insert(0, front);
-            }
-            canvas.polyline(&sides, Stroke::solid(Role::Ink, 0.5));
-        }
-    }
-    let style = TextStyle::new(Role::Ink, SMALL);
-    let edge = f64::from(reach);
-    let (right, down) = (project(edge, 0.0, 0.0), project(0.0, edge, 0.0));
-    canvas.label((right.0 + 6.0, rect.bottom() - 10.0), "right", style);
-    canvas.label((down.0 - 6.0, rect.bottom() - 10.0), "down", style.end());
-    let (du, dv) = model.shift();
-    let change = found.change(du as i32, dv as i32);
-    let place = project(du, dv, change);
-    canvas.line(
-        project(du, dv, 0.0),
-        place,
-        Stroke::solid(Role::Grip, 2.0).cased(),
-    );
-    canvas.disk(place, 4.5, Role::Halo, 1.0);
-    canvas.disk(place, 3.5, Role::Grip, 1.0);
-}
-
 /// Level lines of the root mean square change; pale where it is less than [`CHANGE`].
 fn colored(found: &Found, theme: Theme) -> RgbImage {
     let [pale, strong, line] =
@@ -262,7 +179,7 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
             } else {
                 0.3 + 0.6 * (change / 150.0).min(1.0)
             };
-            let color = mix(pale, strong, share);
+            let color = mix(pale, strong, share as f32);
             [color, mix(color, line, 0.45)]
         })
         .collect();
@@ -276,39 +193,26 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     })
 }
 
-fn mix(from: Rgb, to: Rgb, share: f64) -> Rgb {
-    std::array::from_fn(|channel| {
-        let (a, b) = (f64::from(from[channel]), f64::from(to[channel]));
-        (a + (b - a) * share).round() as u8
-    })
-}
-
-fn legend(canvas: &mut Canvas, picture: Rect, map: Rect, verdict: Verdict, found: &Found) {
+/// What the window is on, and what the marks of the map mean.
+fn draw_legend(canvas: &mut Canvas, layout: &Layout, model: &WindowShift, found: &Found) {
+    let [picture, map] = ["picture", "map"].map(|id| layout.panel(id).rect);
+    let y = picture.bottom().max(map.bottom()) + LEGEND / 2.0 + 2.0;
     let style = TextStyle::new(Role::Ink, SMALL);
-    let verdict = match verdict {
-        Verdict::Flat => "Flat",
-        Verdict::Edge => "Edge",
-        Verdict::Corner => "Corner",
-    };
-    let (large, small) = found.eigenvalues();
-    let words = format!(
-        "{verdict}: λ₁ = {}, λ₂ = {} per pixel",
-        format_number(large, 0),
-        format_number(small, 0)
-    );
-    canvas.label((picture.x, picture.bottom() + 14.0), &words, style);
-    let y = map.bottom() + 14.0;
-    let dashed = "Taylor's ellipse";
-    canvas.line(
-        (map.x, y),
-        (map.x + 22.0, y),
-        Stroke::solid(Role::Truth, 2.0).dashed(),
-    );
-    canvas.label((map.x + 27.0, y), dashed, style);
-    let x = map.x + 27.0 + text_width(dashed, SMALL) + 14.0;
-    let swatch = Rect::new(x, y - 7.0, 14.0, 14.0);
-    canvas.fill_rect(swatch, Role::Candidate, 0.6);
-    canvas.stroke_rect(swatch, Stroke::solid(Role::Edge, 1.0));
+    let mut x = 0.0;
+    if !grid::is_narrow(layout.width) {
+        let (large, small) = found.eigenvalues();
+        let [large, small, threshold] =
+            [large, small, model.threshold()].map(|value| format_number(value, 0));
+        let verdict = model.verdict(found).word();
+        let words = format!("{verdict}: λ₁ = {large}, λ₂ = {small}, large from {threshold}");
+        canvas.label((picture.x, y), &words, style);
+        x = map.x;
+    }
+    let ellipse = "Taylor's ellipse";
+    let stroke = Stroke::solid(Role::Truth, 2.0).dashed();
+    canvas.line((x, y), (x + 22.0, y), stroke);
+    canvas.label((x + 27.0, y), ellipse, style);
+    let x = x + 27.0 + text_width(ellipse, SMALL) + 14.0;
     let words = format!("changes by {} or more", format_number(CHANGE, 0));
-    canvas.label((x + 19.0, y), &words, style);
+    heat::swatch(canvas, (x, y), Fill::Role(Role::Candidate, 0.6), &words);
 }

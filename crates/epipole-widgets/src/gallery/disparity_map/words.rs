@@ -1,0 +1,97 @@
+//! What `disparity-map` says.
+
+use super::model::DisparityMap;
+use super::question::{Method, Question};
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::question::Question as _;
+
+impl Words for DisparityMap {
+    fn readouts(&self) -> Vec<Readout> {
+        let answered = self.asked().answered();
+        let scores = answered.map(|(_, answer)| answer.scores);
+        let probed = answered.and_then(|(_, answer)| self.probed(answer));
+        let waiting = if self.asked().is_waiting() {
+            "…"
+        } else {
+            "none"
+        };
+        let number = |id, label, value: Option<f64>, digits, unit, otherwise: &str| match value {
+            Some(value) => Readout::number(id, label, value, digits, unit),
+            None => Readout::words(id, label, otherwise),
+        };
+        let found_px = probed.and_then(|probed| probed.found_px);
+        let truth_px = probed.map(|probed| probed.truth_px);
+        let depth_m = |d: Option<f32>| {
+            let (question, _) = answered?;
+            question.depth_m(d?)
+        };
+        let none = if probed.is_some() {
+            "no answer"
+        } else {
+            waiting
+        };
+        let percent = |share: f64| 100.0 * share;
+        let bad = scores.map(|scores| percent(scores.bad));
+        let coverage = scores.map(|scores| percent(scores.coverage));
+        let error_px = scores.map(|scores| scores.mean_error_px);
+        let hidden = probed.map_or(waiting, |probed| match probed.is_hidden {
+            true => "hidden on the right",
+            false => "both cameras see it",
+        });
+        vec![
+            number("bad", "Bad answers", bad, 1, "%", waiting).main(),
+            number("coverage", "Coverage", coverage, 1, "%", waiting).main(),
+            number(
+                "found",
+                "d at the probe",
+                found_px.map(f64::from),
+                2,
+                "px",
+                none,
+            )
+            .main(),
+            number("truth", "True d", truth_px.map(f64::from), 2, "px", waiting).main(),
+            number("error", "Mean error", error_px, 2, "px", waiting),
+            number("depth", "Depth found", depth_m(found_px), 3, "m", none),
+            number(
+                "true-depth",
+                "True depth",
+                depth_m(truth_px),
+                3,
+                "m",
+                waiting,
+            ),
+            Readout::words("hidden", "At the probe", hidden),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        if let Some(problem) = self.asked().problem() {
+            return problem.to_owned();
+        }
+        let answered = self.asked().answered();
+        let probed = answered.and_then(|(_, answer)| self.probed(answer));
+        let (Some((question, answer)), Some(probed)) = (answered, probed) else {
+            return format!("{}.", Question::LABEL);
+        };
+        let method = match question.method {
+            Method::Blocks(window_px) => format!("Block matching with {window_px} px windows"),
+            Method::SemiGlobal => "Semi-global matching".to_owned(),
+        };
+        let at = match probed.found_px {
+            Some(found) => format!("it finds {} px", format_number(found.into(), 1)),
+            None => "it finds nothing".to_owned(),
+        };
+        let range = match question.reaches_nearest(answer) {
+            true => "",
+            false => " The nearest things lie beyond the range of the search.",
+        };
+        format!(
+            "{method} answers for {} % of what both cameras see; {} % of the answers are more than \
+             2 px off. At the probe {at}, and {} px is true.{range}",
+            format_number(100.0 * answer.scores.coverage, 1),
+            format_number(100.0 * answer.scores.bad, 1),
+            format_number(probed.truth_px.into(), 1),
+        )
+    }
+}

@@ -1,0 +1,117 @@
+//! What `eight-point` says.
+
+use super::estimate::{Estimate, Meeting};
+use super::model::EightPoint;
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::words;
+use epipole::math::svd3;
+
+/// Lines that miss one another by less meet, pixels.
+const MEETS_PX: f64 = 1e-6;
+
+impl Words for EightPoint {
+    fn readouts(&self) -> Vec<Readout> {
+        let estimate = self.estimate();
+        let known = estimate.ok();
+        let px = |id, label, value: Option<f64>| {
+            Readout::number(id, label, value.unwrap_or(f64::NAN), 2, "px")
+        };
+        let words = |id, label, value: Option<String>| {
+            Readout::words(id, label, value.unwrap_or_else(|| "no value".to_owned()))
+        };
+        let condition = |solution: &epipole::epipolar::EightPoint| {
+            words::magnitude(solution.condition_number, 0.0)
+        };
+        let meeting = known.and_then(|estimate| estimate.meeting);
+        let probe = "Match of the probe";
+        let mut readouts = vec![
+            px(
+                "held-out",
+                "Held-out points",
+                known.map(|estimate| estimate.held_out_px),
+            )
+            .main(),
+            px(
+                "used",
+                "Matches used",
+                known.map(|estimate| estimate.used_px),
+            )
+            .main(),
+            px("miss", "Lines miss by", meeting.map(Meeting::shown_px)).main(),
+            words(
+                "condition",
+                "Condition number",
+                known.map(|estimate| condition(estimate.chosen())),
+            )
+            .main(),
+            match (known, self.probe_px()) {
+                (Some(_), None) => Readout::words("probe-px", probe, "not seen"),
+                (_, distance) => px("probe-px", probe, distance),
+            },
+        ];
+        readouts.extend(known.into_iter().flat_map(details));
+        readouts.extend(
+            estimate
+                .err()
+                .map(|why| Readout::words("state", "State", why)),
+        );
+        readouts
+    }
+
+    fn describe(&self) -> String {
+        let estimate = match self.estimate() {
+            Ok(estimate) => estimate,
+            Err(sentence) => return sentence.to_owned(),
+        };
+        format!(
+            "F from {} matches with {} px of noise, {}, condition number {}. {}. Held-out points are \
+             {} px from their lines on average.",
+            estimate.used.len(),
+            format_number(self.noise_px(), 1),
+            if self.is_normalized() {
+                "normalized"
+            } else {
+                "not normalized"
+            },
+            words::magnitude(estimate.chosen().condition_number, 0.0),
+            match estimate.meeting {
+                Some(meeting) if meeting.miss_px < MEETS_PX =>
+                    "All epipolar lines meet in the epipole".to_owned(),
+                Some(meeting) => format!(
+                    "Its rank is 3, so the epipolar lines miss one another, by {} px on average",
+                    format_number(meeting.miss_px, 2)
+                ),
+                None => "The epipolar lines are nearly parallel".to_owned(),
+            },
+            format_number(estimate.held_out_px, 2),
+        )
+    }
+}
+
+impl Meeting {
+    /// By how much the lines miss one another, without what rounding leaves.
+    fn shown_px(self) -> f64 {
+        if self.miss_px < MEETS_PX {
+            0.0
+        } else {
+            self.miss_px
+        }
+    }
+}
+
+/// What few readers want to know.
+fn details(estimate: &Estimate) -> Vec<Readout> {
+    let sigma = &estimate.chosen().singular_values;
+    let values = [0, 7, 8].map(|k| words::magnitude(sigma[k], sigma[0]));
+    let of_f = svd3(&estimate.fundamental).singular_values;
+    let third = of_f[2] / of_f[0].max(f64::MIN_POSITIVE);
+    let place = match estimate.meeting {
+        Some(meeting) => words::pixel(&meeting.place),
+        None => "nearly parallel".to_owned(),
+    };
+    vec![
+        Readout::words("meeting", "The lines meet near", place),
+        Readout::words("values", "σ₁, σ₈, σ₉ of the rows", values.join(", ")),
+        Readout::words("third", "σ₃ of F over σ₁", words::magnitude(third, 1.0)),
+    ]
+}

@@ -1,0 +1,68 @@
+//! What `harris` says.
+
+use super::model::{Harris, Verdict};
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::question::Question as _;
+
+use super::question::Question;
+
+impl Verdict {
+    fn word(self) -> &'static str {
+        match self {
+            Verdict::Flat => "flat",
+            Verdict::Edge => "edge",
+            Verdict::Corner => "corner",
+        }
+    }
+}
+
+impl Words for Harris {
+    fn readouts(&self) -> Vec<Readout> {
+        let Some(probe) = self.probe() else {
+            return vec![Readout::words("state", "State", self.describe()).main()];
+        };
+        let number = |id, label, value, digits| Readout::number(id, label, value, digits, "");
+        vec![
+            Readout::number(
+                "response",
+                "R at the probe",
+                probe.response / 1e6,
+                2,
+                "million",
+            )
+            .main(),
+            Readout::words("verdict", "so it is", probe.verdict.word()).main(),
+            Readout::count("corners", "Corners", self.corners().len()).main(),
+            number("lambda1", "λ₁", probe.lambda1, 0),
+            number("lambda2", "λ₂", probe.lambda2, 0),
+            number("a", "A = Σ Iu²", probe.tensor.uu, 0),
+            number("b", "B = Σ Iv²", probe.tensor.vv, 0),
+            number("c", "C = Σ Iu Iv", probe.tensor.uv, 0),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        if let Some(problem) = self.asked().problem() {
+            return problem.to_owned();
+        }
+        let Some(probe) = self.probe() else {
+            return format!("{}.", Question::LABEL);
+        };
+        let what = match probe.verdict {
+            Verdict::Flat => "a flat place",
+            Verdict::Edge => "an edge",
+            Verdict::Corner => "a corner",
+        };
+        let corners = self.corners().len();
+        let (u, v) = self.probe_place();
+        format!(
+            "{corners} {} above {} % of the strongest response. The probe at column {u}, row {v} is \
+             on {what}: λ₁ is {}, λ₂ is {}, R is {} million.",
+            if corners == 1 { "corner" } else { "corners" },
+            format_number(self.threshold_percent(), 0),
+            format_number(probe.lambda1, 0),
+            format_number(probe.lambda2, 0),
+            format_number(probe.response / 1e6, 2),
+        )
+    }
+}

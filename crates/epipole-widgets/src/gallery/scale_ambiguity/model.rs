@@ -1,0 +1,211 @@
+//! A house and two cameras, the house enlarged about the first camera, the second camera led away along
+//! the baseline.
+
+use crate::contract::{
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Space,
+};
+use crate::kit::house::House;
+use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use epipole::camera::{Camera, RigidTransform};
+use nalgebra::{Point2, Point3, Translation3};
+
+/// The two of the house's cameras that photograph it, by index.
+const PAIR: [usize; 2] = [1, 2];
+/// Photographs that differ by less are the same, pixels.
+const SAME_PX: f64 = 1e-6;
+
+const HOUSE: Slider = Slider::new("house", "House, times as large")
+    .range(0.5, 4.0, 0.25)
+    .at(2.0)
+    .digits(2)
+    .unit("×");
+const BASELINE: Slider = Slider::new("baseline", "Baseline, times as long")
+    .range(0.5, 4.0, 0.25)
+    .at(2.0)
+    .digits(2)
+    .unit("×");
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&HOUSE),
+    Knob::Slider(&BASELINE),
+    Knob::Slider(&ZOOM),
+];
+
+/// The house of some size, and the cameras before it.
+pub(super) struct World {
+    pub(super) cameras: [Camera; 2],
+    pub(super) points: Vec<Point3<f64>>,
+    /// Where each camera sees each point, pixels.
+    pub(super) pixels: [Vec<Point2<f64>>; 2],
+}
+
+/// The model of `scale-ambiguity`.
+pub(crate) struct ScaleAmbiguity {
+    settings: Settings,
+    orbit: Orbit,
+    house: Option<House>,
+}
+
+impl ScaleAmbiguity {
+    pub(super) fn house(&self) -> Option<&House> {
+        self.house.as_ref()
+    }
+
+    pub(super) fn orbit(&self) -> &Orbit {
+        &self.orbit
+    }
+
+    pub(super) fn zoom(&self) -> f64 {
+        self.settings.number(&ZOOM)
+    }
+
+    /// How many times as large the house is, and as long the baseline.
+    pub(super) fn times(&self) -> [f64; 2] {
+        [&HOUSE, &BASELINE].map(|slider| self.settings.number(slider))
+    }
+
+    /// The world as it is set, or as it was before anything was enlarged.
+    pub(super) fn world(&self, [house_times, baseline_times]: [f64; 2]) -> Option<World> {
+        let house = self.house.as_ref()?;
+        let [first, second] = PAIR.map(|index| house.cameras[index]);
+        let origin = first.center_in_world();
+        let center = origin + (second.center_in_world() - origin) * baseline_times;
+        let rotation = second.cam_from_world.rotation;
+        let translation = Translation3::from(-(rotation * center.coords));
+        let second = Camera {
+            cam_from_world: RigidTransform::from_parts(translation, rotation),
+            ..second
+        };
+        let enlarged = |point: &Point3<f64>| origin + (point - origin) * house_times;
+        let points: Vec<_> = house.points.iter().map(enlarged).collect();
+        let cameras = [first, second];
+        let seen = |camera: &Camera| {
+            let pixels = points.iter().map(|point| camera.project(point).ok());
+            pixels.collect::<Option<Vec<_>>>()
+        };
+        let pixels = [seen(&first)?, seen(&second)?];
+        Some(World {
+            cameras,
+            points,
+            pixels,
+        })
+    }
+
+    /// How far any point moves in each photograph through the change, pixels; `None` where a point comes
+    /// to lie behind a camera.
+    pub(super) fn changes_px(&self) -> Option<[f64; 2]> {
+        let (before, now) = (self.world([1.0, 1.0])?, self.world(self.times())?);
+        let change = |index: usize| {
+            let pairs = before.pixels[index].iter().zip(&now.pixels[index]);
+            let most = pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            if most < SAME_PX { 0.0 } else { most }
+        };
+        Some([change(0), change(1)])
+    }
+}
+
+impl Declared for ScaleAmbiguity {
+    const NAME: &'static str = "scale-ambiguity";
+    const TITLE: &'static str = "How large is the house?";
+    const HELP: &'static str = "Change the size of the house and the length of the baseline, and watch the \
+        two photographs. Drag in the space to turn it.";
+
+    fn new() -> Self {
+        Self {
+            settings: Settings::new(KNOBS),
+            orbit: Orbit::new(-16.0, 30.0),
+            // The house is one of constants, which a test builds.
+            house: House::new().ok(),
+        }
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for ScaleAmbiguity {
+    fn controls(&self) -> Vec<Control> {
+        let mut controls = self.settings.controls();
+        controls.push(RECENTER.control(true, false));
+        controls
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        self.orbit.handles().into()
+    }
+
+    fn spaces(&self) -> &'static [Space] {
+        &[SPACE]
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if self.orbit.update(event, &mut self.settings)? {
+            return Ok(());
+        }
+        if let Event::Set { id, value } = event {
+            self.settings.set(id, value)?;
+        }
+        Ok(())
+    }
+}
+
+const CHALLENGES: &[Challenge<ScaleAmbiguity>] = &[
+    Challenge {
+        id: "one-notices",
+        goal: "Change photograph 2 by at least 40 px and photograph 1 not at all.",
+        hint: "Does one camera alone notice the size of the house?",
+        why: "Enlarged about its center, a house keeps all its rays to camera 1; camera 2 sees it from the side, \
+              unless it moves along.",
+        check: |model| {
+            model
+                .changes_px()
+                .is_some_and(|[one, two]| one == 0.0 && two >= 40.0)
+        },
+        solution: || vec![Event::set(&BASELINE, 1.0)],
+    },
+    Challenge {
+        id: "thrice",
+        goal: "Make the house three times as large with both photographs as they were.",
+        hint: "Two things have to grow.",
+        why: "House and baseline grew by the same factor, so all rays meet as before: photographs give the \
+              shape of the world, never its size.",
+        check: |model| {
+            let is_same = model.changes_px() == Some([0.0; 2]);
+            is_same && model.times()[0] == 3.0
+        },
+        solution: || vec![Event::set(&HOUSE, 3.0), Event::set(&BASELINE, 3.0)],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photographs_stay_if_all_grows_and_only_then() {
+        let mut model = ScaleAmbiguity::new();
+        for step in 0..=14 {
+            let times = 0.5 + 0.25 * f64::from(step);
+            model.update(&Event::set(&HOUSE, times)).unwrap();
+            model.update(&Event::set(&BASELINE, times)).unwrap();
+            let before = model.world([1.0, 1.0]).unwrap();
+            let now = model.world(model.times()).unwrap();
+            for (a, b) in before
+                .pixels
+                .iter()
+                .flatten()
+                .zip(now.pixels.iter().flatten())
+            {
+                assert!((a - b).norm() < 1e-10, "{times}");
+            }
+            assert_eq!(model.changes_px(), Some([0.0; 2]));
+            let other = if times > 2.0 { 1.0 } else { 3.5 };
+            model.update(&Event::set(&BASELINE, other)).unwrap();
+            let changes = model.changes_px();
+            assert!(
+                changes.is_none_or(|[one, two]| one == 0.0 && two > 10.0),
+                "{changes:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! What `scale-ambiguity` says.
+
+use super::model::ScaleAmbiguity;
+use crate::contract::{Readout, Words, format_number};
+
+impl Words for ScaleAmbiguity {
+    fn readouts(&self) -> Vec<Readout> {
+        let changes = self.changes_px();
+        let change = |id, label, index: usize| match changes {
+            Some(changes) => Readout::number(id, label, changes[index], 1, "px"),
+            None => Readout::words(id, label, "not seen"),
+        };
+        let from = format!(
+            "{}, {} ×",
+            self.orbit().words(),
+            format_number(self.zoom(), 1)
+        );
+        vec![
+            change("first", "Photograph 1 changes", 0).main(),
+            change("second", "Photograph 2 changes", 1).main(),
+            Readout::words("view", "Seen from", from),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        let [house, baseline] = self.times().map(|times| format_number(times, 2));
+        let photographs = match self.changes_px() {
+            Some([0.0, 0.0]) => "Both photographs are exactly as they were.".to_owned(),
+            Some([_, second]) => format!(
+                "Photograph 1 is exactly as it was; in photograph 2 points move by up to {} px.",
+                format_number(second, 0)
+            ),
+            None => "Part of the house is behind a camera now.".to_owned(),
+        };
+        format!(
+            "The house is {house} times as large, the baseline {baseline} times as long. {photographs}"
+        )
+    }
+}

@@ -1,0 +1,154 @@
+//! A rectified pair of cameras before the long table, and what it measures of the ball.
+
+use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH};
+use epipole::Error;
+use epipole::camera::{Camera, Intrinsics};
+use epipole::stereo::{DepthInterval, depth_from_disparity, depth_interval};
+use nalgebra::{Isometry3, Point2, Point3};
+
+/// The error of a disparity that the figure asks about, pixels.
+pub(super) const ERROR_PX: f64 = 1.0;
+
+/// Two cameras that look the same way, side by side, and where the ball is: to the right of the left
+/// camera, and away from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rig {
+    pub(super) baseline_m: f64,
+    pub(super) focal_px: f64,
+    pub(super) x_m: f64,
+    pub(super) z_m: f64,
+}
+
+/// What the two photographs measure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured {
+    pub(super) disparity_px: f64,
+    pub(super) depth_m: f64,
+    pub(super) interval: DepthInterval,
+}
+
+/// How a photograph shows the middle of the ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sight {
+    /// Nothing is in the way.
+    Clear,
+    /// This is in the way.
+    Hidden(&'static str),
+    /// It is beyond the picture's edge.
+    Outside,
+}
+
+impl Rig {
+    /// The middle of the ball in the frame of the left camera, which is the world's.
+    pub(super) fn ball_in_world(&self) -> Point3<f64> {
+        Point3::new(self.x_m, scenes::BALL_Y_M, self.z_m)
+    }
+
+    /// The left and the right camera.
+    pub(super) fn cameras(&self) -> Result<[Camera; 2], Error> {
+        let intrinsics = Intrinsics::centered(self.focal_px, PHOTO_WIDTH, PHOTO_HEIGHT)?;
+        Ok([0.0, self.baseline_m].map(|x_m| Camera {
+            intrinsics,
+            cam_from_world: Isometry3::translation(-x_m, 0.0, 0.0),
+        }))
+    }
+
+    /// Where the left and the right camera see the middle of the ball.
+    pub(super) fn pixels(&self) -> Result<[Point2<f64>; 2], Error> {
+        let [left, right] = self.cameras()?;
+        let ball = self.ball_in_world();
+        Ok([left.project(&ball)?, right.project(&ball)?])
+    }
+
+    /// Disparity and depth, computed from the two pixels alone; `None` without a baseline.
+    pub(super) fn measured(&self) -> Option<Measured> {
+        let [left, right] = self.pixels().ok()?;
+        let disparity_px = left.x - right.x;
+        let (focal_px, baseline_m) = (self.focal_px, self.baseline_m);
+        Some(Measured {
+            disparity_px,
+            depth_m: depth_from_disparity(focal_px, baseline_m, disparity_px).ok()?,
+            interval: depth_interval(focal_px, baseline_m, disparity_px, ERROR_PX).ok()?,
+        })
+    }
+
+    /// How each photograph shows the middle of the ball.
+    pub(super) fn sights(&self) -> Result<[Sight; 2], Error> {
+        let scene = scenes::long_table((self.x_m, self.z_m))?;
+        let (cameras, pixels) = (self.cameras()?, self.pixels()?);
+        let sight = |index: usize| {
+            if !scenes::in_picture(&pixels[index]) {
+                return Sight::Outside;
+            }
+            let center = cameras[index].center_in_world();
+            let hit = scene.cast(&center, &(self.ball_in_world() - center));
+            match hit {
+                Some(hit) if hit.object != scenes::BALL => Sight::Hidden(hit.object),
+                _ => Sight::Clear,
+            }
+        };
+        Ok([sight(0), sight(1)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RIG: Rig = Rig {
+        baseline_m: 0.12,
+        focal_px: 700.0,
+        x_m: 0.362,
+        z_m: 2.8,
+    };
+
+    #[test]
+    fn the_worked_example_is_measured() {
+        let [left, right] = RIG.pixels().unwrap();
+        assert!((left.x - 410.0).abs() < 1e-9 && (right.x - 380.0).abs() < 1e-9);
+        let measured = RIG.measured().unwrap();
+        assert!((measured.disparity_px - 30.0).abs() < 1e-9);
+        assert!((measured.depth_m - 2.8).abs() < 1e-9);
+        // 84 / 31 and 84 / 29.
+        assert!((measured.interval.near_m - 84.0 / 31.0).abs() < 1e-9);
+        assert!((measured.interval.far_m.unwrap() - 84.0 / 29.0).abs() < 1e-9);
+        assert_eq!(left.y, right.y, "rows are aligned");
+        assert_eq!(RIG.sights(), Ok([Sight::Clear, Sight::Clear]));
+    }
+
+    #[test]
+    fn the_interval_can_reach_infinity() {
+        let rig = Rig {
+            baseline_m: 0.01,
+            focal_px: 400.0,
+            x_m: 0.0,
+            z_m: 8.0,
+        };
+        assert_eq!(rig.measured().unwrap().interval.far_m, None);
+        let still = Rig {
+            baseline_m: 0.0,
+            ..rig
+        };
+        assert!(still.measured().is_none());
+    }
+
+    #[test]
+    fn what_is_in_the_way_is_named() {
+        let beside = Rig {
+            baseline_m: 0.4,
+            x_m: -0.3,
+            z_m: 0.9,
+            ..RIG
+        };
+        assert_eq!(beside.sights().unwrap()[1], Sight::Outside);
+        let hidden = (8..100).any(|tenths| {
+            let rig = Rig {
+                x_m: 0.6,
+                z_m: f64::from(tenths) / 10.0,
+                ..RIG
+            };
+            matches!(rig.sights(), Ok([Sight::Hidden(_), _]))
+        });
+        assert!(hidden);
+    }
+}

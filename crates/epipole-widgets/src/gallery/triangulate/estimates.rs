@@ -1,0 +1,115 @@
+//! One point from two noisy pixels, by every method of the core, and many times over.
+
+use epipole::Error;
+use epipole::camera::{Camera, relative_motion};
+use epipole::math::random::Random;
+use epipole::triangulation::{
+    point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
+    triangulate_optimal, triangulation_angle_rad,
+};
+use nalgebra::{Matrix3, Point2, Point3, SymmetricEigen, Vector2, Vector3};
+
+/// So many times is the point photographed anew.
+const NUM_REPEATS: usize = 200;
+/// The methods, as the core names them.
+pub(super) const METHODS: [&str; 4] = ["midpoint", "DLT", "angular", "optimal"];
+
+/// Two cameras, a point, and what noise makes of it.
+pub(super) struct Estimates {
+    pub(super) cameras: [Camera; 2],
+    pub(super) truth: Point3<f64>,
+    /// Where the point is seen, with noise, pixels.
+    pub(super) pixels: [Point2<f64>; 2],
+    /// The point by each of [`METHODS`], or why there is none.
+    pub(super) points: [Result<Point3<f64>, Error>; 4],
+    /// The optimal point of other photographs with as much noise.
+    pub(super) repeats: Vec<Point3<f64>>,
+    /// Half axes of the region of one standard deviation, longest first, in the world.
+    pub(super) axes: Option<[Vector3<f64>; 3]>,
+    pub(super) angle_deg: f64,
+}
+
+impl Estimates {
+    /// * `sigma_px`: standard deviation of each coordinate of a pixel
+    pub(super) fn new(
+        cameras: [Camera; 2],
+        truth: Point3<f64>,
+        sigma_px: f64,
+        seed: u64,
+    ) -> Result<Self, Error> {
+        let mut random = Random::new(seed);
+        let exact = [cameras[0].project(&truth)?, cameras[1].project(&truth)?];
+        let mut photographed =
+            || exact.map(|pixel| pixel + Vector2::new(random.normal(), random.normal()) * sigma_px);
+        let pixels = photographed();
+        let optimal = |pixels: [Point2<f64>; 2]| {
+            triangulate_optimal(&cameras[0], &cameras[1], &pixels[0], &pixels[1])
+        };
+        let repeats = (0..NUM_REPEATS).filter_map(|_| optimal(photographed()).ok());
+        let repeats = repeats.collect();
+        let [center1, center2] = cameras.map(|camera| camera.center_in_world());
+        Ok(Self {
+            points: by_all(&cameras, &pixels),
+            repeats,
+            axes: half_axes(&cameras, &truth, sigma_px),
+            angle_deg: triangulation_angle_rad(&center1, &center2, &truth).to_degrees(),
+            cameras,
+            truth,
+            pixels,
+        })
+    }
+
+    /// Root mean square of the distances of a point's images from the pixels, pixels.
+    pub(super) fn reprojection_px(&self, point: &Point3<f64>) -> Option<f64> {
+        let mut sum = 0.0;
+        for (camera, pixel) in self.cameras.iter().zip(&self.pixels) {
+            sum += (camera.project(point).ok()? - pixel).norm_squared();
+        }
+        Some((sum / 2.0).sqrt())
+    }
+
+    /// Root mean square distance of the repeated points from the truth, meters.
+    pub(super) fn scatter_m(&self) -> Option<f64> {
+        let squares = (self.repeats.iter()).map(|point| (point - self.truth).norm_squared());
+        let count = self.repeats.len();
+        (count > 0).then(|| (squares.sum::<f64>() / count as f64).sqrt())
+    }
+
+    /// The longest half axis of the region of one standard deviation, meters.
+    pub(super) fn uncertainty_m(&self) -> Option<f64> {
+        self.axes.map(|axes| axes[0].norm())
+    }
+}
+
+fn by_all(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> [Result<Point3<f64>, Error>; 4] {
+    let [first, second] = cameras;
+    let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
+    let ray = |index: usize| {
+        let camera = &cameras[index];
+        camera.cam_from_world.rotation * camera.ray_in_world(&pixels[index])
+    };
+    let (ray1, ray2) = (ray(0), ray(1));
+    let in_world = |found: Result<Point3<f64>, Error>| {
+        found.map(|point| first.cam_from_world.inverse() * point)
+    };
+    let projections = [first.projection_matrix(), second.projection_matrix()];
+    [
+        in_world(triangulate_midpoint(&motion, &ray1, &ray2)),
+        triangulate_dlt(&projections[0], &projections[1], &pixels[0], &pixels[1]),
+        in_world(triangulate_angular(&motion, &ray1, &ray2)),
+        triangulate_optimal(first, second, &pixels[0], &pixels[1]),
+    ]
+}
+
+fn half_axes(
+    cameras: &[Camera; 2],
+    truth: &Point3<f64>,
+    sigma_px: f64,
+) -> Option<[Vector3<f64>; 3]> {
+    let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
+    let eigen = SymmetricEigen::new(covariance);
+    let mut axes =
+        [0, 1, 2].map(|n| eigen.eigenvectors.column(n) * eigen.eigenvalues[n].max(0.0).sqrt());
+    axes.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
+    Some(axes)
+}

@@ -1,0 +1,252 @@
+//! A point, two cameras that look at it, and the noise of its two pixels.
+
+use super::estimates::Estimates;
+use crate::contract::{
+    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
+    Settings, Slider, Space, Value,
+};
+use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::pin::Pin;
+use epipole::camera::{Camera, Intrinsics, look_at};
+use nalgebra::{Point3, Vector3};
+
+pub(super) const FOCAL_PX: f64 = 500.0;
+pub(super) const SIZE: (u32, u32) = (640, 480);
+/// How far to the left and to the right things may be, meters.
+pub(super) const ASIDE_M: [f64; 2] = [-1.2, 1.4];
+
+pub(super) const NOISE: Slider = Slider::new("noise", "Noise of a pixel, σ")
+    .range(0.1, 4.0, 0.1)
+    .at(1.0)
+    .digits(1)
+    .unit("px");
+const SEED: Slider = Slider::seed(4.0);
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&NOISE),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ZOOM),
+];
+const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
+
+/// The model of `triangulate`.
+pub(crate) struct Triangulate {
+    settings: Settings,
+    orbit: Orbit,
+    point: Pin,
+    second: Pin,
+    estimates: Result<Estimates, String>,
+}
+
+impl Triangulate {
+    pub(super) fn estimates(&self) -> &Result<Estimates, String> {
+        &self.estimates
+    }
+
+    pub(super) fn orbit(&self) -> &Orbit {
+        &self.orbit
+    }
+
+    pub(super) fn zoom(&self) -> f64 {
+        self.settings.number(&ZOOM)
+    }
+
+    pub(super) fn sigma_px(&self) -> f64 {
+        self.settings.number(&NOISE)
+    }
+
+    /// The point and the second camera, (x, z) meters; the first camera is at the origin.
+    pub(super) fn pins(&self) -> [(f64, f64); 2] {
+        [self.point.place(), self.second.place()]
+    }
+
+    fn compute(&mut self) {
+        let [point, second] = self.pins().map(|(x, z)| Point3::new(x, 0.0, z));
+        let estimate = || {
+            let camera = |center: &Point3<f64>| {
+                Ok(Camera {
+                    intrinsics: Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
+                    cam_from_world: look_at(center, &point, &Vector3::new(0.0, -1.0, 0.0))?,
+                })
+            };
+            let cameras = [camera(&Point3::origin())?, camera(&second)?];
+            let seed = self.settings.count(&SEED) as u64;
+            Estimates::new(cameras, point, self.sigma_px(), seed)
+        };
+        self.estimates =
+            estimate().map_err(|error: epipole::Error| format!("There is no point: {error}."));
+    }
+}
+
+impl Declared for Triangulate {
+    const NAME: &'static str = "triangulate";
+    const TITLE: &'static str = "Where two noisy rays meet";
+    const HELP: &'static str = "Drag the point or the second camera, from above; both cameras look at the \
+        point. Photograph again for other noise. Drag in the enlarged picture to turn it.";
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            orbit: Orbit::new(-24.0, 38.0),
+            point: Pin::new("point", "top", "Point P", (0.3, 2.4), [ASIDE_M, [1.0, 3.4]]),
+            second: Pin::new(
+                "second",
+                "top",
+                "Camera 2",
+                (0.5, 0.0),
+                [ASIDE_M, [-0.3, 3.0]],
+            ),
+            estimates: Err(String::new()),
+        };
+        model.compute();
+        model
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for Triangulate {
+    fn controls(&self) -> Vec<Control> {
+        let mut controls = self.settings.controls();
+        controls.push(AGAIN.control(true, false));
+        controls.push(RECENTER.control(true, false));
+        controls
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        let mut handles = vec![self.point.handle(), self.second.handle()];
+        handles.extend(self.orbit.handles());
+        handles
+    }
+
+    fn spaces(&self) -> &'static [Space] {
+        &[SPACE]
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if self.orbit.update(event, &mut self.settings)? {
+            return Ok(());
+        }
+        match event {
+            Event::Set { id, value } => {
+                self.settings.set(id, value)?;
+            }
+            Event::Press { id } if id == AGAIN.id => {
+                let next = self.settings.number(&SEED) % SEED.max + 1.0;
+                self.settings.set(SEED.id, &Value::Number(next))?;
+            }
+            _ => {
+                let _ = self.point.update(event) || self.second.update(event);
+            }
+        }
+        self.compute();
+        Ok(())
+    }
+}
+
+const CHALLENGES: &[Challenge<Triangulate>] = &[
+    Challenge {
+        id: "narrow",
+        goal: "Make the region four times as long without touching the point or the noise.",
+        hint: "At which angle do the rays meet?",
+        why: "The depth error goes with one over the angle, for a small one: a quarter of the angle, four \
+              times the error.",
+        check: |model| {
+            let start = Triangulate::new();
+            let long = |model: &Triangulate| model.estimates.as_ref().ok()?.uncertainty_m();
+            let untouched = model.point == start.point && model.sigma_px() == start.sigma_px();
+            untouched && long(model) > long(&start).map(|long| 4.0 * long)
+        },
+        solution: || vec![Event::moved("second", 0.1, 0.0)],
+    },
+    Challenge {
+        id: "round",
+        goal: "Make the region nearly round, at any place.",
+        hint: "Each camera measures well across its own ray. So the other one should look …",
+        why: "At a right angle each camera measures the direction in which the other one is blind.",
+        check: |model| {
+            let axes = model
+                .estimates
+                .as_ref()
+                .ok()
+                .and_then(|estimates| estimates.axes);
+            axes.is_some_and(|[long, _, short]| long.norm() < 1.6 * short.norm())
+        },
+        solution: || {
+            vec![
+                Event::moved("point", 0.0, 1.2),
+                Event::moved("second", 1.2, 1.2),
+            ]
+        },
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimates(events: &[Event]) -> Estimates {
+        let mut model = Triangulate::new();
+        for event in events {
+            model.update(event).unwrap();
+        }
+        model.estimates.unwrap()
+    }
+
+    #[test]
+    fn optimal_misses_the_pixels_least_wherever_things_are() {
+        let mut random = epipole::math::random::Random::new(3);
+        let mut model = Triangulate::new();
+        let mut num_compared = 0;
+        for seed in 1..=99 {
+            let mut place = |low: f64, high: f64| random.uniform(low, high);
+            let events = [
+                Event::set(&SEED, f64::from(seed)),
+                Event::set(&NOISE, place(0.1, 4.0)),
+                Event::moved("point", place(-1.2, 1.4), place(1.0, 3.4)),
+                Event::moved("second", place(-1.2, 1.4), place(-0.3, 3.0)),
+            ];
+            for event in &events {
+                model.update(event).unwrap();
+            }
+            let Ok(estimates) = &model.estimates else {
+                continue;
+            };
+            let missed = |point: &Result<_, _>| estimates.reprojection_px(point.as_ref().ok()?);
+            let Some(optimal) = missed(&estimates.points[3]) else {
+                continue;
+            };
+            for point in &estimates.points[..3] {
+                if let Some(other) = missed(point) {
+                    // Two steps of Lindström's iteration end so near to the minimum.
+                    assert!(optimal <= other * (1.0 + 1e-8), "{optimal} and {other}");
+                    num_compared += 1;
+                }
+            }
+        }
+        assert!(num_compared > 200);
+    }
+
+    #[test]
+    fn the_scatter_of_many_photographs_is_what_the_jacobian_says() {
+        for second in [(0.5, 0.0), (1.4, 0.4), (-0.4, 1.0)] {
+            let estimates = estimates(&[Event::moved("second", second.0, second.1)]);
+            let squares = estimates.axes.unwrap().map(|axis| axis.norm_squared());
+            let expected = squares.iter().sum::<f64>().sqrt();
+            let scatter = estimates.scatter_m().unwrap();
+            assert!(
+                (scatter / expected - 1.0).abs() < 0.15,
+                "{scatter} and {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn without_a_baseline_there_is_a_sentence() {
+        let mut model = Triangulate::new();
+        model.update(&Event::moved("second", 0.0, 0.0)).unwrap();
+        let found = model.estimates.as_ref().unwrap();
+        assert!(found.points.iter().all(Result::is_err) && found.axes.is_none());
+    }
+}

@@ -1,0 +1,83 @@
+//! What `triangulate` says.
+
+use super::estimates::METHODS;
+use super::model::Triangulate;
+use crate::contract::{Readout, Words, format_number};
+
+const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
+
+/// A length of any size in centimeters.
+fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Readout {
+    match meters.map(|meters| 100.0 * meters) {
+        Some(cm) if cm < 9_999.0 => Readout::number(id, label, cm, 1, "cm"),
+        _ => Readout::words(id, label, "no limit"),
+    }
+}
+
+impl Words for Triangulate {
+    fn readouts(&self) -> Vec<Readout> {
+        let Ok(estimates) = self.estimates() else {
+            return vec![Readout::words("state", "State", self.describe()).main()];
+        };
+        let predicted = estimates.uncertainty_m();
+        let mut readouts = vec![
+            Readout::number("angle", "Rays meet at", estimates.angle_deg, 1, "°").main(),
+            centimeters("uncertainty", "1 σ along the rays", predicted).main(),
+            centimeters(
+                "scatter",
+                "200 photographs scatter by",
+                estimates.scatter_m(),
+            )
+            .main(),
+        ];
+        for (index, point) in estimates.points.iter().enumerate() {
+            let error_px = point
+                .as_ref()
+                .ok()
+                .and_then(|p| estimates.reprojection_px(p));
+            readouts.push(match error_px {
+                Some(error_px) => Readout::number(IDS[index], LABELS[index], error_px, 4, "px"),
+                None => Readout::words(IDS[index], LABELS[index], "no point"),
+            });
+        }
+        let from = format!(
+            "{}, {} ×",
+            self.orbit().words(),
+            format_number(self.zoom(), 1)
+        );
+        readouts.push(Readout::words("view", "Seen from", from));
+        readouts
+    }
+
+    fn describe(&self) -> String {
+        let estimates = match self.estimates() {
+            Ok(estimates) => estimates,
+            Err(sentence) => return sentence.clone(),
+        };
+        let angle = format_number(estimates.angle_deg, 1);
+        let best = estimates.points[METHODS.len() - 1].as_ref();
+        let Ok(best) = best else {
+            return format!(
+                "The two noisy rays are {angle}° apart and do not meet in front of both cameras."
+            );
+        };
+        let off_cm = 100.0 * (best - estimates.truth).norm();
+        let sigma = estimates
+            .uncertainty_m()
+            .map_or("no limit".to_owned(), |meters| {
+                format!("{} cm", format_number(100.0 * meters, 1))
+            });
+        format!(
+            "The rays meet at {angle}°. The optimal estimate is {} cm off; one standard deviation along \
+             the rays is {sigma}.",
+            format_number(off_cm, 1)
+        )
+    }
+}
+
+const LABELS: [&str; 4] = [
+    "Midpoint misses by",
+    "DLT misses by",
+    "Angular misses by",
+    "Optimal misses by",
+];

@@ -1,0 +1,205 @@
+//! Two equal cameras side by side, two balls that look alike, and the place where two rays meet.
+
+use crate::contract::{
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
+};
+use crate::kit::pin::Pin;
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use nalgebra::{Point2, Point3};
+
+pub(super) const FOCAL_PX: f64 = 500.0;
+pub(super) const SIZE: (u32, u32) = (640, 320);
+/// The principal point: round numbers, for readers who compute along.
+pub(super) const MIDDLE_PX: (f64, f64) = (320.0, 160.0);
+/// How far the balls' centers are below the cameras, meters.
+const BELOW_M: f64 = 0.12;
+/// Pixels that differ by less belong to rays that meet nowhere near.
+const PARALLEL_PX: f64 = 1.0;
+
+const BASELINE: Slider = Slider::new("baseline", "Baseline B")
+    .range(0.1, 0.8, 0.05)
+    .at(0.4)
+    .digits(2)
+    .unit("m");
+const WRONG: Toggle = Toggle::new("wrong", "Take Q for P");
+const KNOBS: &[Knob] = &[Knob::Slider(&BASELINE), Knob::Toggle(&WRONG)];
+/// Where the balls may be, meters to the right and meters away.
+const RANGES_M: [[f64; 2]; 2] = [[-1.2, 1.6], [0.7, 3.2]];
+
+/// Where the rays through two pixels meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meeting {
+    /// In front of the cameras, (x, z) meters.
+    Ahead(Point2<f64>),
+    /// Behind them, where no camera sees anything.
+    Behind(Point2<f64>),
+    /// Nowhere: the rays are parallel.
+    Nowhere,
+}
+
+/// The model of `two-cameras`.
+pub(crate) struct TwoCameras {
+    settings: Settings,
+    /// P and Q.
+    balls: [Pin; 2],
+}
+
+impl TwoCameras {
+    pub(super) fn baseline_m(&self) -> f64 {
+        self.settings.number(&BASELINE)
+    }
+
+    pub(super) fn is_wrong(&self) -> bool {
+        self.settings.flag(&WRONG)
+    }
+
+    pub(super) fn balls(&self) -> [(f64, f64); 2] {
+        self.balls.map(|ball| ball.place())
+    }
+
+    /// Where a camera, 0 on the left and 1 on the right, sees a ball, pixels.
+    pub(super) fn pixel(&self, camera: usize, ball: usize) -> Result<Point2<f64>, Problem> {
+        let right_m = camera as f64 * self.baseline_m();
+        let camera = Camera {
+            intrinsics: Intrinsics::new(FOCAL_PX, FOCAL_PX, MIDDLE_PX.0, MIDDLE_PX.1)?,
+            cam_from_world: RigidTransform::translation(-right_m, 0.0, 0.0),
+        };
+        let (x, z) = self.balls[ball].place();
+        Ok(camera.project(&Point3::new(x, BELOW_M, z))?)
+    }
+
+    /// The columns that are taken for images of P, left and right.
+    pub(super) fn columns(&self) -> Result<[f64; 2], Problem> {
+        let taken = usize::from(self.is_wrong());
+        Ok([self.pixel(0, 0)?.x, self.pixel(1, taken)?.x])
+    }
+
+    /// Column on the left minus column on the right, pixels.
+    pub(super) fn disparity_px(&self) -> f64 {
+        self.columns().map_or(0.0, |[left, right]| left - right)
+    }
+
+    /// By similar triangles, `Z = f B / d`; a negative disparity puts it behind.
+    pub(super) fn meeting(&self) -> Meeting {
+        let disparity_px = self.disparity_px();
+        if disparity_px.abs() < PARALLEL_PX {
+            return Meeting::Nowhere;
+        }
+        let depth_m = FOCAL_PX * self.baseline_m() / disparity_px;
+        let (x, z) = self.balls[0].place();
+        let point = Point2::new(x / z * depth_m, depth_m);
+        match depth_m > 0.0 {
+            true => Meeting::Ahead(point),
+            false => Meeting::Behind(point),
+        }
+    }
+}
+
+impl Declared for TwoCameras {
+    const NAME: &'static str = "two-cameras";
+    const TITLE: &'static str = "Two photographs, one place";
+    const HELP: &'static str = "Drag the balls P and Q, or move them with the arrow keys, and watch \
+        their images. Then let the right camera take Q for P.";
+
+    fn new() -> Self {
+        Self {
+            settings: Settings::new(KNOBS),
+            balls: [
+                Pin::new("point", "top", "The ball P", (0.3, 2.0), RANGES_M),
+                Pin::new("other", "top", "The ball Q", (-0.2, 2.6), RANGES_M),
+            ],
+        }
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for TwoCameras {
+    fn controls(&self) -> Vec<Control> {
+        self.settings.controls()
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        self.balls.map(|ball| ball.handle()).into()
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if let Event::Set { id, value } = event {
+            self.settings.set(id, value)?;
+        }
+        let _ = self.balls.iter_mut().any(|ball| ball.update(event));
+        Ok(())
+    }
+}
+
+const CHALLENGES: &[Challenge<TwoCameras>] = &[
+    Challenge {
+        id: "shift",
+        goal: "Leave P where it is and make its two columns 150 px apart.",
+        hint: "Only one thing is left to move.",
+        why: "The shift is f B / Z, so at the same depth it grows with the baseline.",
+        check: |model| {
+            !model.is_wrong()
+                && model.balls()[0] == (0.3, 2.0)
+                && (model.disparity_px() - 150.0).abs() < 5.0
+        },
+        solution: || vec![Event::set(&BASELINE, 0.6)],
+    },
+    Challenge {
+        id: "twice",
+        goal: "Make a wrong match put P at twice its true depth.",
+        hint: "Which shift belongs to twice the depth?",
+        why: "Z = f B / d, so half the shift means twice the depth, and nothing in the two pixels \
+              gives the mistake away.",
+        check: |model| match model.meeting() {
+            Meeting::Ahead(found) => {
+                model.is_wrong() && (found.y / model.balls()[0].1 - 2.0).abs() < 0.1
+            }
+            _ => false,
+        },
+        solution: || vec![Event::set(&WRONG, true), Event::moved("other", 0.5, 2.0)],
+    },
+    Challenge {
+        id: "behind",
+        goal: "Make the two rays meet behind the cameras.",
+        hint: "Then the column on the right is larger than the one on the left.",
+        why: "A true point always lies farther left in the right image; a match that says otherwise \
+              makes the rays part, and they meet behind the cameras.",
+        check: |model| matches!(model.meeting(), Meeting::Behind(_)),
+        solution: || vec![Event::set(&WRONG, true), Event::moved("other", 1.2, 2.0)],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::stereo::depth_from_disparity;
+
+    #[test]
+    fn the_true_match_finds_the_point_wherever_it_is() {
+        let mut model = TwoCameras::new();
+        for (x, z) in [(0.3, 2.0), (-1.2, 0.7), (1.6, 3.2)] {
+            model.update(&Event::moved("point", x, z)).unwrap();
+            let depth_m = depth_from_disparity(FOCAL_PX, 0.4, model.disparity_px()).unwrap();
+            assert!((depth_m - z).abs() < 1e-9);
+            let Meeting::Ahead(found) = model.meeting() else {
+                panic!("it is in front")
+            };
+            assert!((found - Point2::new(x, z)).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_wrong_match_finds_a_phantom_or_nothing() {
+        let mut model = TwoCameras::new();
+        model.update(&Event::set(&WRONG, true)).unwrap();
+        assert!(matches!(model.meeting(), Meeting::Ahead(found) if found.y < 1.5));
+        // The ray through P from the left, and one parallel to it from the right.
+        model.update(&Event::moved("other", 0.7, 2.0)).unwrap();
+        assert_eq!(model.meeting(), Meeting::Nowhere);
+        model.update(&Event::moved("other", 1.2, 2.0)).unwrap();
+        assert!(matches!(model.meeting(), Meeting::Behind(found) if found.y < 0.0));
+    }
+}

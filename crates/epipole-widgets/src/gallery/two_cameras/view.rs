@@ -1,0 +1,160 @@
+//! The cameras and the balls from above, with both image planes; beside it, what each camera sees.
+
+use super::model::{FOCAL_PX, MIDDLE_PX, Meeting, SIZE, TwoCameras};
+use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, View, format_number};
+use crate::kit::grid::{self, Grid, TEXT};
+use crate::kit::labels::Labels;
+use crate::kit::plan::{self, PlanCamera};
+use crate::theme::Role;
+use nalgebra::{Point2, Vector2};
+
+/// How far in front of the centers the image planes are drawn, and how large a ball is, meters.
+const IMAGE_M: f64 = 0.45;
+const RADIUS_M: f64 = 0.09;
+const CAMERAS: [(Role, Shape); 2] = [
+    (Role::Series(0), Shape::Disk),
+    (Role::Series(1), Shape::Square),
+];
+const PHANTOM: Role = Role::Outlier;
+
+/// Draws [`TwoCameras`].
+#[derive(Default)]
+pub(crate) struct TwoCamerasView;
+
+impl View for TwoCamerasView {
+    type Model = TwoCameras;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, _: &TwoCameras, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let (top, photographs) = grid.beside_photographs(aspect, 430.0);
+        let mut panels = vec![plan::panel("top", top, (0.2, 1.35), 2.0)];
+        for (id, rect) in ["left", "right"].into_iter().zip(photographs) {
+            panels.push(Panel::photograph(id, rect, SIZE.0, SIZE.1));
+        }
+        grid.layout(panels)
+    }
+
+    fn draw(&mut self, model: &TwoCameras, layout: &Layout, canvas: &mut Canvas) {
+        for (id, title) in [
+            ("top", "From above"),
+            ("left", "Left camera"),
+            ("right", "Right camera"),
+        ] {
+            let panel = layout.panel(id);
+            grid::title(canvas, panel.rect, title);
+            canvas.panel(panel.rect);
+            canvas.clipped(panel.rect.inset(1.0), |canvas| match id {
+                "top" => draw_top(model, panel, canvas),
+                _ => draw_photograph(model, usize::from(id == "right"), panel, canvas),
+            });
+        }
+    }
+}
+
+fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
+    plan::draw_distances(canvas, panel, "m");
+    let mut labels = Labels::new(panel.rect.inset(3.0));
+    let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let ink = TextStyle::new(Role::Ink, TEXT).cased();
+    let columns = model.columns().unwrap_or_default();
+    let centers = [0.0, model.baseline_m()].map(|x| Point2::new(x, 0.0));
+    for index in 0..2 {
+        let camera = PlanCamera {
+            center: centers[index],
+            heading_rad: 0.0,
+            half_width: f64::from(SIZE.0) / 2.0 / FOCAL_PX,
+            mark: CAMERAS[index],
+        };
+        let towards = Vector2::new((columns[index] - MIDDLE_PX.0) / FOCAL_PX, 1.0);
+        if let Meeting::Behind(_) = model.meeting() {
+            let back = Stroke::solid(CAMERAS[index].0, 1.25).dotted();
+            plan::draw_ray(canvas, panel, &camera.center, &-towards, back);
+        }
+        let name = [("O", Align::End), ("O′", Align::Start)][index];
+        camera.draw_sight(canvas, panel, &mut labels, name, IMAGE_M, &towards);
+    }
+    let [left, right] = centers.map(at);
+    let y = left.1 + 17.0;
+    plan::draw_span(
+        canvas,
+        (left.0, y),
+        (right.0, y),
+        Stroke::solid(Role::Ink, 1.5),
+    );
+    let text = format!("B = {} m", format_number(model.baseline_m(), 2));
+    let place = ((left.0 + right.0) / 2.0, y + 15.0);
+    labels.draw(canvas, &[(place, Align::Middle)], &text, ink);
+    let radius = RADIUS_M * panel.scale_x();
+    for (ball, name) in model.balls().into_iter().zip(["P", "Q"]) {
+        let place = panel.canvas_from_world(ball);
+        canvas.disk(place, radius, Role::Candidate, 0.45);
+        canvas.grip(place, Role::Grip);
+        labels.keep_free(place, radius.max(9.0));
+        labels.draw(canvas, &Labels::around(place, 11.0), name, ink);
+    }
+    if let (true, Meeting::Ahead(found) | Meeting::Behind(found)) =
+        (model.is_wrong(), model.meeting())
+    {
+        canvas.marker(at(found), 7.0, Shape::Cross, PHANTOM, true);
+        let style = TextStyle::new(PHANTOM, TEXT).cased();
+        labels.draw(canvas, &Labels::around(at(found), 10.0), "phantom", style);
+    }
+}
+
+/// Both balls, the column that is taken for P's and, on the right, how far it is from the left one.
+fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mut Canvas) {
+    let mut balls = [0, 1].map(|ball: usize| (model.balls()[ball].1, ball));
+    // The nearer one covers the other.
+    balls.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for (depth_m, ball) in balls {
+        let Ok(pixel) = model.pixel(camera, ball) else {
+            continue;
+        };
+        let place = panel.canvas_from_world((pixel.x, pixel.y));
+        let radius = RADIUS_M * FOCAL_PX / depth_m * panel.scale_x();
+        canvas.disk(place, radius, Role::Candidate, 0.55);
+        let above = (place.0 + radius + 2.0, place.1 - radius - 7.0);
+        canvas.label(
+            above,
+            ["P", "Q"][ball],
+            TextStyle::new(Role::Ink, TEXT).middle().cased(),
+        );
+    }
+    let columns = model.columns().unwrap_or_default();
+    let places = columns.map(|column| panel.canvas_from_world((column, 0.0)).0);
+    let (top, bottom) = (panel.rect.y, panel.rect.bottom());
+    let mut labels = Labels::new(panel.rect.inset(3.0));
+    for index in 0..=camera {
+        let stroke = Stroke::solid(CAMERAS[index].0, 1.5);
+        let stroke = if index == camera {
+            stroke
+        } else {
+            stroke.dashed()
+        };
+        canvas.line((places[index], top), (places[index], bottom), stroke);
+    }
+    let x = places[camera];
+    let text = format!("{} = {:.0}", ["u", "u′"][camera], columns[camera]);
+    let style = TextStyle::new(CAMERAS[camera].0, TEXT).cased();
+    let beside = [
+        ((x + 6.0, top + 12.0), Align::Start),
+        ((x - 6.0, top + 12.0), Align::End),
+    ];
+    labels.draw(canvas, &beside[usize::from(camera == 1)..], &text, style);
+    if camera == 1 {
+        let ink = Stroke::solid(Role::Ink, 1.5).cased();
+        plan::draw_span(
+            canvas,
+            (places[1], bottom - 12.0),
+            (places[0], bottom - 12.0),
+            ink,
+        );
+        let text = format!("d = {} px", format_number(model.disparity_px(), 0));
+        let place = (places[0].max(places[1]) + 9.0, bottom - 12.0);
+        let style = TextStyle::new(Role::Ink, TEXT).cased();
+        labels.draw(canvas, &[(place, Align::Start)], &text, style);
+    }
+}

@@ -1,0 +1,102 @@
+//! What the matches of two photographs say about how the camera moved.
+
+use epipole::Error;
+use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::robust::RansacOptions;
+use epipole::two_view::{
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
+};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+/// Fewer matches than this tell nothing.
+pub(super) const MIN_NUM_MATCHES: usize = 15;
+/// Half of the inliers should have rays that meet at a larger angle.
+const MIN_MEDIAN_ANGLE_DEG: f64 = 0.75;
+
+/// What the pair turned out to be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) enum Verdict {
+    /// A motion and a scene with depth.
+    Good,
+    /// A motion, but a plane explains most matches.
+    Plane,
+    /// A motion, but without the focal length more matches could be explained.
+    Lens,
+    /// Fewer matches than anything can be told from.
+    TooFew,
+    /// Matches that agree on nothing.
+    NoConsensus,
+    /// The camera only turned, by this angle in degrees.
+    Turned(f64),
+    /// The camera moved, but so little that rays meet at this angle in degrees.
+    Narrow(f64),
+}
+
+/// A verdict with what it rests on.
+pub(super) struct Judged {
+    pub(super) verdict: Verdict,
+    /// For each match, whether it agrees with what was found.
+    pub(super) inliers: Vec<bool>,
+    /// There if points can be triangulated.
+    pub(super) cam2_from_cam1: Option<RigidTransform>,
+    pub(super) median_angle_deg: f64,
+}
+
+/// Judges matches, of which inliers are at most `max_error_px` from their epipolar lines.
+///
+/// # Errors
+/// For numbers that are no numbers; matches that agree on nothing have a verdict.
+pub(super) fn judge(
+    [pixels1, pixels2]: [&[Point2<f64>]; 2],
+    lenses: &[Intrinsics; 2],
+    max_error_px: f64,
+) -> Result<Judged, Error> {
+    let nothing = |verdict| Judged {
+        verdict,
+        inliers: vec![false; pixels1.len()],
+        cam2_from_cam1: None,
+        median_angle_deg: 0.0,
+    };
+    if pixels1.len() < MIN_NUM_MATCHES {
+        return Ok(nothing(Verdict::TooFew));
+    }
+    let options = TwoViewOptions {
+        ransac: RansacOptions {
+            max_error_px,
+            ..RansacOptions::default()
+        },
+        min_num_inliers: MIN_NUM_MATCHES,
+        ..TwoViewOptions::default()
+    };
+    options.ransac.check()?;
+    let report: TwoViewReport =
+        match estimate_two_view_calibrated(pixels1, pixels2, &lenses[0], &lenses[1], &options) {
+            Ok(report) => report,
+            // Wrong matches agree on nothing, and matches at one place determine nothing.
+            Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
+                return Ok(nothing(Verdict::NoConsensus));
+            }
+            Err(error) => return Err(error),
+        };
+    let median_angle_deg = (report.median_triangulation_angle_rad).map_or(0.0, f64::to_degrees);
+    let turn_deg =
+        (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
+    let fundamental_won = matches!(report.model, TwoViewModel::Fundamental(_));
+    let verdict = match report.configuration {
+        // A model that next to nobody supports has no inliers worth showing.
+        Configuration::Degenerate => return Ok(nothing(Verdict::NoConsensus)),
+        Configuration::Panoramic => Verdict::Turned(turn_deg),
+        _ if median_angle_deg < MIN_MEDIAN_ANGLE_DEG => Verdict::Narrow(median_angle_deg),
+        Configuration::Planar => Verdict::Plane,
+        Configuration::General if fundamental_won => Verdict::Lens,
+        Configuration::General => Verdict::Good,
+    };
+    let has_depth = matches!(verdict, Verdict::Good | Verdict::Plane | Verdict::Lens);
+    Ok(Judged {
+        verdict,
+        inliers: report.inliers,
+        cam2_from_cam1: report.cam2_from_cam1.filter(|_| has_depth),
+        median_angle_deg,
+    })
+}

@@ -1,0 +1,135 @@
+//! Numbers as colors: a map that is colored anew only when its numbers or the theme change, stripes
+//! where there is no number, and the bar that says what the colors mean.
+
+use crate::canvas::{Canvas, Stroke, TextStyle};
+use crate::contract::Rect;
+use crate::theme::{Rgb, Role, Theme};
+use image::RgbImage;
+
+/// Period of the stripes, pixels.
+const STRIPE_PX: u32 = 6;
+/// Pieces of a bar.
+const NUM_STEPS: u32 = 40;
+/// Size of a legend's letters and swatches, CSS pixels.
+const TEXT: f64 = 12.0;
+const SWATCH: f64 = 14.0;
+
+/// Maps of one answer, kept between drawings.
+pub(crate) struct Heat<const N: usize = 1> {
+    kept: Option<(u64, Theme, [RgbImage; N])>,
+}
+
+impl<const N: usize> Default for Heat<N> {
+    fn default() -> Self {
+        Self { kept: None }
+    }
+}
+
+impl<const N: usize> Heat<N> {
+    /// The maps of this version in this theme, colored by `color` unless that has been done.
+    pub(crate) fn maps(
+        &mut self,
+        version: u64,
+        theme: Theme,
+        color: impl FnOnce() -> [RgbImage; N],
+    ) -> &[RgbImage; N] {
+        let fresh = self.kept.take();
+        let fresh = fresh.filter(|(v, t, _)| (*v, *t) == (version, theme));
+        let kept = fresh.unwrap_or_else(|| (version, theme, color()));
+        &self.kept.insert(kept).2
+    }
+}
+
+/// Whether a pixel is in a stripe.
+pub(crate) fn is_stripe(u: u32, v: u32) -> bool {
+    (u + v) % STRIPE_PX < STRIPE_PX / 2
+}
+
+/// What stands for "no number" at a pixel.
+pub(crate) fn nothing(theme: Theme, u: u32, v: u32) -> Rgb {
+    let role = if is_stripe(u, v) {
+        Role::Surface
+    } else {
+        Role::Edge
+    };
+    theme.color(role)
+}
+
+/// A bar with the colors from 0 to 1, and what its ends mean; the height that both take.
+pub(crate) fn bar(
+    canvas: &mut Canvas,
+    rect: Rect,
+    ends: [&str; 2],
+    color: impl Fn(Theme, f64) -> Rgb,
+) {
+    let theme = canvas.theme();
+    for step in 0..NUM_STEPS {
+        let x = |at: u32| rect.x + rect.width * f64::from(at) / f64::from(NUM_STEPS);
+        let piece = Rect::new(x(step), rect.y, x(step + 1) - x(step), rect.height);
+        let share = (f64::from(step) + 0.5) / f64::from(NUM_STEPS);
+        canvas.fill_color(piece, color(theme, share));
+    }
+    canvas.stroke_rect(rect, Stroke::solid(Role::Edge, 1.0));
+    let style = TextStyle::new(Role::Ink, TEXT);
+    let y = rect.bottom() + TEXT;
+    canvas.label((rect.x, y), ends[0], style);
+    canvas.label((rect.right(), y), ends[1], style.end());
+}
+
+/// What a legend's swatch is filled with.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Fill {
+    /// A role, this much of it.
+    Role(Role, f64),
+    /// The stripes of "no number".
+    Stripes,
+}
+
+/// A swatch with its words; `place` is the middle of its left edge.
+pub(crate) fn swatch(canvas: &mut Canvas, (x, y): (f64, f64), fill: Fill, words: &str) {
+    let rect = Rect::new(x, y - SWATCH / 2.0, SWATCH, SWATCH);
+    match fill {
+        Fill::Role(role, opacity) => canvas.fill_rect(rect, role, opacity),
+        Fill::Stripes => {
+            canvas.fill_rect(rect, Role::Surface, 1.0);
+            for index in 0..4 {
+                let stripe = Rect::new(x + 4.0 * f64::from(index), rect.y, 2.0, SWATCH);
+                canvas.fill_rect(stripe, Role::Edge, 1.0);
+            }
+        }
+    }
+    canvas.stroke_rect(rect, Stroke::solid(Role::Edge, 1.0));
+    let place = (x + SWATCH + 5.0, y);
+    canvas.label(place, words, TextStyle::new(Role::Ink, TEXT));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_are_colored_once_for_each_version_and_theme() {
+        let mut heat = Heat::<1>::default();
+        let mut count = 0;
+        for (version, theme) in [
+            (1, Theme::Light),
+            (1, Theme::Light),
+            (2, Theme::Light),
+            (2, Theme::Dark),
+            (2, Theme::Dark),
+        ] {
+            heat.maps(version, theme, || {
+                count += 1;
+                [RgbImage::new(2, 2)]
+            });
+        }
+        assert_eq!(count, 3);
+    }
+
+    #[test]
+    fn stripes_differ() {
+        let colors: Vec<Rgb> = (0..6).map(|u| nothing(Theme::Light, u, 0)).collect();
+        assert_eq!(colors[0], colors[2]);
+        assert_ne!(colors[0], colors[3]);
+    }
+}

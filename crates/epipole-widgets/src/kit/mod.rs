@@ -1,0 +1,39 @@
+//! What figures share: a figure declares, asks, says and draws; the rest is here.
+//!
+//! | room | what it does for a figure |
+//! |---|---|
+//! | [`question`] | a computation that takes long: asked, carried out elsewhere, answered |
+//! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
+//! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
+//! | [`probe`] | a place that the reader drags over a photograph, or clicks |
+//! | [`pin`] | a thing that the reader moves over a view from above |
+//! | [`running`] | a loop that runs, steps and starts over |
+//! | [`samples`] | the RANSAC loop, sample by sample |
+//! | [`orbit`], [`space`] | things in three dimensions, and where the reader looks from |
+//! | [`grid`] | titled panels in rows, one breakpoint, notices |
+//! | [`plot`] | axes, linear or logarithmic, and curves |
+//! | [`plan`] | a view from above |
+//! | [`heat`] | numbers as colors |
+//! | [`house`] | a house of wire with cameras around it |
+//! | [`pair`] | two photographs with epipolar lines |
+//! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
+
+pub(crate) mod grid;
+pub(crate) mod heat;
+pub(crate) mod house;
+pub(crate) mod labels;
+pub(crate) mod legend;
+pub(crate) mod orbit;
+pub(crate) mod pair;
+pub(crate) mod photo;
+pub(crate) mod picture;
+pub(crate) mod pin;
+pub(crate) mod plan;
+pub(crate) mod plot;
+pub(crate) mod probe;
+pub(crate) mod question;
+pub(crate) mod running;
+pub(crate) mod samples;
+pub(crate) mod scenes;
+pub(crate) mod space;
+pub(crate) mod words;

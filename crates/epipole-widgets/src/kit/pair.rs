@@ -1,0 +1,117 @@
+//! Epipolar lines and epipoles on photographs.
+
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Panel, Rect, format_number};
+use crate::kit::grid::TEXT;
+use crate::kit::labels::Labels;
+use crate::theme::Role;
+use epipole::epipolar::Epipole;
+use epipole::math::Line2;
+use nalgebra::{Point2, Vector2};
+
+/// Farther than any pixel from the middle of the picture, so that a line's ends are outside.
+const FAR_PX: f64 = 2000.0;
+
+/// Draws a line of the image plane, and says from where to where.
+pub(crate) fn draw_line(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    line: &Line2,
+    stroke: Stroke,
+) -> (Place, Place) {
+    let (u, v) = panel.world_from_canvas(panel.rect.center());
+    let center = Point2::new(u, v);
+    let foot = line.nearest(&center);
+    let end = |sign: f64| {
+        panel.canvas_from_world((
+            foot.x - sign * FAR_PX * line.b,
+            foot.y + sign * FAR_PX * line.a,
+        ))
+    };
+    canvas.line(end(-1.0), end(1.0), stroke);
+    (end(-1.0), end(1.0))
+}
+
+/// From inside the border to the border, towards a place outside.
+pub(crate) fn border_arrow(rect: Rect, place: Place) -> Option<(Place, Place)> {
+    const LENGTH: f64 = 26.0;
+    let inner = rect.inset(3.0);
+    let to = (
+        place.0.clamp(inner.x, inner.right()),
+        place.1.clamp(inner.y, inner.bottom()),
+    );
+    let direction = Vector2::new(place.0 - to.0, place.1 - to.1).try_normalize(1e-9)?;
+    let from = (to.0 - LENGTH * direction.x, to.1 - LENGTH * direction.y);
+    Some((from, to))
+}
+
+/// The epipole, or at the border an arrow towards it.
+pub(crate) fn draw_epipole(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    labels: &mut Labels,
+    epipole: &Epipole,
+    name: &str,
+) {
+    let rect = panel.rect;
+    let style = TextStyle::new(Role::Ink, TEXT).cased();
+    let stroke = Stroke::solid(Role::Ink, 2.5).cased();
+    match epipole {
+        Epipole::Finite(pixel) if rect.contains(panel.canvas_from_world((pixel.x, pixel.y))) => {
+            let place = panel.canvas_from_world((pixel.x, pixel.y));
+            canvas.marker(place, 7.0, Shape::Ring, Role::Ink, true);
+            canvas.marker(place, 2.0, Shape::Disk, Role::Ink, false);
+            labels.keep_free(place, 9.0);
+            let text = format!("epipole {name}");
+            labels.draw(canvas, &Labels::around(place, 13.0), &text, style);
+        }
+        Epipole::Finite(pixel) => {
+            let place = panel.canvas_from_world((pixel.x, pixel.y));
+            let Some((from, to)) = border_arrow(rect, place) else {
+                return;
+            };
+            canvas.arrow(from, to, stroke);
+            let distance = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
+            let text = format!("epipole {name}, {} px away", format_number(distance, 0));
+            labels.draw(canvas, &beside_arrow(from, to), &text, style);
+        }
+        Epipole::AtInfinity(direction) => {
+            let center = rect.center();
+            for sign in [-1.0, 1.0] {
+                // Far beyond the border, along the line through the middle.
+                let far = 1e3 * (rect.width + rect.height) * sign;
+                let (x, y) = (center.0 + far * direction.x, center.1 + far * direction.y);
+                let to_border = |start: f64, size: f64| start.abs() / (size / 2.0).max(1e-9);
+                let times = to_border(x - center.0, rect.width)
+                    .max(to_border(y - center.1, rect.height))
+                    .max(1.0);
+                let border = (
+                    center.0 + (x - center.0) / times,
+                    center.1 + (y - center.1) / times,
+                );
+                let unit = Vector2::new(sign * direction.x, sign * direction.y);
+                let from = (border.0 - 26.0 * unit.x, border.1 - 26.0 * unit.y);
+                let to = (border.0 - 3.0 * unit.x, border.1 - 3.0 * unit.y);
+                canvas.arrow(from, to, stroke);
+                if sign < 0.0 {
+                    let text = format!("epipole {name} at infinity");
+                    labels.draw(canvas, &beside_arrow(from, to), &text, style);
+                }
+            }
+        }
+    }
+}
+
+/// Places for the label of an arrow at the border.
+fn beside_arrow(from: Place, to: Place) -> [(Place, Align); 4] {
+    let middle = ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0);
+    let leans_left = to.0 < from.0;
+    let align = if leans_left { Align::Start } else { Align::End };
+    let x = if leans_left { to.0 + 4.0 } else { to.0 - 4.0 };
+    [
+        ((x, middle.1 - 15.0), align),
+        ((x, middle.1 + 16.0), align),
+        ((x, middle.1 - 30.0), align),
+        ((x, middle.1 + 31.0), align),
+    ]
+}

@@ -1,0 +1,249 @@
+//! Rendered photographs for views: something at once, the sharp picture slice by slice.
+//!
+//! A reader who drags a slider wants every frame now, and a sharp photograph takes longer than a
+//! frame. So the last sharp one is seen from where the camera is now, by the depth of each pixel; what
+//! it did not show is filled from a draft, small and plain. Before there is any sharp one, the draft
+//! stands for all. Each call of [`View::refine`](crate::contract::View::refine) then prepares the scene
+//! or renders some rows of the next sharp picture, which is shown once it is complete. What a slice
+//! does is fixed, not timed, so the same calls give the same picture everywhere.
+
+use epipole::Error;
+use epipole::camera::Camera;
+use epipole::synthetic::{Moved, Photograph, Reprojected, Sampling, Scene};
+use image::RgbImage;
+
+/// Pixels of a draft for every pixel of the full picture, along each side.
+const DRAFT_FACTOR: f64 = 1.0 / 6.0;
+
+/// Rows of the full picture that one slice renders.
+const ROWS_PER_SLICE: u32 = 16;
+
+/// One photograph of a scene, kept until the camera or the scene changes.
+#[derive(Default)]
+pub(crate) struct Photo {
+    /// The last one that was completed, of this camera or of another.
+    sharp: Option<Shot>,
+    /// The next one, and how many of its rows are there.
+    growing: Option<Shot>,
+    num_rows_done: u32,
+    /// What stands for a sharp one meanwhile, and what it shows.
+    draft: Option<Photograph>,
+    meanwhile: Reprojected,
+    shown: Option<(Camera, [f64; 3])>,
+    follow: Option<Follow>,
+}
+
+/// What has moved between two arrangements of a scene, if something has.
+pub(crate) type Follow = fn([f64; 3], [f64; 3]) -> Option<Moved>;
+
+/// A photograph and what it shows.
+struct Shot {
+    camera: Camera,
+    /// What is movable in the scene, in the figure's own numbers.
+    arrangement: [f64; 3],
+    photograph: Photograph,
+}
+
+impl Shot {
+    fn shows(&self, camera: &Camera, arrangement: [f64; 3]) -> bool {
+        self.camera == *camera && self.arrangement == arrangement
+    }
+}
+
+/// An empty photograph, in the memory of an old one if that has the size.
+fn blank(old: Option<Photograph>, (width, height): (u32, u32)) -> Photograph {
+    old.filter(|photograph| photograph.image.dimensions() == (width, height))
+        .unwrap_or_else(|| Photograph::blank(width, height))
+}
+
+impl Photo {
+    /// Of a scene in which something moves that can be carried along. Without, a sharp photograph of
+    /// another arrangement is of no use.
+    pub(crate) fn following(follow: Follow) -> Self {
+        Self {
+            follow: Some(follow),
+            ..Self::default()
+        }
+    }
+
+    /// The best picture that there is now.
+    ///
+    /// * `camera`: for a full picture of `width × height` pixels
+    /// * `arrangement`: where the movable things of the scene are; any constant if none move
+    ///
+    /// # Errors
+    /// As [`Scene::render`]: the camera stands where no picture can be taken.
+    pub(crate) fn picture(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        arrangement: [f64; 3],
+        size: (u32, u32),
+    ) -> Result<&RgbImage, Error> {
+        let sharp = self.sharp.as_ref();
+        let sharp = sharp.filter(|shot| shot.photograph.image.dimensions() == size);
+        if let Some(shot) = sharp.filter(|shot| shot.shows(camera, arrangement)) {
+            return Ok(&shot.photograph.image);
+        }
+        if self.shown != Some((*camera, arrangement)) {
+            self.shown = None;
+            match sharp.filter(|shot| shot.arrangement == arrangement || self.follow.is_some()) {
+                Some(shot) => {
+                    let moved = self
+                        .follow
+                        .and_then(|follow| follow(shot.arrangement, arrangement));
+                    let (from, into) = (&shot.camera, &mut self.meanwhile);
+                    let photograph = &shot.photograph;
+                    photograph.reproject(from, camera, moved.as_ref(), into)?;
+                }
+                None => self.meanwhile.clear(size),
+            }
+            let small = |side: u32| (f64::from(side) * DRAFT_FACTOR).round().max(1.0) as u32;
+            let small_size = (small(size.0), small(size.1));
+            let mut draft = blank(self.draft.take(), small_size);
+            scene.render_rows(
+                &Camera {
+                    intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
+                    ..*camera
+                },
+                small_size.0,
+                small_size.1,
+                Sampling::Draft,
+                self.meanwhile.missing_rows(small_size.1),
+                &mut draft,
+            )?;
+            self.meanwhile.fill(&draft.image);
+            self.draft = Some(draft);
+            self.shown = Some((*camera, arrangement));
+        }
+        Ok(self.meanwhile.image())
+    }
+
+    /// Does the next slice of work towards a sharp picture; false when it is there, or cannot be made.
+    ///
+    /// Arguments as for [`Photo::picture`].
+    pub(crate) fn refine(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        arrangement: [f64; 3],
+        (width, height): (u32, u32),
+    ) -> bool {
+        let is_of = |shot: &Shot| {
+            shot.shows(camera, arrangement) && shot.photograph.image.dimensions() == (width, height)
+        };
+        if self.sharp.as_ref().is_some_and(is_of) {
+            return false;
+        }
+        if scene.prepare() {
+            return true;
+        }
+        if !self.growing.as_ref().is_some_and(is_of) {
+            let old = self.growing.take().map(|shot| shot.photograph);
+            self.growing = Some(Shot {
+                camera: *camera,
+                arrangement,
+                photograph: blank(old, (width, height)),
+            });
+            self.num_rows_done = 0;
+        }
+        let Some(shot) = self.growing.as_mut() else {
+            return false;
+        };
+        let next = (self.num_rows_done + ROWS_PER_SLICE).min(height);
+        let rows = self.num_rows_done..next;
+        let target = &mut shot.photograph;
+        let done = scene.render_rows(camera, width, height, Sampling::Full, rows, target);
+        if done.is_err() {
+            self.growing = None;
+            return false;
+        }
+        self.num_rows_done = next;
+        if next < height {
+            return true;
+        }
+        // The last one lends its memory to the next one, which is begun from its first row.
+        std::mem::swap(&mut self.sharp, &mut self.growing);
+        self.num_rows_done = 0;
+        self.shown = None;
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::scenes::{long_table, moved_ball, still_life_pair};
+    use epipole::camera::Intrinsics;
+    use nalgebra::Isometry3;
+
+    const SIZE: (u32, u32) = (160, 120);
+
+    fn error(a: &RgbImage, b: &RgbImage) -> f64 {
+        let sum: f64 = (a.iter().zip(b.iter()))
+            .map(|(a, b)| f64::from(a.abs_diff(*b)))
+            .sum();
+        sum / a.len() as f64
+    }
+
+    fn settle(photo: &mut Photo, scene: &Scene, camera: &Camera, arrangement: [f64; 3]) {
+        while photo.refine(scene, camera, arrangement, SIZE) {}
+    }
+
+    #[test]
+    fn a_moving_camera_sees_something_sharper_than_a_draft() {
+        let scene = Scene::still_life();
+        let still = [0.0; 3];
+        let [first, second] = still_life_pair(SIZE, 0.1, 0.1, 2.0);
+        let truth = scene.render(&second, SIZE.0, SIZE.1, Sampling::Full);
+        let truth = truth.unwrap().image;
+        let mut photo = Photo::default();
+        let draft = photo.picture(&scene, &second, still, SIZE).unwrap();
+        let draft_error = error(draft, &truth);
+        settle(&mut photo, &scene, &first, still);
+        let moving = photo.picture(&scene, &second, still, SIZE).unwrap();
+        let moving_error = error(moving, &truth);
+        assert!(
+            moving_error < 0.6 * draft_error,
+            "{moving_error} {draft_error}"
+        );
+        // What comes in the end does not depend on the way.
+        settle(&mut photo, &scene, &second, still);
+        assert_eq!(photo.picture(&scene, &second, still, SIZE).unwrap(), &truth);
+        assert!(!photo.refine(&scene, &second, still, SIZE));
+    }
+
+    #[test]
+    fn a_ball_that_moves_is_at_its_new_place_at_once() {
+        let camera = Camera {
+            intrinsics: Intrinsics::centered(175.0, SIZE.0, SIZE.1).unwrap(),
+            cam_from_world: Isometry3::identity(),
+        };
+        let at = |x_m: f64, z_m: f64| (long_table((x_m, z_m)).unwrap(), [x_m, 0.14, z_m]);
+        let mut photo = Photo::following(moved_ball);
+        let (scene, place) = at(0.0, 2.0);
+        settle(&mut photo, &scene, &camera, place);
+        let before = photo.picture(&scene, &camera, place, SIZE).unwrap().clone();
+        let (scene, place) = at(0.25, 1.6);
+        let truth = scene.render(&camera, SIZE.0, SIZE.1, Sampling::Full);
+        let truth = truth.unwrap().image;
+        let moving = photo.picture(&scene, &camera, place, SIZE).unwrap();
+        let (stale, moving) = (error(&before, &truth), error(moving, &truth));
+        assert!(moving < 0.5 * stale, "{moving} {stale}");
+    }
+
+    #[test]
+    fn a_camera_in_the_wall_gets_a_sentence_and_a_photo_recovers() {
+        let scene = Scene::still_life();
+        let [first, _] = still_life_pair(SIZE, 0.0, 0.0, 0.0);
+        let wall = Camera {
+            cam_from_world: Isometry3::translation(0.0, 50.0, 0.0),
+            ..first
+        };
+        let mut photo = Photo::default();
+        settle(&mut photo, &scene, &first, [0.0; 3]);
+        assert!(photo.picture(&scene, &wall, [0.0; 3], SIZE).is_err());
+        assert!(!photo.refine(&scene, &wall, [0.0; 3], SIZE));
+        assert!(photo.picture(&scene, &first, [0.0; 3], SIZE).is_ok());
+    }
+}

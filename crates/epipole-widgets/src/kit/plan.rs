@@ -1,0 +1,264 @@
+//! A view from above: x to the right, z away from the reader, in meters or steps of the world.
+
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Axis, Panel, Rect, format_number};
+use crate::kit::grid::{SMALL, TEXT};
+use crate::kit::labels::Labels;
+use crate::theme::Role;
+use nalgebra::{Point2, Vector2};
+
+/// A rule is never shorter than this, CSS pixels.
+const RULE: f64 = 36.0;
+/// Lines of the grid are never nearer to each other, CSS pixels.
+const SPACING: f64 = 26.0;
+
+/// A panel that shows what lies around a place, with one scale for both directions.
+///
+/// * `middle`: (x, z) in the middle of the panel
+/// * `half_depth`: how far it shows to each side along z
+pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth: f64) -> Panel {
+    let half_width = half_depth * rect.width / rect.height.max(1e-9);
+    Panel {
+        id,
+        rect,
+        x_axis: Axis {
+            start: middle.0 - half_width,
+            end: middle.0 + half_width,
+        },
+        y_axis: Axis {
+            start: middle.1 + half_depth,
+            end: middle.1 - half_depth,
+        },
+        clickable: false,
+    }
+}
+
+/// A panel that shows all of these ranges with some room around them, with one scale for both
+/// directions.
+pub(crate) fn panel_of(id: &'static str, rect: Rect, [x, z]: [[f64; 2]; 2], room: f64) -> Panel {
+    let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
+    let half = |[low, high]: [f64; 2]| (high - low) / 2.0 + room;
+    let half_depth = half(z).max(half(x) * rect.height / rect.width.max(1e-9));
+    panel(id, rect, (middle(x), middle(z)), half_depth)
+}
+
+/// A camera seen from above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PlanCamera {
+    /// Its center, (x, z).
+    pub(crate) center: Point2<f64>,
+    /// Where its optical axis points: 0 along z, positive to the right, radians.
+    pub(crate) heading_rad: f64,
+    /// Half of the width that it sees at the distance 1.
+    pub(crate) half_width: f64,
+    /// Its hue and its shape.
+    pub(crate) mark: (Role, Shape),
+}
+
+impl PlanCamera {
+    /// The direction of the optical axis, and that of the image's rows.
+    fn axes(&self) -> (Vector2<f64>, Vector2<f64>) {
+        let (sin, cos) = (libm::sin(self.heading_rad), libm::cos(self.heading_rad));
+        (Vector2::new(sin, cos), Vector2::new(cos, -sin))
+    }
+
+    /// A place on the image plane that stands `depth` in front of the center; `across` counts from
+    /// the optical axis in units of half the image.
+    pub(crate) fn on_image(&self, across: f64, depth: f64) -> Point2<f64> {
+        let (forward, right) = self.axes();
+        self.center + (forward + right * (across * self.half_width)) * depth
+    }
+
+    /// The center, and the image plane `depth` in front of it with the rays to its ends.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, panel: &Panel, depth: f64) {
+        let (role, shape) = self.mark;
+        let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let center = at(&self.center);
+        let ends = [-1.0, 1.0].map(|across| at(&self.on_image(across, depth)));
+        for end in ends {
+            canvas.line(center, end, Stroke::solid(role, 1.25));
+        }
+        canvas.line(ends[0], ends[1], Stroke::solid(role, 3.0));
+        canvas.marker(center, 5.5, shape, role, true);
+    }
+
+    /// The edges of what it sees, as far as the panel goes.
+    pub(crate) fn draw_view(&self, canvas: &mut Canvas, panel: &Panel) {
+        for across in [-1.0, 1.0] {
+            let towards = self.on_image(across, 1.0) - self.center;
+            draw_ray(
+                canvas,
+                panel,
+                &self.center,
+                &towards,
+                Stroke::solid(Role::Edge, 1.0),
+            );
+        }
+    }
+}
+
+impl PlanCamera {
+    /// The camera with what it sees, its image plane `depth` in front of it, the ray that it sees
+    /// something along, the pixel on that ray, and its name at the side of the center.
+    pub(crate) fn draw_sight(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        labels: &mut Labels,
+        (name, side): (&str, Align),
+        depth: f64,
+        towards: &Vector2<f64>,
+    ) {
+        let (role, shape) = self.mark;
+        self.draw_view(canvas, panel);
+        draw_ray(
+            canvas,
+            panel,
+            &self.center,
+            towards,
+            Stroke::solid(role, 1.75),
+        );
+        self.draw(canvas, panel, depth);
+        let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let ahead = towards.dot(&self.axes().0);
+        if ahead > 1e-9 {
+            let pixel = self.center + towards * (depth / ahead);
+            canvas.marker(at(pixel), 4.5, shape, role, true);
+        }
+        let (x, y) = at(self.center);
+        labels.keep_free((x, y), 8.0);
+        let place = match side {
+            Align::Start => (x + 13.0, y),
+            Align::Middle => (x, y - 20.0),
+            Align::End => (x - 13.0, y),
+        };
+        let style = TextStyle::new(role, TEXT).cased();
+        labels.draw(canvas, &[(place, side)], name, style);
+    }
+}
+
+/// From a point on in a direction, beyond the edge of the panel.
+pub(crate) fn draw_ray(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    from: &Point2<f64>,
+    towards: &Vector2<f64>,
+    stroke: Stroke,
+) {
+    let Some(direction) = towards.try_normalize(1e-12) else {
+        return;
+    };
+    let extent = |axis: Axis| (axis.end - axis.start).abs();
+    let reach = |place: f64, axis: Axis| (place - axis.start).abs() + (place - axis.end).abs();
+    // Farther than any corner of the panel.
+    let far = extent(panel.x_axis)
+        + extent(panel.y_axis)
+        + reach(from.x, panel.x_axis)
+        + reach(from.y, panel.y_axis);
+    let to = from + direction * far;
+    let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    canvas.clipped(panel.rect.inset(1.0), |canvas| {
+        canvas.line(at(from), at(&to), stroke)
+    });
+}
+
+/// Level lines at round distances with their numbers, such as "2 m".
+pub(crate) fn draw_distances(canvas: &mut Canvas, panel: &Panel, unit: &str) {
+    let (near, far) = (panel.y_axis.end, panel.y_axis.start);
+    let pixels = panel.rect.height / (far - near).abs().max(1e-9);
+    let spacing = round_length(SPACING / pixels);
+    let digits = if spacing < 1.0 { 1 } else { 0 };
+    let rect = panel.rect;
+    let style = TextStyle::new(Role::Muted, SMALL).cased();
+    let mut index = (near / spacing).ceil().max(0.0);
+    while index * spacing < far {
+        let z = index * spacing;
+        let y = panel.canvas_from_world((0.0, z)).1;
+        canvas.line(
+            (rect.x + 1.0, y),
+            (rect.right() - 1.0, y),
+            Stroke::solid(Role::Grid, 1.0),
+        );
+        if z > 0.0 && y > rect.y + 8.0 {
+            let text = format!("{} {unit}", format_number(z, digits));
+            canvas.label((rect.x + 8.0, y), &text, style);
+        }
+        index += 1.0;
+    }
+}
+
+/// A line of a round length with its words, at the lower left.
+pub(crate) fn draw_rule(canvas: &mut Canvas, panel: &Panel, words: impl Fn(f64) -> String) {
+    let length = round_length(RULE / panel.scale_x());
+    let left: Place = (panel.rect.x + 12.0, panel.rect.bottom() - 12.0);
+    let right = (left.0 + length * panel.scale_x(), left.1);
+    draw_span(canvas, left, right, Stroke::solid(Role::Muted, 1.5));
+    let style = TextStyle::new(Role::Muted, SMALL).cased();
+    canvas.label((right.0 + 7.0, right.1), &words(length), style);
+}
+
+/// A level line with a short stroke across each end.
+pub(crate) fn draw_span(canvas: &mut Canvas, left: Place, right: Place, stroke: Stroke) {
+    canvas.line(left, right, stroke);
+    for end in [left, right] {
+        canvas.line((end.0, end.1 - 4.0), (end.0, end.1 + 4.0), stroke);
+    }
+}
+
+/// The next larger of 0.1, 0.2, 0.5, 1, 2, 5, 10 …
+fn round_length(length: f64) -> f64 {
+    let mut power = 1e-3;
+    while power < 1e6 {
+        if let Some(times) = [1.0, 2.0, 5.0].into_iter().find(|n| n * power >= length) {
+            return times * power;
+        }
+        power *= 10.0;
+    }
+    power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_scale_for_both_directions() {
+        let panel = panel("top", Rect::new(0.0, 0.0, 400.0, 200.0), (1.0, 2.0), 2.0);
+        assert_eq!(panel.canvas_from_world((1.0, 2.0)), (200.0, 100.0));
+        assert_eq!(panel.canvas_from_world((2.0, 3.0)), (250.0, 50.0));
+    }
+
+    #[test]
+    fn all_ranges_are_shown() {
+        let ranges = [[-1.0, 2.0], [0.0, 3.0]];
+        for (width, height) in [(400.0, 100.0), (100.0, 400.0)] {
+            let panel = panel_of("top", Rect::new(0.0, 0.0, width, height), ranges, 0.1);
+            for (x, z) in [(-1.0, 0.0), (2.0, 3.0)] {
+                assert!(panel.rect.contains(panel.canvas_from_world((x, z))));
+            }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_looks_to_the_right_has_its_image_there() {
+        let camera = PlanCamera {
+            center: Point2::new(1.0, 0.0),
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            half_width: 0.5,
+            mark: (Role::Ink, Shape::Disk),
+        };
+        let middle = camera.on_image(0.0, 2.0);
+        assert!((middle - Point2::new(3.0, 0.0)).norm() < 1e-12);
+        // Its right is nearer to the reader.
+        let right = camera.on_image(1.0, 2.0);
+        assert!((right - Point2::new(3.0, -1.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn rules_have_round_lengths() {
+        assert_eq!(
+            [0.7, 1.0, 3.1, 61.0].map(round_length),
+            [1.0, 1.0, 5.0, 100.0]
+        );
+    }
+}

@@ -1,0 +1,286 @@
+//! A question that takes long: what is asked, what is answered, and what a model keeps of both.
+//!
+//! A figure's `question.rs` says what is asked ([`Question`]); its model holds an [`Asked`] and lets it
+//! speak for it in [`Model::job`](crate::contract::Model::job) and `job_done`. Whatever a worker sends
+//! back is checked before it is believed.
+
+use crate::contract::{Job, JobResult, Problem, Progress};
+use epipole::Error;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::cell::OnceCell;
+use std::ops::ControlFlow;
+
+/// Everything that a long computation depends on.
+pub(crate) trait Question: PartialEq + Serialize + DeserializeOwned + 'static {
+    /// What the computation finds.
+    type Answer: Serialize + DeserializeOwned + 'static;
+
+    /// What the page says meanwhile, such as "Looking for corners".
+    const LABEL: &'static str;
+
+    /// How the sentence begins when there is no answer, such as "There are no corners".
+    const FAILED: &'static str;
+
+    /// Carries out the computation: a function of the question alone.
+    ///
+    /// # Errors
+    /// A sentence without a capital and a full stop, or [`Error::Canceled`].
+    fn answer(&self, progress: Progress<'_>) -> Result<Self::Answer, Problem>;
+
+    /// Whether this can be an answer to the question: of the right size, without NaN.
+    fn fits(&self, answer: &Self::Answer) -> bool;
+}
+
+/// Carries out a question that has traveled as bytes: a model's `compute`.
+pub(crate) fn carry_out<Q: Question>(request: &[u8], progress: Progress<'_>) -> JobResult {
+    let unreadable = |_| Error::Degenerate {
+        what: "the question of a figure",
+        why: "it cannot be read",
+    };
+    let question: Q = postcard::from_bytes(request).map_err(unreadable)?;
+    let answer = question.answer(progress)?;
+    Ok(postcard::to_allocvec(&answer).unwrap_or_default())
+}
+
+/// Tells the share that is done, so that `?` ends the work of a reader who has gone on.
+///
+/// # Errors
+/// [`Error::Canceled`].
+pub(crate) fn tell(progress: Progress<'_>, share: f64) -> Result<(), Error> {
+    match progress(share) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Canceled),
+    }
+}
+
+/// A question that is out.
+struct Out<Q> {
+    question: Q,
+    key: OnceCell<u64>,
+}
+
+/// What a model has asked, and what is known.
+pub(crate) struct Asked<Q: Question> {
+    out: Option<Out<Q>>,
+    known: Option<(Q, Q::Answer)>,
+    problem: Option<String>,
+    version: u64,
+}
+
+impl<Q: Question> Default for Asked<Q> {
+    fn default() -> Self {
+        Self {
+            out: None,
+            known: None,
+            problem: None,
+            version: 0,
+        }
+    }
+}
+
+impl<Q: Question> Asked<Q> {
+    /// Nothing is known yet, and this is asked.
+    pub(crate) fn about(question: Q) -> Self {
+        let mut asked = Self::default();
+        asked.ask(question);
+        asked
+    }
+
+    /// Asks, unless the answer is known. What was known before stays until the new answer comes.
+    pub(crate) fn ask(&mut self, question: Q) {
+        self.problem = None;
+        if self
+            .out
+            .as_ref()
+            .is_some_and(|out| out.question == question)
+        {
+            return;
+        }
+        let is_known = self.known.as_ref().is_some_and(|known| known.0 == question);
+        self.out = (!is_known).then_some(Out {
+            question,
+            key: OnceCell::new(),
+        });
+    }
+
+    /// There is nothing to ask, for a reason that the reader is told in a sentence.
+    pub(crate) fn refuse(&mut self, sentence: impl Into<String>) {
+        self.forget();
+        self.problem = Some(sentence.into());
+    }
+
+    /// Forgets what is known: it is of something else altogether.
+    pub(crate) fn forget(&mut self) {
+        (self.out, self.known, self.problem) = (None, None, None);
+        self.version += 1;
+    }
+
+    /// Takes the result of the question that is out; says whether it is an answer.
+    pub(crate) fn take(&mut self, result: JobResult) -> bool {
+        let Some(Out { question, .. }) = self.out.take() else {
+            return false;
+        };
+        let read = |bytes: Vec<u8>| -> Option<Q::Answer> {
+            let answer = postcard::from_bytes(&bytes).ok()?;
+            question.fits(&answer).then_some(answer)
+        };
+        match result.map(read) {
+            Ok(Some(answer)) => {
+                self.known = Some((question, answer));
+                self.version += 1;
+                return true;
+            }
+            Ok(None) => self.problem = Some(format!("{}: the answer cannot be read.", Q::FAILED)),
+            Err(problem) => self.problem = Some(format!("{}: {problem}.", Q::FAILED)),
+        }
+        false
+    }
+
+    /// What is known, perhaps of the last question before the one that is out.
+    pub(crate) fn answer(&self) -> Option<&Q::Answer> {
+        self.known.as_ref().map(|(_, answer)| answer)
+    }
+
+    /// What is known, with the question that it answers.
+    pub(crate) fn answered(&self) -> Option<(&Q, &Q::Answer)> {
+        self.known
+            .as_ref()
+            .map(|(question, answer)| (question, answer))
+    }
+
+    /// Why there is no answer, as a sentence.
+    pub(crate) fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// Whether a question is out.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.out.is_some()
+    }
+
+    /// Changes whenever what is known does, so that a view knows what it may keep.
+    pub(crate) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The question that is out, for [`Model::job`](crate::contract::Model::job).
+    pub(crate) fn job(&self) -> Option<&dyn Job> {
+        self.out.as_ref().map(|out| out as &dyn Job)
+    }
+}
+
+impl<Q: Question> Job for Out<Q> {
+    fn label(&self) -> &'static str {
+        Q::LABEL
+    }
+
+    fn key(&self) -> u64 {
+        *self.key.get_or_init(|| {
+            postcard::serialize_with_flavor(&self.question, Fnv(0xcbf2_9ce4_8422_2325))
+                .unwrap_or_default()
+        })
+    }
+
+    fn request(&self) -> Vec<u8> {
+        postcard::to_allocvec(&self.question).unwrap_or_default()
+    }
+}
+
+/// FNV-1a of what is written, which is not kept.
+struct Fnv(u64);
+
+impl postcard::ser_flavors::Flavor for Fnv {
+    type Output = u64;
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        Ok(())
+    }
+
+    fn finalize(self) -> postcard::Result<u64> {
+        Ok(self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    struct Half(f64);
+
+    impl Question for Half {
+        type Answer = f64;
+        const LABEL: &'static str = "Halving";
+        const FAILED: &'static str = "There is no half";
+
+        fn answer(&self, progress: Progress<'_>) -> Result<f64, Problem> {
+            tell(progress, 0.5)?;
+            Ok(self.0 / 2.0)
+        }
+
+        fn fits(&self, answer: &f64) -> bool {
+            answer.is_finite()
+        }
+    }
+
+    fn settle(asked: &mut Asked<Half>) -> bool {
+        let request = asked.job().unwrap().request();
+        let result = carry_out::<Half>(&request, &mut |_| ControlFlow::Continue(()));
+        asked.take(result)
+    }
+
+    #[test]
+    fn a_question_is_out_until_it_is_answered() {
+        let mut asked = Asked::about(Half(3.0));
+        let key = asked.job().unwrap().key();
+        assert!(asked.is_waiting() && asked.answer().is_none());
+        assert!(settle(&mut asked) && !asked.is_waiting());
+        assert_eq!(asked.answered(), Some((&Half(3.0), &1.5)));
+        // What is known is not asked again, and a new question leaves it there meanwhile.
+        asked.ask(Half(3.0));
+        assert!(asked.job().is_none());
+        asked.ask(Half(5.0));
+        assert_ne!(asked.job().unwrap().key(), key);
+        assert_eq!(asked.answer(), Some(&1.5));
+        // Back to what is known: nothing is out any more.
+        asked.ask(Half(3.0));
+        assert!(!asked.is_waiting());
+        let version = asked.version();
+        asked.forget();
+        assert!(asked.answer().is_none() && asked.version() > version);
+    }
+
+    #[test]
+    fn what_is_no_answer_is_a_sentence() {
+        let nonsense = Ok(vec![1, 2]);
+        let not_a_number = postcard::to_allocvec(&f64::NAN).unwrap();
+        let ended = Err(Problem::Elsewhere {
+            sentence: "the worker has gone".to_owned(),
+        });
+        for (result, sentence) in [
+            (nonsense, "There is no half: the answer cannot be read."),
+            (
+                Ok(not_a_number),
+                "There is no half: the answer cannot be read.",
+            ),
+            (ended, "There is no half: the worker has gone."),
+        ] {
+            let mut asked = Asked::about(Half(1.0));
+            assert!(!asked.take(result));
+            assert_eq!(asked.problem(), Some(sentence));
+            assert!(!asked.is_waiting() && !asked.take(Ok(Vec::new())));
+        }
+        assert!(carry_out::<Half>(&[], &mut |_| ControlFlow::Continue(())).is_err());
+        let request = Asked::about(Half(1.0)).job().unwrap().request();
+        assert!(carry_out::<Half>(&request, &mut |_| ControlFlow::Break(())).is_err());
+        let mut asked = Asked::about(Half(1.0));
+        asked.refuse("Choose a number.");
+        assert_eq!(
+            (asked.problem(), asked.is_waiting()),
+            (Some("Choose a number."), false)
+        );
+    }
+}

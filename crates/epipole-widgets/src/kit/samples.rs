@@ -1,0 +1,202 @@
+//! The core's RANSAC loop as a reader follows it: sample by sample, until enough have been drawn.
+
+use crate::contract::Readout;
+use epipole::Error;
+use epipole::robust::{Budget, Estimator, Ransac, RansacOptions, ScoreKind, Step};
+
+/// How sure the loop is to have drawn a sample of inliers alone before it ends.
+const CONFIDENCE: f64 = 0.99;
+/// So many samples are never drawn, so a larger number says nothing more.
+const LARGEST_BUDGET: u64 = 1_000_000;
+
+/// What the loop is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rules {
+    /// How near a data point must be to vote for a model, pixels.
+    pub(crate) epsilon_px: f64,
+    pub(crate) seed: u64,
+    /// No more samples are drawn.
+    pub(crate) max_samples: usize,
+    /// Whether each new best model is fitted to its inliers at once.
+    pub(crate) local_optimization: bool,
+}
+
+/// The last sample that was drawn.
+#[derive(Debug, Clone)]
+pub(crate) struct Last<M> {
+    /// Indices into the data.
+    pub(crate) sample: Vec<usize>,
+    /// The model that it gave; of several the one with most votes.
+    pub(crate) model: Option<M>,
+}
+
+/// A loop that was begun.
+pub(crate) struct Samples<E: Estimator> {
+    engine: Ransac<E>,
+    rules: Rules,
+    last: Option<Last<E::Model>>,
+}
+
+impl<E: Estimator> Samples<E> {
+    /// A loop that has drawn nothing yet.
+    ///
+    /// # Errors
+    /// As [`Ransac::new`]: too few data, or rules out of range.
+    pub(crate) fn new(estimator: E, rules: Rules) -> Result<Self, Error> {
+        let options = RansacOptions {
+            max_error_px: rules.epsilon_px,
+            confidence: CONFIDENCE,
+            min_iterations: 1,
+            max_iterations: rules.max_samples,
+            seed: rules.seed,
+            score: ScoreKind::InlierCount,
+            budget: Budget::WithReplacement,
+            local_optimization: rules.local_optimization,
+            ..RansacOptions::default()
+        };
+        Ok(Self {
+            engine: Ransac::new(estimator, options)?,
+            rules,
+            last: None,
+        })
+    }
+
+    /// Draws until there are so many samples in all, or enough. Says whether there is a new best model.
+    pub(crate) fn draw_to(&mut self, count: usize) -> bool {
+        let mut has_improved = false;
+        while self.engine.iterations() < count {
+            let Step::Trial(trial) = self.engine.step() else {
+                break;
+            };
+            has_improved |= trial.is_best;
+            self.last = Some(Last {
+                sample: trial.sample.to_vec(),
+                model: trial.model,
+            });
+        }
+        has_improved
+    }
+
+    pub(crate) fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    pub(crate) fn last(&self) -> Option<&Last<E::Model>> {
+        self.last.as_ref()
+    }
+
+    /// The model with the most votes so far.
+    pub(crate) fn best(&self) -> Option<&E::Model> {
+        self.engine.best().map(|(model, _)| model)
+    }
+
+    /// Samples drawn so far.
+    pub(crate) fn count(&self) -> usize {
+        self.engine.iterations()
+    }
+
+    /// Samples that are needed, going by the best model so far; `None` while out of reach.
+    pub(crate) fn budget(&self) -> Option<u64> {
+        let required = self.engine.required_iterations();
+        (required <= LARGEST_BUDGET).then_some(required)
+    }
+
+    /// Whether enough samples have been drawn.
+    pub(crate) fn is_confident(&self) -> bool {
+        (self.budget()).is_some_and(|budget| budget <= self.count() as u64)
+    }
+
+    /// Whether there is nothing more to draw.
+    pub(crate) fn is_finished(&self) -> bool {
+        self.is_confident() || self.count() >= self.rules.max_samples
+    }
+
+    /// How many samples have been drawn, and how many are needed.
+    pub(crate) fn readouts(&self) -> [Readout; 2] {
+        let needed = "Samples needed";
+        [
+            Readout::count("iterations", "Samples drawn", self.count()),
+            match self.budget() {
+                Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
+                None => Readout::words("budget", needed, "> 10⁶"),
+            },
+        ]
+    }
+
+    /// How long the loop goes on, as a sentence.
+    pub(crate) fn outlook(&self) -> String {
+        match self.budget() {
+            _ if self.is_confident() => "That is enough for 99 % confidence.".to_owned(),
+            _ if self.is_finished() => {
+                "99 % confidence takes more, but the figure stops here.".to_owned()
+            }
+            Some(1) => "99 % confidence takes 1 sample.".to_owned(),
+            Some(budget) => format!("99 % confidence takes {budget} samples."),
+            None => "99 % confidence takes more than a million.".to_owned(),
+        }
+    }
+
+    /// "1 sample" or "12 samples".
+    pub(crate) fn count_words(&self) -> String {
+        match self.count() {
+            1 => "1 sample".to_owned(),
+            count => format!("{count} samples"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::robust::LineEstimator;
+    use nalgebra::Point2;
+
+    const RULES: Rules = Rules {
+        epsilon_px: 1.0,
+        seed: 3,
+        max_samples: 40,
+        local_optimization: false,
+    };
+
+    /// Eight points on a line, and eight that are not.
+    fn points() -> LineEstimator<'static> {
+        let on = (0..8).map(|k| Point2::new(f64::from(k) * 10.0, 50.0));
+        let off = (0..8).map(|k| Point2::new(f64::from(k * k) * 3.0, f64::from(k * 37 % 100)));
+        LineEstimator::new(on.chain(off).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn one_by_one_is_the_same_as_all_at_once() {
+        let mut at_once = Samples::new(points(), RULES).unwrap();
+        at_once.draw_to(12);
+        let mut by_steps = Samples::new(points(), RULES).unwrap();
+        let improved = (1..=12).filter(|&count| by_steps.draw_to(count)).count();
+        assert!(improved >= 1);
+        assert_eq!(at_once.count(), by_steps.count());
+        assert_eq!(at_once.best(), by_steps.best());
+        assert_eq!(at_once.budget(), by_steps.budget());
+        assert_eq!(
+            at_once.last().unwrap().sample,
+            by_steps.last().unwrap().sample
+        );
+    }
+
+    #[test]
+    fn it_ends_when_enough_are_drawn_and_says_so() {
+        let mut samples = Samples::new(points(), RULES).unwrap();
+        assert_eq!((samples.budget(), samples.is_finished()), (None, false));
+        samples.draw_to(1000);
+        assert!(samples.is_confident() && samples.count() <= 40);
+        assert!(samples.best().unwrap().b.abs() > 0.999);
+        assert!(samples.outlook().starts_with("That is enough"));
+        let few = Rules {
+            max_samples: 1,
+            ..RULES
+        };
+        let mut samples = Samples::new(points(), few).unwrap();
+        samples.draw_to(1000);
+        assert!(samples.is_finished() && !samples.is_confident());
+        assert_eq!(samples.count_words(), "1 sample");
+        assert!(samples.outlook().ends_with("stops here."));
+    }
+}

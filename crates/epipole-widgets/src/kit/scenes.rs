@@ -1,0 +1,136 @@
+//! The scenes that figures photograph, and the size of their photographs.
+
+use crate::contract::Progress;
+use epipole::Error;
+use epipole::camera::Camera;
+use epipole::math::random::Random;
+use epipole::synthetic::{
+    MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, still_life_camera,
+};
+use image::{Rgb, RgbImage};
+use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
+use std::sync::OnceLock;
+
+/// Size of a photograph, pixels.
+pub(crate) const PHOTO_WIDTH: u32 = 640;
+/// Size of a photograph, pixels.
+pub(crate) const PHOTO_HEIGHT: u32 = 480;
+/// Width and height of a photograph, pixels.
+pub(crate) const PHOTO_SIZE: (u32, u32) = (PHOTO_WIDTH, PHOTO_HEIGHT);
+
+/// Whether a place of the image plane lies within the photograph.
+pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
+    (-0.5..=f64::from(PHOTO_WIDTH) - 0.5).contains(&pixel.x)
+        && (-0.5..=f64::from(PHOTO_HEIGHT) - 0.5).contains(&pixel.y)
+}
+
+/// Where the middle of the long table's ball is below the cameras, meters.
+pub(crate) const BALL_Y_M: f64 = 0.14;
+
+/// The ball itself, with a hair of margin, metres; and how far around it its shade is to be seen.
+const BALL_RADIUS_M: f64 = 0.112;
+const BALL_SHADE_M: f64 = 0.3;
+
+/// The long table's ball, if it has moved from one place of its middle to another, metres.
+pub(crate) fn moved_ball(from: [f64; 3], to: [f64; 3]) -> Option<Moved> {
+    let (from, to) = (Point3::from(from), Point3::from(to));
+    (from != to).then_some(Moved {
+        center: from,
+        radius_m: BALL_RADIUS_M,
+        stale_m: BALL_SHADE_M,
+        by: to - from,
+    })
+}
+
+/// What the scene calls it.
+pub(crate) const BALL: &str = "the ball";
+
+/// The still life of the book.
+pub(crate) fn still_life() -> Scene {
+    Scene::still_life()
+}
+
+/// Two cameras before the still life: the one it was composed for, and one moved and turned in the
+/// first one's own horizontal plane.
+///
+/// * `size`: width and height of both photographs, pixels
+/// * `right_m`, `forward_m`, `left_deg`: where the second camera stands in the frame of the first,
+///   and how far it is turned to the left
+pub(crate) fn still_life_pair(
+    (width, height): (u32, u32),
+    right_m: f64,
+    forward_m: f64,
+    left_deg: f64,
+) -> [Camera; 2] {
+    let first = still_life_camera(width, height);
+    // y points down, so turning the camera left turns what it sees right, by +y.
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_deg.to_radians());
+    let to_center = Translation3::new(-right_m, 0.0, -forward_m);
+    let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
+    let second = Camera {
+        cam_from_world: cam2_from_cam1 * first.cam_from_world,
+        ..first
+    };
+    [first, second]
+}
+
+/// A sharp photograph of the still life.
+///
+/// # Errors
+/// As [`Scene::render`], and [`Error::Canceled`] if `progress`, told the share that is done, ended
+/// it.
+pub(crate) fn photograph(
+    camera: &Camera,
+    (width, height): (u32, u32),
+    progress: Progress<'_>,
+) -> Result<RgbImage, Error> {
+    let scene = still_life();
+    let mut photograph = Photograph::blank(width, height);
+    for first in (0..height).step_by(60) {
+        let rows = first..first + 60;
+        scene.render_rows(camera, width, height, Sampling::Full, rows, &mut photograph)?;
+        let done = f64::from((first + 60).min(height)) / f64::from(height);
+        if progress(done).is_break() {
+            return Err(Error::Canceled);
+        }
+    }
+    Ok(photograph.image)
+}
+
+/// The long table, with its ball at this place seen from above, meters to the right of the left
+/// camera and away from it.
+///
+/// # Errors
+/// As [`Scene::long_table`]: the place is not on the table.
+pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
+    Scene::long_table(MovableObject {
+        kind: MovableKind::Ball,
+        x_m,
+        z_m,
+    })
+}
+
+/// Size of [`square_picture`], pixels.
+pub(crate) const SQUARE_SIZE: (u32, u32) = (240, 180);
+
+/// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, and noise of a
+/// standard deviation of so many gray levels.
+pub(crate) fn square_picture(noise: f64) -> RgbImage {
+    static GRAIN: OnceLock<Vec<f64>> = OnceLock::new();
+    let (width, height) = SQUARE_SIZE;
+    let grain = GRAIN.get_or_init(|| {
+        let mut random = Random::new(5);
+        (0..width * height).map(|_| random.normal()).collect()
+    });
+    let angle = 15.0_f64.to_radians();
+    let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+    let half = 46.0;
+    RgbImage::from_fn(width, height, |u, v| {
+        let x = f64::from(u) - f64::from(width - 1) / 2.0;
+        let y = f64::from(v) - f64::from(height - 1) / 2.0;
+        let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
+        let cover = (0.5 - outside).clamp(0.0, 1.0);
+        let gray = 215.0 - 150.0 * cover + noise * grain[(v * width + u) as usize];
+        Rgb([gray.round() as u8; 3])
+    })
+}

@@ -1,0 +1,332 @@
+//! Drawing in three dimensions: colored points, cameras, a ground, axes, far things first.
+//!
+//! Coordinates are those of the chapters: x right, y **down**, z forward, as camera 1 has them.
+
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::Panel;
+use crate::kit::grid::SMALL;
+use crate::kit::labels::Labels;
+use crate::kit::orbit::Orbit;
+use crate::theme::{Rgb, Role};
+use epipole::camera::{Camera, Intrinsics, look_at};
+use nalgebra::{Point2, Point3, Vector3};
+
+/// How far the reader stands off at zoom 1, in radii of the scene.
+const DISTANCE: f64 = 2.6;
+/// Share of the panel's shorter side that the scene fills at zoom 1.
+const FILL: f64 = 0.94;
+/// Nothing nearer to the reader than this is drawn, in radii of the scene.
+const NEAREST: f64 = 0.02;
+
+/// Narrower panels do not show how things are moved across, CSS pixels.
+const SMALLEST: f64 = 300.0;
+/// Size of labels, CSS pixels.
+const TEXT: f64 = 13.0;
+
+/// The ball that the reader looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Subject {
+    /// Its middle.
+    pub(crate) middle: Point3<f64>,
+    /// Its radius, > 0.
+    pub(crate) radius: f64,
+}
+
+enum Mark {
+    Dot(Place, f64, Rgb),
+    Marker(Place, f64, Shape, Role),
+    Line(Place, Place, Stroke),
+}
+
+/// A scene as the reader sees it, collected mark by mark and then drawn.
+pub(crate) struct Space {
+    eye: Camera,
+    distance: f64,
+    nearest: f64,
+    /// Drawn first, in their order.
+    ground: Vec<(Place, Place, Stroke)>,
+    marks: Vec<(f64, Mark)>,
+    labels: Vec<(Place, &'static str, Role)>,
+}
+
+impl Space {
+    /// An empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the subject
+    /// is nowhere.
+    pub(crate) fn new(panel: &Panel, orbit: &Orbit, zoom: f64, subject: &Subject) -> Option<Self> {
+        let side = panel.rect.width.min(panel.rect.height);
+        let distance = DISTANCE * subject.radius / zoom;
+        let (turn, rise) = (orbit.turn_deg().to_radians(), orbit.rise_deg().to_radians());
+        let level = libm::cos(rise);
+        let towards_eye = Vector3::new(
+            -libm::sin(turn) * level,
+            -libm::sin(rise),
+            -libm::cos(turn) * level,
+        );
+        let (u, v) = panel.canvas_from_world(orbit.middle());
+        let focal_px = 0.5 * FILL * side * DISTANCE;
+        let eye = Camera {
+            intrinsics: Intrinsics::new(focal_px, focal_px, u, v).ok()?,
+            cam_from_world: look_at(
+                &(subject.middle + distance * towards_eye),
+                &subject.middle,
+                &Vector3::new(0.0, -1.0, 0.0),
+            )
+            .ok()?,
+        };
+        Some(Self {
+            eye,
+            distance,
+            nearest: NEAREST * subject.radius,
+            ground: Vec::new(),
+            marks: Vec::new(),
+            labels: Vec::new(),
+        })
+    }
+
+    /// Where a point is shown and how far from the reader it is; `None` behind the reader.
+    pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(Place, f64)> {
+        self.shown(&(self.eye.cam_from_world * point))
+    }
+
+    fn shown(&self, in_eye: &Point3<f64>) -> Option<(Place, f64)> {
+        if in_eye.z.is_nan() || in_eye.z < self.nearest {
+            return None;
+        }
+        let place = self.eye.intrinsics.project(in_eye).ok()?;
+        let finite = place.x.is_finite() && place.y.is_finite();
+        finite.then_some(((place.x, place.y), in_eye.z))
+    }
+
+    /// The visible part of a segment, and the depth of its middle.
+    fn segment(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<(Place, Place, f64)> {
+        let (mut a, mut b) = (self.eye.cam_from_world * from, self.eye.cam_from_world * to);
+        if a.z.max(b.z) <= self.nearest {
+            return None;
+        }
+        // The nearer end is moved along the segment to where things can be seen.
+        let (nearer, farther) = if a.z < b.z { (&mut a, b) } else { (&mut b, a) };
+        if nearer.z < self.nearest {
+            let share = (self.nearest - nearer.z) / (farther.z - nearer.z);
+            *nearer += (farther - *nearer) * share;
+            nearer.z = self.nearest;
+        }
+        let ((a, depth_a), (b, depth_b)) = (self.shown(&a)?, self.shown(&b)?);
+        Some((a, b, 0.5 * (depth_a + depth_b)))
+    }
+
+    /// A colored point; `radius` is that of its disk in the middle of the scene, CSS pixels.
+    pub(crate) fn dot(&mut self, point: &Point3<f64>, radius: f64, color: Rgb) {
+        if let Some((place, depth)) = self.place(point) {
+            let radius = (radius * self.distance / depth).clamp(0.6 * radius, 2.5 * radius);
+            self.marks.push((depth, Mark::Dot(place, radius, color)));
+        }
+    }
+
+    /// A marker of fixed size.
+    pub(crate) fn marker(&mut self, point: &Point3<f64>, radius: f64, shape: Shape, role: Role) {
+        if let Some((place, depth)) = self.place(point) {
+            self.marks
+                .push((depth, Mark::Marker(place, radius, shape, role)));
+        }
+    }
+
+    /// A straight line.
+    pub(crate) fn line(&mut self, from: &Point3<f64>, to: &Point3<f64>, stroke: Stroke) {
+        if let Some((a, b, depth)) = self.segment(from, to) {
+            self.marks.push((depth, Mark::Line(a, b, stroke)));
+        }
+    }
+
+    /// A camera: its center, and the outline of its picture at the depth `depth`, upper edge
+    /// thicker.
+    pub(crate) fn frustum(
+        &mut self,
+        camera: &Camera,
+        (width, height): (u32, u32),
+        depth: f64,
+        role: Role,
+        shape: Shape,
+    ) {
+        let center = camera.center_in_world();
+        let (right, bottom) = (f64::from(width) - 0.5, f64::from(height) - 0.5);
+        let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)]
+            .map(|(u, v)| self.on_picture(camera, &Point2::new(u, v), depth));
+        for index in 0..4 {
+            let (corner, next) = (&corners[index], &corners[(index + 1) % 4]);
+            let top = if index == 0 { 3.0 } else { 1.5 };
+            self.line(corner, next, Stroke::solid(role, top));
+            self.line(&center, corner, Stroke::solid(role, 1.25));
+        }
+        self.marker(&center, 4.5, shape, role);
+    }
+
+    /// Where a pixel is on a camera's picture, put up in the world at the depth `depth`.
+    pub(crate) fn on_picture(
+        &self,
+        camera: &Camera,
+        pixel: &Point2<f64>,
+        depth: f64,
+    ) -> Point3<f64> {
+        camera.center_in_world() + camera.ray_in_world(pixel) * depth
+    }
+
+    /// A grid on the level plane at the height `y`, `lines` lines to each side of its middle.
+    pub(crate) fn ground(&mut self, middle: &Point3<f64>, y: f64, spacing: f64, lines: i32) {
+        let snap = |value: f64| (value / spacing).round() * spacing;
+        let (x, z) = (snap(middle.x), snap(middle.z));
+        let reach = spacing * f64::from(lines);
+        for index in -lines..=lines {
+            let offset = spacing * f64::from(index);
+            let ends = [
+                (
+                    Point3::new(x + offset, y, z - reach),
+                    Point3::new(x + offset, y, z + reach),
+                ),
+                (
+                    Point3::new(x - reach, y, z + offset),
+                    Point3::new(x + reach, y, z + offset),
+                ),
+            ];
+            for (from, to) in ends {
+                if let Some((a, b, _)) = self.segment(&from, &to) {
+                    self.ground.push((a, b, Stroke::solid(Role::Grid, 1.0)));
+                }
+            }
+        }
+    }
+
+    /// The three axes of a camera, `length` long: x solid, y dashed, z dotted.
+    pub(crate) fn axes(&mut self, camera: &Camera, length: f64) {
+        let world_from_cam = camera.cam_from_world.inverse();
+        let origin = camera.center_in_world();
+        let strokes = [
+            Stroke::solid(Role::Ink, 1.5),
+            Stroke::solid(Role::Ink, 1.5).dashed(),
+            Stroke::solid(Role::Ink, 1.5).dotted(),
+        ];
+        for (axis, stroke) in strokes.into_iter().enumerate() {
+            let mut direction = Vector3::zeros();
+            direction[axis] = length;
+            let end = origin + world_from_cam.rotation * direction;
+            self.line(&origin, &end, stroke);
+            self.label(&end, ["x", "y", "z"][axis], Role::Ink);
+        }
+    }
+
+    /// A name beside a point, on top of everything.
+    pub(crate) fn label(&mut self, point: &Point3<f64>, text: &'static str, role: Role) {
+        if let Some((place, _)) = self.place(point) {
+            self.labels.push((place, text, role));
+        }
+    }
+
+    /// Draws everything, far things first.
+    pub(crate) fn draw(mut self, canvas: &mut Canvas, panel: &Panel) {
+        // The order of equally far marks is that in which they came.
+        self.marks.sort_by(|a, b| b.0.total_cmp(&a.0));
+        canvas.clipped(panel.rect.inset(1.0), |canvas| {
+            for (from, to, stroke) in self.ground {
+                canvas.line(from, to, stroke);
+            }
+            for (_, mark) in self.marks {
+                match mark {
+                    Mark::Dot(place, radius, color) => canvas.dot(place, radius, color),
+                    Mark::Marker(place, radius, shape, role) => {
+                        canvas.marker(place, radius, shape, role, true);
+                    }
+                    Mark::Line(from, to, stroke) => canvas.line(from, to, stroke),
+                }
+            }
+        });
+        let mut labels = Labels::new(panel.rect.inset(4.0));
+        for (place, ..) in &self.labels {
+            labels.keep_free(*place, 5.0);
+        }
+        for (place, text, role) in self.labels {
+            if panel.rect.contains(place) {
+                let mut around = Labels::around(place, 7.0);
+                // Things stand above their feet, so there is more room below.
+                around.swap(0, 3);
+                let style = TextStyle::new(role, TEXT).cased();
+                labels.draw(canvas, &around, text, style);
+            }
+        }
+    }
+}
+
+/// The two handles of a space, each with what it does: a grip to turn it by, a small cross in its
+/// middle to move it by.
+pub(crate) fn draw_handles(canvas: &mut Canvas, panel: &Panel, orbit: &Orbit) {
+    let middle = panel.canvas_from_world(orbit.middle());
+    let grip = panel.canvas_from_world((orbit.turn_deg(), orbit.rise_deg()));
+    let mut labels = Labels::new(panel.rect.inset(4.0));
+    labels.keep_free(middle, 6.0);
+    labels.keep_free(grip, 9.0);
+    // In a small panel, as on phones, two fingers do it, and the cross would only be in the way.
+    let is_small = panel.rect.width < SMALLEST;
+    let marks = [(grip, 9.0, "turn"), (middle, 5.0, "move")];
+    canvas.clipped(panel.rect.inset(1.0), |canvas| {
+        if !is_small {
+            canvas.marker(middle, 4.5, Shape::Plus, Role::Grip, true);
+        }
+        canvas.grip(grip, Role::Grip);
+        for (place, distance, text) in marks.into_iter().take(if is_small { 1 } else { 2 }) {
+            let beside = [
+                ((place.0 + distance + 3.0, place.1), Align::Start),
+                ((place.0 - distance - 3.0, place.1), Align::End),
+            ];
+            let style = TextStyle::new(Role::Grip, SMALL).cased();
+            labels.draw(canvas, &beside, text, style);
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Rect;
+
+    fn space(orbit: &Orbit, zoom: f64) -> Space {
+        let panel = Orbit::panel(Rect::new(0.0, 0.0, 400.0, 300.0));
+        let subject = Subject {
+            middle: Point3::new(0.0, 0.0, 5.0),
+            radius: 2.0,
+        };
+        Space::new(&panel, orbit, zoom, &subject).unwrap()
+    }
+
+    #[test]
+    fn the_middle_is_in_the_middle_and_a_drag_moves_the_front_along() {
+        let middle = Point3::new(0.0, 0.0, 5.0);
+        let front = Point3::new(0.0, 0.0, 4.0);
+        for (turn, rise) in [(0.0, 0.0), (40.0, 0.0), (0.0, 30.0), (-170.0, -80.0)] {
+            let seen = space(&Orbit::new(turn, rise), 1.0);
+            let (place, depth) = seen.place(&middle).unwrap();
+            assert!((place.0 - 200.0).abs() < 1e-9 && (place.1 - 150.0).abs() < 1e-9);
+            assert!((depth - DISTANCE * 2.0).abs() < 1e-9);
+        }
+        let (place, _) = space(&Orbit::new(30.0, 0.0), 1.0).place(&front).unwrap();
+        assert!(place.0 > 210.0);
+        let (place, _) = space(&Orbit::new(0.0, 30.0), 1.0).place(&front).unwrap();
+        assert!(place.1 > 160.0);
+        // y is down, and a larger zoom shows things larger.
+        let low = Point3::new(0.0, 1.0, 5.0);
+        let at = |zoom| space(&Orbit::new(0.0, 0.0), zoom).place(&low).unwrap().0.1;
+        assert!(at(1.0) > 160.0 && at(2.0) > at(1.0) + 20.0);
+    }
+
+    #[test]
+    fn lines_are_cut_where_the_reader_stands() {
+        let seen = space(&Orbit::new(0.0, 0.0), 6.0);
+        let (behind, ahead) = (Point3::new(0.5, 0.2, -50.0), Point3::new(0.5, 0.2, 6.0));
+        assert!(seen.place(&behind).is_none());
+        let (a, b, depth) = seen.segment(&behind, &ahead).unwrap();
+        assert!([a.0, a.1, b.0, b.1, depth].iter().all(|x| x.is_finite()));
+        assert!(
+            seen.segment(&behind, &Point3::new(0.0, 0.0, -40.0))
+                .is_none()
+        );
+        let nowhere = Point3::new(f64::NAN, 0.0, 0.0);
+        assert!(seen.segment(&nowhere, &ahead).is_none() && seen.place(&nowhere).is_none());
+    }
+}
