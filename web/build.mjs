@@ -1,8 +1,9 @@
 // Makes the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
 //
 // DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
-// makes them for the web. Out come index.js, worker.js, the modules beside them, and the types. (The
-// book bundles the same sources itself, with names made of their content.)
+// makes them for the web. Out come index.js, worker.js, the modules beside them, figure.css and early.js
+// for trees that prerender.mjs writes, and the types. (The book bundles the same sources itself, with names made
+// of their content.)
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -47,6 +48,15 @@ await build({
     EPIPOLE_JOBS_WASM: '"epipole-jobs.wasm"',
     EPIPOLE_WORKER: '"worker.js"',
   },
+  logLevel: "warning",
+});
+await build({
+  entryPoints: [join(here, "src/figure.css"), join(here, "src/early.ts")],
+  outdir: out,
+  bundle: true,
+  format: "iife",
+  minify: true,
+  target: "es2022",
   logLevel: "warning",
 });
 execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "types")], {

@@ -58,3 +58,26 @@ export function followSections(): void {
   addEventListener("resize", schedule, { passive: true });
   afterFirstFrame(update);
 }
+
+const FOLDED = "epipole-contents";
+
+/** On a broad screen the column of contents can be folded away, for good. */
+export function startFolding(): void {
+  const button = document.querySelector<HTMLButtonElement>(".fold-button");
+  if (!button) return;
+  const root = document.documentElement;
+  const show = () => button.setAttribute("aria-expanded", String(root.dataset.contents !== "folded"));
+  show();
+  button.addEventListener("click", () => {
+    const folds = root.dataset.contents !== "folded";
+    if (folds) root.dataset.contents = "folded";
+    else delete root.dataset.contents;
+    try {
+      if (folds) localStorage.setItem(FOLDED, "folded");
+      else localStorage.removeItem(FOLDED);
+    } catch {
+      // Not remembered, but done.
+    }
+    show();
+  });
+}

@@ -1,7 +1,11 @@
-// Runs before anything is drawn: the reader's choice of colors, if it differs from the system's.
+// Runs before anything is drawn: the look of figures, and what the reader chose of the page, if it
+// differs from the usual.
+import "../src/early.js";
+
 try {
   const chosen = localStorage.getItem("epipole-theme");
   if (chosen === "light" || chosen === "dark") document.documentElement.dataset.theme = chosen;
+  if (localStorage.getItem("epipole-contents") === "folded") document.documentElement.dataset.contents = "folded";
 } catch {
-  // Storage may be forbidden; then the system decides.
+  // Storage may be forbidden; then the page is as it comes.
 }

@@ -1,14 +1,17 @@
 // What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
-import { followSections, revealCurrentChapter } from "./contents";
+import { followSections, revealCurrentChapter, startFolding } from "./contents";
+import { startOperating } from "./operate";
 import { makeScrollersReachable } from "./scrollers";
 import { settleSections } from "./sections";
 import { startTheme } from "./theme";
 
 startTheme();
+startFolding();
 settleSections();
 revealCurrentChapter();
 followSections();
 makeScrollersReachable();
+startOperating();
 
 if (document.querySelector(".quiz, .progress")) {
   void import("./quiz").then((quiz) => quiz.start());

@@ -4,7 +4,7 @@ import type { Parameters, Snapshot } from "./contract.js";
 
 /** Attributes that are no parameters: ours, and those that any element may have. */
 const NOT_PARAMETERS =
-  /^(name|theme|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
+  /^(name|theme|controls|readouts|goals|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
 
 /** The parameters that the page's author has set. */
 export function parametersOf(element: Element): Parameters {

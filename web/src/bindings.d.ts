@@ -20,6 +20,9 @@ declare module "epipole-web" {
     nudge(id: string, width: number, towards: string, steps: number): string | undefined;
     move_to_end(id: string, width: number, towards: string): string | undefined;
     click(width: number, x: number, y: number): string | undefined;
+    place(id: string, x: number, y: number): string | undefined;
+    click_in(panel: string, x: number, y: number): string | undefined;
+    solution(challenge: string): string;
     take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
     take_focal(slot: string, focal: number): void;
     job_key(): string | undefined;
@@ -33,11 +36,12 @@ declare module "epipole-web" {
     pixel_width(): number;
     pixel_height(): number;
     frame_hash(): string | undefined;
+    free(): void;
   }
   export function figures(): string;
   export function take_panic(): string | undefined;
   export default function load(options: {
-    module_or_path: URL;
+    module_or_path: Promise<Response>;
   }): Promise<{ memory: WebAssembly.Memory }>;
 }
 

@@ -1,54 +1,118 @@
-/** Goals for the reader, and which are reached. A goal once reached stays reached. */
+/** Goals for the reader, one at a time, and which are reached. A goal once reached stays reached. */
 
+import type { Choice } from "./choice.js";
 import type { Challenge } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";
 
-interface Item {
-  element: HTMLElement;
-  mark: HTMLElement;
-}
+const CHECK = "M4.5 10.5l3.5 3.5 7.5-8.5";
 
 export class Challenges {
-  readonly element = make("div", { class: "challenges", role: "group", "aria-label": "Challenges" });
-  readonly #list = make("ol");
-  readonly #title = make("p", { class: "heading" });
-  readonly #items = new Map<string, Item>();
+  readonly element = make("div", { class: "challenges", role: "group", "aria-label": "Goals" });
+  readonly #line = make("div", { class: "goal-line" });
+  readonly #mark = make("span", { class: "mark" });
+  readonly #goal = make("span");
+  /** The hint, or why what the reader did was the answer. */
+  readonly #note = make("p", { class: "note" });
+  readonly #hint = make("button", { type: "button", "aria-expanded": "false" }, "Hint");
+  readonly #show = make("button", { type: "button" }, "Show how");
+  readonly #back = make("button", { type: "button", "aria-label": "Previous goal" }, icon("M12.5 4.5L7 10l5.5 5.5"));
+  readonly #next = make("button", { type: "button", "aria-label": "Next goal" }, icon("M7.5 4.5L13 10l-5.5 5.5"));
+  readonly #count = make("button", { type: "button", class: "count", "aria-expanded": "false" });
+  readonly #list = make("ol", { hidden: true });
+  #rows: { row: HTMLElement; mark: HTMLElement }[] = [];
   readonly #solved = new Set<string>();
+  #known: Challenge[] = [];
+  #goals: Choice["goals"] = "one";
+  #at = 0;
+  #hinted = false;
+  #opened = false;
+  #playing: string | undefined;
 
-  constructor() {
-    this.element.append(this.#title, this.#list);
+  /** `show` plays the way to a goal, or ends that. */
+  constructor(show: (id: string) => void) {
+    const words = make("div", { class: "words" }, make("p", { class: "goal" }, this.#mark, this.#goal), this.#note);
+    const acts = make("div", { class: "acts" }, this.#hint, this.#show, this.#back, this.#count, this.#next);
+    this.#line.append(make("span", { class: "box" }, icon(CHECK)), words, acts);
+    this.element.append(this.#line, this.#list);
+    this.#hint.addEventListener("click", () => {
+      this.#hinted = !this.#hinted;
+      this.#refresh();
+    });
+    this.#show.addEventListener("click", () => show(this.#known[this.#at]?.id ?? ""));
+    this.#back.addEventListener("click", () => this.#turn(-1));
+    this.#next.addEventListener("click", () => this.#turn(1));
+    this.#count.addEventListener("click", () => {
+      this.#opened = !this.#opened;
+      this.#refresh();
+    });
   }
 
   /** Shows the goals and returns those that have just been reached for the first time. */
-  update(challenges: Challenge[]): Challenge[] {
+  update(challenges: Challenge[], goals: Choice["goals"]): Challenge[] {
     const news = challenges.filter(({ id, solved }) => solved && !this.#solved.has(id));
     for (const { id } of news) this.#solved.add(id);
-    for (const challenge of challenges) {
-      const item = this.#items.get(challenge.id) ?? this.#add(challenge);
-      const solved = this.#solved.has(challenge.id);
-      setAttribute(item.element, "data-solved", solved);
-      setText(item.mark, solved ? "Solved: " : "");
-    }
-    const count = challenges.filter(({ id }) => this.#solved.has(id)).length;
-    setText(this.#title, `Try it · ${count} of ${challenges.length} solved`);
-    this.element.hidden = challenges.length === 0;
+    if (this.#known.length !== challenges.length) this.#listAll(challenges);
+    const same = goals === this.#goals && news.length === 0 && this.#known.length > 0;
+    this.#known = challenges;
+    this.#goals = goals;
+    if (!same) this.#refresh();
     return news;
   }
 
-  #add(challenge: Challenge): Item {
-    const mark = make("span", { class: "mark" });
-    const goal = make("p", { class: "goal" }, mark, challenge.goal);
-    const box = make("span", { class: "box" }, icon("M4.5 10.5l3.5 3.5 7.5-8.5"));
-    const hint = make("details", {}, make("summary", {}, "Hint"), make("p", {}, challenge.hint));
-    const element = make(
-      "li",
-      { "data-challenge": challenge.id },
-      box,
-      make("div", {}, goal, hint),
-    );
-    this.#list.append(element);
-    const item = { element, mark };
-    this.#items.set(challenge.id, item);
-    return item;
+  /** Tells which goal is being shown, so that the button ends it. */
+  set playing(id: string | undefined) {
+    this.#playing = id;
+    this.#refresh();
+  }
+
+  #turn(by: number): void {
+    this.#go((this.#at + by + this.#known.length) % this.#known.length);
+  }
+
+  #go(index: number): void {
+    this.#at = index;
+    this.#hinted = false;
+    this.#refresh();
+  }
+
+  #listAll(challenges: Challenge[]): void {
+    this.#at = 0;
+    this.#rows = challenges.map(({ id, goal }, index) => {
+      const mark = make("span", { class: "mark" });
+      const button = make("button", { type: "button" }, make("span", {}, mark, goal));
+      button.addEventListener("click", () => this.#go(index));
+      const box = make("span", { class: "box" }, icon(CHECK));
+      return { row: make("li", { "data-challenge": id }, box, button), mark };
+    });
+    this.#list.replaceChildren(...this.#rows.map(({ row }) => row));
+  }
+
+  #refresh(): void {
+    const now = this.#known[this.#at];
+    this.element.hidden = !now || this.#goals === "none";
+    if (!now) return;
+    const solved = this.#solved.has(now.id);
+    setAttribute(this.#line, "data-solved", solved);
+    setText(this.#mark, solved ? "Solved: " : "");
+    setText(this.#goal, now.goal);
+    setText(this.#note, this.#hinted ? now.hint : solved ? now.why : "");
+    setAttribute(this.#hint, "aria-expanded", String(this.#hinted));
+    setText(this.#show, this.#playing === now.id ? "Stop" : "Show how");
+    const total = this.#known.length;
+    const done = this.#known.filter(({ id }) => this.#solved.has(id)).length;
+    const open = this.#goals === "all" || this.#opened;
+    for (const button of [this.#back, this.#next]) button.hidden = total < 2;
+    this.#count.hidden = total < 2;
+    setText(this.#count, `${this.#at + 1} of ${total}`);
+    setAttribute(this.#count, "aria-label", `Goal ${this.#at + 1} of ${total}, ${done} solved: all goals`);
+    setAttribute(this.#count, "aria-expanded", String(open));
+    this.#list.hidden = !open;
+    this.#known.forEach(({ id }, index) => {
+      const { row, mark } = this.#rows[index] ?? {};
+      if (!row || !mark) return;
+      setAttribute(row, "data-solved", this.#solved.has(id));
+      setAttribute(row, "aria-current", index === this.#at ? "true" : undefined);
+      setText(mark, this.#solved.has(id) ? "Solved: " : "");
+    });
   }
 }

@@ -44,8 +44,8 @@ export type Control = {
   value_text: string;
   /** False when it can do nothing now. */
   enabled: boolean;
-  /** False keeps it out of the page; it is then part of the permalink only. */
-  visible: boolean;
+  /** Always there, folded with what a reader seldom wants, or part of the permalink only. */
+  place: "first" | "more" | "hidden";
 } & (Slider | Toggle | Choice | Button);
 
 /** A draggable point. */
@@ -73,6 +73,8 @@ export interface Readout {
   unit: string;
   /** The value as shown, with its unit. */
   text: string;
+  /** Whether it carries the figure's point: then it is large and always there. The others fold. */
+  main: boolean;
 }
 
 /** A goal for the reader. */
@@ -80,6 +82,8 @@ export interface Challenge {
   id: string;
   goal: string;
   hint: string;
+  /** Why that reaches it, in one sentence. */
+  why: string;
   solved: boolean;
 }
 
@@ -111,6 +115,8 @@ export interface Space {
 
 /** Everything that a page shows, for one width of the picture. */
 export interface Snapshot {
+  /** The picture's: broad ones take the whole width, beside tall ones stands what the reader moves. */
+  aspect: "broad" | "tall";
   layout: { width: number; height: number; panels: Panel[] };
   controls: Control[];
   handles: Handle[];
@@ -130,6 +136,13 @@ export type FigureEvent =
   | { type: "press"; id: string }
   | { type: "handle-removed"; id: string }
   | { type: "reset" };
+
+/** What the proven solution of a challenge consists of. Places are in the world units of panels. */
+export type SolutionEvent =
+  | FigureEvent
+  | { type: "handle-moved"; id: string; x: number; y: number }
+  | { type: "clicked"; panel: string; x: number; y: number }
+  | { type: "tick"; dt_s: number };
 
 /** Where an arrow key points. */
 export type Direction = "left" | "right" | "up" | "down";

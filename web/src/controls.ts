@@ -1,9 +1,12 @@
 /** Native inputs for a figure's controls. */
 
 import type { Button, Choice, Control, FigureEvent, Slider, Toggle } from "./contract.js";
-import { make, setAttribute, setText } from "./dom.js";
+import { fold, make, setAttribute, setText } from "./dom.js";
 
 type Send = (event: FigureEvent) => void;
+
+/** Options with more letters than that take the room of two inputs. */
+const BROAD_OPTIONS = 18;
 
 /** One control on the page: its element, and how to bring it up to date. */
 interface Row {
@@ -11,33 +14,69 @@ interface Row {
   update: (control: Control) => void;
 }
 
-/** The controls of one figure, in the figure's order; inputs first, then the buttons in a row. */
+/**
+ * The controls of one figure, in the figure's order and in three places: buttons for under the
+ * picture, inputs that are always there, and what folds.
+ */
 export class Controls {
-  readonly element = make("div", { class: "controls" });
-  readonly #inputs = make("div", { class: "inputs" });
-  readonly #buttons = make("div", { class: "buttons", role: "group", "aria-label": "Actions" });
-  readonly #rows = new Map<string, Row>();
+  readonly inputs = make("div", { class: "inputs" });
+  readonly buttons = make("div", { class: "buttons", role: "group", "aria-label": "Actions" });
+  readonly more = fold("More settings", "more");
+  readonly #rest = make("div", { class: "inputs" });
+  #rows = new Map<string, Row>();
   readonly #send: Send;
 
   constructor(send: Send) {
     this.#send = send;
-    this.element.append(this.#buttons, this.#inputs);
+    this.more.append(this.#rest);
+    this.#hideEmpty();
   }
 
-  update(controls: Control[]): void {
+  /** Shows the controls; where `only` names some, no others, and none of them folded. */
+  update(controls: Control[], only: string[] | undefined): void {
     for (const control of controls) {
-      if (!control.visible) continue;
+      if (control.place === "hidden" || (only && !only.includes(control.id))) continue;
       let row = this.#rows.get(control.id);
       if (!row) {
         row = makeRow(control, this.#send);
+        row.element.dataset["control"] = control.id;
         this.#rows.set(control.id, row);
-        (control.kind === "button" ? this.#buttons : this.#inputs).append(row.element);
+        const folded = control.place === "more" && !only;
+        const first = control.kind === "button" ? this.buttons : this.inputs;
+        (folded ? this.#rest : first).append(row.element);
       }
       row.update(control);
     }
-    this.#buttons.hidden = !this.#buttons.hasChildNodes();
-    this.#inputs.hidden = !this.#inputs.hasChildNodes();
-    this.element.hidden = this.#buttons.hidden && this.#inputs.hidden;
+    this.#hideEmpty();
+  }
+
+  /** Shows the values that a stand-in shows, until the next update. */
+  borrow(tree: ParentNode): void {
+    for (const output of tree.querySelectorAll("output")) {
+      const shown = this.#rows.get(output.htmlFor.value.replace("control-", ""))?.element.querySelector("output");
+      if (shown) setText(shown, output.textContent ?? "");
+    }
+  }
+
+  /** Takes everything away; the next update starts anew. */
+  clear(): void {
+    for (const { element } of this.#rows.values()) {
+      // Chromium keeps what leaves a group of radio buttons, and with it everything around it.
+      for (const radio of element.querySelectorAll("input[type=radio]")) radio.removeAttribute("name");
+    }
+    this.#rows = new Map();
+    for (const group of [this.inputs, this.buttons, this.#rest]) group.replaceChildren();
+  }
+
+  /** What stands for a control on the page. */
+  elementOf(id: string): HTMLElement | undefined {
+    return this.#rows.get(id)?.element;
+  }
+
+  #hideEmpty(): void {
+    this.inputs.hidden = !this.inputs.hasChildNodes();
+    this.buttons.hidden = !this.buttons.hasChildNodes();
+    this.more.hidden = !this.#rest.hasChildNodes();
   }
 }
 
@@ -114,7 +153,9 @@ function toggleRow(control: Control & Toggle, send: Send): Row {
 }
 
 function radioRow(control: Control & Choice, send: Send): Row {
-  const element = make("fieldset", { class: "choice" }, make("legend", {}, control.label));
+  const letters = control.options.reduce((sum, [, label]) => sum + label.length, 0);
+  const length = letters > BROAD_OPTIONS ? "choice broad" : "choice";
+  const element = make("fieldset", { class: length }, make("legend", {}, control.label));
   const inputs = new Map<string, HTMLInputElement>();
   const options = make("div", { class: "options" });
   let shown = control;
@@ -150,14 +191,17 @@ function selectRow(control: Control & Choice, send: Send): Row {
   let shown = control;
   select.addEventListener("change", () => {
     if (shown.enabled) send({ type: "set", id: control.id, value: select.value });
-    else select.value = shown.value;
+    else choose(shown.value);
   });
+  const choose = (value: string) => {
+    for (const option of options) option.selected = option.value === value;
+  };
   return {
     element,
     update(now) {
       if (now.kind !== "choice") return;
       shown = now;
-      select.value = now.value;
+      choose(now.value);
       setEnabled(select, now);
     },
   };

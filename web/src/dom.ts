@@ -33,6 +33,16 @@ export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Something folded away under a few words. */
+export function fold(words: string, kind: string): HTMLDetailsElement {
+  return make("details", { class: `fold ${kind}` }, make("summary", {}, words));
+}
+
+/** A sentence with its first letter a capital. */
+export function capitalize(sentence: string): string {
+  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** A small line drawing, 20 by 20, made of paths. */

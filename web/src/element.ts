@@ -5,103 +5,113 @@
  */
 
 import { changedParameters, parametersOf, wholeState } from "./attributes.js";
+import { CHOOSING, choiceOf } from "./choice.js";
 import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
-import { make, setAttribute } from "./dom.js";
-import { Engine, loadModule } from "./module.js";
+import { capitalize, make, setAttribute } from "./dom.js";
+import { Engine, hurryModule, loadModule } from "./module.js";
+import { Motion } from "./motion.js";
 import { linkTo, parametersIn } from "./permalink.js";
 import { defineProperties } from "./properties.js";
+import { layoutWidth } from "./room.js";
 import { Session } from "./session.js";
+import { sheet } from "./sheet.js";
 import { Shell } from "./shell.js";
-import { askTheme, watchTheme } from "./theme.js";
+import { StandIn } from "./stand_in.js";
+import { askTheme, wantsStillness, watchDensity, watchTheme, type Theme } from "./theme.js";
 import { myTurn, pageIsCalm, watchVisibility } from "./visibility.js";
 
-export class EpipoleFigure extends HTMLElement {
-  static readonly observedAttributes = ["name", "theme"];
+/** How long a glide takes, milliseconds. */
+const GLIDE_MS = 600;
+/** The longest time that scrolling to a figure may take, milliseconds. */
+const SCROLL_MS = 700;
 
-  readonly #shell = new Shell(this, {
-    send: (event) => this.#session?.act((engine) => engine.update(event)),
-    hand: {
-      handleAt: (x, y) => this.#session?.ask((engine) => engine.handleAt(this.#width, x, y)),
-      drag: (id, x, y) => this.#session?.act((engine) => engine.drag(id, this.#width, x, y)),
-      nudge: (id, towards, steps) =>
-        this.#session?.act((engine) => engine.nudge(id, this.#width, towards, steps)),
-      moveToEnd: (id, towards) =>
-        this.#session?.act((engine) => engine.moveToEnd(id, this.#width, towards)),
-      remove: (id) => this.#session?.act((engine) => engine.update({ type: "handle-removed", id })),
-      click: (x, y) => {
-        this.#session?.act((engine) => engine.click(this.#width, x, y));
-        // A point that a click has made can be dragged on at once.
-        this.#session?.flush();
-      },
-      set: (id, value) => this.#session?.act((engine) => engine.update({ type: "set", id, value })),
+export class EpipoleFigure extends HTMLElement {
+  static readonly observedAttributes = ["name", "theme", ...CHOOSING];
+
+  readonly #shadow: ShadowRoot;
+  #shell: Shell;
+  /** What the page has brought along, until the figure is ready. */
+  #standIn: StandIn | undefined;
+  readonly #motion = new Motion({
+    look: () => this.#session?.ask((engine) => engine.snapshot(this.#width || layoutWidth(1))),
+    move: (work) => void this.#session?.move(work),
+    apply: (parameters) => this.#put(parameters),
+    busy: () => this.#snapshot?.waiting != null && this.#shell.jobs.busy,
+    freeze: (frozen) => this.#session?.freeze(frozen),
+    mark: (before, now) => {
+      this.#session?.flush();
+      this.#shell.markChanges(before, now);
     },
-    deeds: {
-      reset: () => this.reset(),
-      link: () => this.permalink,
-      save: () => void this.#save(),
-      fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
-    },
-    jobs: {
-      next: () => {
-        const job = this.#session?.ask((engine) => engine.job());
-        return job && { name: this.getAttribute("name") ?? "", ...job };
-      },
-      done: (key, result) => this.#endJob((engine) => engine.jobDone(key, result)),
-      failed: (key, sentence) => this.#endJob((engine) => engine.jobFailed(key, sentence)),
-    },
-    takePhoto: (slot, photo) => this.#session?.act((engine) => engine.takePhoto(slot, photo)),
+    point: (id) => this.#shell.markControl(id),
   });
   #session: Session | undefined;
   #snapshot: Snapshot | undefined;
   #state: Parameters = [];
+  #theme: Theme = "light";
   #ready = false;
+  /** The names of readouts that the page asks for have been compared with those that there are. */
+  #judged = false;
+  #awaited = gate();
   /** Somebody has done something; what comes by itself while the page loads is not announced. */
   #touched = false;
   #near = false;
   #inSight = false;
-  /** Width for the picture, CSS pixels. */
+  /** Room for the picture, and how much of it the picture takes, CSS pixels. */
   #room = 0;
+  #shown = 0;
   /** Somebody has pointed at the figure or gone into it. */
   #interested = false;
   #opening = 0;
+  /** The goal whose solution is being played. */
+  #playing: string | undefined;
+  #resized: ResizeObserver | undefined;
   #stop: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.#shell.role = this.closest("figure") ? "group" : "figure";
-    // What observers tell is remembered: to ask would make the browser lay the page out at once.
-    const resized = new ResizeObserver(([entry]) => {
-      this.#room = entry?.contentRect.width ?? 0;
-      this.#session?.resize(this.#room);
-    });
-    resized.observe(this.#shell.picture.element);
-    const attributes = new MutationObserver((records) => this.#onAttributes(records));
-    attributes.observe(this, { attributes: true });
-    const density = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
-    const recolor = () => this.#recolor();
-    const [before, after] = [() => this.#session?.prepareForPrint(), recolor];
-    density.addEventListener("change", recolor);
-    addEventListener("beforeprint", before);
-    addEventListener("afterprint", after);
+  constructor() {
+    super();
+    this.#shadow = this.shadowRoot ?? this.attachShadow({ mode: "open" });
+    this.#shadow.adoptedStyleSheets = [sheet()];
+    this.#shell = this.#makeShell();
+    this.#standIn = StandIn.in(this.#shadow);
+    if (this.#standIn) this.#standIn.lend(this.#shell);
+    else this.#shadow.append(this.#shell.root);
+    const touch = () => (this.#touched = true);
+    // Whoever takes hold of the figure ends what it does by itself.
+    const takeOver = (event: Event) => {
+      touch();
+      if (event.isTrusted && !isModifier(event)) this.#stopMotion();
+    };
+    for (const type of ["pointerdown", "keydown", "input"]) {
+      this.#shadow.addEventListener(type, takeOver, { capture: true });
+    }
+    // What is shown interest in is drawn with the next frame; it can be taken hold of at once.
     const interest = () => {
       this.#interested = true;
       this.#begin();
-      // At once, so that the very touch that shows interest already takes hold of something.
-      this.#session?.flush();
+      this.#session?.release();
     };
     for (const type of ["pointerenter", "touchstart", "focusin"]) {
       this.addEventListener(type, interest, { passive: true });
     }
+  }
+
+  connectedCallback(): void {
+    this.#shell.role = this.closest("figure") ? "group" : "figure";
+    // What observers tell is remembered: to ask would make the browser lay the page out at once.
+    this.#resized = new ResizeObserver((entries) => this.#onResize(entries));
+    this.#observeRoom();
+    const attributes = new MutationObserver((records) => this.#onAttributes(records));
+    attributes.observe(this, { attributes: true });
+    const recolor = () => this.#recolor();
+    const [before, after] = [() => this.#session?.prepareForPrint(), recolor];
+    addEventListener("beforeprint", before);
+    addEventListener("afterprint", after);
     this.#stop = [
-      () => {
-        for (const type of ["pointerenter", "touchstart", "focusin"]) {
-          this.removeEventListener(type, interest);
-        }
-      },
-      () => resized.disconnect(),
+      () => this.#resized?.disconnect(),
       () => attributes.disconnect(),
-      () => density.removeEventListener("change", recolor),
       () => removeEventListener("beforeprint", before),
       () => removeEventListener("afterprint", after),
+      watchDensity(recolor),
       watchTheme(recolor),
       watchVisibility(this, {
         near: (near) => {
@@ -114,9 +124,6 @@ export class EpipoleFigure extends HTMLElement {
         },
       }),
     ];
-    for (const type of ["pointerdown", "keydown", "input"]) {
-      this.addEventListener(type, () => (this.#touched = true), { once: true, capture: true });
-    }
     this.#recolor();
     if (this.#snapshot) this.#shell.jobs.follow(this.#snapshot.waiting);
     if (this.#isLinked()) void this.#open(true);
@@ -125,14 +132,16 @@ export class EpipoleFigure extends HTMLElement {
   disconnectedCallback(): void {
     for (const stop of this.#stop) stop();
     this.#stop = [];
+    this.#stopMotion();
     this.#shell.speaker.silence();
     this.#session?.setInSight(false);
     this.#shell.jobs.end();
   }
 
-  attributeChangedCallback(name: string, before: string | null): void {
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
     if (name === "theme") this.#recolor();
-    if (name === "name" && before !== null && (this.#session || this.#near)) void this.#open(false);
+    else if (name !== "name") this.#choose();
+    else if (before !== null && before !== now) this.#rename();
   }
 
   /** Parameters that differ from the figure's defaults, by name. Setting puts them on top. */
@@ -147,6 +156,15 @@ export class EpipoleFigure extends HTMLElement {
   /** The readouts by name. */
   get readouts(): Record<string, number | string> {
     return Object.fromEntries(this.#snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
+  }
+
+  /**
+   * A readout as the figure shows it, with its unit. Undefined before it is known, as in a figure that
+   * still computes what its page has brought along.
+   */
+  readoutText(id: string): string | undefined {
+    if (!this.#shell.settled) return undefined;
+    return this.#snapshot?.readouts.find((readout) => readout.id === id)?.text;
   }
 
   /** What the figure shows now, in words. */
@@ -168,26 +186,52 @@ export class EpipoleFigure extends HTMLElement {
     return control && "value" in control ? control.value : undefined;
   }
 
+  /** A control's value as the figure shows it, with its unit. */
+  controlText(id: string): string | undefined {
+    return this.#snapshot?.controls.find((control) => control.id === id)?.value_text;
+  }
+
+  /** Resolves once the figure can be operated and asked. */
+  whenReady(): Promise<void> {
+    return this.#awaited.passed;
+  }
+
   /** Takes parameters, as attributes do. */
   apply(parameters: Record<string, string | number | boolean>): void {
-    const pairs: Parameters = Object.entries(parameters).map(([key, value]) => [key, String(value)]);
-    let problems: Refused[] = [];
     this.#touched = true;
-    this.#session?.act((engine) => {
-      problems = engine.apply(pairs);
-      return undefined;
-    });
+    this.#stopMotion();
+    this.#warn(this.#put(textOf(parameters)));
+  }
+
+  /**
+   * Moves sliders and points to parameters so that it can be watched, after bringing the figure into
+   * view where that is needed. Choices and toggles change at once, and everything does for a reader
+   * who wants no motion. Opens the figure if that has not been done. A second glide takes the first
+   * one's goal over; a reader who takes hold of the figure ends it.
+   */
+  async glide(
+    parameters: Record<string, string | number | boolean>,
+    { duration = GLIDE_MS }: { duration?: number } = {},
+  ): Promise<void> {
+    this.#touched = true;
+    this.#endPlay();
+    this.#interested = true;
+    this.#near = true;
+    this.#begin();
+    const problems = await this.#motion.glide(textOf(parameters), duration, this.#ready ? this.#comeIntoView() : this.#wake());
     this.#warn(problems);
   }
 
   /** Presses a button of the figure. */
   press(id: string): void {
     this.#touched = true;
+    this.#stopMotion();
     this.#session?.act((engine) => engine.update({ type: "press", id }));
   }
 
   /** Back to the state that the page's author has set. */
   reset(): void {
+    this.#stopMotion();
     this.#shell.speaker.warn([]);
     if (!this.#session) {
       void this.#open(false);
@@ -199,6 +243,8 @@ export class EpipoleFigure extends HTMLElement {
       problems = engine.apply(parametersOf(this));
       return refused;
     });
+    this.#shell.photos.forget();
+    this.#shell.jobs.goOn();
     this.#warn(problems);
     this.#shell.speaker.say("Reset.");
   }
@@ -212,9 +258,109 @@ export class EpipoleFigure extends HTMLElement {
     return this.#session?.width ?? 0;
   }
 
+  /** A new tree. What the tree of another figure still does or finds out is nobody's business. */
+  #makeShell(): Shell {
+    const mine = () => (this.#shell === shell ? this.#session : undefined);
+    const endJob = (work: (engine: Engine) => boolean) => mine()?.learn((engine) => void work(engine));
+    const shell: Shell = new Shell(
+      {
+        send: (event) => mine()?.act((engine) => engine.update(event)),
+        hand: {
+          handleAt: (x, y) => mine()?.ask((engine) => engine.handleAt(this.#width, x, y)),
+          drag: (id, x, y) => mine()?.act((engine) => engine.drag(id, this.#width, x, y)),
+          nudge: (id, towards, steps) =>
+            mine()?.act((engine) => engine.nudge(id, this.#width, towards, steps)),
+          moveToEnd: (id, towards) => mine()?.act((engine) => engine.moveToEnd(id, this.#width, towards)),
+          remove: (id) => mine()?.act((engine) => engine.update({ type: "handle-removed", id })),
+          click: (x, y) => {
+            mine()?.act((engine) => engine.click(this.#width, x, y));
+            // A point that a click has made can be dragged on at once.
+            mine()?.flush();
+          },
+          set: (id, value) => mine()?.act((engine) => engine.update({ type: "set", id, value })),
+        },
+        deeds: {
+          reset: () => this.reset(),
+          link: () => this.permalink,
+          save: () => void this.#save(),
+          fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
+        },
+        jobs: {
+          next: () => {
+            const job = mine()?.ask((engine) => engine.job());
+            return job && { name: this.getAttribute("name") ?? "", ...job };
+          },
+          done: (key, result) => endJob((engine) => engine.jobDone(key, result)),
+          failed: (key, sentence) => endJob((engine) => engine.jobFailed(key, sentence)),
+        },
+        takePhoto: (slot, photo) => mine()?.move((engine) => engine.takePhoto(slot, photo)),
+        showHow: (challenge) => void this.#showHow(challenge),
+      },
+      choiceOf((name) => this.getAttribute(name)),
+    );
+    return shell;
+  }
+
+  /** Another figure: everything that belongs to the old one goes. */
+  #rename(): void {
+    const wanted = this.#session !== undefined || this.#near || this.#opening > 0;
+    this.#opening += 1;
+    this.#stopMotion();
+    this.#shell.end();
+    this.#session?.end();
+    this.#session = undefined;
+    this.#snapshot = undefined;
+    this.#state = [];
+    if (this.#ready) this.#awaited = gate();
+    this.#ready = false;
+    setAttribute(this, "data-ready", false);
+    this.#standIn = undefined;
+    this.#shell = this.#makeShell();
+    this.#shell.role = this.closest("figure") ? "group" : "figure";
+    this.#shell.theme = this.#theme;
+    this.#shadow.replaceChildren(this.#shell.root);
+    this.#observeRoom();
+    if (wanted && this.isConnected) void this.#open(false);
+  }
+
+  /** Other controls, readouts and goals are to be shown. */
+  #choose(): void {
+    this.#shell.choose(choiceOf((name) => this.getAttribute(name)));
+    if (!this.#session || !this.#snapshot) return;
+    this.#shell.update(this.#snapshot);
+    this.#shell.speaker.warn([]);
+    this.#complain(this.#shell.misnamed(this.#snapshot));
+  }
+
+  #observeRoom(): void {
+    this.#resized?.disconnect();
+    const standing = this.#standIn?.picture;
+    if (standing) this.#resized?.observe(standing);
+    else {
+      this.#resized?.observe(this.#shell.picture.element);
+      const { sheet } = this.#shell.picture;
+      try {
+        // Tells of another density as well.
+        this.#resized?.observe(sheet, { box: "device-pixel-content-box" });
+      } catch {
+        this.#resized?.observe(sheet);
+      }
+    }
+  }
+
+  #onResize(entries: ResizeObserverEntry[]): void {
+    for (const { target, contentRect } of entries) {
+      if (target === this.#shell.picture.sheet) this.#shown = contentRect.width;
+      else this.#room = contentRect.width;
+    }
+    this.#session?.resize(this.#room, this.#shown);
+  }
+
   #recolor(): void {
     askTheme(this, (theme) => {
+      this.#theme = theme;
       this.#shell.theme = theme;
+      if (this.#standIn) this.#standIn.theme = theme;
       this.#session?.recolor(theme);
     });
   }
@@ -231,10 +377,14 @@ export class EpipoleFigure extends HTMLElement {
 
   async #open(withAddress: boolean): Promise<void> {
     const attempt = ++this.#opening;
+    setAttribute(this, "data-failed", false);
     const name = this.getAttribute("name") ?? "";
     let memory: WebAssembly.Memory;
     try {
-      ({ memory } = await loadModule());
+      ({ memory } = await loadModule(() => {
+        if (attempt !== this.#opening) return;
+        this.#say("The interactive part of this figure is slow to come.", hurryModule);
+      }));
     } catch {
       if (attempt === this.#opening) {
         this.#fail("The interactive part of this figure could not be loaded.", true);
@@ -255,7 +405,6 @@ export class EpipoleFigure extends HTMLElement {
       return;
     }
     this.#ready = false;
-    setAttribute(this, "data-failed", false);
     const problems = engine.apply(parametersOf(this));
     const { own, loose } = parametersIn(withAddress ? location.search : "", this);
     problems.push(...engine.apply(own));
@@ -264,9 +413,11 @@ export class EpipoleFigure extends HTMLElement {
     problems.push(...others.filter(({ unknown }) => !unknown));
     const linked = own.length + loose.length > others.filter(({ unknown }) => unknown).length;
 
-    const upgraded = defineProperties(this, engine.snapshot(760).controls);
+    const first = engine.snapshot(layoutWidth(this.#room));
+    const upgraded = defineProperties(this, first.controls);
     problems.push(...engine.apply(upgraded));
     this.#shell.introduce(engine.title, engine.help);
+    if (first.waiting !== null && !this.#touched) this.#standIn?.lendNumbers(this.#shell);
     this.#session = new Session(engine, this.#shell.picture.canvas, {
       drawn: (snapshot, painted) => this.#drawn(snapshot, painted, linked),
       refused: (sentence) => this.#shell.speaker.warn([`${capitalize(sentence)}.`], true),
@@ -280,10 +431,11 @@ export class EpipoleFigure extends HTMLElement {
     // The poster is this very picture; photographs are rendered once somebody takes an interest.
     const isShown = withAddress && !linked && problems.length === 0 && this.querySelector("img");
     if (isShown && !this.#interested) this.#session.hold();
-    this.#session.recolor(this.#shell.theme);
+    this.#session.recolor(this.#theme);
     this.#shell.speaker.warn([]);
-    this.#warn(problems);
-    this.#session.resize(this.#room);
+    this.#complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
+    this.#judged = first.waiting === null;
+    this.#session.resize(this.#room, this.#shown);
     this.#session.setInSight(this.#inSight);
   }
 
@@ -292,22 +444,28 @@ export class EpipoleFigure extends HTMLElement {
     if (snapshot) {
       const before = this.#snapshot;
       this.#snapshot = snapshot;
-      const solved = this.#shell.update(snapshot);
+      const solved = this.#shell.update(snapshot, this.#touched);
+      if (!this.#judged && snapshot.waiting === null) {
+        this.#judged = true;
+        this.#complain(this.#shell.misnamed(snapshot));
+      }
       if (this.#ready) this.#tell(before, snapshot, solved);
     }
     if (!this.#ready) this.#becomeReady(linked);
   }
 
-  #endJob(work: (engine: Engine) => boolean): void {
-    this.#session?.learn((engine) => void work(engine));
-  }
-
   #becomeReady(linked: boolean): void {
     this.#ready = true;
     this.#shell.reveal();
+    if (this.#standIn) {
+      this.#standIn.yield(this.#shell);
+      this.#standIn = undefined;
+      this.#observeRoom();
+    }
     this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
     setAttribute(this, "data-ready", true);
     if (linked && !location.hash) this.scrollIntoView({ block: "start" });
+    this.#awaited.pass();
     this.#emit("epipole-ready", {
       name: this.getAttribute("name"),
       state: this.state,
@@ -335,21 +493,93 @@ export class EpipoleFigure extends HTMLElement {
     this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
   }
 
+  /** Puts parameters on top of the state; those that could not be used come back. */
+  #put(parameters: Parameters): Refused[] {
+    let problems: Refused[] = [];
+    this.#session?.act((engine) => {
+      problems = engine.apply(parameters);
+      return undefined;
+    });
+    return problems;
+  }
+
+  /** Waits for the figure to be there, whether anybody sees it or not; not for one that never comes. */
+  async #wake(): Promise<void> {
+    while (!this.#session && !this.hasAttribute("data-failed")) {
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    // In a hidden page no frame would come, and without room none is drawn.
+    this.#session?.flush();
+    await this.#comeIntoView();
+  }
+
+  /** Scrolls so that the picture is seen, if it is not; the focus stays where it is. */
+  async #comeIntoView(): Promise<void> {
+    const { element } = this.#shell.picture;
+    const box = element.getBoundingClientRect();
+    const top = parseFloat(getComputedStyle(element).scrollMarginTop) || 0;
+    if (document.hidden || box.height === 0 || (box.top >= top && box.bottom <= innerHeight)) return;
+    const still = wantsStillness();
+    element.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
+    if (still) return;
+    await new Promise<void>((resolve) => {
+      const timer = setTimeout(resolve, SCROLL_MS);
+      const done = () => {
+        clearTimeout(timer);
+        resolve();
+      };
+      addEventListener("scrollend", done, { once: true, capture: true });
+    });
+  }
+
+  /** Plays the solution of a goal from the default state, or ends that. */
+  async #showHow(challenge: string): Promise<void> {
+    const again = this.#playing !== challenge;
+    this.#stopMotion();
+    const events = this.#session?.ask((engine) => engine.solution(challenge));
+    if (!again || !events || events.length === 0) return;
+    this.#playing = this.#shell.playing = challenge;
+    this.#session?.act((engine) => engine.update({ type: "reset" }));
+    this.#shell.jobs.goOn();
+    await this.#motion.play(events);
+    if (this.#playing === challenge) this.#endPlay();
+  }
+
+  #endPlay(): void {
+    if (this.#playing === undefined) return;
+    this.#playing = this.#shell.playing = undefined;
+    this.#motion.stop();
+  }
+
+  #stopMotion(): void {
+    this.#endPlay();
+    this.#motion.stop();
+  }
+
   /** A sentence where the figure should be; the poster stays, and Reset tries again. */
   #fail(sentence: string, again: boolean): void {
     this.#opening = 0;
     setAttribute(this, "data-failed", true);
+    this.#say(sentence, again ? () => this.reset() : undefined);
+  }
+
+  /** A sentence, and a way on. */
+  #say(sentence: string, again: (() => void) | undefined): void {
     this.#shell.speaker.warn([sentence]);
-    if (again) {
-      const retry = make("button", { type: "button" }, "Try again");
-      retry.addEventListener("click", () => this.reset());
-      this.#shell.speaker.notice.append(retry);
-    }
+    if (!again) return;
+    const retry = make("button", { type: "button" }, "Try again");
+    retry.addEventListener("click", again);
+    this.#shell.speaker.notice.append(retry);
   }
 
   #warn(problems: Refused[]): void {
-    if (problems.length === 0) return;
-    const sentences = problems.map(({ message }) => capitalize(message));
+    this.#complain(problems.map(({ message }) => message));
+  }
+
+  /** Shows sentences in the figure and on the console. */
+  #complain(messages: string[]): void {
+    if (messages.length === 0) return;
+    const sentences = messages.map((message) => capitalize(message));
     for (const sentence of sentences) console.warn(`epipole-figure: ${sentence}`);
     this.#shell.speaker.warn(sentences.map((sentence) => `${sentence}.`));
   }
@@ -383,6 +613,17 @@ export class EpipoleFigure extends HTMLElement {
   }
 }
 
-function capitalize(sentence: string): string {
-  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+function textOf(parameters: Record<string, string | number | boolean>): Parameters {
+  return Object.entries(parameters).map(([key, value]) => [key, String(value)]);
+}
+
+/** Keys that do nothing by themselves, and the one that only goes on. */
+function isModifier(event: Event): boolean {
+  return event instanceof KeyboardEvent && /^(Shift|Control|Alt|Meta|Tab)$/.test(event.key);
+}
+
+function gate(): { passed: Promise<void>; pass: () => void } {
+  let pass = () => {};
+  const passed = new Promise<void>((resolve) => (pass = resolve));
+  return { passed, pass };
 }

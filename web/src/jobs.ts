@@ -16,15 +16,27 @@ export type Answer = { key: string } & (
   | { problem: string }
 );
 
+/** A computation that a figure waits for; its bytes are many, so they are made when they are needed. */
+export interface Wanted {
+  name: string;
+  key: string;
+  request: () => Uint8Array;
+}
+
+/** Why there is no result, where neither worker nor module came. */
+export const NOT_LOADED = "the code for this computation could not be loaded; Reset tries again";
+
 export interface JobHooks {
   /** The computation that the figure waits for, as it stands. */
-  next: () => Request | undefined;
+  next: () => Wanted | undefined;
   done: (key: string, result: Uint8Array) => void;
   failed: (key: string, sentence: string) => void;
 }
 
 /** A computation that nobody wants any more may go on for so long; then its worker is ended. */
 const PATIENCE_MS = 400;
+/** Nobody has answered for so long: what computes has not even arrived. */
+const SILENCE_MS = 15_000;
 /** Quick computations come and go without a word. */
 const QUIET_MS = 200;
 
@@ -38,13 +50,19 @@ export class Jobs {
   #worker: Worker | undefined;
   #running: { key: string; since: number } | undefined;
   #stopped: string | undefined;
+  /** Whatever computes is slow to come. */
+  #late = false;
   #words = "";
   #timer: ReturnType<typeof setTimeout> | undefined;
+  #silence: ReturnType<typeof setTimeout> | undefined;
 
   constructor(hooks: JobHooks) {
     this.#hooks = hooks;
     this.element.append(this.#label, this.#bar, this.#button);
-    this.#button.addEventListener("click", () => (this.#stopped ? this.#goOn() : this.#stop()));
+    this.#button.addEventListener("click", () => {
+      if (this.#stopped === undefined && !this.#late) this.#stop();
+      else this.goOn();
+    });
   }
 
   /** Looks what the figure waits for; `words` say it, and are absent if it waits for nothing. */
@@ -69,63 +87,98 @@ export class Jobs {
 
   /** Ends everything. */
   end(): void {
-    this.#worker?.terminate();
-    this.#worker = undefined;
-    this.#running = undefined;
+    this.#dismiss();
     this.#stopped = undefined;
     this.#show(false);
   }
 
-  /** The running computation is not the one that is wanted: it may end by itself, if it hurries. */
-  #overtaken(): void {
-    if (this.#running && performance.now() - this.#running.since > PATIENCE_MS) {
-      this.#worker?.terminate();
-      this.#worker = undefined;
-      this.#running = undefined;
-    }
+  /** Computes again what the reader has stopped, or what never came. */
+  goOn(): void {
+    if (this.#stopped === undefined && !this.#late) return;
+    this.end();
+    this.follow(this.#words);
   }
 
-  #start(request: Request): void {
-    this.#running = { key: request.key, since: performance.now() };
+  #dismiss(): void {
+    if (this.#worker) {
+      // A browser may keep a worker that was ended while it loaded; it must not keep the figure.
+      this.#worker.onmessage = this.#worker.onerror = null;
+      this.#worker.terminate();
+    }
+    this.#worker = undefined;
+    this.#running = undefined;
+    this.#late = false;
+    clearTimeout(this.#silence);
+  }
+
+  /** The running computation is not the one that is wanted: it may end by itself, if it hurries. */
+  #overtaken(): void {
+    if (this.#running && performance.now() - this.#running.since > PATIENCE_MS) this.#dismiss();
+  }
+
+  #start(wanted: Wanted): void {
+    this.#running = { key: wanted.key, since: performance.now() };
     this.#bar.removeAttribute("value");
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#show(this.#running !== undefined), QUIET_MS);
+    this.#listen();
     try {
       this.#worker ??= this.#hire();
-      this.#worker.postMessage(request);
     } catch {
-      this.#here(request);
+      this.#here(wanted);
+      return;
     }
+    const { name, key } = wanted;
+    this.#worker.postMessage({ name, key, request: wanted.request() } satisfies Request);
+  }
+
+  /** Says so if nobody answers. */
+  #listen(): void {
+    clearTimeout(this.#silence);
+    this.#silence = setTimeout(() => {
+      this.#late = this.#running !== undefined;
+      this.#show(this.#late);
+    }, SILENCE_MS);
   }
 
   #hire(): Worker {
     const worker = hire();
-    worker.addEventListener("message", ({ data }: MessageEvent<Answer>) => this.#hear(data));
-    worker.addEventListener("error", (event) => {
+    worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#hear(data);
+    worker.onerror = (event) => {
       // The page does not allow workers: then here, and the page waits.
       event.preventDefault();
-      const request = this.#running && this.#hooks.next();
+      const wanted = this.#running && this.#hooks.next();
       this.#running = this.#worker = undefined;
-      if (request) this.#here(request);
-    });
+      if (wanted) this.#here(wanted);
+    };
     return worker;
   }
 
-  #here(request: Request): void {
-    this.#running = { key: request.key, since: performance.now() };
+  #here(wanted: Wanted): void {
+    const { name, key } = wanted;
+    this.#running = { key, since: performance.now() };
     this.#show(true);
-    const { key } = request;
+    this.#listen();
     setTimeout(() => {
       const script: Promise<typeof import("./worker.js")> = import(workerUrl().href);
       script.then(
-        ({ carryOut }) => carryOut(request, (answer) => this.#hear(answer)),
-        (problem: unknown) => this.#hear({ key, problem: String(problem) }),
+        ({ carryOut }) => {
+          // It may have been stopped while the script came.
+          if (this.#running?.key !== key) return;
+          void carryOut({ name, key, request: wanted.request() }, (answer) => this.#hear(answer));
+        },
+        () => this.#hear({ key, problem: NOT_LOADED }),
       );
     }, 50);
   }
 
   #hear(answer: Answer): void {
     if (answer.key !== this.#running?.key) return;
+    clearTimeout(this.#silence);
+    if (this.#late) {
+      this.#late = false;
+      this.#show(true);
+    }
     if ("share" in answer) {
       this.#bar.value = answer.share;
       if (performance.now() - this.#running.since > PATIENCE_MS) this.#checkWanted();
@@ -146,23 +199,21 @@ export class Jobs {
   }
 
   #stop(): void {
+    clearTimeout(this.#timer);
     const key = this.#running?.key;
     this.end();
     this.#stopped = key;
     this.#show(true);
   }
 
-  #goOn(): void {
-    this.#stopped = undefined;
-    this.follow(this.#words);
-  }
-
   #show(shown: boolean): void {
     if (!shown) clearTimeout(this.#timer);
     this.element.hidden = !shown;
-    setText(this.#label, this.#stopped ? `${this.#words}: stopped` : `${this.#words} …`);
-    setText(this.#button, this.#stopped ? "Go on" : "Stop");
-    this.#bar.hidden = this.#stopped !== undefined;
+    const stopped = this.#stopped !== undefined;
+    const state = stopped ? ": stopped" : this.#late ? ": the code for it is slow to come" : " …";
+    setText(this.#label, this.#words + state);
+    setText(this.#button, stopped ? "Go on" : this.#late ? "Try again" : "Stop");
+    this.#bar.hidden = stopped || this.#late;
   }
 }
 

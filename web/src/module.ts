@@ -3,22 +3,76 @@
 import load, { Figure, figures, take_panic } from "epipole-web";
 import type {
   Direction,
-  FigureEvent,
   Parameters,
   Refused,
   Snapshot,
+  SolutionEvent,
 } from "./contract.js";
 import type { Photo } from "./photos.js";
 
-let loading: Promise<{ memory: WebAssembly.Memory }> | undefined;
+type Loaded = { memory: WebAssembly.Memory };
 
-/** Loads the module, or waits for it. A failed load may be tried again. */
-export function loadModule(): Promise<{ memory: WebAssembly.Memory }> {
-  loading ??= load({ module_or_path: new URL(EPIPOLE_WASM, import.meta.url) }).catch((error: unknown) => {
-    loading = undefined;
-    throw error;
-  });
-  return loading;
+/** A request that takes longer is slow enough to say so, milliseconds. */
+const SLOW_MS = 15_000;
+
+/** Loads the module, once for all figures of the page; of several attempts the last one counts. */
+const loader = {
+  loading: undefined as Promise<Loaded> | undefined,
+  attempt: 0,
+  /** Settled once the newest attempt has ended, one way or the other. */
+  ended: Promise.resolve(),
+  abort: new AbortController(),
+  settle: undefined as { done: (loaded: Loaded) => void; failed: (why: unknown) => void } | undefined,
+  slow: new Set<() => void>(),
+
+  start(): Promise<Loaded> {
+    this.loading ??= new Promise((done, failed) => {
+      this.settle = { done, failed };
+      void this.try();
+    });
+    return this.loading;
+  },
+
+  async try(): Promise<void> {
+    const attempt = ++this.attempt;
+    this.abort.abort();
+    // The generated script joins an attempt to one that is under way.
+    await this.ended;
+    if (attempt !== this.attempt) return;
+    this.abort = new AbortController();
+    const late = setTimeout(() => {
+      for (const tell of this.slow) tell();
+    }, SLOW_MS);
+    const answer = fetch(new URL(EPIPOLE_WASM, import.meta.url), { signal: this.abort.signal });
+    this.ended = load({ module_or_path: answer })
+      .then(
+        (loaded) => this.settle?.done(loaded),
+        (problem: unknown) => {
+          if (attempt !== this.attempt) return;
+          this.loading = undefined;
+          this.settle?.failed(problem);
+        },
+      )
+      .finally(() => clearTimeout(late));
+  },
+};
+
+/**
+ * Loads the module, or waits for it; `slow` is called if that takes long. A failed load may be tried
+ * again by another call, a slow one by `hurryModule`.
+ */
+export async function loadModule(slow: () => void = () => {}): Promise<Loaded> {
+  loader.slow.add(slow);
+  try {
+    return await loader.start();
+  } finally {
+    loader.slow.delete(slow);
+  }
+}
+
+/** Asks for the module anew, in place of a request that does not end. */
+export function hurryModule(): void {
+  if (loader.loading) void loader.try();
 }
 
 /** Every figure of the module with its title and what a reader can do with it. */
@@ -67,7 +121,7 @@ export class Engine {
     return JSON.parse(this.#figure.snapshot(width));
   }
 
-  update(event: FigureEvent): string | undefined {
+  update(event: SolutionEvent): string | undefined {
     const figure = this.#figure;
     switch (event.type) {
       case "set":
@@ -78,9 +132,20 @@ export class Engine {
         return figure.press(event.id);
       case "handle-removed":
         return figure.remove(event.id);
+      case "handle-moved":
+        return figure.place(event.id, event.x, event.y);
+      case "clicked":
+        return figure.click_in(event.panel, event.x, event.y);
+      case "tick":
+        return figure.tick(event.dt_s);
       case "reset":
         return figure.reset();
     }
+  }
+
+  /** The events that reach a goal from the default state. */
+  solution(challenge: string): SolutionEvent[] {
+    return JSON.parse(this.#figure.solution(challenge));
   }
 
   tick(seconds: number): string | undefined {
@@ -114,9 +179,9 @@ export class Engine {
   }
 
   /** The long computation that the figure waits for. */
-  job(): { key: string; request: Uint8Array } | undefined {
+  job(): { key: string; request: () => Uint8Array } | undefined {
     const key = this.#figure.job_key();
-    return key === undefined ? undefined : { key, request: this.#figure.job_request() };
+    return key === undefined ? undefined : { key, request: () => this.#figure.job_request() };
   }
 
   jobDone(key: string, result: Uint8Array): boolean {
@@ -125,6 +190,15 @@ export class Engine {
 
   jobFailed(key: string, sentence: string): boolean {
     return this.#figure.job_failed(key, sentence);
+  }
+
+  /** Gives the figure's memory back; nothing may be asked of it any more. */
+  free(): void {
+    try {
+      this.#figure.free();
+    } catch {
+      // A figure that has panicked still counts as busy.
+    }
   }
 
   refine(): boolean {

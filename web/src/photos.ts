@@ -4,7 +4,7 @@
  */
 
 import type { PhotoSlot } from "./contract.js";
-import { make } from "./dom.js";
+import { capitalize, make } from "./dom.js";
 import { focalOf, HEAD_BYTES } from "./exif.js";
 
 export interface Photo {
@@ -15,24 +15,43 @@ export interface Photo {
   focal?: number | undefined;
 }
 
-export class Photos {
-  readonly element = make("div", { class: "photos", hidden: true });
-  readonly #take: (slot: string, photo: Photo) => void;
-  readonly #warn: (sentence: string) => void;
-  #slots = "";
-  /** Each slot with the note beside it. */
-  #rows: { slot: PhotoSlot; row: HTMLElement; note: HTMLElement }[] = [];
+/** What becomes of photographs. */
+export interface PhotoHooks {
+  /** Hands one to the figure; a sentence if it is refused. */
+  take: (slot: string, photo: Photo) => string | undefined;
+  warn: (sentence: string) => void;
+  /** There is something to be seen beside the inputs. */
+  noted: () => void;
+}
 
-  constructor(take: (slot: string, photo: Photo) => void, warn: (sentence: string) => void) {
-    this.#take = take;
-    this.#warn = warn;
+interface Row {
+  slot: PhotoSlot;
+  row: HTMLElement;
+  note: HTMLElement;
+  /** How many photographs have been chosen: only the last one counts. */
+  chosen: number;
+}
+
+const INVITATION = "Or drop one here. Stays on your device.";
+
+export class Photos {
+  readonly element = make("div", { id: "photos", class: "photos", hidden: true });
+  readonly #hooks: PhotoHooks;
+  #slots = "";
+  #rows: Row[] = [];
+
+  constructor(hooks: PhotoHooks) {
+    this.#hooks = hooks;
+  }
+
+  get offered(): boolean {
+    return this.#rows.length > 0;
   }
 
   update(slots: PhotoSlot[]): void {
     const ids = slots.map(({ id }) => id).join(" ");
     if (ids === this.#slots) return;
     this.#slots = ids;
-    this.element.hidden = slots.length === 0;
     this.#rows = slots.map((slot) => this.#row(slot));
     this.element.replaceChildren(...this.#rows.map(({ row }) => row));
   }
@@ -50,59 +69,79 @@ export class Photos {
       if (!file || !first) return;
       event.preventDefault();
       const path = event.composedPath();
-      const { slot, note } = this.#rows.find(({ row }) => path.includes(row)) ?? first;
-      void this.#read(slot, file, note);
+      void this.#read(this.#rows.find(({ row }) => path.includes(row)) ?? first, file);
     });
   }
 
-  #row(slot: PhotoSlot): { slot: PhotoSlot; row: HTMLElement; note: HTMLElement } {
-    const note = make("span", { class: "note" }, "Or drop one here. Stays on your device.");
+  /** The figure has none of them any more, and wants none that is still being read. */
+  forget(): void {
+    for (const row of this.#rows) {
+      row.chosen += 1;
+      row.note.textContent = INVITATION;
+    }
+  }
+
+  #row(slot: PhotoSlot): Row {
+    const row: Row = { slot, row: make("div", { class: "photo" }), note: make("span", { class: "note" }, INVITATION), chosen: 0 };
     const inputs = ["photo", "camera"].map((kind) => {
       const capture = kind === "camera" ? "environment" : undefined;
       const id = `${kind}-${slot.id}`;
       const input = make("input", { id, type: "file", accept: "image/*", capture });
       input.addEventListener("change", () => {
         const file = input.files?.[0];
-        if (file) void this.#read(slot, file, note);
+        if (file) void this.#read(row, file);
         // The same photograph may be chosen again.
         input.value = "";
       });
       const label = make("label", { for: id }, kind === "camera" ? "Take one now" : slot.label);
       return make("div", { class: kind === "camera" ? kind : "file" }, label, input);
     });
-    return { slot, row: make("div", { class: "photo" }, ...inputs, note), note };
+    row.row.append(...inputs, row.note);
+    return row;
   }
 
-  async #read(slot: PhotoSlot, file: File, note: HTMLElement): Promise<void> {
+  async #read(row: Row, file: File): Promise<void> {
+    const { slot, note } = row;
+    const turn = ++row.chosen;
     let bitmap: ImageBitmap;
     try {
       bitmap = await createImageBitmap(file, { imageOrientation: "from-image" });
     } catch {
-      this.#warn(`${file.name} is not a photograph that this browser can read.`);
+      if (turn === row.chosen) {
+        this.#hooks.warn(`${file.name} is not a photograph that this browser can read.`);
+      }
       return;
     }
-    const [photo, words] = shrink(bitmap, slot.max_side_px);
     const head = await file.slice(0, HEAD_BYTES).arrayBuffer();
-    if (photo) photo.focal = focalOf(head, bitmap.width, bitmap.height);
+    // A large photograph takes longer than a small one that was chosen after it.
+    const photo = turn === row.chosen ? shrink(bitmap, slot.max_side_px) : undefined;
+    const { width, height } = bitmap;
     bitmap.close();
+    if (!photo) return;
+    photo.focal = focalOf(head, width, height);
+    const [whole, now] = [`${width} × ${height}`, `${photo.width} × ${photo.height}`];
+    const refused = this.#hooks.take(slot.id, photo);
+    if (refused !== undefined) {
+      // The reader knows the photograph by its own size.
+      this.#hooks.warn(`${capitalize(refused.replace(now, whole))}.`);
+      return;
+    }
+    const words = whole === now ? `${now} pixels.` : `Made smaller, from ${whole} to ${now} pixels.`;
     note.textContent = `${words} Stays on your device.`;
-    if (photo) this.#take(slot.id, photo);
+    this.#hooks.noted();
   }
 }
 
-/** The pixels of a photograph, no side longer than `most`, and what was done to it. */
-function shrink(bitmap: ImageBitmap, most: number): [Photo | undefined, string] {
+/** The pixels of a photograph, no side longer than `most`. */
+function shrink(bitmap: ImageBitmap, most: number): Photo | undefined {
   const scale = Math.min(1, most / Math.max(bitmap.width, bitmap.height));
   const width = Math.max(1, Math.round(bitmap.width * scale));
   const height = Math.max(1, Math.round(bitmap.height * scale));
   const canvas = make("canvas", { width, height });
   const context = canvas.getContext("2d", { willReadFrequently: true });
-  if (!context) return [undefined, ""];
+  if (!context) return undefined;
   context.imageSmoothingQuality = "high";
   context.drawImage(bitmap, 0, 0, width, height);
   const { data } = context.getImageData(0, 0, width, height);
-  const now = `${width} × ${height} pixels`;
-  const words =
-    scale < 1 ? `Made smaller, from ${bitmap.width} × ${bitmap.height} to ${now}.` : `${now}.`;
-  return [{ width, height, rgba: new Uint8Array(data.buffer) }, words];
+  return { width, height, rgba: new Uint8Array(data.buffer) };
 }

@@ -39,7 +39,12 @@ const ARROWS: Record<string, Direction> = {
 export type Place = [x: number, y: number];
 
 export class Picture {
+  /** The room that there is for the picture. */
   readonly element = make("div", { class: "picture" });
+  /** The picture itself, which is narrower where the room is low. */
+  readonly sheet = make("div", { class: "sheet" });
+  /** What lies over its lower edge for a while. */
+  readonly overlay = make("div", { class: "overlay" });
   readonly canvas = make("canvas", { role: "img", hidden: true });
   readonly #hand: Hand;
   readonly #marks = make("div", { class: "marks" });
@@ -61,7 +66,7 @@ export class Picture {
   #pressing: { pointer: number; place: Place } | undefined;
   readonly #pinch = new Pinch({
     placeOf: (touch) => this.#placeOf(touch),
-    spaceAt: (place) => (this.canvas.hidden ? undefined : this.#spaceAt(place)),
+    spaceAt: (place) => this.#spaceAt(place),
     handle: (id) => this.#snapshot?.handles.find((handle) => handle.id === id),
     zoomOf: (space) => this.#zoomOf(space)?.value ?? 1,
     begin: () => this.#letGo(),
@@ -71,7 +76,8 @@ export class Picture {
 
   constructor(hand: Hand) {
     this.#hand = hand;
-    this.element.append(make("slot"), this.canvas, this.#chooserBox, this.#marks);
+    this.sheet.append(make("slot"), this.canvas, this.#chooserBox, this.#marks);
+    this.element.append(this.sheet, this.overlay);
     this.#chooser.addEventListener("change", () => {
       this.#chosen = this.#chooser.value;
       this.#refresh();
@@ -83,8 +89,15 @@ export class Picture {
   update(snapshot: Snapshot): void {
     this.#snapshot = snapshot;
     this.#sizes.clear();
+    const { width, height } = snapshot.layout;
+    this.sheet.style.setProperty("--ratio", String(width / height));
     setAttribute(this.canvas, "aria-label", snapshot.description);
     this.#refresh();
+  }
+
+  /** What stands for a handle on the page. */
+  elementOf(id: string): HTMLElement | undefined {
+    return this.#grips.get(id);
   }
 
   /** Shows the canvas in place of the poster. */
@@ -257,21 +270,28 @@ export class Picture {
       "touchstart",
       (event) => {
         const touch = event.touches[0];
-        if (this.#pinch.start(event)) return;
-        if (touch && event.touches.length === 1 && this.#take(this.#placeOf(touch), "touch")) {
-          event.preventDefault();
-        }
+        const taken =
+          this.#pinch.start(event) ||
+          (touch && event.touches.length === 1 && this.#take(this.#placeOf(touch), "touch"));
+        if (!taken) return;
+        event.preventDefault();
+        // A finger that holds something does not swipe the page away.
+        event.stopPropagation();
       },
       { passive: false },
     );
-    stage.addEventListener("touchmove", (event) => this.#pinch.move(event), { passive: false });
+    const onTouchMove = (event: TouchEvent) => {
+      if (this.#dragging) event.stopPropagation();
+      this.#pinch.move(event);
+    };
+    stage.addEventListener("touchmove", onTouchMove, { passive: false });
     for (const type of ["touchend", "touchcancel"]) stage.addEventListener(type, () => this.#pinch.end());
     stage.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
   }
 
   /** With Ctrl or ⌘, which is also what two fingers on a touchpad send; alone it scrolls the page. */
   #onWheel(event: WheelEvent): void {
-    if (this.canvas.hidden || !(event.ctrlKey || event.metaKey)) return;
+    if (!(event.ctrlKey || event.metaKey)) return;
     const space = this.#spaceAt(this.#placeOf(event));
     if (!space) return;
     event.preventDefault();
@@ -301,6 +321,11 @@ export class Picture {
     this.#zoomTo(space, size + (factor > 1 ? step : -step));
   }
 
+  /** CSS pixels to a pixel of the layout. */
+  get #scale(): number {
+    return this.sheet.clientWidth / (this.#snapshot?.layout.width || 1);
+  }
+
   #spaceAt([x, y]: Place): Space | undefined {
     const panel = this.#snapshot?.layout.panels.find(({ rect }) => {
       const inside = x >= rect.x && x <= rect.x + rect.width;
@@ -310,7 +335,8 @@ export class Picture {
   }
 
   #placeOf({ clientX, clientY }: { clientX: number; clientY: number }): Place {
-    const box = this.canvas.getBoundingClientRect();
+    // The poster, where that is still shown, has the same place.
+    const box = this.sheet.getBoundingClientRect();
     const { width, height } = this.#snapshot?.layout ?? { width: 0, height: 0 };
     return [
       ((clientX - box.left) * width) / (box.width || 1),
@@ -320,11 +346,10 @@ export class Picture {
 
   /** The handle that a pointer at a place takes. */
   #take([x, y]: Place, pointerType: string): Handle | undefined {
-    if (this.canvas.hidden) return undefined;
     const id = this.#hand.handleAt(x, y);
     const handle = this.#snapshot?.handles.find((known) => known.id === id);
     if (!handle) return undefined;
-    const distance = Math.hypot(handle.place[0] - x, handle.place[1] - y);
+    const distance = Math.hypot(handle.place[0] - x, handle.place[1] - y) * this.#scale;
     const space = this.#snapshot?.spaces.some(({ orbit, pan }) => orbit === id || pan === id);
     if (space && pointerType === "touch") return distance <= FINGER_RADIUS ? handle : undefined;
     return pointerType === "touch" || distance <= FINE_RADIUS ? handle : undefined;
@@ -345,9 +370,10 @@ export class Picture {
   }
 
   #onDown(event: PointerEvent): void {
-    if (this.canvas.hidden || !event.isPrimary || event.button !== 0) return;
+    if (!event.isPrimary || event.button !== 0) return;
     // Lists and labels that lie on the picture are no part of it.
-    if (event.target instanceof Node && this.#chooserBox.contains(event.target)) return;
+    const lies = [this.#chooserBox, this.overlay];
+    if (event.target instanceof Node && lies.some((over) => over.contains(event.target as Node))) return;
     const place = this.#placeOf(event);
     let handle = this.#take(place, event.pointerType) ?? this.#takeSpace(place, event);
     if (!handle && this.#panelAt(place)) {
@@ -364,6 +390,7 @@ export class Picture {
 
   #grab(event: PointerEvent, handle: Handle, place: Place): void {
     event.preventDefault();
+    event.stopPropagation();
     this.element.setPointerCapture(event.pointerId);
     const offset: Place = [handle.place[0] - place[0], handle.place[1] - place[1]];
     this.#dragging = { pointer: event.pointerId, id: handle.id, offset };
@@ -401,7 +428,7 @@ export class Picture {
     if (press?.pointer !== event.pointerId) return;
     this.#pressing = undefined;
     const [x, y] = this.#placeOf(event);
-    if (meant && Math.hypot(x - press.place[0], y - press.place[1]) <= TAP_SLOP) {
+    if (meant && Math.hypot(x - press.place[0], y - press.place[1]) * this.#scale <= TAP_SLOP) {
       this.#hand.click(...press.place);
     }
   }

@@ -8,12 +8,17 @@ interface Host extends HTMLElement {
   apply: (parameters: Record<string, string | number | boolean>) => void;
 }
 
+const defined = new WeakMap<Host, string[]>();
+
 /**
  * Makes each control a property of its element: `figure.outliers = 0.4`. A name that elements have
  * already keeps its meaning; such a control is reached through `state`. Returns what was set before
- * the figure was there.
+ * the figure was there. Properties of the figure that was there before are gone.
  */
 export function defineProperties(host: Host, controls: Control[]): Parameters {
+  for (const id of defined.get(host) ?? []) Reflect.deleteProperty(host, id);
+  const names: string[] = [];
+  defined.set(host, names);
   const early: Parameters = [];
   for (const { id, kind } of controls) {
     if (kind === "button") continue;
@@ -23,6 +28,7 @@ export function defineProperties(host: Host, controls: Control[]): Parameters {
       Reflect.deleteProperty(host, id);
     }
     if (id in host) continue;
+    names.push(id);
     Object.defineProperty(host, id, {
       configurable: true,
       enumerable: true,

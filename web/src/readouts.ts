@@ -1,37 +1,76 @@
-/** The numbers beside the picture. */
+/** The numbers beside the picture: a few that are large and always there, and the others, folded. */
 
 import type { Readout } from "./contract.js";
-import { make, setText } from "./dom.js";
+import { fold, make, setText } from "./dom.js";
 
-/** Longer texts do not fit into the narrowest column: they take the room of two. */
-const LONG = 18;
+/** Longer texts take the room of two, in smaller letters. */
+const LONG = 13;
+/** Still longer ones take a second line. */
+const TWO_LINES = 34;
 
 export class Readouts {
-  readonly element = make("dl", { class: "readouts" });
+  readonly main = make("dl", { class: "readouts main" });
+  readonly others = fold("More numbers", "numbers");
+  readonly #rest = make("dl", { class: "readouts" });
   #values = new Map<string, HTMLElement>();
   #ids = "";
 
-  update(readouts: Readout[]): void {
-    const ids = readouts.map((readout) => readout.id).join(" ");
-    if (ids !== this.#ids) this.#rebuild(readouts, ids);
-    for (const readout of readouts) {
-      const value = this.#values.get(readout.id);
-      if (!value) continue;
-      setText(value, readout.text);
-      // Once wide, always wide: nothing jumps while numbers change.
-      if (readout.text.length > LONG) value.parentElement?.classList.add("long");
-    }
-    this.element.hidden = readouts.length === 0;
+  constructor() {
+    this.others.append(this.#rest);
   }
 
-  #rebuild(readouts: Readout[], ids: string): void {
+  /** Shows the readouts; where `only` names some, these and no others, all large. */
+  update(readouts: Readout[], only: string[] | undefined): void {
+    const shown = only ? readouts.filter(({ id }) => only.includes(id)) : readouts;
+    const main = only ? new Set(only) : mainOf(readouts);
+    const ids = shown.map(({ id }) => `${id}${main.has(id) ? "!" : ""}`).join(" ");
+    if (ids !== this.#ids) this.#rebuild(shown, main, ids);
+    for (const { id, text } of shown) {
+      const value = this.#values.get(id);
+      if (!value) continue;
+      setText(value, text);
+      // Once wide, always wide: nothing jumps while numbers change.
+      const cell = value.parentElement?.classList;
+      if (text.length > LONG) cell?.add("long");
+      if (text.length > TWO_LINES) cell?.add("two-lines");
+    }
+  }
+
+  /** Shows what a stand-in shows, until the next update. */
+  borrow(tree: ParentNode): void {
+    // Copies: the stand-in is still to be seen.
+    const cells = (part: string) =>
+      [...tree.querySelectorAll(`${part} [data-readout]`)].map((cell) => cell.cloneNode(true));
+    this.main.replaceChildren(...cells(".readouts.main"));
+    this.#rest.replaceChildren(...cells(".numbers"));
+    this.main.hidden = !this.main.hasChildNodes();
+    this.others.hidden = !this.#rest.hasChildNodes();
+    this.#ids = "borrowed";
+  }
+
+  /** What stands for a readout on the page. */
+  elementOf(id: string): HTMLElement | undefined {
+    return this.#values.get(id)?.parentElement ?? undefined;
+  }
+
+  #rebuild(readouts: Readout[], main: Set<string>, ids: string): void {
     this.#ids = ids;
     this.#values = new Map();
-    const rows = readouts.map((readout) => {
+    const cells = readouts.map(({ id, label }) => {
       const value = make("dd");
-      this.#values.set(readout.id, value);
-      return make("div", { "data-readout": readout.id }, make("dt", {}, readout.label), value);
+      this.#values.set(id, value);
+      return make("div", { "data-readout": id }, make("dt", {}, label), value);
     });
-    this.element.replaceChildren(...rows);
+    const isMain = (cell: HTMLElement) => main.has(cell.dataset["readout"] ?? "");
+    this.main.replaceChildren(...cells.filter(isMain));
+    this.#rest.replaceChildren(...cells.filter((cell) => !isMain(cell)));
+    this.main.hidden = !this.main.hasChildNodes();
+    this.others.hidden = !this.#rest.hasChildNodes();
   }
+}
+
+/** Those that carry the point; the first two of a figure that does not say which. */
+function mainOf(readouts: Readout[]): Set<string> {
+  const said = readouts.filter(({ main }) => main);
+  return new Set((said.length > 0 ? said : readouts.slice(0, 2)).map(({ id }) => id));
 }

@@ -7,6 +7,7 @@
 
 import type { Snapshot } from "./contract.js";
 import { panicMessage, type Engine } from "./module.js";
+import { drawScale, layoutWidth } from "./room.js";
 import { wantsStillness, type Theme } from "./theme.js";
 
 /** How long the reader must rest before the picture is refined, milliseconds. */
@@ -19,9 +20,6 @@ const SHOW_MS = 150;
 const STILL_MS = 600;
 /** The longest time that one tick passes on, seconds. */
 const TICK_S = 0.1;
-/** Views need some room; in less, the picture is scaled down. CSS pixels. */
-const NARROWEST = 280;
-const WIDEST = 2000;
 
 export interface Hooks {
   /**
@@ -40,6 +38,12 @@ export class Session {
   readonly #canvas: HTMLCanvasElement;
   readonly #hooks: Hooks;
   #width = 0;
+  /** How wide the picture is shown, CSS pixels. */
+  #shown = 0;
+  /** Device pixels to a CSS pixel, when the picture was drawn. */
+  #density = 0;
+  /** Time is made by whoever plays something, not by the clock. */
+  #frozen = false;
   #theme: Theme = "light";
   #inSight = false;
   #ended = false;
@@ -81,15 +85,21 @@ export class Session {
     this.#want();
   }
 
-  /** Does something to the figure and draws what comes of it. */
+  /** Does something to the figure and draws what comes of it; tells a sentence if it is refused. */
   act(work: (engine: Engine) => string | undefined): void {
+    const refused = this.move(work);
+    if (refused !== undefined && !this.#ended) this.#hooks.refused(refused);
+  }
+
+  /** As `act`, and whoever calls says what is refused. */
+  move(work: (engine: Engine) => string | undefined): string | undefined {
     const refused = this.#guard(() => work(this.engine));
-    if (this.#ended) return;
-    if (refused !== undefined) this.#hooks.refused(refused);
+    if (this.#ended) return undefined;
     this.#held = false;
     this.#changed = this.#stale = this.#rough = true;
     this.#lastInput = performance.now();
     this.#want();
+    return refused;
   }
 
   /** Tells the figure what it was waiting for; where the poster shows it already, that stays. */
@@ -105,13 +115,23 @@ export class Session {
     return this.#guard(() => work(this.engine));
   }
 
-  /** Takes the room that there is. */
-  resize(width: number): void {
-    const next = width < 1 ? 0 : Math.min(Math.max(Math.floor(width), NARROWEST), WIDEST);
-    if (next === this.#width) return;
-    this.#width = next;
-    this.#changed = this.#stale = this.#rough = true;
+  /** Takes the room that there is, and the width that the picture has in it, CSS pixels. */
+  resize(room: number, shown: number): void {
+    const width = room < 1 ? 0 : layoutWidth(room);
+    const size = Math.min(shown || room, room);
+    const same = width === this.#width && Math.abs(size - this.#shown) < 0.5;
+    if (same && this.#density === devicePixelRatio) return;
+    if (width !== this.#width) this.#changed = this.#rough = true;
+    this.#width = width;
+    this.#shown = size;
+    this.#stale = true;
     this.#want();
+  }
+
+  /** Lets the clock stand still, or run. */
+  freeze(frozen: boolean): void {
+    this.#frozen = frozen;
+    this.#lastTick = undefined;
   }
 
   /** Takes new colors or a new density of pixels. */
@@ -157,9 +177,11 @@ export class Session {
 
   /** Stops for good. */
   end(): void {
+    if (this.#ended) return;
     this.#ended = true;
     cancelAnimationFrame(this.#frame);
     clearTimeout(this.#rest);
+    this.engine.free();
   }
 
   #want(): void {
@@ -172,7 +194,7 @@ export class Session {
   }
 
   #onFrame(now: number): void {
-    const running = this.#inSight && this.ask((engine) => engine.running) === true;
+    const running = this.#inSight && !this.#frozen && this.ask((engine) => engine.running) === true;
     if (running) this.#pass(now);
     else this.#lastTick = undefined;
     if (this.#ended) return;
@@ -204,7 +226,8 @@ export class Session {
       this.#tell(false);
       return;
     }
-    const scale = Math.min(Math.max(devicePixelRatio || 1, 1), 2);
+    this.#density = devicePixelRatio;
+    const scale = drawScale(this.#shown, width, this.#density || 1);
     const refused = this.#guard(() => this.engine.draw(this.#canvas, width, scale, this.#theme));
     if (this.#ended) return;
     this.#stale = false;

@@ -1,10 +1,10 @@
-/** What a figure is made of on the page: the tree in its shadow root, and the look of it. */
+/** What a figure is made of on the page: its tree, which needs nothing but a snapshot. */
 
 import { Challenges } from "./challenges.js";
+import { misnamed, type Choice } from "./choice.js";
 import { Controls } from "./controls.js";
 import type { Challenge, FigureEvent, Snapshot } from "./contract.js";
 import { make, setAttribute, setText } from "./dom.js";
-import text from "./figure.css" with { type: "text" };
 import { Jobs, type JobHooks } from "./jobs.js";
 import { Photos, type Photo } from "./photos.js";
 import { Picture, type Hand } from "./picture.js";
@@ -19,76 +19,88 @@ export interface Acts {
   hand: Hand;
   deeds: Deeds;
   jobs: JobHooks;
-  takePhoto: (slot: string, photo: Photo) => void;
+  /** Hands a photograph to the figure; a sentence if it is refused. */
+  takePhoto: (slot: string, photo: Photo) => string | undefined;
+  /** Plays the way to a goal, or ends that. */
+  showHow: (challenge: string) => void;
 }
 
+/** How long what has changed stays marked, milliseconds. */
+const MARKED_MS = 1800;
+
 export class Shell {
-  readonly speaker = new Speaker();
+  readonly speaker: Speaker;
   readonly picture: Picture;
   readonly jobs: Jobs;
-  readonly #controls: Controls;
-  readonly #readouts = new Readouts();
-  readonly #photos: Photos;
-  readonly #challenges = new Challenges();
-  readonly #toolbar: Toolbar;
-  readonly #help = make("p", { id: "help", class: "help" });
-  readonly #title = make("p", { id: "title", class: "title" });
-  readonly #description = make("p", { class: "description" });
-  readonly #panel = make("div", { class: "panel", hidden: true });
-  #theme: Theme = "light";
-  readonly #root = make("div", {
+  readonly photos: Photos;
+  readonly root = make("div", {
     class: "root",
     "aria-labelledby": "title",
     "aria-describedby": "help",
   });
+  readonly #controls: Controls;
+  readonly #readouts = new Readouts();
+  readonly #challenges: Challenges;
+  readonly #toolbar: Toolbar;
+  readonly #help = make("p", { id: "help", class: "help" });
+  readonly #title = make("p", { id: "title", class: "title" });
+  readonly #description = make("p", { class: "description" });
+  readonly #under: HTMLElement;
+  readonly #panel: HTMLElement;
+  #choice: Choice;
+  /** The stand-in whose numbers are still shown. */
+  #borrowed: ParentNode | undefined;
+  #marked: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(host: HTMLElement, acts: Acts) {
+  constructor(acts: Acts, choice: Choice) {
+    this.#choice = choice;
     this.picture = new Picture(acts.hand);
+    this.speaker = new Speaker(this.picture.overlay);
     this.jobs = new Jobs(acts.jobs);
     this.#controls = new Controls(acts.send);
-    this.#photos = new Photos(acts.takePhoto, (sentence) => this.speaker.warn([sentence], true));
+    this.#challenges = new Challenges(acts.showHow);
     this.#toolbar = new Toolbar(acts.deeds, (sentence) => this.speaker.say(sentence));
+    this.photos = new Photos({
+      take: acts.takePhoto,
+      warn: (sentence) => this.speaker.warn([sentence], true),
+      noted: () => this.#toolbar.openPhotos(this.photos.element, true),
+    });
     // Its room is kept from the start, so that nothing moves when the figure is there.
     this.#toolbar.element.classList.add("later");
-    this.#panel.append(
-      this.#readouts.element,
-      this.#controls.element,
-      this.#photos.element,
+    this.#under = make("div", { class: "under", hidden: true }, this.#controls.buttons);
+    this.#panel = make(
+      "div",
+      { class: "panel", hidden: true },
+      this.#readouts.main,
+      this.#controls.inputs,
       this.#challenges.element,
+      make("div", { class: "folds" }, this.#controls.more, this.#readouts.others),
     );
-    this.#root.append(
-      make("div", { class: "head" }, this.#title, this.#toolbar.element),
-      this.picture.element,
-      this.jobs.element,
-      this.speaker.notice,
+    this.picture.overlay.append(this.jobs.element);
+    this.root.append(
+      // In this order a page that is still coming moves nothing: the title fills what the row leaves.
+      make("div", { class: "head" }, this.#toolbar.element, this.#title),
+      this.speaker.home,
       this.#toolbar.link,
-      this.#panel,
+      this.photos.element,
+      make("div", { class: "body" }, this.picture.element, this.#under, this.#panel),
       this.#description,
       this.#help,
       this.speaker.region,
       make("slot", { name: "caption" }),
     );
-    this.#photos.listen(this.#root);
-    // Keys that move something here must not turn the page around.
-    this.#root.addEventListener("keydown", (event) => {
-      if (/^(Arrow|Page|Home|End)/.test(event.key)) event.stopPropagation();
-    });
-    const shadow = host.attachShadow({ mode: "open" });
-    shadow.adoptedStyleSheets = [sheet()];
-    shadow.append(this.#root);
+    this.photos.listen(this.root);
+    for (const type of ["keydown", "keypress", "keyup"] as const) {
+      this.root.addEventListener(type, (event) => this.#keep(event));
+    }
   }
 
   set role(role: "figure" | "group") {
-    setAttribute(this.#root, "role", role);
-  }
-
-  get theme(): Theme {
-    return this.#theme;
+    setAttribute(this.root, "role", role);
   }
 
   set theme(theme: Theme) {
-    this.#theme = theme;
-    setAttribute(this.#root, "data-theme", theme);
+    setAttribute(this.root, "data-theme", theme);
   }
 
   introduce(title: string, help: string): void {
@@ -96,16 +108,44 @@ export class Shell {
     setText(this.#help, help);
   }
 
+  /** Shows other controls, readouts and goals with the next update. */
+  choose(choice: Choice): void {
+    this.#choice = choice;
+    this.#controls.clear();
+  }
+
+  /** What is wrong with the names of what is to be shown. */
+  misnamed(snapshot: Snapshot): string[] {
+    return misnamed(this.#choice, snapshot);
+  }
+
+  /** Shows the numbers of a stand-in, which are those of a figure that waits for nothing any more. */
+  borrowNumbers(tree: ParentNode): void {
+    this.#readouts.borrow(tree);
+    this.#borrowed = tree;
+  }
+
+  /** Whether the numbers are known: not before a figure that nobody has touched has computed its own. */
+  get settled(): boolean {
+    return this.#borrowed === undefined;
+  }
+
   /** Brings everything up to date. Returns the goals that have just been reached. */
-  update(snapshot: Snapshot): Challenge[] {
-    this.#controls.update(snapshot.controls);
-    this.#readouts.update(snapshot.readouts);
+  update(snapshot: Snapshot, touched = true): Challenge[] {
+    if (touched || snapshot.waiting === null) this.#borrowed = undefined;
+    setAttribute(this.root, "data-aspect", snapshot.aspect);
+    this.#controls.update(snapshot.controls, this.#choice.controls);
+    if (this.#borrowed) this.#controls.borrow(this.#borrowed);
+    else this.#readouts.update(snapshot.readouts, this.#choice.readouts);
     this.picture.update(snapshot);
-    this.#photos.update(snapshot.photos);
+    this.photos.update(snapshot.photos);
+    if (this.photos.offered) this.#toolbar.offerPhotos(this.photos.element);
     this.jobs.follow(snapshot.waiting);
-    setAttribute(this.#root, "aria-busy", snapshot.waiting === null ? undefined : "true");
+    setAttribute(this.root, "aria-busy", snapshot.waiting === null ? undefined : "true");
     setText(this.#description, snapshot.description);
-    return this.#challenges.update(snapshot.challenges);
+    const solved = this.#challenges.update(snapshot.challenges, this.#choice.goals);
+    this.#under.hidden = this.#controls.buttons.hidden;
+    return solved;
   }
 
   /** The figure can be operated: everything beside the picture comes. */
@@ -113,15 +153,69 @@ export class Shell {
     this.#panel.hidden = false;
     this.#toolbar.element.classList.remove("later");
   }
-}
 
-let shared: CSSStyleSheet | undefined;
-
-/** The one style sheet that all figures of a page share. */
-function sheet(): CSSStyleSheet {
-  if (!shared) {
-    shared = new CSSStyleSheet();
-    shared.replaceSync(text);
+  /** Takes back what a stand-in had borrowed. */
+  settle(): void {
+    this.root.querySelector(".head")?.after(this.speaker.home);
+    this.#help.after(this.speaker.region);
   }
-  return shared;
+
+  /** Tells which goal is being shown. */
+  set playing(challenge: string | undefined) {
+    this.#challenges.playing = challenge;
+  }
+
+  /** Marks for a moment what has changed between two snapshots. */
+  markChanges(before: Snapshot, now: Snapshot): void {
+    const words = (snapshot: Snapshot) => [
+      ...snapshot.controls.map((control) => ["control", control.id, control.value_text] as const),
+      ...snapshot.readouts.map(({ id, text }) => ["readout", id, text] as const),
+      ...snapshot.handles.map(({ id, x, y }) => ["handle", id, `${x},${y}`] as const),
+    ];
+    const old = new Map(words(before).map(([kind, id, text]) => [`${kind} ${id}`, text]));
+    const changed = words(now).filter(([kind, id, text]) => old.get(`${kind} ${id}`) !== text);
+    this.unmark();
+    for (const [kind, id] of changed) {
+      const [controls, readouts, picture] = [this.#controls, this.#readouts, this.picture];
+      const home = kind === "control" ? controls : kind === "readout" ? readouts : picture;
+      home.elementOf(id)?.setAttribute("data-changed", "");
+    }
+    this.#marked = setTimeout(() => this.unmark(), MARKED_MS);
+  }
+
+  /** Marks a control that is about to be pressed. */
+  markControl(id: string): void {
+    this.unmark();
+    this.#controls.elementOf(id)?.setAttribute("data-changed", "");
+    this.#marked = setTimeout(() => this.unmark(), MARKED_MS);
+  }
+
+  unmark(): void {
+    clearTimeout(this.#marked);
+    for (const marked of this.root.querySelectorAll("[data-changed]")) {
+      marked.removeAttribute("data-changed");
+    }
+  }
+
+  /** The figure is no longer that of the element: nothing of it may speak or compute. */
+  end(): void {
+    this.unmark();
+    this.speaker.silence();
+    this.jobs.end();
+    this.#controls.clear();
+    this.photos.forget();
+  }
+
+  /**
+   * Keys that are pressed here mean nothing to the page, whose shortcuts would turn it around. Tab
+   * goes on, what a browser does with Ctrl, Alt or ⌘ goes on, and Escape gives the focus back.
+   */
+  #keep(event: KeyboardEvent): void {
+    if (event.key === "Tab" || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.stopPropagation();
+    if (event.key !== "Escape" || event.type !== "keydown") return;
+    const tree = this.root.getRootNode();
+    const focused = tree instanceof ShadowRoot ? tree.activeElement : null;
+    if (focused instanceof HTMLElement) focused.blur();
+  }
 }

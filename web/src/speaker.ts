@@ -10,29 +10,42 @@ export class Speaker {
   readonly region = make("p", { class: "spoken", role: "status", "aria-live": "polite" });
   /** Problems, to be read by eye; the live region speaks them too. */
   readonly notice = make("div", { class: "notice", hidden: true });
+  /** Where passing problems are shown: over something, so that nothing moves. Others stay above it all. */
+  readonly #passingHome: HTMLElement;
+  readonly home = make("div", { class: "sentences" });
   #timer: ReturnType<typeof setTimeout> | undefined;
   #urgent = "";
+  /** What the figure shows, until it is said: nothing urgent makes it forgotten. */
+  #described = "";
   #passing = 0;
+
+  constructor(passingHome: HTMLElement) {
+    this.#passingHome = passingHome;
+    this.home.append(this.notice);
+  }
 
   /** Says what the figure shows, once it has rested. */
   describe(text: string): void {
-    this.#later(text);
+    this.#described = text;
+    this.#later();
   }
 
   /** Shows sentences above the controls and says them; passing ones go when the figure moves on. */
   warn(sentences: string[], passing = false): void {
     this.#passing = passing ? 2 : 0;
+    const home = passing ? this.#passingHome : this.home;
+    if (this.notice.parentElement !== home) home.append(this.notice);
     const unique = [...new Set(sentences)];
     this.notice.replaceChildren(...unique.map((sentence) => make("p", {}, sentence)));
     this.notice.hidden = unique.length === 0;
     this.#urgent = unique.join(" ");
-    if (unique.length > 0) this.#later("");
+    if (unique.length > 0) this.#later();
   }
 
   /** Says something at the next rest, before what the figure shows. */
   say(sentence: string): void {
     this.#urgent = `${this.#urgent} ${sentence}`.trim();
-    this.#later("");
+    this.#later();
   }
 
   /** The figure has taken a new state. */
@@ -45,11 +58,11 @@ export class Speaker {
     clearTimeout(this.#timer);
   }
 
-  #later(text: string): void {
+  #later(): void {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
-      const words = `${this.#urgent} ${text}`.trim();
-      this.#urgent = "";
+      const words = `${this.#urgent} ${this.#described}`.trim();
+      this.#urgent = this.#described = "";
       if (words && this.region.textContent !== words) this.region.textContent = words;
     }, REST_MS);
   }

@@ -64,6 +64,23 @@ export function watchTheme(changed: () => void): () => void {
   };
 }
 
+/** Calls back whenever a pixel of the page has another number of device pixels. */
+export function watchDensity(changed: () => void): () => void {
+  let list: MediaQueryList;
+  // A query knows one density; at another, another one is due.
+  const again = () => {
+    list.removeEventListener("change", again);
+    watch();
+    changed();
+  };
+  const watch = () => {
+    list = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
+    list.addEventListener("change", again);
+  };
+  watch();
+  return () => list.removeEventListener("change", again);
+}
+
 /** Whether the reader wants things to stand still. */
 export function wantsStillness(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -1,6 +1,9 @@
-/** What every figure can do: start over, share its state, save its picture, fill the screen. */
+/**
+ * One quiet row of what figures can do: start over, share the state, save the picture, fill the
+ * screen, take photographs of the reader's own.
+ */
 
-import { icon, make, setText } from "./dom.js";
+import { icon, make, setAttribute, setText } from "./dom.js";
 
 export interface Deeds {
   reset: () => void;
@@ -16,6 +19,7 @@ export class Toolbar {
   /** The link to read, where it could not be copied. */
   readonly link = make("div", { class: "link", hidden: true });
   readonly #deeds: Deeds;
+  #photos: HTMLButtonElement | undefined;
   readonly #say: (sentence: string) => void;
 
   constructor(deeds: Deeds, say: (sentence: string) => void) {
@@ -36,6 +40,23 @@ export class Toolbar {
       const paths = ["M3.5 7.5v-4h4", "M12.5 3.5h4v4", "M16.5 12.5v4h-4", "M7.5 16.5h-4v-4"];
       this.element.append(this.#button("Full screen", deeds.fullscreen, ...paths));
     }
+  }
+
+  /** Adds the button that opens and closes what photographs are chosen with. */
+  offerPhotos(panel: HTMLElement): void {
+    if (this.#photos) return;
+    const paths = ["M3 6.5h3.2l1.3-2h5l1.3 2H17v9.5H3z", "M10 8.2a2.8 2.8 0 1 0 0 5.6a2.8 2.8 0 1 0 0-5.6"];
+    const button = this.#button("Photographs", () => this.openPhotos(panel, panel.hidden), ...paths);
+    button.title = "Use photographs of your own";
+    setAttribute(button, "aria-controls", panel.id);
+    setAttribute(button, "aria-expanded", "false");
+    this.#photos = button;
+    this.element.prepend(button);
+  }
+
+  openPhotos(panel: HTMLElement, open: boolean): void {
+    panel.hidden = !open;
+    if (this.#photos) setAttribute(this.#photos, "aria-expanded", String(open));
   }
 
   #button(label: string, deed: () => void, ...paths: string[]): HTMLButtonElement {

@@ -1,7 +1,7 @@
 /** Long computations, away from the page: one request at a time, one answer each. */
 
 import load, { compute, take_panic } from "epipole-jobs";
-import type { Answer, Request } from "./jobs.js";
+import { NOT_LOADED, type Answer, type Request } from "./jobs.js";
 
 let loading: Promise<unknown> | undefined;
 
@@ -23,12 +23,13 @@ export async function carryOut(
   try {
     loading ??= load({ module_or_path: new URL(EPIPOLE_JOBS_WASM, import.meta.url) });
     await loading;
-  } catch (problem) {
+  } catch {
     // The next request may have more luck.
     loading = undefined;
-    tell({ key, problem: `the code for this computation could not be loaded (${String(problem)})` });
+    tell({ key, problem: NOT_LOADED });
     return;
   }
+  tell({ key, share: 0 });
   try {
     const result = compute(name, request, { progress });
     tell({ key, result }, [result.buffer as ArrayBuffer]);

@@ -1,0 +1,69 @@
+// Sentences that operate figures. `.do` takes a figure to a state, `.live` follows one of its numbers;
+// until this script runs both are plain words. A figure may not be there yet, or never come.
+
+interface Figure extends HTMLElement {
+  glide?: (parameters: Record<string, string>) => Promise<void>;
+  readoutText?: (id: string) => string | undefined;
+  controlText?: (id: string) => string | undefined;
+}
+
+function figureOf(words: HTMLElement): Figure | null {
+  return document.getElementById(words.dataset.figure ?? "")?.querySelector<Figure>("epipole-figure") ?? null;
+}
+
+function parametersOf(words: HTMLElement): Record<string, string> {
+  return JSON.parse(words.dataset.parameters ?? "{}") as Record<string, string>;
+}
+
+/** Makes the words a button, without another box, so that they go on breaking like the text around them. */
+function startButton(words: HTMLElement): void {
+  const figure = figureOf(words);
+  if (!figure) return;
+  words.setAttribute("role", "button");
+  words.tabIndex = 0;
+  const number = document.querySelector(`#${CSS.escape(words.dataset.figure ?? "")} .figure-number`)?.textContent;
+  if (number) words.title = `Shows it in ${number}`;
+  const act = async () => {
+    await customElements.whenDefined("epipole-figure");
+    await figure.glide?.(parametersOf(words));
+  };
+  words.addEventListener("click", () => void act());
+  words.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    if (!event.repeat) void act();
+  });
+}
+
+/** Keeps numbers of a sentence as the figure shows them. */
+function follow(figure: Figure, numbers: HTMLElement[]): void {
+  let scheduled = false;
+  const update = () => {
+    scheduled = false;
+    for (const number of numbers) {
+      const id = number.dataset.shows ?? "";
+      const text = figure.readoutText?.(id) ?? figure.controlText?.(id);
+      if (text === undefined || text === number.textContent) continue;
+      number.textContent = text;
+      // The room that it once took is kept: a paragraph that breaks anew would move the figure below it.
+      const width = number.getBoundingClientRect().width;
+      if (width > (parseFloat(number.style.minWidth) || 0)) number.style.minWidth = `${Math.ceil(width)}px`;
+    }
+  };
+  const schedule = () => {
+    if (!scheduled) requestAnimationFrame(update);
+    scheduled = true;
+  };
+  for (const type of ["epipole-ready", "epipole-readout", "epipole-change"]) figure.addEventListener(type, schedule);
+  schedule();
+}
+
+export function startOperating(): void {
+  document.querySelectorAll<HTMLElement>(".do").forEach(startButton);
+  const followed = new Map<Figure, HTMLElement[]>();
+  for (const number of document.querySelectorAll<HTMLElement>(".live")) {
+    const figure = figureOf(number);
+    if (figure) followed.set(figure, [...(followed.get(figure) ?? []), number]);
+  }
+  followed.forEach((numbers, figure) => follow(figure, numbers));
+}

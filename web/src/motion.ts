@@ -1,0 +1,192 @@
+/**
+ * Figures that move by themselves: a glide to a state that the page asks for, and the way to a goal.
+ *
+ * What moves is what a reader could move, so that it can be watched and done again by hand. It ends
+ * at once when the reader takes over.
+ */
+
+import type { Parameters, Refused, Snapshot, SolutionEvent } from "./contract.js";
+import type { Engine } from "./module.js";
+import { wantsStillness } from "./theme.js";
+
+/** What motion needs of a figure. */
+export interface Stage {
+  /** The present state. */
+  look: () => Snapshot | undefined;
+  /** Changes the figure; what it refuses on the way is not said. */
+  move: (work: (engine: Engine) => string | undefined) => void;
+  /** Puts parameters, and says which could not be used. */
+  apply: (parameters: Parameters) => Refused[];
+  /** Whether a long computation is going on. */
+  busy: () => boolean;
+  /** Whether the clock of the figure stands still. */
+  freeze: (frozen: boolean) => void;
+  mark: (before: Snapshot, now: Snapshot) => void;
+  /** Points to a control that is about to be pressed. */
+  point: (id: string) => void;
+}
+
+/** How long one event of a solution takes, and the pause around it, milliseconds. */
+const EVENT_MS = 600;
+const PAUSE_MS = 350;
+/** The longest time that all ticks of a solution together may take. */
+const TICKS_MS = 3000;
+
+/** Draws the figure at a share of its way. */
+type Step = (share: number) => void;
+
+export class Motion {
+  readonly #stage: Stage;
+  #turn = 0;
+  /** Where a glide is going. */
+  #target = new Map<string, string>();
+
+  constructor(stage: Stage) {
+    this.#stage = stage;
+  }
+
+  /** Ends whatever moves, where it is. */
+  stop(): void {
+    this.#turn += 1;
+    this.#target.clear();
+    this.#stage.freeze(false);
+  }
+
+  /**
+   * Glides to parameters. A glide that is under way ends, and this one takes over its goal as well.
+   * Resolves when the figure is there, or when something else has taken over.
+   */
+  async glide(parameters: Parameters, duration: number, ready: Promise<unknown>): Promise<Refused[]> {
+    const turn = ++this.#turn;
+    for (const [key, value] of parameters) this.#target.set(key, value);
+    await ready;
+    const before = this.#stage.look();
+    if (turn !== this.#turn) return [];
+    if (!before) {
+      this.#target.clear();
+      return [];
+    }
+    const target: Parameters = [...this.#target];
+    const steps: Step[] = [];
+    const jumps: Parameters = [];
+    for (const [key, value] of target) {
+      const step = this.#parameterStep(before, key, value);
+      if (step) steps.push(step);
+      else jumps.push([key, value]);
+    }
+    if (jumps.length > 0) this.#stage.apply(jumps);
+    if (steps.length > 0) await this.#run(turn, duration, (share) => steps.forEach((step) => step(share)));
+    if (turn !== this.#turn) return [];
+    // Exactly what was asked for, not what it was rounded to on the way.
+    const refused = this.#stage.apply(target);
+    this.#target.clear();
+    const now = this.#stage.look();
+    if (now) this.#stage.mark(before, now);
+    return refused;
+  }
+
+  /** Plays events one after the other; false if something has taken over. */
+  async play(events: SolutionEvent[]): Promise<boolean> {
+    this.stop();
+    const turn = this.#turn;
+    const ticks = events.filter(({ type }) => type === "tick").length;
+    this.#stage.freeze(ticks > 0);
+    for (const event of events) {
+      await this.#settle(turn);
+      if (turn !== this.#turn) return false;
+      const before = this.#stage.look();
+      if (!before) return false;
+      const step = this.#eventStep(before, event);
+      if (step) await this.#run(turn, EVENT_MS, step);
+      else if (event.type === "press") {
+        this.#stage.point(event.id);
+        await this.#pause(turn, PAUSE_MS);
+      }
+      if (turn !== this.#turn) return false;
+      this.#stage.move((engine) => engine.update(event));
+      const rest = event.type === "tick" ? Math.min(TICKS_MS / ticks, 1000 * event.dt_s) : PAUSE_MS;
+      await this.#pause(turn, rest);
+    }
+    await this.#settle(turn);
+    if (turn !== this.#turn) return false;
+    this.#stage.freeze(false);
+    return true;
+  }
+
+  #parameterStep(snapshot: Snapshot, key: string, value: string): Step | undefined {
+    const control = snapshot.controls.find(({ id }) => id === key);
+    if (control) return this.#eventStep(snapshot, { type: "set", id: key, value: Number(value) });
+    const [x = NaN, y = NaN] = value.split(",").map(Number);
+    return this.#eventStep(snapshot, { type: "handle-moved", id: key, x, y });
+  }
+
+  /** How to do an event little by little, if it can be done so. */
+  #eventStep({ controls, handles }: Snapshot, event: SolutionEvent): Step | undefined {
+    const between = (from: number, to: number, share: number) => from + share * (to - from);
+    if (event.type === "set") {
+      const { id, value } = event;
+      const slider = controls.find((control) => control.id === id);
+      const to = Number(value);
+      if (slider?.kind !== "slider" || !(to >= slider.min && to <= slider.max)) return undefined;
+      const from = slider.value;
+      if (from === to) return undefined;
+      return (share) =>
+        this.#stage.move((engine) => engine.update({ type: "set", id, value: between(from, to, share) }));
+    }
+    if (event.type !== "handle-moved") return undefined;
+    const handle = handles.find(({ id }) => id === event.id);
+    if (!handle || !Number.isFinite(event.x) || !Number.isFinite(event.y)) return undefined;
+    const { id, x, y } = handle;
+    return (share) =>
+      this.#stage.move((engine) =>
+        engine.update({
+          type: "handle-moved",
+          id,
+          x: between(x, event.x, share),
+          y: between(y, event.y, share),
+        }),
+      );
+  }
+
+  /** Takes a step with each frame until the whole way is gone; a reader may want no motion. */
+  async #run(turn: number, duration: number, step: Step): Promise<void> {
+    if (wantsStillness() || document.hidden || !(duration > 0)) {
+      step(1);
+      return;
+    }
+    const start = performance.now();
+    let share = 0;
+    while (share < 1 && turn === this.#turn) {
+      share = Math.min((performance.now() - start) / duration, 1);
+      step(share * share * (3 - 2 * share));
+      if (share < 1) await nextFrame();
+    }
+  }
+
+  async #pause(turn: number, milliseconds: number): Promise<void> {
+    if (turn !== this.#turn || wantsStillness() || document.hidden) return;
+    await new Promise((resolve) => setTimeout(resolve, milliseconds));
+  }
+
+  /** Waits for what the figure computes. */
+  async #settle(turn: number): Promise<void> {
+    // What it waits for shows with the frame that is drawn next.
+    await nextFrame();
+    while (turn === this.#turn && this.#stage.busy()) {
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
+}
+
+/** The next frame of the display, or some time later where nothing is displayed. */
+function nextFrame(): Promise<void> {
+  return new Promise((resolve) => {
+    const frame = requestAnimationFrame(() => done());
+    const timer = setTimeout(() => done(), 250);
+    const done = () => {
+      cancelAnimationFrame(frame);
+      clearTimeout(timer);
+      resolve();
+    };
+  });
+}
