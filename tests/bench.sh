@@ -44,6 +44,10 @@ node web/node_modules/binaryen/bin/wasm-opt -O2 --enable-simd --enable-bulk-memo
 node tests/browser/opencv.mjs "$target/kernels.wasm"
 echo
 cargo run --quiet --bin epipole-book -- build >/dev/null
+cargo build --quiet --package epipole-web --lib --no-default-features --features figures \
+    --target wasm32-unknown-unknown --profile web
+python3 tests/weight.py "$target/wasm32-unknown-unknown/web/epipole_web.wasm" "$target"/book/assets/epipole-figures-*.wasm
+echo
 node tests/browser/bench.mjs
 echo
 

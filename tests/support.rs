@@ -38,6 +38,9 @@ pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
 /// The Rust listings of the chapters, run as documentation tests.
 #[cfg(doctest)]
 pub mod listings {
+    /// Chapter "One photo gives directions, not distances".
+    #[doc = include_str!("../content/rays.md")]
+    pub struct Rays;
     /// Chapter "Points you can find again".
     #[doc = include_str!("../content/corners.md")]
     pub struct Corners;

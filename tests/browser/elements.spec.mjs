@@ -248,12 +248,14 @@ test("a photograph can be dropped on the figure, and taken where there is a came
 test("parameters are properties of every element", async ({ page, open }) => {
   for (const [figureName, { controls }] of snapshots) {
     const figure = await open(page, [figureName]);
-    const slider = controls.find(({ kind, visible }) => kind === "slider" && visible);
-    const value = slider.value === slider.max ? slider.min : slider.max;
-    await figure.evaluate((element, [id, wanted]) => (element[id] = wanted), [slider.id, value]);
+    const shown = controls.filter(({ place }) => place !== "hidden");
+    const control = shown.find(({ kind }) => kind === "slider") ?? shown.find(({ kind }) => kind === "choice");
+    const { id, kind, max, min, value: before, options } = control;
+    const other = kind === "slider" ? (before === max ? min : max) : options.find(([name]) => name !== before)[0];
+    await figure.evaluate((element, [id, wanted]) => (element[id] = wanted), [id, other]);
     await figure.evaluate((element) => element.flush());
-    expect(await figure.evaluate((element, id) => element[id], slider.id)).toBe(value);
-    expect(Object.keys((await told(figure)).state)).toContain(slider.id);
+    expect(await figure.evaluate((element, id) => element[id], id)).toBe(other);
+    expect(Object.keys((await told(figure)).state)).toContain(id);
   }
 });
 

@@ -1,10 +1,13 @@
 // What every figure of the gallery must do in a browser.
 
-import { expect, expectAccessible, figures, gripOf, hear, heard, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
+import { change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
 
 test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
 });
+
+/** Their handle is held to a slanted line: going with the pointer down, it may go a little to the side. */
+const SLANTED = ["same-picture"];
 
 for (const { name, title, help } of figures) {
   test.describe(name, () => {
@@ -50,9 +53,10 @@ for (const { name, title, help } of figures) {
       const [movedX, movedY] = [to.x - from.x, to.y - from.y];
       // A handle may be held to one direction, or to its range; it never jumps under the pointer.
       for (const [is, want] of [[movedX, dx], [movedY, dy]]) {
-        expect(is * Math.sign(want)).toBeGreaterThanOrEqual(-1.5);
+        if (!SLANTED.includes(name)) expect(is * Math.sign(want)).toBeGreaterThanOrEqual(-1.5);
         expect(Math.abs(is)).toBeLessThanOrEqual(Math.abs(want) + 1.5);
       }
+      expect(movedX * dx + movedY * dy).toBeGreaterThan(0);
       expect(Math.hypot(movedX, movedY)).toBeGreaterThan(10);
     });
 
@@ -77,8 +81,9 @@ for (const { name, title, help } of figures) {
         stops.push(kind);
       }
       expect(stops.length).toBeLessThan(80);
-      expect(stops, "a handle, a native slider and a button").toEqual(
-        expect.arrayContaining(["slider", "range", "button"]),
+      const native = (await figure.locator("input[type=range]").count()) > 0 ? "range" : "radio";
+      expect(stops, "a handle, a native input and a button").toEqual(
+        expect.arrayContaining(["slider", native, "button"]),
       );
 
       await grip.focus();
@@ -101,6 +106,7 @@ for (const { name, title, help } of figures) {
     test("a native slider sets a parameter, with its value in words", async ({ page, open }) => {
       const figure = await open(page, [name]);
       const slider = figure.locator("input[type=range]").first();
+      test.skip((await slider.count()) === 0, "a figure without sliders");
       await hear(figure, "epipole-change");
       await slider.focus();
       const before = await slider.getAttribute("aria-valuetext");
@@ -117,9 +123,7 @@ for (const { name, title, help } of figures) {
       await expect(live).toHaveCount(1);
       await expect(live).toHaveAttribute("aria-live", "polite");
       await expect(live).toHaveText("");
-      const slider = figure.locator("input[type=range]").first();
-      await slider.focus();
-      for (let presses = 0; presses < 6; presses += 1) await page.keyboard.press("ArrowRight");
+      await change(page, figure, 6);
       const { description } = await told(figure);
       // The last key may still be on its way when we ask.
       const says = () =>
@@ -132,10 +136,7 @@ for (const { name, title, help } of figures) {
 
     test("a permalink restores the state", async ({ page, open, context, complaints }) => {
       const figure = await open(page, [name]);
-      const slider = figure.locator("input[type=range]").first();
-      await slider.focus();
-      await page.keyboard.press("ArrowLeft");
-      await page.keyboard.press("ArrowLeft");
+      await change(page, figure, 2);
       const { grip } = await gripOf(figure);
       await grip.focus();
       await page.keyboard.press("ArrowLeft");
@@ -166,7 +167,7 @@ for (const { name, title, help } of figures) {
       await expect.poll(() => told(figure)).toEqual(before);
     });
 
-    test("the picture is saved as a PNG at twice its size", async ({ page, open }) => {
+    test("the picture is saved as a PNG at twice the size of its layout", async ({ page, open }) => {
       const figure = await open(page, [name]);
       const waiting = page.waitForEvent("download");
       await figure.getByRole("button", { name: "Save image" }).click();
@@ -176,8 +177,8 @@ for (const { name, title, help } of figures) {
       for await (const chunk of await download.createReadStream()) chunks.push(chunk);
       const bytes = Buffer.concat(chunks);
       expect(bytes.subarray(1, 4).toString()).toBe("PNG");
-      const width = await figure.locator("canvas").evaluate((canvas) => canvas.clientWidth);
-      expect(Math.abs(bytes.readUInt32BE(16) - 2 * width)).toBeLessThanOrEqual(2);
+      const room = await figure.locator(".picture").evaluate((picture) => picture.clientWidth - 32);
+      expect(bytes.readUInt32BE(16)).toBe(2 * layoutWidth(room));
     });
 
     test("without script there are poster and caption", async ({ browser, site }) => {
@@ -276,7 +277,10 @@ for (const { name, title, help } of figures) {
       await page.emulateMedia({ colorScheme: "light" });
       const figure = await open(page, [name]);
       await wears(figure, "light");
-      for (const details of await figure.locator("details").all()) await details.click();
+      await figure.evaluate((element) => {
+        for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
+        element.setAttribute("goals", "all");
+      });
       await expectAccessible(page);
       await page.emulateMedia({ colorScheme: "dark" });
       await wears(figure, "dark");
@@ -290,9 +294,7 @@ for (const { name, title, help } of figures) {
       const idle = () => settled(both);
       await idle();
       const untouched = await told(both.nth(1));
-      const slider = both.nth(0).locator("input[type=range]").first();
-      await slider.focus();
-      await page.keyboard.press("ArrowLeft");
+      await change(page, both.nth(0));
       expect((await told(both.nth(0))).state).not.toEqual({});
       await idle();
       expect(await told(both.nth(1))).toEqual(untouched);

@@ -3,8 +3,8 @@
 import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect } from "@playwright/test";
 import { join } from "node:path";
-import { figurePage } from "./pages.mjs";
-import { bindings, elements, here, loadBindings } from "./places.mjs";
+import { figurePage, made } from "./pages.mjs";
+import { bindings, elements, here, loadBindings, root } from "./places.mjs";
 import { serve } from "./server.mjs";
 
 /** Every figure of the module: `{name, title, help}`. */
@@ -15,7 +15,14 @@ const test = base.extend({
   site: [
     async ({}, use) => {
       const server = await serve({
-        mounts: { figures: figurePage, pages: join(here, "pages"), elements, bindings },
+        mounts: {
+          figures: figurePage,
+          pages: join(here, "pages"),
+          source: join(root, "web/src"),
+          made,
+          elements,
+          bindings,
+        },
       });
       await use(server.origin);
       await server.close();
@@ -71,6 +78,11 @@ export function listen(page, complaints) {
   page.on("pageerror", (error) => complaints.push(String(error)));
 }
 
+/** The width that a picture is laid out for in some room, as `web/src/room.ts` has it. */
+export function layoutWidth(room) {
+  return room < 500 ? 360 : room < 860 ? 720 : 1088;
+}
+
 /** Waits until a figure has drawn its first frame. */
 export async function ready(figure) {
   await figure.scrollIntoViewIfNeeded();
@@ -112,6 +124,15 @@ export function heard(figure) {
 export async function gripOf(figure) {
   const grip = figure.locator(".grip").first();
   return { grip, ...(await middle(grip)) };
+}
+
+/** Changes a figure by the keys, `times` over: its first slider, away from its end, or its first choice. */
+export async function change(page, figure, times = 1) {
+  const slider = figure.locator("input[type=range]").first();
+  const setting = (await slider.count()) > 0 ? slider : figure.locator("input[type=radio]:checked").first();
+  await setting.focus();
+  const atStart = await setting.evaluate(({ type, value, min }) => type === "radio" || value === min);
+  for (let press = 0; press < times; press += 1) await page.keyboard.press(atStart ? "ArrowRight" : "ArrowLeft");
 }
 
 /** The middle of an element on the screen. */

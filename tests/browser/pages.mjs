@@ -1,20 +1,61 @@
 // Pages that the tests make up: figures as the book writes them, with poster and caption.
 
-import { script } from "./places.mjs";
+import { mkdtemp } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { loadBindings, root, script } from "./places.mjs";
 
-/** `?figure=ransac-race outliers=0.4&figure=…&theme=dark&bare=1`: a page with these figures. */
+const { Figure, compute, figures } = await loadBindings();
+const known = JSON.parse(figures());
+const { prerenderer } = await import(`${root}/web/prerender.mjs`);
+/** Where the script for the head of such a page is. */
+export const made = await mkdtemp(join(tmpdir(), "epipole-"));
+const { build } = await import(`${root}/web/node_modules/esbuild/lib/main.js`);
+await build({ entryPoints: [`${root}/web/src/early.ts`], outdir: made, bundle: true, format: "iife" });
+const prerender = await prerenderer();
+
+/** A figure as the book writes it for readers whose script has not come: poster and stand-in. */
+function standIn(name, attributes, width) {
+  const figure = new Figure(name);
+  figure.apply(Object.entries(attributes).flat());
+  for (let key = figure.job_key(); key !== undefined; key = figure.job_key()) {
+    figure.job_done(key, compute(name, figure.job_request(), { progress: () => {} }));
+  }
+  const { title, help } = known.find((entry) => entry.name === name);
+  const snapshot = JSON.parse(figure.snapshot(width));
+  const heightAt = (across) => JSON.parse(figure.snapshot(across)).layout.height;
+  const sizes = [360, 720, 1088].map((across) => [across, Math.round(heightAt(across))]);
+  figure.free();
+  const tree = prerender({ name, title, help, snapshot, attributes, sizes });
+  const { layout } = snapshot;
+  const [across, down] = [Math.round(layout.width), Math.round(layout.height)];
+  const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${across}" height="${down}"><rect width="100%" height="100%" fill="#ddd"/></svg>`;
+  const poster = `<img src="data:image/svg+xml,${encodeURIComponent(svg)}" alt="Poster of ${name}" width="${across}" height="${down}">`;
+  const sheet = "/source/figure.css";
+  return `<template shadowrootmode="open">${tree.replace("{{figure.css}}", sheet)}</template><picture>${poster}</picture>`;
+}
+
+/**
+ * `?figure=ransac-race outliers=0.4&figure=…&theme=dark&bare=1`: a page with these figures. With `wide`
+ * they have the room of a broad page, with `poster=720` a stand-in and a poster of that width.
+ */
 export function figurePage(url) {
   const figures = url.searchParams.getAll("figure").map((words, index) => {
     const [name, ...settings] = words.split(" ");
-    const attributes = settings.map((setting) => {
+    const pairs = settings.map((setting) => {
       const [key, value = ""] = setting.split("=");
-      return ` ${key}="${value.replaceAll('"', "&quot;")}"`;
+      return [key, value.replaceAll("+", " ")];
     });
+    const attributes = pairs.map(([key, value]) => ` ${key}="${value.replaceAll('"', "&quot;")}"`);
+    const width = Number(url.searchParams.get("poster"));
+    const inside = width
+      ? standIn(name, Object.fromEntries(pairs), width)
+      : `<picture><img src="/pages/poster.svg" alt="Poster of ${name}" width="760" height="420"></picture>`;
     if (url.searchParams.has("bare")) {
       return `<epipole-figure name="${name}"${attributes.join("")}></epipole-figure>`;
     }
     return `<figure class="epipole" id="fig-${index + 1}">
-<epipole-figure name="${name}"${attributes.join("")}><picture><img src="/pages/poster.svg" alt="Poster of ${name}" width="760" height="420"></picture></epipole-figure>
+<epipole-figure name="${name}"${attributes.join("")}>${inside}</epipole-figure>
 <figcaption>Figure ${index + 1}. Caption of ${name}.</figcaption>
 </figure>`;
   });
@@ -26,10 +67,11 @@ export function figurePage(url) {
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Figures</title>
 <link rel="stylesheet" href="/pages/page.css">
+${url.searchParams.has("poster") ? '<script src="/made/early.js"></script>' : ""}
 <script type="module" src="/elements/${script}"></script>
 </head>
 <body>
-<main>
+<main${url.searchParams.has("wide") ? ' class="wide"' : ""}>
 <h1>Figures</h1>
 <p id="before">A paragraph with <a href="#after">a link</a>.</p>
 ${figures.join("\n")}

@@ -1,7 +1,7 @@
 // Figures in three dimensions: turned, moved and enlarged by mouse, keys and fingers.
 
 import { Buffer } from "node:buffer";
-import { expect, figures, listen, ready, settled, test, told } from "./fixtures.mjs";
+import { expect, figures, layoutWidth, listen, ready, settled, test, told } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
@@ -16,8 +16,8 @@ test("there are spaces to test", () => {
 /** Where a share of the panel of a space is on the screen. */
 async function inSpace(figure, name, space, across, down) {
   const canvas = figure.locator("canvas");
-  const width = await canvas.evaluate((element) => element.clientWidth);
-  const { layout } = JSON.parse(new Figure(name).snapshot(width));
+  const room = await canvas.evaluate((element) => element.closest(".picture").clientWidth - 24);
+  const { layout } = JSON.parse(new Figure(name).snapshot(layoutWidth(room)));
   const { rect } = layout.panels.find(({ id }) => id === space.panel);
   const box = await canvas.boundingBox();
   const scale = box.width / layout.width;
@@ -48,6 +48,7 @@ for (const [name, space] of spaces) {
       await expect
         .poll(async () => Object.keys((await told(figure)).state).sort())
         .toEqual([space.orbit, space.pan].sort());
+      await figure.getByText("More settings").click();
       await figure.getByRole("button", { name: "Reset viewpoint" }).click();
       await expect.poll(async () => (await told(figure)).state).toEqual({});
     });
@@ -169,7 +170,7 @@ test("one's own photographs bring their focal length, or it is guessed", async (
   const words = async () => (await told(figure)).readouts.lens;
   await put(0, jpeg);
   await expect.poll(words).toContain("a guess");
-  await expect.poll(async () => (await told(figure)).description).toContain("Choose the other one");
+  await expect.poll(async () => (await told(figure)).description).toContain("now choose photograph 2");
   await put(1, withFocal(jpeg, 28));
   // 28 mm · √(400² + 300²) / (√(36² + 24²) · 400) = 0.81, on the slider 0.80.
   await expect.poll(words).toContain("0.80 (as 29 mm), from the file");

@@ -1,0 +1,173 @@
+// A reader sees what the hand does: picture, numbers and controls share the screen, and nothing jumps.
+
+import { expect, expectAccessible, figures, layoutWidth, listen, ready, settled, test } from "./fixtures.mjs";
+import { loadBindings } from "./places.mjs";
+
+const { Figure } = await loadBindings();
+
+/** What a reader needs to see at once. */
+const CORE = [".sheet", ".under", ".panel > .main", ".panel > .inputs"];
+const HIGHEST_PX = 640;
+const WIDE = { query: { wide: "1" } };
+const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+
+/** From the top of the highest to the bottom of the lowest of the parts that are to be seen, CSS pixels. */
+function height(figure, parts) {
+  return figure.evaluate((element, selectors) => {
+    const boxes = selectors
+      .map((selector) => element.shadowRoot.querySelector(selector))
+      .filter((part) => part?.checkVisibility())
+      .map((part) => part.getBoundingClientRect());
+    return Math.max(...boxes.map(({ bottom }) => bottom)) - Math.min(...boxes.map(({ top }) => top));
+  }, parts);
+}
+
+/** How much of the picture is on the screen, 0 to 1. */
+function seen(figure) {
+  return figure.evaluate((element) => {
+    const box = element.shadowRoot.querySelector(".sheet").getBoundingClientRect();
+    return (Math.min(box.bottom, innerHeight) - Math.max(box.top, 0)) / box.height;
+  });
+}
+
+/** Which width a picture is laid out for, given the room of a page of the tests. */
+function widthOf(name, viewport) {
+  const host = Math.min(viewport - 32, 1120);
+  const { aspect } = JSON.parse(new Figure(name).snapshot(720));
+  const beside = host >= 860 && aspect === "tall";
+  const room = beside ? Math.min(747, host - 2 - 304) - 27 : host - 2 - (host >= 860 ? 30 : host <= 576 ? 24 : 32);
+  return layoutWidth(room);
+}
+
+for (const { name } of figures) {
+  test.describe(name, () => {
+    for (const [across, down] of [[1280, 720], [1024, 768]]) {
+      test(`at ${across} × ${down} picture, numbers and first controls share the screen`, async ({ page, open }) => {
+        await page.setViewportSize({ width: across, height: down });
+        const figure = await open(page, [name], WIDE);
+        await settled(figure);
+        expect(await height(figure, CORE)).toBeLessThanOrEqual(HIGHEST_PX);
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(across);
+      });
+    }
+
+    test("on a phone the whole picture stays while a control is used", async ({ browser, open, complaints }) => {
+      const context = await browser.newContext(PHONE);
+      const page = await context.newPage();
+      listen(page, complaints);
+      const figure = await open(page, [name]);
+      await page.evaluate(() => (document.body.style.paddingBottom = "1500px"));
+      const controls = figure.locator(":is(.under, .panel) :is(input, select, button, summary)");
+      for (const control of await controls.all()) {
+        if (!(await control.isVisible())) continue;
+        await page.evaluate(() => scrollTo(0, 0));
+        await control.focus();
+        expect(await seen(figure), await control.evaluate((element) => element.outerHTML)).toBeGreaterThan(0.999);
+        // A reader may scroll on: as long as the control is to be seen, so is the picture.
+        for (const lower of [80, 160, 240]) {
+          await page.evaluate((by) => scrollBy(0, by), lower);
+          const hit = await control.evaluate((element) => {
+            const box = element.getBoundingClientRect();
+            const found = element.getRootNode().elementFromPoint(box.x + box.width / 2, box.y + 2);
+            return found === element || element.contains(found);
+          });
+          if (hit) expect(await seen(figure)).toBeGreaterThan(0.999);
+        }
+      }
+      await context.close();
+    });
+
+    test("320 px wide, and enlarged to 200 %, nothing has to be scrolled sideways", async ({ browser, open, complaints }) => {
+      for (const options of [
+        { viewport: { width: 320, height: 640 } },
+        { viewport: { width: 640, height: 360 }, deviceScaleFactor: 2 },
+      ]) {
+        const context = await browser.newContext(options);
+        const page = await context.newPage();
+        listen(page, complaints);
+        const figure = await open(page, [name]);
+        await figure.evaluate((element) => {
+          for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
+        });
+        const { width } = options.viewport;
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+        const outside = await figure.evaluate((element, edge) => {
+          const all = [...element.shadowRoot.querySelectorAll("*")].filter((part) => part.checkVisibility());
+          const out = (part) => part.getBoundingClientRect().right > edge && !part.closest(".marks, .spoken, .help");
+          return all.filter(out).map((part) => part.outerHTML.slice(0, 120));
+        }, width);
+        expect(outside).toEqual([]);
+        await context.close();
+      }
+    });
+
+    test("nothing moves from the poster to the living figure, and axe finds nothing wrong", async ({ browser, open, complaints }) => {
+      for (const options of [{ viewport: { width: 1280, height: 720 } }, { viewport: { width: 1024, height: 768 } }, PHONE]) {
+        const context = await browser.newContext(options);
+        const page = await context.newPage();
+        listen(page, complaints);
+        await page.addInitScript(() => {
+          window.shifts = [];
+          new PerformanceObserver((list) => {
+            for (const { value, sources } of list.getEntries()) {
+              window.shifts.push([value, ...sources.map(({ node }) => node?.className || node?.localName)]);
+            }
+          }).observe({ type: "layout-shift", buffered: true });
+        });
+        // The script waits until what the page has brought along has been seen.
+        let release;
+        const released = new Promise((resolve) => (release = resolve));
+        await page.route(/\/elements\/.*\.js$/, async (route) => {
+          await released;
+          await route.continue();
+        });
+        const query = { wide: "1", poster: String(widthOf(name, options.viewport.width)) };
+        const opened = open(page, [name], { query, wait: false });
+        const figure = page.locator("epipole-figure");
+        const root = figure.locator(".root");
+        await expect(root).toHaveAttribute("aria-busy", "true");
+        await expect(figure.locator("canvas")).toHaveCount(0);
+        await expect.poll(() => root.evaluate((element) => getComputedStyle(element).borderStyle)).toBe("solid");
+        const places = () =>
+          figure.evaluate((element) => {
+            const parts = [".root", ".sheet", ".main", ".panel > .inputs", ".challenges", ".folds"];
+            return parts.map((part) => {
+              const box = element.shadowRoot.querySelector(part)?.getBoundingClientRect();
+              return box ? [box.y + scrollY, box.height] : [];
+            });
+          });
+        // The size of a poster is a whole number of pixels, that of a picture need not be.
+        const expectSame = (now, then) => {
+          const moved = now.flatMap((box, part) => box.map((at, index) => Math.abs(at - then[part][index])));
+          expect(Math.max(...moved), JSON.stringify([then, now])).toBeLessThanOrEqual(1.01);
+        };
+        const before = await places();
+        release();
+        await opened;
+        await expect(figure).toHaveAttribute("data-ready", "");
+        await expect(figure.locator("link")).toHaveCount(0);
+        expectSame(await places(), before);
+        await ready(figure);
+        await expect(figure.locator("canvas")).toBeVisible();
+        await settled(figure);
+        expectSame(await places(), before);
+        expect(await page.evaluate(() => window.shifts)).toEqual([]);
+        await expectAccessible(page);
+        await context.close();
+      }
+    });
+
+    test("each goal is shown how to reach", async ({ page, open }) => {
+      await page.emulateMedia({ reducedMotion: "reduce" });
+      const figure = await open(page, [`${name} goals=all`]);
+      const goals = await figure.locator("[data-challenge]").all();
+      expect(goals.length).toBeGreaterThan(0);
+      for (const goal of goals) {
+        await goal.getByRole("button").click();
+        await figure.getByRole("button", { name: "Show how" }).click();
+        await expect(goal).toHaveAttribute("data-solved", "");
+        await expect(figure.getByRole("button", { name: "Show how" })).toBeVisible();
+      }
+    });
+  });
+}

@@ -1,0 +1,150 @@
+// Sentences of the book that operate its figures, numbers in them that follow, and pages that leave
+// figures the room they need.
+
+import { readdirSync } from "node:fs";
+import { expect, ready, test as base } from "./fixtures.mjs";
+import { book } from "./places.mjs";
+import { serve } from "./server.mjs";
+
+const test = base.extend({
+  library: [
+    async ({}, use) => {
+      const server = await serve({ mounts: { course: book } });
+      await use(`${server.origin}/course`);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+});
+
+const chapters = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
+const WIDTHS = [320, 390, 500, 600, 768, 900, 1024, 1200, 1280, 1440, 1920];
+
+/** The figure that some words of a page belong to. */
+async function figureOf(page, words) {
+  return page.locator(`#${await words.getAttribute("data-figure")} epipole-figure`);
+}
+
+test("words in a sentence take a figure where they say, by mouse and by key, and numbers follow", async ({ page, library }) => {
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.goto(`${library}/stereo.html`);
+  const words = page.locator(".do").first();
+  const live = page.locator(".live[data-shows=disparity]").first();
+  await expect(words).toHaveRole("button");
+  await expect(live).toHaveText("30.0 px");
+  await words.click();
+  const figure = await figureOf(page, words);
+  await expect(live).toHaveText("60.0 px");
+  expect(await figure.evaluate((element) => element.readoutText("disparity"))).toBe("60.0 px");
+  await figure.evaluate((element) => element.glide({ object: "0.362,2.8" }));
+  await expect(live).toHaveText("30.0 px");
+  await words.focus();
+  await expect(words).toBeFocused();
+  await page.keyboard.press("Enter");
+  await expect(live).toHaveText("60.0 px");
+});
+
+test("every button of the book takes its figure exactly where it says", async ({ page, library }) => {
+  test.setTimeout(300_000);
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  for (const name of chapters) {
+    await page.goto(`${library}/${name}`);
+    for (const words of await page.locator(".do").all()) {
+      const figure = await figureOf(page, words);
+      await expect(figure).toHaveCount(1);
+      const wanted = JSON.parse(await words.getAttribute("data-parameters"));
+      await words.click();
+      await ready(figure);
+      // What the figure then says of each control: numbers with a unit, switches, options by their labels.
+      const asked = Object.entries(wanted).filter(([, value]) => value === "true" || value === "false" || !Number.isNaN(Number(value)));
+      const expected = asked.map(([, value]) => (value === "true" ? "on" : value === "false" ? "off" : Number(value)));
+      const says = () =>
+        figure.evaluate((element, keys) => keys.map((key) => element.controlText(key)), asked.map(([key]) => key));
+      const read = (text) => (/^(on|off)$/.test(text) ? text : parseFloat(text?.replace("−", "-")));
+      await expect
+        .poll(async () => (await says()).map(read), { message: `${name}: ${await words.textContent()}` })
+        .toEqual(expected);
+    }
+  }
+});
+
+test("without a script sentences read as plain words", async ({ browser, library }) => {
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(`${library}/stereo.html`);
+  await expect(page.locator(".do").first()).not.toHaveAttribute("role");
+  await expect(page.locator(".live").first()).toHaveText("2.80 m");
+  const looks = (locator) =>
+    locator.evaluate((element) => {
+      const { color, backgroundColor, textDecorationLine, cursor } = getComputedStyle(element);
+      return [color, backgroundColor, textDecorationLine, cursor].join();
+    });
+  const [words, paragraph] = [page.locator(".do").first(), page.locator("p:has(.do)").first()];
+  expect(await looks(words)).toBe(await looks(paragraph));
+  await context.close();
+});
+
+test("no page scrolls sideways, and posters are those of the rooms that they stand in", async ({ page, library }) => {
+  test.setTimeout(300_000);
+  for (const name of chapters) {
+    await page.goto(`${library}/${name}`);
+    for (const width of WIDTHS) {
+      await page.setViewportSize({ width, height: 800 });
+      const seen = await page.evaluate(() => ({
+        overflow: document.documentElement.scrollWidth - innerWidth,
+        figures: [...document.querySelectorAll("figure.epipole")].map((figure) => {
+          const { left, right, width } = figure.getBoundingClientRect();
+          const sources = [...figure.querySelectorAll("source")].filter((source) => matchMedia(source.media).matches);
+          return { left, right, width, poster: Number(sources[0]?.width ?? 0) / 2 };
+        }),
+      }));
+      expect(seen.overflow, `${name} at ${width}`).toBeLessThanOrEqual(0);
+      for (const figure of seen.figures) {
+        expect(figure.left, `${name} at ${width}`).toBeGreaterThanOrEqual(0);
+        expect(figure.right, `${name} at ${width}`).toBeLessThanOrEqual(width);
+        const rooms = figure.width < 500 ? [360] : figure.width < 860 ? [720] : [720, 1088];
+        expect(rooms, `${name} at ${width}: a figure of ${figure.width} px`).toContain(figure.poster);
+      }
+    }
+  }
+});
+
+test("the column of contents folds away, stays so, and comes back by key", async ({ page, library }) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await page.goto(`${library}/ransac.html`);
+  const button = page.getByRole("button", { name: "Column of contents" });
+  const contents = page.locator("#contents");
+  const figure = page.locator("figure.epipole").first();
+  await expect(button).toHaveAttribute("aria-expanded", "true");
+  await expect(contents).toBeVisible();
+  const before = (await figure.boundingBox()).width;
+  await button.click();
+  await expect(button).toHaveAttribute("aria-expanded", "false");
+  await expect(contents).toBeHidden();
+  expect((await figure.boundingBox()).width).toBeGreaterThan(before);
+  await page.reload();
+  await expect(contents).toBeHidden();
+  await button.focus();
+  await page.keyboard.press("Enter");
+  await expect(contents).toBeVisible();
+  await page.setViewportSize({ width: 1024, height: 768 });
+  await expect(button).toBeHidden();
+  await expect(contents).toBeHidden();
+});
+
+test("notes in the margin meet neither figures nor listings nor one another", async ({ page, library }) => {
+  for (const width of [1200, 1280, 1440, 1920]) {
+    await page.setViewportSize({ width, height: 800 });
+    for (const name of chapters) {
+      await page.goto(`${library}/${name}`);
+      const met = await page.evaluate(() => {
+        const boxes = (selector) => [...document.querySelectorAll(selector)].map((found) => found.getBoundingClientRect());
+        const notes = boxes(".note[role=note]");
+        const others = boxes("figure.epipole, article pre, article .table");
+        const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+        return notes.flatMap((note, index) => [...others, ...notes.slice(index + 1)].filter((box) => meet(note, box))).length;
+      });
+      expect(met, `${name} at ${width}`).toBe(0);
+    }
+  }
+});
