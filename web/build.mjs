@@ -41,12 +41,14 @@ await build({
   bundle: true,
   format: "esm",
   target: "es2022",
-  minify: true,
+  // Not the white space: with it go the comments by which bundlers know an address to leave alone.
+  minifySyntax: true,
+  minifyIdentifiers: true,
   alias: { "epipole-web": parts[0].glue, "epipole-jobs": parts[1].glue },
   define: {
-    EPIPOLE_WASM: '"epipole-figures.wasm"',
-    EPIPOLE_JOBS_WASM: '"epipole-jobs.wasm"',
-    EPIPOLE_WORKER: '"worker.js"',
+    EPIPOLE_WASM: '"./epipole-figures.wasm"',
+    EPIPOLE_JOBS_WASM: '"./epipole-jobs.wasm"',
+    EPIPOLE_WORKER: '"./worker.js"',
   },
   logLevel: "warning",
 });

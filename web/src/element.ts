@@ -25,7 +25,10 @@ const GLIDE_MS = 600;
 /** The longest time that scrolling to a figure may take, milliseconds. */
 const SCROLL_MS = 700;
 
-export class EpipoleFigure extends HTMLElement {
+/** A server that renders pages may import this file; it has no elements, and makes no figure. */
+const Base: typeof HTMLElement = globalThis.HTMLElement ?? class {};
+
+export class EpipoleFigure extends Base {
   static readonly observedAttributes = ["name", "theme", ...CHOOSING];
 
   readonly #shadow: ShadowRoot;
@@ -91,11 +94,13 @@ export class EpipoleFigure extends HTMLElement {
       this.#session?.release();
     };
     for (const type of ["pointerenter", "touchstart", "focusin"]) {
-      this.addEventListener(type, interest, { passive: true });
+      this.addEventListener(type, interest, { passive: true, capture: true });
     }
   }
 
   connectedCallback(): void {
+    // JupyterLab hears keys before anybody else, and does nothing on them where it finds this.
+    setAttribute(this, "data-lm-suppress-shortcuts", true);
     this.#shell.role = this.closest("figure") ? "group" : "figure";
     // What observers tell is remembered: to ask would make the browser lay the page out at once.
     this.#resized = new ResizeObserver((entries) => this.#onResize(entries));
@@ -247,6 +252,21 @@ export class EpipoleFigure extends HTMLElement {
     this.#shell.jobs.goOn();
     this.#warn(problems);
     this.#shell.speaker.say("Reset.");
+  }
+
+  /**
+   * Makes the state exactly this one, as a permalink or `state` has told it: what is not named takes the
+   * figure's own default, whatever the attributes say. Opens the figure if that has not been done.
+   */
+  async restore(state: Record<string, string | number | boolean>): Promise<void> {
+    this.#stopMotion();
+    if (!this.#session) void this.#open(false);
+    await this.whenReady();
+    this.#stopMotion();
+    this.#shell.speaker.warn([]);
+    this.#session?.act((engine) => engine.update({ type: "reset" }));
+    this.#shell.jobs.goOn();
+    this.#warn(this.#put(textOf(state)));
   }
 
   /** Shows the present state at once, without waiting for the display. */
@@ -464,7 +484,8 @@ export class EpipoleFigure extends HTMLElement {
     }
     this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
     setAttribute(this, "data-ready", true);
-    if (linked && !location.hash) this.scrollIntoView({ block: "start" });
+    // In a frame the address is the figure's alone, and the page around it would be moved.
+    if (linked && !location.hash && parent === window) this.scrollIntoView({ block: "start" });
     this.#awaited.pass();
     this.#emit("epipole-ready", {
       name: this.getAttribute("name"),

@@ -31,4 +31,4 @@ declare global {
   interface HTMLElementEventMap extends EpipoleEvents {}
 }
 
-if (!customElements.get("epipole-figure")) customElements.define("epipole-figure", EpipoleFigure);
+if (globalThis.customElements && !customElements.get("epipole-figure")) customElements.define("epipole-figure", EpipoleFigure);

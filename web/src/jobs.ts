@@ -160,7 +160,10 @@ export class Jobs {
     this.#show(true);
     this.#listen();
     setTimeout(() => {
-      const script: Promise<typeof import("./worker.js")> = import(workerUrl().href);
+      // Bundlers know the file from `hire`, and here they must leave its address alone.
+      const script: Promise<typeof import("./worker.js")> = import(
+        /* webpackIgnore: true */ /* @vite-ignore */ workerUrl().href
+      );
       script.then(
         ({ carryOut }) => {
           // It may have been stopped while the script came.
@@ -224,7 +227,10 @@ function workerUrl(): URL {
 /** A worker may only be started from the page's own origin; from elsewhere it takes one hop. */
 function hire(): Worker {
   const url = workerUrl();
-  if (url.origin === location.origin) return new Worker(url, { type: "module" });
+  if (url.origin === location.origin) {
+    // Written out, because this is the form by which bundlers find the worker's file.
+    return new Worker(new URL(EPIPOLE_WORKER, import.meta.url), { type: "module" });
+  }
   const hop = new Blob([`import ${JSON.stringify(url.href)};`], { type: "text/javascript" });
   return new Worker(URL.createObjectURL(hop), { type: "module" });
 }

@@ -404,6 +404,7 @@ export class Picture {
     const place = this.#placeOf(event);
     const drag = this.#dragging;
     if (drag?.pointer === event.pointerId) {
+      event.stopPropagation();
       this.#hand.drag(drag.id, place[0] + drag.offset[0], place[1] + drag.offset[1]);
       return;
     }

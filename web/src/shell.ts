@@ -93,6 +93,11 @@ export class Shell {
     for (const type of ["keydown", "keypress", "keyup"] as const) {
       this.root.addEventListener(type, (event) => this.#keep(event));
     }
+    // Whoever holds a slider does not swipe the page away.
+    for (const type of ["pointerdown", "pointermove", "touchstart", "touchmove"] as const) {
+      const holds = ({ target }: Event) => target instanceof HTMLInputElement && target.type === "range";
+      this.root.addEventListener(type, (event) => holds(event) && event.stopPropagation(), { passive: true });
+    }
   }
 
   set role(role: "figure" | "group") {

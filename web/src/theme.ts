@@ -13,8 +13,10 @@ function themeOf(element: HTMLElement): Theme {
   if (wish === "light" || wish === "dark" || wish === "high-contrast") return wish;
   if (queries.slice(1).some((query) => matchMedia(query).matches)) return "high-contrast";
 
-  const named = element.closest<HTMLElement>("[data-theme]")?.dataset["theme"];
-  if (named === "light" || named === "dark" || named === "high-contrast") return named;
+  for (const at of outwards(element)) {
+    const named = at.dataset["theme"];
+    if (named === "light" || named === "dark" || named === "high-contrast") return named;
+  }
 
   const schemes = getComputedStyle(element).colorScheme.split(" ");
   const [light, dark] = [schemes.includes("light"), schemes.includes("dark")];
@@ -40,9 +42,20 @@ export function askTheme(element: HTMLElement, tell: (theme: Theme) => void): vo
   asking.set(element, tell);
 }
 
+/** An element and what is around it, out of every shadow tree that it is in. */
+function* outwards(element: HTMLElement): Generator<HTMLElement> {
+  for (let at: Node | null = element; at; at = outside(at)) if (at instanceof HTMLElement) yield at;
+}
+
+function outside(node: Node): Node | null {
+  if (node instanceof ShadowRoot) return node.host;
+  return (node instanceof Element && node.assignedSlot) || node.parentNode;
+}
+
 /** Whether the first opaque background around an element is a dark one; a bare page is white. */
 function behindIsDark(element: HTMLElement): boolean {
-  for (let at: HTMLElement | null = element.parentElement; at; at = at.parentElement) {
+  for (const at of outwards(element)) {
+    if (at === element) continue;
     const [red = 0, green = 0, blue = 0, alpha = 1] =
       getComputedStyle(at).backgroundColor.match(/[\d.]+/g)?.map(Number) ?? [];
     if (alpha > 0.5) return 0.2126 * red + 0.7152 * green + 0.0722 * blue < 110;
@@ -50,17 +63,54 @@ function behindIsDark(element: HTMLElement): boolean {
   return false;
 }
 
+/** A page that changes its colors may take so long to blend from one to the other, milliseconds. */
+const BLEND_MS = 400;
+
+/** Who is to be told, of all figures of the page. */
+const watching = new Set<() => void>();
+
+/** What looks at the page for all of them, while there is one. */
+const page = {
+  observer: undefined as MutationObserver | undefined,
+  lists: [] as MediaQueryList[],
+  blended: undefined as ReturnType<typeof setTimeout> | undefined,
+
+  /** Which attribute a page switches its colors by is its own affair, and so is which style sheet. */
+  watch(): void {
+    this.observer = new MutationObserver(changed);
+    const attributes = { attributes: true };
+    this.observer.observe(document.documentElement, attributes);
+    if (document.body) this.observer.observe(document.body, attributes);
+    this.observer.observe(document.head, { attributes: true, childList: true, subtree: true });
+    // A style sheet that has been put there counts once it has come.
+    document.head.addEventListener("load", changed, true);
+    this.lists = queries.map((query) => matchMedia(query));
+    for (const list of this.lists) list.addEventListener("change", changed);
+  },
+
+  stop(): void {
+    this.observer?.disconnect();
+    document.head.removeEventListener("load", changed, true);
+    for (const list of this.lists) list.removeEventListener("change", changed);
+    clearTimeout(this.blended);
+  },
+};
+
+function changed(): void {
+  for (const tell of watching) tell();
+  clearTimeout(page.blended);
+  page.blended = setTimeout(() => {
+    for (const tell of watching) tell();
+  }, BLEND_MS);
+}
+
 /** Calls back whenever the answer of `themeOf` may have changed. Returns how to stop. */
-export function watchTheme(changed: () => void): () => void {
-  const lists = queries.map((query) => matchMedia(query));
-  for (const list of lists) list.addEventListener("change", changed);
-  const observer = new MutationObserver(changed);
-  const attributes = { attributes: true, attributeFilter: ["class", "data-theme", "style"] };
-  observer.observe(document.documentElement, attributes);
-  if (document.body) observer.observe(document.body, attributes);
+export function watchTheme(tell: () => void): () => void {
+  if (watching.size === 0) page.watch();
+  watching.add(tell);
   return () => {
-    for (const list of lists) list.removeEventListener("change", changed);
-    observer.disconnect();
+    watching.delete(tell);
+    if (watching.size === 0) page.stop();
   };
 }
 
