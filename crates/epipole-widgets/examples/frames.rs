@@ -1,10 +1,10 @@
 //! How long a frame takes while a reader drags, at two device pixels each CSS pixel.
 //!
 //! ```text
-//! cargo run --release -p epipole-widgets --example frames [-- NAME]
+//! cargo run --release -p epipole-widgets --example frames [-- NAME [CONTROL]]
 //! ```
 //!
-//! Of one figure or of all, every slider and the first handle are dragged through their ranges, and
+//! Of one figure or of all, every slider and the first handle, or one of them, are dragged through their ranges, and
 //! a frame is drawn after every event, as on a page. What long computations find is there from the
 //! start.
 
@@ -22,6 +22,8 @@ const SCALE: f64 = 2.0;
 fn main() -> Result<(), Problem> {
     println!("milliseconds                                  least  median     p95");
     let wanted = std::env::args().nth(1);
+    let only = std::env::args().nth(2);
+    let is_moved = |id: &str| only.as_ref().is_none_or(|only| only == id);
     let is_wanted = |name: &str| wanted.as_ref().is_none_or(|wanted| wanted == name);
     for entry in FIGURES.iter().filter(|entry| is_wanted(entry.name)) {
         let mut figure = Figure::new(entry.name)?;
@@ -40,6 +42,9 @@ fn main() -> Result<(), Problem> {
             let ControlKind::Slider { min, max, .. } = control.kind else {
                 continue;
             };
+            if !is_moved(control.id) {
+                continue;
+            }
             let mut times = Vec::new();
             for index in 0..NUM_FRAMES {
                 let share = index as f64 / (NUM_FRAMES - 1) as f64;
@@ -54,7 +59,8 @@ fn main() -> Result<(), Problem> {
             figure.finish_job();
             figure.draw(WIDTH, SCALE, Theme::Light)?;
         }
-        if let Some(handle) = figure.handles().first() {
+        let handles = figure.handles();
+        if let Some(handle) = handles.first().filter(|handle| is_moved(&handle.id)) {
             let mut times = Vec::new();
             for index in 0..NUM_FRAMES {
                 let share = index as f64 / (NUM_FRAMES - 1) as f64;

@@ -7,7 +7,7 @@ use super::coverage::Coverage;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step};
 use super::strokes::{At, Cap};
 use super::{Canvas, Place, Shape};
-use crate::theme::Role;
+use crate::theme::{Rgb, Role};
 use std::cell::RefCell;
 
 /// Half the size from which a marker is not worth keeping, device pixels.
@@ -27,7 +27,16 @@ struct Key {
     width: u32,
     /// Place within the pixel, in steps.
     step: (u8, u8),
+    /// How much shows through it, of 256.
+    see_through: u8,
 }
+
+/// How much shows through the rim of a dot, of 256.
+const RIM_SEE_THROUGH: u8 = 115;
+/// Width of that rim, CSS pixels.
+const RIM: f64 = 0.7;
+/// Sizes of dots are kept in steps of this, device pixels: a cloud has as many sizes as depths.
+const DOT_STEP: f64 = 0.125;
 
 /// Draws a shape, or its outline if `width` is not 0; everything in CSS pixels.
 pub(super) fn draw(
@@ -56,11 +65,34 @@ pub(super) fn draw(
         radius: radius.to_bits(),
         width: width.to_bits(),
         step: (step_x, step_y),
+        see_through: 0,
     };
     let color = canvas.theme.color(role);
     KEPT.with_borrow_mut(|kept| {
         kept.stamp(key, cover)
             .blend(&mut canvas.pixmap, (x, y), color);
+    });
+}
+
+/// Draws a disk with a rim of the theme; everything in CSS pixels.
+pub(super) fn draw_dot(canvas: &mut Canvas, (x, y): Place, radius: f64, color: Rgb) {
+    let scale = canvas.scale;
+    let ((x, step_x), (y, step_y)) = (pixel_and_step(x * scale), pixel_and_step(y * scale));
+    let rim = canvas.theme.color(Role::Muted);
+    let disks = [(RIM, RIM_SEE_THROUGH, rim), (0.0, 0, color)];
+    KEPT.with_borrow_mut(|kept| {
+        for (more, see_through, color) in disks {
+            let radius = ((radius + more) * scale / DOT_STEP).round() * DOT_STEP;
+            let key = Key {
+                shape: Shape::Disk,
+                radius: (radius as f32).to_bits(),
+                width: 0,
+                step: (step_x, step_y),
+                see_through,
+            };
+            kept.stamp(key, cover)
+                .blend(&mut canvas.pixmap, (x, y), color);
+        }
     });
 }
 
@@ -73,11 +105,18 @@ fn cover(key: Key) -> Stamp {
     let center = (middle(key.step.0), middle(key.step.1));
     let mut coverage = Coverage::default().sized(side, side);
     add(&mut coverage, center, radius, key.shape, width);
+    let mut alpha = coverage.into_alpha();
+    if key.see_through > 0 {
+        let kept = 256 - u16::from(key.see_through);
+        for alpha in &mut alpha {
+            *alpha = ((u16::from(*alpha) * kept + 128) >> 8) as u8;
+        }
+    }
     Stamp {
         left: -margin,
         top: -margin,
         width: side,
-        alpha: coverage.into_alpha(),
+        alpha,
     }
 }
 
@@ -179,6 +218,33 @@ mod tests {
             let area = 2.0 * (1.2 * radius) * (1.2 * radius);
             assert!((inked(radius) / area - 1.0).abs() < 0.05, "{radius}");
         }
+    }
+
+    #[test]
+    fn a_dot_is_a_disk_of_its_color_in_a_rim_that_lets_the_ground_through() {
+        let mut canvas = Canvas::new(20.0, 20.0, 2.0, Theme::Light, Picture::default()).unwrap();
+        let paper = Theme::Light.color(Role::Background);
+        let rim = Theme::Light.color(Role::Muted);
+        canvas.dot((10.25, 10.25), 3.0, [200, 30, 40]);
+        for place in [(f64::NAN, 3.0), (3.0, f64::INFINITY), (30.0, 3.0)] {
+            canvas.dot(place, 3.0, [0, 0, 0]);
+        }
+        canvas.dot((1.0, 1.0), f64::NAN, [0, 0, 0]);
+        let picture = canvas.finish();
+        let at = |x: usize, y: usize| &picture.rgba()[4 * (40 * y + x)..][..3];
+        assert_eq!(at(20, 20), [200, 30, 40]);
+        assert_eq!(at(25, 20), [200, 30, 40]);
+        assert_eq!(at(29, 20), paper);
+        assert_eq!(at(2, 2), paper);
+        let (mixed, expected) = (
+            at(27, 20)[0],
+            (paper[0] as f64 * 115.0 + rim[0] as f64 * 141.0) / 256.0,
+        );
+        let between = (paper[0].min(rim[0])..=paper[0].max(rim[0])).contains(&mixed);
+        assert!(
+            between && mixed != paper[0] && f64::from(mixed) >= expected - 2.0,
+            "{mixed} {expected}"
+        );
     }
 
     #[test]

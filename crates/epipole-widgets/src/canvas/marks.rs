@@ -78,41 +78,10 @@ impl Canvas {
     }
 
     /// A small disk in a color of the world, such as a point of a colored cloud, with a rim of the
-    /// theme so that it shows on any background. Made for thousands: it writes pixels itself.
+    /// theme so that it shows on any background. Made for thousands.
     pub fn dot(&mut self, center: Place, radius: f64, color: Rgb) {
-        let usable = center.0.is_finite() && center.1.is_finite() && radius.is_finite();
-        if !usable || !self.clip.contains(center) {
-            return;
-        }
-        let (x, y) = (center.0 * self.scale - 0.5, center.1 * self.scale - 0.5);
-        let (x, y) = (x as f32, y as f32);
-        let inner = (radius.clamp(0.5, 20.0) * self.scale) as f32;
-        let outer = inner + 0.7 * self.scale as f32;
-        let rim = self.theme.color(Role::Muted).map(f32::from);
-        let fill = color.map(f32::from);
-        let reach = outer + 0.5;
-        let (width, height) = (self.pixmap.width(), self.pixmap.height());
-        // Casts to an unsigned number take what is negative for 0.
-        let rows = (y - reach).ceil() as u32..((y + reach) as u32).saturating_add(1).min(height);
-        let data = self.pixmap.data_mut();
-        for v in rows {
-            let dy = v as f32 - y;
-            let half = (reach * reach - dy * dy).max(0.0).sqrt();
-            let first = ((x - half).ceil() as u32).min(width);
-            let end = ((x + half) as u32).saturating_add(1).clamp(first, width);
-            let start = 4 * (v * width + first) as usize;
-            let pixels = data[start..][..4 * (end - first) as usize].chunks_exact_mut(4);
-            for (u, pixel) in (first..end).zip(pixels) {
-                let dx = u as f32 - x;
-                let distance = (dx * dx + dy * dy).sqrt();
-                let cover = |radius: f32| (radius + 0.5 - distance).clamp(0.0, 1.0);
-                let (around, inside) = (0.55 * cover(outer), cover(inner));
-                for (byte, (rim, fill)) in pixel.iter_mut().zip(rim.iter().zip(fill)) {
-                    let behind = f32::from(*byte);
-                    let rimmed = behind + (rim - behind) * around;
-                    *byte = (rimmed + (fill - rimmed) * inside + 0.5) as u8;
-                }
-            }
+        if self.clip.contains(center) && radius.is_finite() {
+            markers::draw_dot(self, center, radius.clamp(0.5, 20.0), color);
         }
     }
 }

@@ -101,17 +101,12 @@ impl Photo {
             let small = |side: u32| (f64::from(side) * DRAFT_FACTOR).round().max(1.0) as u32;
             let small_size = (small(size.0), small(size.1));
             let mut draft = blank(self.draft.take(), small_size);
-            scene.render_rows(
-                &Camera {
-                    intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
-                    ..*camera
-                },
-                small_size.0,
-                small_size.1,
-                Sampling::Draft,
-                self.meanwhile.missing_rows(small_size.1),
-                &mut draft,
-            )?;
+            let small_camera = Camera {
+                intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
+                ..*camera
+            };
+            let wanted = self.meanwhile.wanted(small_size);
+            scene.render_draft(&small_camera, &wanted, &mut draft)?;
             self.meanwhile.fill(&draft.image);
             self.draft = Some(draft);
             self.shown = Some((*camera, arrangement));

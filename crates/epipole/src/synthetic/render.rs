@@ -91,6 +91,7 @@ impl Scene {
             first: 0,
             rgb: &mut target.image,
             depth_m: &mut target.depth_m,
+            wanted: None,
         };
         render_bands(&view, band);
         Ok(target)
@@ -116,13 +117,7 @@ impl Scene {
         self.check(camera, width, height)?;
         for (got_width, got_height) in [target.image.dimensions(), target.depth_m.dimensions()] {
             for (first, second) in [(width, got_width), (height, got_height)] {
-                if first != second {
-                    return Err(Error::SizeMismatch {
-                        what: "the photograph and its target",
-                        first: first as usize,
-                        second: second as usize,
-                    });
-                }
+                check_size("the photograph and its target", first, second)?;
             }
         }
         let (start, end) = (rows.start.min(height), rows.end.min(height));
@@ -135,9 +130,59 @@ impl Scene {
             first: start,
             rgb: &mut target.image.as_flat_samples_mut().samples[3 * from..3 * to],
             depth_m: &mut target.depth_m.as_flat_samples_mut().samples[from..to],
+            wanted: None,
         });
         Ok(())
     }
+
+    /// Renders some pixels of a photograph as [`Sampling::Draft`] does, and leaves the others of
+    /// `target` as they are.
+    ///
+    /// * `camera`: for a picture of the target's size
+    /// * `wanted`: for each pixel of the target, row by row, whether it is asked for
+    ///
+    /// # Errors
+    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the three are not of one size.
+    pub fn render_draft(
+        &self,
+        camera: &Camera,
+        wanted: &[bool],
+        target: &mut Photograph,
+    ) -> Result<()> {
+        let (width, height) = target.image.dimensions();
+        self.check(camera, width, height)?;
+        let num_pixels = width * height;
+        let num_wanted = u32::try_from(wanted.len()).unwrap_or(u32::MAX);
+        check_size(
+            "the pixels of a draft and those asked for",
+            num_pixels,
+            num_wanted,
+        )?;
+        for (depth, color) in [
+            (target.depth_m.width(), width),
+            (target.depth_m.height(), height),
+        ] {
+            check_size("the colors and the depths of a photograph", color, depth)?;
+        }
+        View::new(self, camera, width, height, Sampling::Draft).render(Band {
+            first: 0,
+            rgb: &mut target.image,
+            depth_m: &mut target.depth_m,
+            wanted: Some(wanted),
+        });
+        Ok(())
+    }
+}
+
+fn check_size(what: &'static str, first: u32, second: u32) -> Result<()> {
+    if first == second {
+        return Ok(());
+    }
+    Err(Error::SizeMismatch {
+        what,
+        first: first as usize,
+        second: second as usize,
+    })
 }
 
 /// Some rows of the picture that is being made.
@@ -145,6 +190,9 @@ struct Band<'a> {
     first: u32,
     rgb: &'a mut [u8],
     depth_m: &'a mut [f32],
+    /// Of each of its pixels, whether it is asked for; all if `None`. Only for drafts, where no pixel
+    /// looks at its neighbors.
+    wanted: Option<&'a [bool]>,
 }
 
 #[cfg(not(feature = "parallel"))]
@@ -166,6 +214,7 @@ fn render_bands(view: &View, band: Band) {
                 first: band.first + (index * ROWS) as u32,
                 rgb,
                 depth_m,
+                wanted: None,
             });
         });
 }
@@ -181,12 +230,20 @@ impl View<'_> {
         let mut samples = Vec::with_capacity((end - first) as usize * width);
         let mut lists = Vec::new();
         let mut listed = u32::MAX;
+        let is_wanted = |place: usize| {
+            band.wanted
+                .is_none_or(|wanted| wanted.get(place) == Some(&true))
+        };
         for row in first..end {
             if row / TILE != listed {
                 listed = row / TILE;
                 self.candidates(listed, &mut lists);
             }
             for column in 0..self.width {
+                if !is_wanted(samples.len()) {
+                    samples.push(Sample::default());
+                    continue;
+                }
                 samples.push(self.trace(
                     f64::from(column),
                     f64::from(row),
@@ -209,6 +266,9 @@ impl View<'_> {
             let offset = (row - first) as usize * width;
             let target = (row - band.first) as usize * width;
             for column in 0..width {
+                if !is_wanted(target + column) {
+                    continue;
+                }
                 let sample = samples[offset + column];
                 band.depth_m[target + column] = sample.depth_m;
                 let mut color = sample.color;

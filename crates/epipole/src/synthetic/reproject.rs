@@ -55,17 +55,29 @@ impl Reprojected {
         self.missing.len()
     }
 
-    /// The rows of a picture of `height` rows of the same view, of which [`Reprojected::fill`] takes
-    /// what is missing; empty if nothing is.
-    pub fn missing_rows(&self, height: u32) -> Range<u32> {
-        let (width, own_height) = self.image.dimensions();
-        match (self.missing.first(), self.missing.last()) {
-            (Some(first), Some(last)) => {
-                let row = |index: u32| between(index / width, own_height, height).0 as u32;
-                row(*first)..(row(*last) + 2).min(height)
-            }
-            _ => 0..0,
+    /// Which pixels of a picture of `size` of the same view [`Reprojected::fill`] takes, row by row.
+    pub fn wanted(&self, (width, height): (u32, u32)) -> Vec<bool> {
+        let (own_width, own_height) = self.image.dimensions();
+        let mut wanted = vec![false; width as usize * height as usize];
+        let columns: Vec<_> = (0..own_width)
+            .map(|u| between(u, own_width, width))
+            .collect();
+        if wanted.is_empty() {
+            return wanted;
         }
+        for row in self.missing.chunk_by(|a, b| a / own_width == b / own_width) {
+            let start = row[0] / own_width * own_width;
+            let (above, below, _) = between(row[0] / own_width, own_height, height);
+            for row_above in [above, below] {
+                let place = row_above * width as usize;
+                for &index in row {
+                    let (left, right, _) = columns[(index - start) as usize];
+                    wanted[place + left] = true;
+                    wanted[place + right] = true;
+                }
+            }
+        }
+        wanted
     }
 
     /// Fills what is missing from a picture of the same view, of any size, between its pixels.
@@ -83,17 +95,24 @@ impl Reprojected {
             .chunks_exact(draft_width as usize);
         let draft: Vec<&[[u8; 3]]> = draft.collect();
         let pixels = self.image.as_chunks_mut::<3>().0;
+        // The two rows of the draft around a row, mixed once: 256 times as bright.
+        let mut mixed = vec![[0u32; 3]; draft_width as usize];
         for row in self.missing.chunk_by(|a, b| a / width == b / width) {
             let start = row[0] / width * width;
             let (above, below, down) = between(row[0] / width, height, draft_height);
+            let (first, last) = (row[0] - start, row[row.len() - 1] - start);
+            let used = columns[first as usize].0..=columns[last as usize].1;
+            for at in used {
+                let (a, b) = (draft[above][at], draft[below][at]);
+                mixed[at] = std::array::from_fn(|i| {
+                    u32::from(a[i]) * (256 - down) + u32::from(b[i]) * down
+                });
+            }
             for &index in row {
                 let (left, right, across) = columns[(index - start) as usize];
-                let [a, b] = [left, right].map(|x| draft[above][x]);
-                let [c, d] = [left, right].map(|x| draft[below][x]);
-                let mix = |a: u8, b: u8| u32::from(a) * (256 - across) + u32::from(b) * across;
+                let (a, b) = (mixed[left], mixed[right]);
                 pixels[index as usize] = std::array::from_fn(|i| {
-                    let (upper, lower) = (mix(a[i], b[i]), mix(c[i], d[i]));
-                    ((upper * (256 - down) + lower * down + 32_768) >> 16) as u8
+                    ((a[i] * (256 - across) + b[i] * across + 32_768) >> 16) as u8
                 });
             }
         }
@@ -626,8 +645,35 @@ mod tests {
             let pixel = seen.image.get_pixel(index % SIZE.0, index / SIZE.0);
             assert_eq!(pixel.0, [1, 2, 3]);
         }
-        let rows = seen.missing_rows(15);
-        assert!(rows.end <= 15 && rows.start < rows.end);
+    }
+
+    /// A draft of which only the wanted pixels are rendered fills as well as a whole one.
+    #[test]
+    fn only_what_is_wanted_of_a_draft_is_used() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let small = (SIZE.0.div_ceil(6), SIZE.1 / 6);
+        for to in places() {
+            let fill = |all: bool| {
+                let mut seen = Reprojected::default();
+                photograph.reproject(&from, &to, None, &mut seen).unwrap();
+                let camera = Camera {
+                    intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                    ..to
+                };
+                let wanted = seen.wanted(small);
+                assert!(wanted.iter().any(|&wanted| !wanted));
+                let wanted = wanted.iter().map(|&wanted| wanted || all);
+                let mut draft = Photograph::blank(small.0, small.1);
+                scene
+                    .render_draft(&camera, &wanted.collect::<Vec<_>>(), &mut draft)
+                    .unwrap();
+                seen.fill(&draft.image);
+                seen.image
+            };
+            assert_eq!(fill(true), fill(false));
+        }
     }
 
     #[test]

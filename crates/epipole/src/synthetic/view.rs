@@ -34,7 +34,7 @@ struct Seen<'a> {
 }
 
 /// What one ray found.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Sample {
     /// Body and chart.
     pub(super) key: u32,
