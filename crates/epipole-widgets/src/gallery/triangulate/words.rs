@@ -22,23 +22,16 @@ impl Words for Triangulate {
         let predicted = estimates.uncertainty_m();
         let mut readouts = vec![
             Readout::number("angle", "Rays meet at", estimates.angle_deg, 1, "°").main(),
-            centimeters("uncertainty", "1 σ along the rays", predicted).main(),
-            centimeters(
-                "scatter",
-                "200 photographs scatter by",
-                estimates.scatter_m(),
-            )
-            .main(),
+            centimeters("uncertainty", "1 σ along rays", predicted).main(),
+            centimeters("scatter", "200 pairs scatter by", estimates.scatter_m()),
         ];
-        for (index, point) in estimates.points.iter().enumerate() {
-            let error_px = point
-                .as_ref()
-                .ok()
-                .and_then(|p| estimates.reprojection_px(p));
-            readouts.push(match error_px {
-                Some(error_px) => Readout::number(IDS[index], LABELS[index], error_px, 4, "px"),
-                None => Readout::words(IDS[index], LABELS[index], "no point"),
-            });
+        for (index, (id, label)) in IDS.into_iter().zip(LABELS).enumerate() {
+            let readout = match estimates.reprojection_px(index) {
+                Some(error_px) => Readout::number(id, label, error_px, 3, "px"),
+                None => Readout::words(id, label, "no point"),
+            };
+            let is_main = matches!(id, "midpoint" | "optimal");
+            readouts.push(if is_main { readout.main() } else { readout });
         }
         let from = format!(
             "{}, {} ×",
