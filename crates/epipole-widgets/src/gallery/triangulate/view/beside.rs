@@ -19,8 +19,8 @@ const RADII: [f64; 4] = [5.5, 5.5, 8.5, 4.0];
 const LEAST_PX: f64 = 0.5;
 /// Nothing farther away is looked for, pixels.
 const FARTHEST_PX: f64 = 500.0;
-/// Narrower patches have no words in them, CSS pixels.
-const WORDY: f64 = 170.0;
+/// Narrower patches do not name the other ray, CSS pixels.
+const WORDY: f64 = 180.0;
 /// Uncertainties that the plots show, powers of ten of a centimeter.
 const OVER_ANGLE: [f64; 2] = [-1.0, 2.3];
 const OVER_DISTANCE: [f64; 2] = [-1.3, 4.3];
@@ -122,56 +122,63 @@ fn draw_patch(estimates: &Estimates, camera: usize, panel: &Panel, canvas: &mut 
     let (role, shape) = CAMERAS[camera];
     let other = CAMERAS[1 - camera].0;
     let middle = panel.canvas_from_world((0.0, 0.0));
+    let line = estimates.lines.as_ref().map(|lines| &lines[camera]);
+    let foot = line.map(|line| line.nearest(&estimates.pixels[camera]) - estimates.pixels[camera]);
+    let images: Vec<_> = (0..METHODS.len())
+        .filter_map(|method| {
+            let miss = estimates.miss_px(method, camera)?;
+            Some((method, panel.canvas_from_world((miss.x, miss.y))))
+        })
+        .collect();
     let mut labels = Labels::new(panel.rect.inset(3.0));
-    let wordy = panel.rect.width >= WORDY;
+    labels.keep_free(middle, 7.0);
+    for (_, place) in &images {
+        labels.keep_free(*place, 9.0);
+    }
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
-        if let Some(lines) = &estimates.lines {
-            let line = &lines[camera];
-            let foot = line.nearest(&estimates.pixels[camera]) - estimates.pixels[camera];
+        if let Some((line, foot)) = line.zip(foot) {
             let reach = 3.0 * panel.x_axis.end.max(panel.y_axis.end);
             let ends = [-reach, reach].map(|along| {
                 panel.canvas_from_world((foot.x - line.b * along, foot.y + line.a * along))
             });
             canvas.line(ends[0], ends[1], Stroke::solid(other, 1.5));
-            let (_, v) = panel.canvas_from_world((foot.x, foot.y));
-            if wordy {
-                let x = panel.rect.right() - 6.0;
-                let places = [((x, v - 11.0), Align::End), ((x, v + 11.0), Align::End)];
-                let style = TextStyle::new(other, SMALL).cased();
-                labels.draw(canvas, &places, RAYS[1 - camera], style);
-            }
         }
         canvas.marker(middle, 4.5, shape, role, true);
-        labels.keep_free(middle, 7.0);
-        for (method, (shape, radius)) in SHAPES.into_iter().zip(RADII).enumerate() {
-            let Some(miss) = estimates.miss_px(method, camera) else {
-                continue;
-            };
-            let place = panel.canvas_from_world((miss.x, miss.y));
-            labels.keep_free(place, 8.0);
+        for (method, place) in &images {
+            let (shape, radius) = (SHAPES[*method], RADII[*method]);
             // One around another, where they agree.
             if shape == Shape::Triangle {
-                canvas.hollow_marker(place, radius, shape, METHOD_ROLE, false);
+                canvas.hollow_marker(*place, radius, shape, METHOD_ROLE, false);
             } else {
-                canvas.marker(place, radius, shape, METHOD_ROLE, false);
+                canvas.marker(*place, radius, shape, METHOD_ROLE, false);
             }
         }
-        if wordy {
-            let style = TextStyle::new(role, SMALL).cased();
-            labels.draw(canvas, &Labels::around(middle, 8.0), "measured", style);
+        let style = TextStyle::new(role, SMALL).cased();
+        labels.draw(canvas, &Labels::around(middle, 8.0), "measured", style);
+        if let Some(foot) = foot.filter(|_| panel.rect.width >= WORDY) {
+            let (_, v) = panel.canvas_from_world((foot.x, foot.y));
+            let x = panel.rect.right() - 6.0;
+            let places = [-11.0, 11.0].map(|up| ((x, v + up), Align::End));
+            let style = TextStyle::new(other, SMALL).cased();
+            labels.draw(canvas, &places, RAYS[1 - camera], style);
         }
     });
-    draw_scale(panel, canvas);
+    draw_scale(panel, foot.is_some_and(|foot| foot.y > 0.0), canvas);
 }
 
-/// A bar of a round number of pixels.
-fn draw_scale(panel: &Panel, canvas: &mut Canvas) {
+/// A bar of a round number of pixels, above or below.
+fn draw_scale(panel: &Panel, is_above: bool, canvas: &mut Canvas) {
     let wanted = 0.5 * panel.x_axis.end;
     let power = libm::exp10(libm::floor(libm::log10(wanted)));
     let round = [5.0, 2.0, 1.0].into_iter().find(|n| n * power <= wanted);
     let px = round.unwrap_or(1.0) * power;
     let digits = if px < 1.0 { 1 } else { 0 };
-    let place = (panel.rect.x + 8.0, panel.rect.bottom() - 8.0);
+    let y = if is_above {
+        panel.rect.y + 23.0
+    } else {
+        panel.rect.bottom() - 8.0
+    };
+    let place = (panel.rect.x + 8.0, y);
     let end = (place.0 + px * panel.scale_x(), place.1);
     canvas.line(place, end, Stroke::solid(Role::Ink, 2.0));
     let style = TextStyle::new(Role::Ink, SMALL).cased();
