@@ -49,10 +49,9 @@ impl Words for Triangulate {
         };
         let angle = format_number(estimates.angle_deg, 1);
         let best = estimates.points[METHODS.len() - 1].as_ref();
-        let Ok(best) = best else {
-            return format!(
-                "The two noisy rays are {angle}° apart and do not meet in front of both cameras."
-            );
+        let best = match best {
+            Ok(best) => best,
+            Err(error) => return format!("The rays meet at {angle}°. There is no point: {error}."),
         };
         let off_cm = 100.0 * (best - estimates.truth).norm();
         let sigma = estimates
