@@ -101,8 +101,7 @@ pub(super) fn sigma_mm(a: &Arguments) -> Result<Number, String> {
         &Point3::origin(),
         a.get("sigma"),
     )?;
-    // The two short ones: in the plane of the rays, where the cameras share the work unequally, it is
-    // the longer one.
+    // Across, in the plane of the rays, it is never shorter than out of that plane.
     Ok(Real(1000.0 * axes[index(a, "axis")?], 1))
 }
 
