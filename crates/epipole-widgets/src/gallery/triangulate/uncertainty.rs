@@ -62,10 +62,11 @@ impl Curves {
         if across.norm() > 0.0
             && let Some(&(far_m, long_m)) = curves.distance.last()
         {
-            let steps = curves.distance.iter();
-            curves.square = steps
-                .map(|&(distance_m, _)| (distance_m, long_m * (distance_m / far_m).powi(2)))
-                .collect();
+            let square = |&(distance_m, _): &(f64, f64)| {
+                let share = distance_m / far_m;
+                (distance_m, long_m * share * share)
+            };
+            curves.square = curves.distance.iter().map(square).collect();
         }
         curves
     }

@@ -1,7 +1,7 @@
 //! What `triangulate` says.
 
-use super::estimates::METHODS;
-use super::model::Triangulate;
+use super::estimates::{Estimates, METHODS};
+use super::model::{Show, Triangulate};
 use crate::contract::{Readout, Words, format_number};
 
 const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
@@ -11,6 +11,38 @@ fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Re
     match meters.map(|meters| 100.0 * meters) {
         Some(cm) if cm < 9_999.0 => Readout::number(id, label, cm, 1, "cm"),
         _ => Readout::words(id, label, "no limit"),
+    }
+}
+
+/// What stands beside the region, in words.
+fn beside(show: Show, estimates: &Estimates) -> String {
+    let px = |method| {
+        let missed = estimates.reprojection_px(method);
+        missed.map_or("no number of".to_owned(), |px| format_number(px, 2))
+    };
+    let cm = |curve: &[(f64, f64)], at: f64| {
+        let found = curve.iter().find(|(x, _)| *x >= at);
+        found.map_or("no limit".to_owned(), |(_, long_m)| {
+            format!("{} cm", format_number(100.0 * long_m, 1))
+        })
+    };
+    let curves = &estimates.curves;
+    match show {
+        Show::Misses => format!(
+            "In the photographs the midpoint misses the pixels by {} px, the optimum by {} px.",
+            px(0),
+            px(METHODS.len() - 1)
+        ),
+        Show::Angle => format!(
+            "With camera 2 led about P it would be {} at 5° and {} at 45°.",
+            cm(&curves.angle, 5.0),
+            cm(&curves.angle, 45.0)
+        ),
+        Show::Distance => format!(
+            "With P led away it would be {} at 5 m and {} at 50 m.",
+            cm(&curves.distance, 5.0),
+            cm(&curves.distance, 50.0)
+        ),
     }
 }
 
@@ -61,8 +93,9 @@ impl Words for Triangulate {
             });
         format!(
             "The rays meet at {angle}°. The optimal estimate is {} cm off; one standard deviation along \
-             the rays is {sigma}.",
-            format_number(off_cm, 1)
+             the rays is {sigma}. {}",
+            format_number(off_cm, 1),
+            beside(self.show(), estimates)
         )
     }
 }
