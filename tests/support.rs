@@ -53,6 +53,12 @@ pub mod listings {
     /// Chapter "Let the data vote".
     #[doc = include_str!("../content/ransac.md")]
     pub struct Ransac;
+    /// Chapter "Cash in".
+    #[doc = include_str!("../content/triangulation.md")]
+    pub struct Triangulation;
+    /// Chapter "Where this leads".
+    #[doc = include_str!("../content/connections.md")]
+    pub struct Connections;
     /// Chapter "Structure from motion".
     #[doc = include_str!("../content/sfm.md")]
     pub struct Sfm;

@@ -5,6 +5,7 @@
 //! parameter fails the build, so prose cannot drift away from the code.
 
 mod registry;
+mod triangulation;
 
 use crate::problems::name_list;
 pub use registry::REGISTRY;
@@ -285,6 +286,45 @@ mod tests {
             ("stereo.depth f=700 b=0.12 d=4 digits=1", "21.0"),
             // 100 / 42
             ("stereo.depth-error f=700 b=0.06 z=10 digits=1", "2.4"),
+            // d = 20: 500 · 0.1 / 20
+            (
+                "triangulation.point f=500 b=0.1 u=320 v=240 u2=300 v2=240 axis=3",
+                "2.500",
+            ),
+            (
+                "triangulation.point f=500 b=0.1 u=345 v=265 u2=320 v2=265 axis=2",
+                "0.100",
+            ),
+            // NumPy: the midpoint and the DLT as they are defined; angles and pixels by Gauss–Newton.
+            ("triangulation.ahead-mm method=1 axis=2", "4.0"),
+            ("triangulation.ahead-mm method=4 axis=2", "-1.5"),
+            ("triangulation.miss-px method=1 image=1", "1.20"),
+            ("triangulation.miss-px method=1 image=2", "6.02"),
+            ("triangulation.miss-px method=2 image=2", "6.01"),
+            ("triangulation.miss-px method=3 image=1", "2.30"),
+            ("triangulation.miss-px method=4 image=2", "0.46"),
+            ("triangulation.error-px method=1", "4.34"),
+            ("triangulation.error-px method=2 digits=3", "4.334"),
+            ("triangulation.error-px method=3 digits=4", "1.6640"),
+            ("triangulation.error-px method=4 digits=3", "1.664"),
+            // 2 / (500 √2 sin 45°) and 2 / (500 √2 sin 1°) and 2 / (500 √2 cos 1°)
+            (
+                "triangulation.sigma-mm f=500 r=2 angle=90 sigma=1 axis=1",
+                "4.0",
+            ),
+            (
+                "triangulation.sigma-mm f=500 r=2 angle=2 sigma=1 axis=1",
+                "162.1",
+            ),
+            (
+                "triangulation.sigma-mm f=500 r=2 angle=2 sigma=1 axis=2",
+                "2.8",
+            ),
+            // √2 · 2² / (500 · 0.4)
+            (
+                "triangulation.sigma-depth f=500 b=0.4 z=2 sigma=1 digits=3",
+                "0.028",
+            ),
         ] {
             assert_eq!(printed(call).as_deref(), Ok(expected), "{call}");
             used.push(call.split(' ').next().unwrap().to_owned());

@@ -2,7 +2,7 @@
 //! parent module.
 
 use super::Number::{Count, Real};
-use super::{Arguments, Entry, Number};
+use super::{Arguments, Entry, Number, triangulation};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
     EightPoint, Epipole, epipolar_line2, epipolar_row, epipoles, essential_from_motion,
@@ -350,6 +350,47 @@ pub const REGISTRY: &[Entry] = &[
             Ok(Real(depth_m * depth_m / (focal_px * baseline_m), 2))
         },
     },
+    Entry {
+        name: "triangulation.point",
+        parameters: &["f", "b", "u", "v", "u2", "v2", "axis"],
+        summary: "X, Y or Z, axis = 1, 2, 3, of the match (u, v) – (u2, v2) by the DLT; equal cameras \
+            side by side, a baseline b apart, principal point (320, 240); meters",
+        compute: triangulation::point,
+    },
+    Entry {
+        name: "triangulation.ahead-mm",
+        parameters: &["method", "axis"],
+        summary: "X, Y or Z, axis = 1, 2, 3, of the chapter's match by the midpoint, the DLT, angles or \
+            the optimum, method = 1 to 4; millimeters",
+        compute: triangulation::ahead_mm,
+    },
+    Entry {
+        name: "triangulation.miss-px",
+        parameters: &["method", "image"],
+        summary: "how far that point lands from the pixel in image 1 or 2, pixels",
+        compute: triangulation::miss_px,
+    },
+    Entry {
+        name: "triangulation.error-px",
+        parameters: &["method"],
+        summary: "the root mean square of both, pixels",
+        compute: triangulation::error_px,
+    },
+    Entry {
+        name: "triangulation.sigma-mm",
+        parameters: &["f", "r", "angle", "sigma", "axis"],
+        summary: "half axis 1, 2 or 3 of a point's region of one standard deviation, 1 along the rays, 2 \
+            across them; two cameras look at it from the distance r, their rays at an angle in degrees; \
+            millimeters",
+        compute: triangulation::sigma_mm,
+    },
+    Entry {
+        name: "triangulation.sigma-depth",
+        parameters: &["f", "b", "z", "sigma"],
+        summary: "standard deviation along the rays of a point half-way between two cameras side by side, \
+            a baseline b apart, and z away; meters",
+        compute: triangulation::sigma_depth,
+    },
 ];
 
 /// What three equal cameras side by side see of one point: their columns.
@@ -434,7 +475,7 @@ fn opencv_divisor(block: usize) -> Result<Number, String> {
     Ok(Real(255.0 * ratio.sqrt().sqrt(), 0))
 }
 
-fn sentence(error: epipole::Error) -> String {
+pub(super) fn sentence(error: epipole::Error) -> String {
     error.to_string()
 }
 
@@ -454,11 +495,11 @@ fn epipole2(a: &Arguments) -> Result<Point2<f64>, String> {
     }
 }
 
-fn pixel1(a: &Arguments) -> Point2<f64> {
+pub(super) fn pixel1(a: &Arguments) -> Point2<f64> {
     Point2::new(a.get("u"), a.get("v"))
 }
 
-fn pixel2(a: &Arguments) -> Point2<f64> {
+pub(super) fn pixel2(a: &Arguments) -> Point2<f64> {
     Point2::new(a.get("u2"), a.get("v2"))
 }
 

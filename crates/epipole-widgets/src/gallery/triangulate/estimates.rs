@@ -1,7 +1,10 @@
 //! One point from two noisy pixels, by every method of the core, and many times over.
 
+use super::uncertainty::Curves;
 use epipole::Error;
 use epipole::camera::{Camera, relative_motion};
+use epipole::epipolar::{epipolar_line1, epipolar_line2, fundamental_from_cameras};
+use epipole::math::Line2;
 use epipole::math::random::Random;
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
@@ -27,6 +30,9 @@ pub(super) struct Estimates {
     /// Half axes of the region of one standard deviation, longest first, in the world.
     pub(super) axes: Option<[Vector3<f64>; 3]>,
     pub(super) angle_deg: f64,
+    /// In each photograph the line that the pixel of the other one leaves there.
+    pub(super) lines: Option<[Line2; 2]>,
+    pub(super) curves: Curves,
 }
 
 impl Estimates {
@@ -51,21 +57,26 @@ impl Estimates {
         Ok(Self {
             points: by_all(&cameras, &pixels),
             repeats,
-            axes: half_axes(&cameras, &truth, sigma_px),
+            axes: axes_of(&cameras, &truth, sigma_px),
             angle_deg: triangulation_angle_rad(&center1, &center2, &truth).to_degrees(),
+            lines: lines(&cameras, &pixels),
+            curves: Curves::new(&cameras, &truth, sigma_px),
             cameras,
             truth,
             pixels,
         })
     }
 
-    /// Root mean square of the distances of a point's images from the pixels, pixels.
-    pub(super) fn reprojection_px(&self, point: &Point3<f64>) -> Option<f64> {
-        let mut sum = 0.0;
-        for (camera, pixel) in self.cameras.iter().zip(&self.pixels) {
-            sum += (camera.project(point).ok()? - pixel).norm_squared();
-        }
-        Some((sum / 2.0).sqrt())
+    /// How far the point by one of [`METHODS`] lies from the pixel in one of the photographs, pixels.
+    pub(super) fn miss_px(&self, method: usize, camera: usize) -> Option<Vector2<f64>> {
+        let point = self.points[method].as_ref().ok()?;
+        Some(self.cameras[camera].project(point).ok()? - self.pixels[camera])
+    }
+
+    /// The reprojection error of one of [`METHODS`]: the root mean square of both, pixels.
+    pub(super) fn reprojection_px(&self, method: usize) -> Option<f64> {
+        let [one, two] = [0, 1].map(|camera| self.miss_px(method, camera));
+        Some(((one?.norm_squared() + two?.norm_squared()) / 2.0).sqrt())
     }
 
     /// Root mean square distance of the repeated points from the truth, meters.
@@ -101,7 +112,14 @@ fn by_all(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> [Result<Point3<f6
     ]
 }
 
-fn half_axes(
+fn lines(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2; 2]> {
+    let fundamental = fundamental_from_cameras(&cameras[0], &cameras[1]).ok()?;
+    let in_first = epipolar_line1(&fundamental, &pixels[1]).ok()?;
+    Some([in_first, epipolar_line2(&fundamental, &pixels[0]).ok()?])
+}
+
+/// Half axes of the region of one standard deviation about a point, longest first, in the world.
+pub(super) fn axes_of(
     cameras: &[Camera; 2],
     truth: &Point3<f64>,
     sigma_px: f64,

@@ -2,6 +2,7 @@
 
 mod estimates;
 mod model;
+mod uncertainty;
 mod view;
 mod words;
 

@@ -1,8 +1,8 @@
 //! A point, two cameras that look at it, and the noise of its two pixels.
 
-use super::estimates::Estimates;
+use super::estimates::{Estimates, METHODS};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
+    Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Space, Value,
 };
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
@@ -20,13 +20,34 @@ pub(super) const NOISE: Slider = Slider::new("noise", "Noise of a pixel, σ")
     .at(1.0)
     .digits(1)
     .unit("px");
-const SEED: Slider = Slider::seed(4.0);
+const SHOW: Choice = Choice::new(
+    "show",
+    "Show",
+    &[
+        ("misses", "In the photographs"),
+        ("angle", "Error over angle"),
+        ("distance", "Error over distance"),
+    ],
+);
+const SEED: Slider = Slider::seed(6.0);
 const KNOBS: &[Knob] = &[
+    Knob::Choice(&SHOW),
     Knob::Slider(&NOISE),
     Knob::Slider(&SEED),
     Knob::Slider(&ZOOM),
 ];
 const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
+
+/// What stands beside the region about the point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Show {
+    /// Where each method's point appears in the two photographs, beside the pixel.
+    Misses,
+    /// One standard deviation along the rays over the angle.
+    Angle,
+    /// The same over the distance.
+    Distance,
+}
 
 /// The model of `triangulate`.
 pub(crate) struct Triangulate {
@@ -48,6 +69,10 @@ impl Triangulate {
 
     pub(super) fn zoom(&self) -> f64 {
         self.settings.number(&ZOOM)
+    }
+
+    pub(super) fn show(&self) -> Show {
+        [Show::Misses, Show::Angle, Show::Distance][self.settings.chosen(&SHOW)]
     }
 
     pub(super) fn sigma_px(&self) -> f64 {
@@ -86,13 +111,13 @@ impl Declared for Triangulate {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            orbit: Orbit::new(-24.0, 38.0),
+            orbit: Orbit::new(-50.0, 20.0),
             point: Pin::new("point", "top", "Point P", (0.3, 2.4), [ASIDE_M, [1.0, 3.4]]),
             second: Pin::new(
                 "second",
                 "top",
                 "Camera 2",
-                (0.5, 0.0),
+                (0.5, 1.5),
                 [ASIDE_M, [-0.3, 3.0]],
             ),
             estimates: Err(String::new()),
@@ -161,6 +186,23 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
         solution: || vec![Event::moved("second", 0.1, 0.0)],
     },
     Challenge {
+        id: "fair",
+        goal: "Let the midpoint miss as little as the optimum, with the same noise.",
+        hint: "In which of the two photographs does the midpoint miss by more, and why there?",
+        why: "As far from one camera as from the other, a millimeter is as many pixels in both photographs: \
+              half-way is fair.",
+        check: |model| {
+            let start = Triangulate::new();
+            let same = [&NOISE, &SEED]
+                .into_iter()
+                .all(|knob| model.settings.number(knob) == start.settings.number(knob));
+            let missed = |method| model.estimates.as_ref().ok()?.reprojection_px(method);
+            let both = missed(0).zip(missed(METHODS.len() - 1));
+            same && both.is_some_and(|(midpoint, optimal)| midpoint < optimal + 0.005)
+        },
+        solution: || vec![Event::moved("second", 0.5, 0.0)],
+    },
+    Challenge {
         id: "round",
         goal: "Make the region nearly round, at any place.",
         hint: "Each camera measures well across its own ray. So the other one should look …",
@@ -213,12 +255,11 @@ mod tests {
             let Ok(estimates) = &model.estimates else {
                 continue;
             };
-            let missed = |point: &Result<_, _>| estimates.reprojection_px(point.as_ref().ok()?);
-            let Some(optimal) = missed(&estimates.points[3]) else {
+            let Some(optimal) = estimates.reprojection_px(3) else {
                 continue;
             };
-            for point in &estimates.points[..3] {
-                if let Some(other) = missed(point) {
+            for method in 0..3 {
+                if let Some(other) = estimates.reprojection_px(method) {
                     // Two steps of Lindström's iteration end so near to the minimum.
                     assert!(optimal <= other * (1.0 + 1e-8), "{optimal} and {other}");
                     num_compared += 1;

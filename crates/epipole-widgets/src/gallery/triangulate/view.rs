@@ -1,7 +1,10 @@
-//! Cameras and point from above; around the point, enlarged, the rays and all estimates; and how the
-//! uncertainty grows as the angle narrows.
+//! Cameras and point from above; around the point, enlarged, the rays and all estimates; and beside it
+//! either how far each estimate misses the pixels, or how the uncertainty grows.
 
-use super::estimates::{Estimates, METHODS};
+mod beside;
+mod region;
+
+use super::estimates::METHODS;
 use super::model::{ASIDE_M, FOCAL_PX, SIZE, Triangulate};
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
@@ -10,12 +13,8 @@ use crate::kit::labels::Labels;
 use crate::kit::legend::{self, Swatch};
 use crate::kit::orbit::Orbit;
 use crate::kit::plan::{self, PlanCamera};
-use crate::kit::plot::{self, Ruler};
-use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
-use epipole::camera::Camera;
-use epipole::triangulation::point_covariance;
-use nalgebra::{Point2, Point3, Rotation3, Vector3};
+use nalgebra::Point2;
 
 /// How far in front of the centers the image planes are drawn, meters.
 const IMAGE_M: f64 = 0.35;
@@ -25,18 +24,8 @@ const CAMERAS: [(Role, Shape); 2] = [
 ];
 const REGION: Role = Role::Series(3);
 const SHAPES: [Shape; 4] = [Shape::Cross, Shape::Plus, Shape::Triangle, Shape::Diamond];
-/// Angles and uncertainties that the plot shows, degrees and powers of ten of a centimeter.
-const ANGLES: [f64; 2] = [0.0, 60.0];
-const DECADES: [f64; 2] = [-1.0, 2.3];
-
-fn rulers() -> [Ruler; 2] {
-    [
-        Ruler::linear(ANGLES[0], ANGLES[1])
-            .shown(1.0, "°")
-            .named("angle between the rays"),
-        Ruler::decades(DECADES[0], DECADES[1]),
-    ]
-}
+/// All estimates are of one kind; their shapes tell them apart.
+const METHOD_ROLE: Role = Role::Ink;
 
 /// Draws [`Triangulate`].
 #[derive(Default)]
@@ -46,11 +35,11 @@ impl View for TriangulateView {
     type Model = Triangulate;
     const ASPECT: Aspect = Aspect::Broad;
 
-    fn layout(&self, _: &Triangulate, width: f64) -> Layout {
+    fn layout(&self, model: &Triangulate, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let [top, space, cell] = if grid::is_narrow(width) {
-            let [top, space] = grid.shares([1.0, 1.15], 170.0);
-            let [cell] = grid.shares([1.0], 96.0);
+            let [top, space] = grid.shares([1.0, 1.15], 165.0);
+            let [cell] = grid.shares([1.0], 104.0);
             [top, space, cell]
         } else {
             grid.shares(
@@ -59,46 +48,41 @@ impl View for TriangulateView {
             )
         };
         grid.strip(legend_height(width));
-        let [x, y] = rulers();
-        grid.layout(vec![
+        let mut panels = vec![
             plan::panel_of("top", top, [ASIDE_M, [-0.3, 3.4]], 0.25),
             Orbit::panel(space),
-            plot::panel("plot", cell, &x, &y),
-        ])
+        ];
+        panels.extend(beside::panels(model, cell));
+        grid.layout(panels)
     }
 
     fn draw(&mut self, model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
-        let [top, space, panel] = ["top", "space", "plot"].map(|id| layout.panel(id));
-        let narrow = grid::is_narrow(layout.width);
+        let [top, space] = ["top", "space"].map(|id| layout.panel(id));
         grid::title(canvas, top.rect, "From above");
-        grid::title(
+        grid::fitting_title(
             canvas,
             space.rect,
-            if narrow {
-                "Around P"
-            } else {
-                "Around P, enlarged: drag to turn"
-            },
+            &[
+                "Around P, enlarged: drag to turn",
+                "Around P, enlarged",
+                "Around P",
+            ],
         );
-        grid::title(canvas, panel.rect, "1 σ, cm");
         canvas.panel(top.rect);
         canvas.panel(space.rect);
-        let [x, y] = rulers();
-        plot::draw_axes(canvas, panel, &x, &y);
+        beside::draw(model, layout, canvas);
         let top_of_legend = layout.height - legend_height(layout.width);
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, top_of_legend);
-        let estimates = match model.estimates() {
-            Ok(estimates) => estimates,
-            Err(sentence) => return grid::notice(canvas, space.rect, sentence),
-        };
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
-        draw_space(model, estimates, space, canvas);
-        draw_plot(model, estimates, panel, canvas);
+        match model.estimates() {
+            Ok(estimates) => region::draw(model, estimates, space, canvas),
+            Err(sentence) => grid::notice(canvas, space.rect, sentence),
+        }
     }
 }
 
 fn legend_entries() -> [legend::Entry; 5] {
-    let marker = |index: usize| Swatch::Marker(SHAPES[index], Role::Ink);
+    let marker = |index: usize| Swatch::Marker(SHAPES[index], METHOD_ROLE);
     [
         (marker(0), METHODS[0]),
         (marker(1), METHODS[1]),
@@ -149,90 +133,4 @@ fn draw_top(model: &Triangulate, panel: &Panel, canvas: &mut Canvas) {
     canvas.grip(place, Role::Grip);
     labels.keep_free(place, 9.0);
     labels.draw(canvas, &Labels::around(place, 10.0), "P", ink);
-}
-
-fn draw_space(model: &Triangulate, estimates: &Estimates, panel: &Panel, canvas: &mut Canvas) {
-    let truth = estimates.truth;
-    let long = estimates.uncertainty_m().unwrap_or(0.5).min(4.0);
-    let missed = (estimates.points.iter().flatten()).map(|point| (point - truth).norm());
-    let radius = missed.fold(2.6 * long, f64::max).min(12.0);
-    let subject = Subject {
-        middle: truth,
-        radius,
-    };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
-        return;
-    };
-    for (index, camera) in estimates.cameras.iter().enumerate() {
-        let center = camera.center_in_world();
-        let ray = camera.ray_in_world(&estimates.pixels[index]).normalize();
-        let near = (truth - center).dot(&ray);
-        let ends = [near - 1.6 * radius, near + 1.6 * radius].map(|along| center + ray * along);
-        space.line(&ends[0], &ends[1], Stroke::solid(CAMERAS[index].0, 2.0));
-    }
-    let color = canvas.theme().color(REGION);
-    for point in &estimates.repeats {
-        space.dot(point, 1.3, color);
-    }
-    if let Some(axes) = estimates.axes {
-        draw_region(&mut space, &truth, &axes);
-    }
-    space.marker(&truth, 6.0, Shape::Ring, Role::Truth);
-    for (point, shape) in estimates.points.iter().zip(SHAPES) {
-        if let Ok(point) = point {
-            space.marker(point, 5.0, shape, Role::Ink);
-        }
-    }
-    space.draw(canvas, panel);
-    draw_handles(canvas, panel, model.orbit());
-}
-
-/// The region of two standard deviations: its outline in the planes of its axes.
-fn draw_region(space: &mut Space, middle: &Point3<f64>, axes: &[Vector3<f64>; 3]) {
-    const CORNERS: usize = 48;
-    for (a, b) in [(0, 1), (0, 2)] {
-        let corner = |index: usize| {
-            let turn = std::f64::consts::TAU * index as f64 / CORNERS as f64;
-            middle + (axes[a] * libm::cos(turn) + axes[b] * libm::sin(turn)) * 2.0
-        };
-        for index in 0..CORNERS {
-            space.line(
-                &corner(index),
-                &corner(index + 1),
-                Stroke::solid(REGION, 1.5),
-            );
-        }
-    }
-}
-
-/// The uncertainty of a second camera as far away as the first one, over the angle; and where we are.
-fn draw_plot(model: &Triangulate, estimates: &Estimates, panel: &Panel, canvas: &mut Canvas) {
-    let first = estimates.cameras[0];
-    let curve = (1..=120).filter_map(|half| {
-        let angle_deg = f64::from(half) / 2.0;
-        let turned = turned_about(&first, &estimates.truth, angle_deg);
-        let covariance =
-            point_covariance(&[first, turned], &estimates.truth, model.sigma_px()).ok()?;
-        let long_m = covariance.symmetric_eigenvalues().max().sqrt();
-        Some((angle_deg, plot::decade(100.0 * long_m)))
-    });
-    plot::draw_curve(canvas, panel, curve, Stroke::solid(REGION, 2.0));
-    plot::draw_now(canvas, panel, estimates.angle_deg);
-    if let Some(long_m) = estimates.uncertainty_m() {
-        let decade = plot::decade(100.0 * long_m).clamp(DECADES[0], DECADES[1]);
-        let place = panel.canvas_from_world((estimates.angle_deg.min(ANGLES[1]), decade));
-        canvas.marker(place, 5.0, Shape::Disk, Role::Grip, true);
-    }
-}
-
-/// A camera led about a point on a circle, from above, still looking at it.
-fn turned_about(camera: &Camera, point: &Point3<f64>, angle_deg: f64) -> Camera {
-    let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), angle_deg.to_radians());
-    let about = nalgebra::Translation3::from(point.coords)
-        * nalgebra::UnitQuaternion::from_rotation_matrix(&turn)
-        * nalgebra::Translation3::from(-point.coords);
-    Camera {
-        cam_from_world: camera.cam_from_world * about,
-        ..*camera
-    }
 }

@@ -1,7 +1,7 @@
 //! What `triangulate` says.
 
-use super::estimates::METHODS;
-use super::model::Triangulate;
+use super::estimates::{Estimates, METHODS};
+use super::model::{Show, Triangulate};
 use crate::contract::{Readout, Words, format_number};
 
 const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
@@ -14,6 +14,38 @@ fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Re
     }
 }
 
+/// What stands beside the region, in words.
+fn beside(show: Show, estimates: &Estimates) -> String {
+    let px = |method| {
+        let missed = estimates.reprojection_px(method);
+        missed.map_or("no number of".to_owned(), |px| format_number(px, 2))
+    };
+    let cm = |curve: &[(f64, f64)], at: f64| {
+        let found = curve.iter().find(|(x, _)| *x >= at);
+        found.map_or("no limit".to_owned(), |(_, long_m)| {
+            format!("{} cm", format_number(100.0 * long_m, 1))
+        })
+    };
+    let curves = &estimates.curves;
+    match show {
+        Show::Misses => format!(
+            "In the photographs the midpoint misses the pixels by {} px, the optimum by {} px.",
+            px(0),
+            px(METHODS.len() - 1)
+        ),
+        Show::Angle => format!(
+            "With camera 2 led about P it would be {} at 5° and {} at 45°.",
+            cm(&curves.angle, 5.0),
+            cm(&curves.angle, 45.0)
+        ),
+        Show::Distance => format!(
+            "With P led away it would be {} at 5 m and {} at 50 m.",
+            cm(&curves.distance, 5.0),
+            cm(&curves.distance, 50.0)
+        ),
+    }
+}
+
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
         let Ok(estimates) = self.estimates() else {
@@ -22,23 +54,16 @@ impl Words for Triangulate {
         let predicted = estimates.uncertainty_m();
         let mut readouts = vec![
             Readout::number("angle", "Rays meet at", estimates.angle_deg, 1, "°").main(),
-            centimeters("uncertainty", "1 σ along the rays", predicted).main(),
-            centimeters(
-                "scatter",
-                "200 photographs scatter by",
-                estimates.scatter_m(),
-            )
-            .main(),
+            centimeters("uncertainty", "1 σ along rays", predicted).main(),
+            centimeters("scatter", "200 pairs scatter by", estimates.scatter_m()),
         ];
-        for (index, point) in estimates.points.iter().enumerate() {
-            let error_px = point
-                .as_ref()
-                .ok()
-                .and_then(|p| estimates.reprojection_px(p));
-            readouts.push(match error_px {
-                Some(error_px) => Readout::number(IDS[index], LABELS[index], error_px, 4, "px"),
-                None => Readout::words(IDS[index], LABELS[index], "no point"),
-            });
+        for (index, (id, label)) in IDS.into_iter().zip(LABELS).enumerate() {
+            let readout = match estimates.reprojection_px(index) {
+                Some(error_px) => Readout::number(id, label, error_px, 3, "px"),
+                None => Readout::words(id, label, "no point"),
+            };
+            let is_main = matches!(id, "midpoint" | "optimal");
+            readouts.push(if is_main { readout.main() } else { readout });
         }
         let from = format!(
             "{}, {} ×",
@@ -56,10 +81,9 @@ impl Words for Triangulate {
         };
         let angle = format_number(estimates.angle_deg, 1);
         let best = estimates.points[METHODS.len() - 1].as_ref();
-        let Ok(best) = best else {
-            return format!(
-                "The two noisy rays are {angle}° apart and do not meet in front of both cameras."
-            );
+        let best = match best {
+            Ok(best) => best,
+            Err(error) => return format!("The rays meet at {angle}°. There is no point: {error}."),
         };
         let off_cm = 100.0 * (best - estimates.truth).norm();
         let sigma = estimates
@@ -69,8 +93,9 @@ impl Words for Triangulate {
             });
         format!(
             "The rays meet at {angle}°. The optimal estimate is {} cm off; one standard deviation along \
-             the rays is {sigma}.",
-            format_number(off_cm, 1)
+             the rays is {sigma}. {}",
+            format_number(off_cm, 1),
+            beside(self.show(), estimates)
         )
     }
 }

@@ -1,0 +1,119 @@
+//! How far the point may be off along its rays, over the angle and over the distance.
+
+use super::estimates::axes_of;
+use epipole::camera::{Camera, look_at};
+use nalgebra::{Point3, Rotation3, Vector3};
+
+/// The angles that are tried, degrees.
+pub(super) const ANGLES_DEG: [f64; 2] = [0.0, 90.0];
+/// The distances, powers of ten of a meter.
+pub(super) const DISTANCES: [f64; 2] = [-0.3, 2.0];
+const NUM_STEPS: usize = 120;
+
+/// One standard deviation along the rays, meters, over …
+pub(super) struct Curves {
+    /// … the angle at which the rays meet, degrees, as camera 2 is led about the point.
+    pub(super) angle: Vec<(f64, f64)>,
+    /// … the distance of the point from camera 1, meters, as it is led along the ray of camera 1.
+    pub(super) distance: Vec<(f64, f64)>,
+    /// What grows with the square of that distance, and is the same far away.
+    pub(super) square: Vec<(f64, f64)>,
+}
+
+impl Curves {
+    /// Nothing where the cameras stand in one place.
+    pub(super) fn new(cameras: &[Camera; 2], truth: &Point3<f64>, sigma_px: f64) -> Self {
+        let [center1, center2] = cameras.map(|camera| camera.center_in_world());
+        let (ray1, ray2) = (truth - center1, truth - center2);
+        let mut curves = Self {
+            angle: Vec::new(),
+            distance: Vec::new(),
+            square: Vec::new(),
+        };
+        let along = |center2: &Point3<f64>, point: &Point3<f64>| {
+            let looking = |camera: &Camera, center: &Point3<f64>| {
+                let cam_from_world = look_at(center, point, &Vector3::new(0.0, -1.0, 0.0)).ok()?;
+                Some(Camera {
+                    cam_from_world,
+                    ..*camera
+                })
+            };
+            let cameras = [
+                looking(&cameras[0], &center1)?,
+                looking(&cameras[1], center2)?,
+            ];
+            Some(axes_of(&cameras, point, sigma_px)?[0].norm())
+        };
+        let direction = ray1.normalize();
+        let across = ray2 - direction * ray2.dot(&direction);
+        for step in 1..=NUM_STEPS {
+            let share = step as f64 / NUM_STEPS as f64;
+            let angle_deg = ANGLES_DEG[0] + (ANGLES_DEG[1] - ANGLES_DEG[0]) * share;
+            let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), angle_deg.to_radians());
+            let led = truth - turn * direction * ray2.norm();
+            if let Some(long_m) = along(&led, truth) {
+                curves.angle.push((angle_deg, long_m));
+            }
+            let distance_m = libm::exp10(DISTANCES[0] + (DISTANCES[1] - DISTANCES[0]) * share);
+            if let Some(long_m) = along(&center2, &(center1 + direction * distance_m)) {
+                curves.distance.push((distance_m, long_m));
+            }
+        }
+        if across.norm() > 0.0
+            && let Some(&(far_m, long_m)) = curves.distance.last()
+        {
+            let square = |&(distance_m, _): &(f64, f64)| {
+                let share = distance_m / far_m;
+                (distance_m, long_m * share * share)
+            };
+            curves.square = curves.distance.iter().map(square).collect();
+        }
+        curves
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::camera::{Intrinsics, RigidTransform};
+
+    fn curves(second: Point3<f64>) -> Curves {
+        let camera = |center: &Point3<f64>| Camera {
+            intrinsics: Intrinsics::centered(500.0, 640, 480).unwrap(),
+            cam_from_world: RigidTransform::translation(-center.x, -center.y, -center.z),
+        };
+        let cameras = [camera(&Point3::origin()), camera(&second)];
+        Curves::new(&cameras, &Point3::new(0.0, 0.0, 2.0), 1.0)
+    }
+
+    #[test]
+    fn far_away_it_is_what_a_pixel_of_disparity_costs() {
+        // √2 σ Z² / (f B)
+        let found = curves(Point3::new(0.4, 0.0, 0.0));
+        let &(far_m, long_m) = found.distance.last().unwrap();
+        let expected = std::f64::consts::SQRT_2 * far_m * far_m / (500.0 * 0.4);
+        assert!(
+            (long_m / expected - 1.0).abs() < 0.01,
+            "{long_m} {expected}"
+        );
+        let &(_, square_m) = found.square.last().unwrap();
+        assert_eq!(square_m, long_m);
+    }
+
+    #[test]
+    fn equal_cameras_at_an_angle() {
+        // Two directions at the angle α leave σ r / (f √2 sin(α / 2)) along their bisector.
+        let found = curves(Point3::new(2.0, 0.0, 2.0));
+        for &(angle_deg, long_m) in &found.angle {
+            let half = (angle_deg / 2.0).to_radians();
+            let expected = 2.0 / (500.0 * std::f64::consts::SQRT_2 * libm::sin(half));
+            assert!((long_m / expected - 1.0).abs() < 1e-9, "{angle_deg}");
+        }
+    }
+
+    #[test]
+    fn cameras_in_one_place_have_no_curve_over_the_distance() {
+        let found = curves(Point3::origin());
+        assert!(found.distance.is_empty() && found.square.is_empty());
+    }
+}
