@@ -10,6 +10,7 @@
 pub(crate) mod approx;
 mod border;
 mod bytes;
+mod correlate;
 #[cfg(feature = "decode")]
 mod decode;
 #[cfg(feature = "decode")]
@@ -32,7 +33,8 @@ pub use border::Border;
 pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, pyramid_down_u8};
 #[cfg(feature = "decode")]
 pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
-pub use gaussian::{gaussian_blur, gaussian_kernel};
+pub use correlate::{correlate, noise_gain};
+pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{
     DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
     gaussian_derivative, scharr, sobel,
