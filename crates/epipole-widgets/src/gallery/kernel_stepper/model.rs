@@ -317,7 +317,7 @@ mod tests {
         for expected in [(7, 5), (0, 0), (1, 0)] {
             model.update(&Event::press("next")).unwrap();
             assert_eq!(model.pixel(), expected);
-            let products = model.window().iter().zip(model.kernel().weights);
+            let products = model.window().into_iter().zip(model.kernel().weights);
             let sum: f32 = products.map(|(level, weight)| level * weight).sum();
             assert_eq!(f64::from(sum), model.sum(expected));
         }
