@@ -107,7 +107,12 @@ pub const REGISTRY: &[Entry] = &[
         name: "gradients.angle-deg",
         parameters: &["du", "dv"],
         summary: "direction of the gradient (du, dv), degrees from u toward v",
-        compute: |a| Ok(Real(at_first(&gradient_of(a)?.orientation()).to_degrees(), 2)),
+        compute: |a| {
+            Ok(Real(
+                at_first(&gradient_of(a)?.orientation()).to_degrees(),
+                2,
+            ))
+        },
     },
     Entry {
         name: "gradients.sobel",
@@ -183,7 +188,12 @@ pub const REGISTRY: &[Entry] = &[
         compute: |a| {
             let color = ["r", "g", "b"].map(|channel| a.get(channel));
             let weighed = color.iter().zip(BT601_WEIGHTS);
-            Ok(Real(weighed.map(|(level, weight)| level * f64::from(weight)).sum(), 0))
+            Ok(Real(
+                weighed
+                    .map(|(level, weight)| level * f64::from(weight))
+                    .sum(),
+                0,
+            ))
         },
     },
     Entry {
@@ -480,7 +490,10 @@ fn gray_row(levels: &[f64]) -> Result<GrayImage32, String> {
 }
 
 fn at_first(image: &GrayImage32) -> f64 {
-    image.as_raw().first().map_or(f64::NAN, |&value| value.into())
+    image
+        .as_raw()
+        .first()
+        .map_or(f64::NAN, |&value| value.into())
 }
 
 fn gradient_of(a: &Arguments) -> Result<Gradient, String> {

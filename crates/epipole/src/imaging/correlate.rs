@@ -62,7 +62,9 @@ pub fn correlate(image: &GrayImage32, kernel: &GrayImage32, border: Border) -> R
 /// assert!((gain - 0.5_f64.sqrt()).abs() < 1e-12);
 /// ```
 pub fn noise_gain(weights: &[f32]) -> f64 {
-    let squares = weights.iter().map(|&weight| f64::from(weight) * f64::from(weight));
+    let squares = weights
+        .iter()
+        .map(|&weight| f64::from(weight) * f64::from(weight));
     squares.sum::<f64>().sqrt()
 }
 
@@ -90,7 +92,11 @@ mod tests {
     #[test]
     fn bad_kernels_are_refused_and_empty_images_stay_empty() {
         let image = GrayImage32::new(3, 3);
-        for kernel in [GrayImage32::new(2, 3), GrayImage32::new(3, 4), GrayImage32::new(0, 0)] {
+        for kernel in [
+            GrayImage32::new(2, 3),
+            GrayImage32::new(3, 4),
+            GrayImage32::new(0, 0),
+        ] {
             assert!(correlate(&image, &kernel, Border::Replicate).is_err());
         }
         let odd = GrayImage32::from_pixel(3, 3, image::Luma([f32::INFINITY]));
@@ -105,12 +111,21 @@ mod tests {
         let mut random = Random::new(2);
         let noise = GrayImage32::from_fn(160, 120, |_, _| image::Luma([random.normal() as f32]));
         for sigma_px in [0.5, 1.0, 2.0] {
-            let slopes = gaussian_derivative(&noise, sigma_px, Border::Reflect101).unwrap().du;
-            let squares: f64 = slopes.as_raw().iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+            let slopes = gaussian_derivative(&noise, sigma_px, Border::Reflect101)
+                .unwrap()
+                .du;
+            let squares: f64 = slopes
+                .as_raw()
+                .iter()
+                .map(|&x| f64::from(x) * f64::from(x))
+                .sum();
             let measured = (squares / slopes.as_raw().len() as f64).sqrt();
             let (smooth, slope) = gaussian_derivative_kernels(sigma_px).unwrap();
             let predicted = noise_gain(&smooth) * noise_gain(&slope);
-            assert!((measured / predicted - 1.0).abs() < 0.05, "{measured} {predicted}");
+            assert!(
+                (measured / predicted - 1.0).abs() < 0.05,
+                "{measured} {predicted}"
+            );
             if sigma_px >= 1.0 {
                 // Of the continuous Gaussian: 1 / (√(8π) σ²).
                 let continuous = 1.0 / ((8.0 * std::f64::consts::PI).sqrt() * sigma_px * sigma_px);

@@ -2,7 +2,7 @@
 
 use crate::kit::picture;
 use epipole::imaging::{
-    Border, GrayImage32, Gradient, centered_difference, gaussian_blur, gaussian_derivative,
+    Border, Gradient, GrayImage32, centered_difference, gaussian_blur, gaussian_derivative,
     gaussian_derivative_kernels, gray_to_u8, noise_gain,
 };
 use epipole::math::random::Random;
@@ -73,7 +73,12 @@ impl Field {
             ),
         };
         let shown = OnceCell::new();
-        Ok(Self { levels, du, dv, shown })
+        Ok(Self {
+            levels,
+            du,
+            dv,
+            shown,
+        })
     }
 
     /// The part without the margin of an edge.
@@ -82,7 +87,12 @@ impl Field {
             image::imageops::crop_imm(image, MARGIN, MARGIN, GRID.0, GRID.1).to_image()
         };
         let [levels, du, dv] = [&self.levels, &self.du, &self.dv].map(cut);
-        Self { levels, du, dv, ..self }
+        Self {
+            levels,
+            du,
+            dv,
+            ..self
+        }
     }
 
     pub(super) fn size(&self) -> (u32, u32) {
@@ -233,7 +243,11 @@ pub(super) fn slope_left(smooth_px: Option<f64>) -> epipole::Result<f64> {
 mod tests {
     use super::*;
 
-    const CLEAN: Edge = Edge { angle_deg: 120.0, noise: 0.0, seed: 1 };
+    const CLEAN: Edge = Edge {
+        angle_deg: 120.0,
+        noise: 0.0,
+        seed: 1,
+    };
 
     #[test]
     fn on_a_clean_edge_the_gradient_is_the_slope_across_it() {
@@ -241,7 +255,10 @@ mod tests {
             let edge = Edge { angle_deg, ..CLEAN };
             let field = edge.field(None).unwrap();
             let middle = field.at((12, 9));
-            assert!((middle.magnitude() - STEP / RAMP_PX).abs() < 1e-4, "{angle_deg}");
+            assert!(
+                (middle.magnitude() - STEP / RAMP_PX).abs() < 1e-4,
+                "{angle_deg}"
+            );
             assert!(edge.off_deg(&field) < 1e-3, "{angle_deg}");
         }
         assert_eq!(CLEAN.field(None).unwrap().at((0, 17)).magnitude(), 0.0);
@@ -253,7 +270,10 @@ mod tests {
         for (smooth_px, slope) in [(None, 20.0), (Some(2.0), 17.495), (Some(4.0), 10.987)] {
             assert!((slope_left(smooth_px).unwrap() - slope).abs() < 0.001);
         }
-        let flat = Edge { noise: 10.0, ..CLEAN };
+        let flat = Edge {
+            noise: 10.0,
+            ..CLEAN
+        };
         for smooth_px in [None, Some(1.0)] {
             let (mut sum, mut count) = (0.0, 0.0);
             for seed in 1..=20 {
@@ -264,15 +284,29 @@ mod tests {
                     count += 1.0;
                 }
             }
-            let (measured, predicted) = (f64::sqrt(sum / count), 10.0 * noise_left(smooth_px).unwrap());
-            assert!((measured / predicted - 1.0).abs() < 0.06, "{measured} {predicted}");
+            let (measured, predicted) = (
+                f64::sqrt(sum / count),
+                10.0 * noise_left(smooth_px).unwrap(),
+            );
+            assert!(
+                (measured / predicted - 1.0).abs() < 0.06,
+                "{measured} {predicted}"
+            );
         }
     }
 
     #[test]
     fn smoothing_puts_the_arrows_right() {
-        let noisy = Edge { noise: 20.0, ..CLEAN };
+        let noisy = Edge {
+            noise: 20.0,
+            ..CLEAN
+        };
         let off = |smooth_px| noisy.off_deg(&noisy.field(smooth_px).unwrap());
-        assert!(off(None) > 25.0 && off(Some(2.0)) < 6.0, "{} {}", off(None), off(Some(2.0)));
+        assert!(
+            off(None) > 25.0 && off(Some(2.0)) < 6.0,
+            "{} {}",
+            off(None),
+            off(Some(2.0))
+        );
     }
 }

@@ -15,15 +15,27 @@ use image::RgbImage;
 const SOURCE: Choice = Choice::new(
     "source",
     "Image",
-    &[("edge", "Edge"), ("still-life", "Still life"), ("own", "Your photograph")],
+    &[
+        ("edge", "Edge"),
+        ("still-life", "Still life"),
+        ("own", "Your photograph"),
+    ],
 );
 const OWN: usize = 2;
-const ANGLE: Slider = Slider::new("angle", "Edge angle").range(0.0, 180.0, 5.0).at(120.0).unit("°");
-const NOISE: Slider =
-    Slider::new("noise", "Noise σ").range(0.0, 30.0, 1.0).at(4.0).unit("gray levels");
+const ANGLE: Slider = Slider::new("angle", "Edge angle")
+    .range(0.0, 180.0, 5.0)
+    .at(120.0)
+    .unit("°");
+const NOISE: Slider = Slider::new("noise", "Noise σ")
+    .range(0.0, 30.0, 1.0)
+    .at(4.0)
+    .unit("gray levels");
 const SMOOTH: Toggle = Toggle::new("smooth", "Smoothing");
-pub(super) const SIGMA: Slider =
-    Slider::new("sigma", "Smoothing σ").range(0.5, 5.0, 0.1).at(1.5).digits(1).unit("px");
+pub(super) const SIGMA: Slider = Slider::new("sigma", "Smoothing σ")
+    .range(0.5, 5.0, 0.1)
+    .at(1.5)
+    .digits(1)
+    .unit("px");
 const BESIDE: Choice = Choice::new(
     "beside",
     "Beside it",
@@ -317,7 +329,11 @@ const CHALLENGES: &[Challenge<GradientField>] = &[
             is_noisy && model.off_deg().is_some_and(|off| off <= 6.0)
         },
         solution: || {
-            vec![Event::set(&NOISE, 20.0), Event::set(&SMOOTH, true), Event::set(&SIGMA, 2.5)]
+            vec![
+                Event::set(&NOISE, 20.0),
+                Event::set(&SMOOTH, true),
+                Event::set(&SIGMA, 2.5),
+            ]
         },
     },
     Challenge {
@@ -329,7 +345,9 @@ const CHALLENGES: &[Challenge<GradientField>] = &[
         check: |model| {
             let slope = |smooth_px| model.quality(smooth_px).map(|quality| quality.slope);
             let before = slope(None);
-            slope(model.smooth_px()).zip(before).is_some_and(|(now, before)| now <= before / 2.0)
+            slope(model.smooth_px())
+                .zip(before)
+                .is_some_and(|(now, before)| now <= before / 2.0)
         },
         solution: || vec![Event::set(&SMOOTH, true), Event::set(&SIGMA, 4.8)],
     },
@@ -379,7 +397,9 @@ mod tests {
         assert!(model.take_photo("photo", RgbImage::new(10, 400)).is_err());
         model.take_photo("photo", RgbImage::new(24, 24)).unwrap();
         let request = model.job().unwrap().request();
-        model.job_done(GradientField::compute(&request, &mut |_| ControlFlow::Continue(())));
+        model.job_done(GradientField::compute(&request, &mut |_| {
+            ControlFlow::Continue(())
+        }));
         assert_eq!(model.probed().unwrap().magnitude(), 0.0);
     }
 }

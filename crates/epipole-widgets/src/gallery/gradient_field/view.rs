@@ -55,7 +55,7 @@ impl View for GradientFieldView {
         } else {
             [image, beside] = grid.row([aspect, 0.75], TALLEST);
         }
-        grid.strip(legend::height(&legend(model), width, 0.0) + 4.0);
+        grid.strip(legend::height(&entries(), width, 0.0) + 4.0);
         let mut image = Panel::photograph("image", image, columns, rows);
         image.clickable = true;
         let [x, y] = rulers();
@@ -71,17 +71,22 @@ impl View for GradientFieldView {
         let narrow = grid::is_narrow(layout.width);
         grid::title(canvas, image.rect, "Image and gradient");
         canvas.panel(image.rect);
-        let entries = legend(model);
+        let entries = entries();
         let top = layout.height - legend::height(&entries, layout.width, 0.0);
         legend::draw(canvas, &entries, layout.width, 0.0, top);
         let field = model.field();
         if let Ok(field) = field {
             canvas.photograph(image.rect, field.picture());
-            canvas.clipped(image.rect, |canvas| draw_arrows(model, field, image, canvas));
+            canvas.clipped(image.rect, |canvas| {
+                draw_arrows(model, field, image, canvas)
+            });
         }
         match model.beside() {
             Beside::Surface => {
-                let wordings = ["The same as a surface: bright is high, drag to turn", "As a surface"];
+                let wordings = [
+                    "The same as a surface: bright is high, drag to turn",
+                    "As a surface",
+                ];
                 grid::fitting_title(canvas, beside.rect, &wordings[usize::from(narrow)..]);
                 canvas.panel(beside.rect);
                 if let Ok(field) = field {
@@ -89,7 +94,10 @@ impl View for GradientFieldView {
                 }
             }
             Beside::Curve => {
-                let wordings = ["Slope of the edge and noise of a slope, gray levels a pixel", "Gray levels a pixel"];
+                let wordings = [
+                    "Slope of the edge and noise of a slope, gray levels a pixel",
+                    "Gray levels a pixel",
+                ];
                 let from_left = Rect::new(image_free(beside), beside.rect.y, layout.width, 1.0);
                 grid::fitting_title(canvas, from_left, &wordings[usize::from(narrow)..]);
                 draw_curves(model, beside, canvas);
@@ -106,17 +114,12 @@ fn image_free(plot: &Panel) -> f64 {
     plot.rect.x - plot::LEFT
 }
 
-fn legend(model: &GradientField) -> Vec<legend::Entry> {
-    let line = |role| Swatch::Line(Stroke::solid(role, 2.0));
-    let mut entries: Vec<legend::Entry> = vec![
-        (line(ARROW), "gradient"),
-        (Swatch::Line(Stroke::solid(Role::Truth, 2.0).dashed()), "edge through the probe"),
-    ];
-    if model.beside() == Beside::Curve {
-        entries.push((line(SLOPE), "slope"));
-        entries.push((Swatch::Line(Stroke::solid(NOISE, 2.0).dotted()), "noise"));
-    }
-    entries
+fn entries() -> [legend::Entry; 2] {
+    let edge = Stroke::solid(Role::Truth, 2.0).dashed();
+    [
+        (Swatch::Line(Stroke::solid(ARROW, 2.0)), "gradient"),
+        (Swatch::Line(edge), "edge through the probe"),
+    ]
 }
 
 /// An arrow from the middle of each pixel or patch, and the probe's own, with the edge across it.
@@ -142,9 +145,8 @@ fn draw_arrows(model: &GradientField, field: &Field, panel: &Panel, canvas: &mut
     }
     if !is_edge {
         let (left, top) = model.surface_from();
-        let corner = |u: u32, v: u32| {
-            panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5))
-        };
+        let corner =
+            |u: u32, v: u32| panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5));
         let (a, b) = (corner(left, top), corner(left + GRID.0, top + GRID.1));
         let frame = Rect::new(a.0, a.1, b.0 - a.0, b.1 - a.1);
         canvas.stroke_rect(frame, Stroke::solid(Role::Grip, 1.5).cased());
@@ -174,7 +176,11 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
     // Down in the image is toward the reader.
     let point = |u: f64, v: f64, level: f64| {
         let up = (level - 128.0) * HIGH / 255.0;
-        Point3::new(u - f64::from(left) - middle.0, -up, middle.1 - (v - f64::from(top)))
+        Point3::new(
+            u - f64::from(left) - middle.0,
+            -up,
+            middle.1 - (v - f64::from(top)),
+        )
     };
     let subject = Subject {
         // Below the surface, so that the cross to move it by is not on the probe.
@@ -205,8 +211,14 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
         let from = space.place(&point(u, v, level));
         let reach = 3.5 / magnitude.max(1e-9);
         let rise = 3.5 * magnitude;
-        let to = space.place(&point(u + reach * arrow.du, v + reach * arrow.dv, level + rise));
-        marks = from.zip(to).map(|(from, to)| (from.0, to.0, magnitude > 1.0));
+        let to = space.place(&point(
+            u + reach * arrow.du,
+            v + reach * arrow.dv,
+            level + rise,
+        ));
+        marks = from
+            .zip(to)
+            .map(|(from, to)| (from.0, to.0, magnitude > 1.0));
     }
     let (far_u, far_v) = (f64::from(left + columns), f64::from(top + rows));
     let (near_u, near_v) = (f64::from(left), f64::from(top));
@@ -230,7 +242,11 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
         for (name, from, to) in axes {
             canvas.arrow(from, to, Stroke::solid(Role::Ink, 1.5));
             let beyond = (to.0 + 0.25 * (to.0 - from.0), to.1 + 0.25 * (to.1 - from.1));
-            canvas.label(beyond, name, TextStyle::new(Role::Ink, SMALL).middle().cased());
+            canvas.label(
+                beyond,
+                name,
+                TextStyle::new(Role::Ink, SMALL).middle().cased(),
+            );
         }
     });
     draw_handles(canvas, panel, model.orbit());
@@ -242,14 +258,21 @@ fn draw_curves(model: &GradientField, panel: &Panel, canvas: &mut Canvas) {
     plot::draw_axes(canvas, panel, &x, &y);
     let sigmas = (0..=45).map(|step| SIGMA.min + f64::from(step) * 0.1);
     let start = std::iter::once((0.0, model.quality(None)));
-    let curve: Vec<_> = start.chain(sigmas.map(|sigma| (sigma, model.quality(Some(sigma))))).collect();
+    let curve: Vec<_> = start
+        .chain(sigmas.map(|sigma| (sigma, model.quality(Some(sigma)))))
+        .collect();
     let mut labels = Labels::new(panel.rect.inset(3.0));
     let now = model.smooth_px().unwrap_or(0.0);
     plot::draw_now(canvas, panel, now);
     let height = |value: f64| plot::decade(value).clamp(-9.0, 9.0);
     for (name, stroke, shape, value) in [
         ("slope", Stroke::solid(SLOPE, 2.5), Shape::Disk, 0),
-        ("noise", Stroke::solid(NOISE, 2.5).dotted(), Shape::Square, 1),
+        (
+            "noise",
+            Stroke::solid(NOISE, 2.5).dotted(),
+            Shape::Square,
+            1,
+        ),
     ] {
         let places = curve.iter().filter_map(|(sigma, quality)| {
             let quality = (*quality)?;
@@ -263,8 +286,16 @@ fn draw_curves(model: &GradientField, panel: &Panel, canvas: &mut Canvas) {
         if (DECADES[0]..=DECADES[1]).contains(&at) {
             let place = panel.canvas_from_world((now, at));
             canvas.marker(place, 5.0, shape, stroke.role, true);
-            let beside = [((place.0 + 10.0, place.1 - 12.0), Align::Start), ((place.0 - 10.0, place.1 - 12.0), Align::End)];
-            labels.draw(canvas, &beside, name, TextStyle::new(stroke.role, SMALL).cased());
+            let beside = [
+                ((place.0 + 10.0, place.1 - 12.0), Align::Start),
+                ((place.0 - 10.0, place.1 - 12.0), Align::End),
+            ];
+            labels.draw(
+                canvas,
+                &beside,
+                name,
+                TextStyle::new(stroke.role, SMALL).cased(),
+            );
         }
     }
 }

@@ -29,7 +29,13 @@ impl Words for GradientField {
             Readout::number("direction", "Angle", arrow.angle_deg(), 1, "°").main(),
         ];
         if let Some(off_deg) = self.off_deg() {
-            readouts.push(Readout::number("off", "Edge arrows off by", off_deg, 1, "°"));
+            readouts.push(Readout::number(
+                "off",
+                "Edge arrows off by",
+                off_deg,
+                1,
+                "°",
+            ));
         }
         for (smooth_px, ids, labels) in [
             (
@@ -53,7 +59,11 @@ impl Words for GradientField {
                 });
             }
         }
-        readouts.push(Readout::words("beside-it", "Beside the image", self.shown_beside()));
+        readouts.push(Readout::words(
+            "beside-it",
+            "Beside the image",
+            self.shown_beside(),
+        ));
         readouts
     }
 
@@ -78,7 +88,10 @@ impl Words for GradientField {
             None => "not smoothed".to_owned(),
         };
         let off = self.off_deg().map_or(String::new(), |off| {
-            format!(" The arrows on the edge are off by {}°.", format_number(off, 1))
+            format!(
+                " The arrows on the edge are off by {}°.",
+                format_number(off, 1)
+            )
         });
         format!(
             "{what}, {smoothed}. At column {u}, row {v} the gradient is ({}, {}), of magnitude {} and angle \

@@ -62,7 +62,10 @@ impl Kernel {
     pub(super) fn is_shift(&self) -> bool {
         let mut weights = self.weights;
         let middle = std::mem::replace(&mut weights[4], 0.0);
-        let others: Vec<f32> = weights.into_iter().filter(|weight| *weight != 0.0).collect();
+        let others: Vec<f32> = weights
+            .into_iter()
+            .filter(|weight| *weight != 0.0)
+            .collect();
         middle == 0.0 && others == [self.divisor]
     }
 }

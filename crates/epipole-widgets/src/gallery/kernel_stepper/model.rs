@@ -26,11 +26,19 @@ const KERNEL: Choice = Choice::new(
     ],
 );
 const OWN: usize = 4;
-const ALONG: Choice = Choice::new("along", "Along", &[("u", "u, to the right"), ("v", "v, down")]);
+const ALONG: Choice = Choice::new(
+    "along",
+    "Along",
+    &[("u", "u, to the right"), ("v", "v, down")],
+);
 const BORDER: Choice = Choice::new(
     "border",
     "Beyond the border",
-    &[("replicate", "Repeat"), ("reflect", "Mirror"), ("zero", "Zero")],
+    &[
+        ("replicate", "Repeat"),
+        ("reflect", "Mirror"),
+        ("zero", "Zero"),
+    ],
 );
 const fn weight(id: &'static str, label: &'static str) -> Slider {
     Slider::new(id, label).range(-9.0, 9.0, 1.0).more()
@@ -46,7 +54,10 @@ static WEIGHTS: [Slider; 9] = [
     weight("w8", "Below"),
     weight("w9", "Below right"),
 ];
-const DIVIDE: Slider = Slider::new("divide", "Divide by").range(1.0, 16.0, 1.0).at(1.0).more();
+const DIVIDE: Slider = Slider::new("divide", "Divide by")
+    .range(1.0, 16.0, 1.0)
+    .at(1.0)
+    .more();
 static KNOBS: [Knob; 14] = [
     Knob::Choice(&KERNEL),
     Knob::Choice(&ALONG),
@@ -127,7 +138,10 @@ impl KernelStepper {
     pub(super) fn window(&self) -> [f32; 9] {
         let (u, v) = self.pixel();
         std::array::from_fn(|index| {
-            self.level(u as i32 + index as i32 % 3 - 1, v as i32 + index as i32 / 3 - 1)
+            self.level(
+                u as i32 + index as i32 % 3 - 1,
+                v as i32 + index as i32 / 3 - 1,
+            )
         })
     }
 
@@ -184,8 +198,8 @@ impl Model for KernelStepper {
         let mut controls = self.settings.controls();
         let kernel = self.settings.chosen(&KERNEL);
         for control in &mut controls {
-            let is_weight = control.id == DIVIDE.id
-                || WEIGHTS.iter().any(|weight| weight.id == control.id);
+            let is_weight =
+                control.id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == control.id);
             control.enabled = if is_weight {
                 kernel == OWN
             } else {
@@ -234,7 +248,12 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
             let chosen = [&KERNEL, &ALONG].map(|choice| model.settings.chosen(choice));
             chosen == [0, 0] && model.pixel().0 == 0 && model.answer(model.pixel()) == 0.0
         },
-        solution: || vec![Event::set(&BORDER, "reflect"), Event::moved("window", 0.0, 2.0)],
+        solution: || {
+            vec![
+                Event::set(&BORDER, "reflect"),
+                Event::moved("window", 0.0, 2.0),
+            ]
+        },
     },
     Challenge {
         id: "shift",
@@ -269,7 +288,10 @@ mod tests {
     #[test]
     fn the_default_is_the_patch_of_the_chapter() {
         let model = KernelStepper::new();
-        assert_eq!(model.window(), [30.0, 60.0, 90.0, 40.0, 90.0, 140.0, 35.0, 120.0, 150.0]);
+        assert_eq!(
+            model.window(),
+            [30.0, 60.0, 90.0, 40.0, 90.0, 140.0, 35.0, 120.0, 150.0]
+        );
         assert_eq!((model.sum((3, 2)), model.answer((3, 2))), (100.0, 50.0));
         assert_eq!(with(&[Event::set(&ALONG, "v")]).answer((3, 2)), 30.0);
     }
@@ -312,7 +334,10 @@ mod tests {
 
     #[test]
     fn products_add_up_to_the_sum_and_the_window_walks_on() {
-        let mut model = with(&[Event::set(&KERNEL, "sobel-raw"), Event::set(&BORDER, "zero")]);
+        let mut model = with(&[
+            Event::set(&KERNEL, "sobel-raw"),
+            Event::set(&BORDER, "zero"),
+        ]);
         model.update(&Event::moved("window", 6.0, 5.0)).unwrap();
         for expected in [(7, 5), (0, 0), (1, 0)] {
             model.update(&Event::press("next")).unwrap();
@@ -327,6 +352,10 @@ mod tests {
     fn a_kernel_of_zeros_is_a_sentence() {
         let model = with(&[Event::set(&KERNEL, "own"), Event::set(&WEIGHTS[4], 0.0)]);
         assert!(model.remark().unwrap().contains("zero") && model.answer((3, 2)) == 0.0);
-        assert!(KernelStepper::new().update(&Event::set(&WEIGHTS[4], 1e9)).is_err());
+        assert!(
+            KernelStepper::new()
+                .update(&Event::set(&WEIGHTS[4], 1e9))
+                .is_err()
+        );
     }
 }

@@ -51,7 +51,8 @@ mod tests {
         let camera = still_life_camera(480, 360);
         let go_on = &mut |_| ControlFlow::Continue(());
         let gray = rgb_to_gray(&photograph(&camera, (480, 360), go_on).unwrap());
-        let row = |v: u32| [0, 1, 2, 3, 4, 5, 6, 7].map(|u| gray.get_pixel(FROM.0 + u, FROM.1 + v).0[0]);
+        let row =
+            |v: u32| [0, 1, 2, 3, 4, 5, 6, 7].map(|u| gray.get_pixel(FROM.0 + u, FROM.1 + v).0[0]);
         assert_eq!([0, 1, 2, 3, 4, 5].map(row), PHOTOGRAPH);
     }
 }

@@ -38,16 +38,34 @@ impl View for KernelStepperView {
         let panel = |id, rect, [left, right]: [f64; 2], [top, bottom]: [f64; 2], clickable| Panel {
             id,
             rect,
-            x_axis: Axis { start: left, end: right },
-            y_axis: Axis { start: top, end: bottom },
+            x_axis: Axis {
+                start: left,
+                end: right,
+            },
+            y_axis: Axis {
+                start: top,
+                end: bottom,
+            },
             clickable,
         };
         let height = answer.width * rows / columns;
         let answer = Rect::new(answer.x, answer.y, answer.width, height.min(answer.height));
         grid.layout(vec![
-            panel("pixels", pixels, [-1.5, columns + 0.5], [-1.5, rows + 0.5], true),
+            panel(
+                "pixels",
+                pixels,
+                [-1.5, columns + 0.5],
+                [-1.5, rows + 0.5],
+                true,
+            ),
             panel("sum", sum, [0.0, 1.0], [0.0, 1.0], false),
-            panel("answer", answer, [-0.5, columns - 0.5], [-0.5, rows - 0.5], false),
+            panel(
+                "answer",
+                answer,
+                [-0.5, columns - 0.5],
+                [-0.5, rows - 0.5],
+                false,
+            ),
         ])
     }
 
@@ -57,9 +75,20 @@ impl View for KernelStepperView {
         grid::fitting_title(
             canvas,
             pixels.rect,
-            &["Pixels, and what lies beyond the border", "Pixels and border"],
+            &[
+                "Pixels, and what lies beyond the border",
+                "Pixels and border",
+            ],
         );
-        grid::title(canvas, answer.rect, if narrow { "Answers" } else { "The answer at every pixel" });
+        grid::title(
+            canvas,
+            answer.rect,
+            if narrow {
+                "Answers"
+            } else {
+                "The answer at every pixel"
+            },
+        );
         canvas.panel(pixels.rect);
         draw_pixels(model, pixels, canvas);
         draw_products(model, sum.rect, narrow, canvas);
@@ -89,7 +118,11 @@ fn readable(theme: Theme, color: Rgb) -> Role {
     };
     let contrast = |role: Role| libm::fabs(libm::log(light(theme.color(role)) / light(color)));
     let roles = [Role::Ink, Role::Background];
-    if contrast(roles[0]) >= contrast(roles[1]) { roles[0] } else { roles[1] }
+    if contrast(roles[0]) >= contrast(roles[1]) {
+        roles[0]
+    } else {
+        roles[1]
+    }
 }
 
 /// A filled cell with its number, if there is room for one.
@@ -127,7 +160,12 @@ fn draw_pixels(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
         }
     }
     let (first, last) = (cell(panel, (0, 0)), cell(panel, (columns - 1, rows - 1)));
-    let image = Rect::new(first.x, first.y, last.right() - first.x, last.bottom() - first.y);
+    let image = Rect::new(
+        first.x,
+        first.y,
+        last.right() - first.x,
+        last.bottom() - first.y,
+    );
     canvas.stroke_rect(image, Stroke::solid(Role::Ink, 1.5).dashed());
     let (u, v) = model.pixel();
     let middle = cell(panel, (u as i32, v as i32));
@@ -156,9 +194,17 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
     let titles = ["Window", "× weights", "= products"];
     for (index, (table, title)) in tables.into_iter().zip(titles).enumerate() {
         let side = (table.width / 3.0).min(table.height / 3.0);
-        let wide = if narrow { table.width / 3.0 } else { (1.5 * side).min(table.width / 3.0) };
+        let wide = if narrow {
+            table.width / 3.0
+        } else {
+            (1.5 * side).min(table.width / 3.0)
+        };
         let left = table.center().0 - 1.5 * wide;
-        grid::title(canvas, Rect::new(left, table.y, 3.0 * wide, table.height), title);
+        grid::title(
+            canvas,
+            Rect::new(left, table.y, 3.0 * wide, table.height),
+            title,
+        );
         for k in 0..9 {
             let (column, row) = ((k % 3) as f64, (k / 3) as f64);
             let at = Rect::new(left + column * wide, table.y + row * side, wide, side);
@@ -174,7 +220,12 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
     }
     let (sum, answer) = (model.sum(model.pixel()), model.answer(model.pixel()));
     let divisor = f64::from(kernel.divisor);
-    let long = format!("sum {}, ÷ {} = {}", short(sum), short(divisor), short(answer));
+    let long = format!(
+        "sum {}, ÷ {} = {}",
+        short(sum),
+        short(divisor),
+        short(answer)
+    );
     let brief = format!("{} ÷ {} = {}", short(sum), short(divisor), short(answer));
     let fits = text_width(&long, TEXT) <= rect.width;
     let text = if fits { long } else { brief };
@@ -185,14 +236,20 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
 
 /// Warm where positive, cool where negative; the sign is in the number, too.
 fn shade(theme: Theme, value: f64, most: f64) -> Rgb {
-    let role = if value < 0.0 { Role::Candidate } else { Role::Outlier };
+    let role = if value < 0.0 {
+        Role::Candidate
+    } else {
+        Role::Outlier
+    };
     let share = 0.65 * (value.abs() / most.max(1e-9)).min(1.0);
     mix(theme.color(Role::Surface), theme.color(role), share as f32)
 }
 
 fn draw_answers(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
     let pixels = || (0..SIZE.1).flat_map(|v| (0..SIZE.0).map(move |u| (u, v)));
-    let most = pixels().map(|pixel| model.answer(pixel).abs()).fold(0.0, f64::max);
+    let most = pixels()
+        .map(|pixel| model.answer(pixel).abs())
+        .fold(0.0, f64::max);
     let is_difference = model.kernel().is_difference();
     for (u, v) in pixels() {
         let answer = model.answer((u, v));

@@ -34,8 +34,18 @@ impl Words for KernelStepper {
             Readout::number("sum", "Sum of products", sum, 0, "").main(),
             Readout::number("divisor", "divided by", divisor, 0, "").main(),
             Readout::number("answer", "Answer", self.answer(pixel), 2, "").main(),
-            Readout::words("place", "Pixel", format!("column {}, row {}", pixel.0, pixel.1)),
-            Readout::number("level", "Its gray level", f64::from(self.window()[4]), 0, ""),
+            Readout::words(
+                "place",
+                "Pixel",
+                format!("column {}, row {}", pixel.0, pixel.1),
+            ),
+            Readout::number(
+                "level",
+                "Its gray level",
+                f64::from(self.window()[4]),
+                0,
+                "",
+            ),
             Readout::words("beyond", "Beyond the border", self.border_name()),
             Readout::words("own-kernel", "Your own kernel", self.own().words()),
         ]
@@ -45,7 +55,9 @@ impl Words for KernelStepper {
         let pixel = self.pixel();
         let (name, along) = self.names();
         let along = along.map_or(String::new(), |axis| format!(" along {axis}"));
-        let remark = self.remark().map_or(String::new(), |remark| format!(" {remark}"));
+        let remark = self
+            .remark()
+            .map_or(String::new(), |remark| format!(" {remark}"));
         format!(
             "A window of 3 by 3 pixels at column {}, row {}. Kernel: {name}{along}. The products add up to \
              {}; divided by {} that is {}.{remark}",
