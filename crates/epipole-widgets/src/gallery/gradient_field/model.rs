@@ -1,4 +1,5 @@
-//! An edge or a photograph, smoothed or not, its gradient, and a probe.
+//! An edge or a photograph, smoothed or not, its gradient, and a probe. The edge is computed at once, a
+//! photograph elsewhere; all of it is one state, and so one file.
 
 use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};

@@ -27,7 +27,7 @@ const ARROW: Role = Role::Series(0);
 const NOISE: Role = Role::Series(1);
 const SLOPE: Role = Role::Series(2);
 /// Powers of ten of the plot.
-const DECADES: [f64; 2] = [-1.5, 1.6];
+const DECADES: [f64; 2] = [-1.0, 1.5];
 
 fn rulers() -> [Ruler; 2] {
     [
@@ -184,8 +184,8 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
     };
     let subject = Subject {
         // Below the surface, so that the cross to move it by is not on the probe.
-        middle: Point3::new(0.0, 3.5, 0.0),
-        radius: 0.25 * f64::from(columns + rows),
+        middle: Point3::new(0.0, 3.0, 0.0),
+        radius: 0.29 * f64::from(columns + rows),
     };
     let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
         return;
