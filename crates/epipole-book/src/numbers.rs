@@ -196,6 +196,9 @@ mod tests {
             ("gradients.slope before=60 after=120", "30.0"),
             ("gradients.magnitude du=50 dv=30", "58.31"),
             ("gradients.angle-deg du=50 dv=30", "30.96"),
+            // 50 cos 90° + 30 sin 90°; 120.96° is a right angle away from 30.96°
+            ("gradients.along du=50 dv=30 angle=90", "30.00"),
+            ("gradients.along du=50 dv=30 angle=120.96", "0.00"),
             // 60 + 2 · 100 + 115, 5 + 2 · 60 + 60; an eighth of them; √(2 · 6), √12 / 8
             ("gradients.sobel axis=1", "375"),
             ("gradients.sobel axis=2", "185"),

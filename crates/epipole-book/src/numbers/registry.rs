@@ -115,6 +115,15 @@ pub const REGISTRY: &[Entry] = &[
         },
     },
     Entry {
+        name: "gradients.along",
+        parameters: &["du", "dv", "angle"],
+        summary: "change over a step of one pixel in the direction `angle`, degrees, at the gradient (du, dv)",
+        compute: |a| {
+            let (sin, cos) = libm::sincos(a.get("angle").to_radians());
+            Ok(Real(a.get("du") * cos + a.get("dv") * sin, 2))
+        },
+    },
+    Entry {
         name: "gradients.sobel",
         parameters: &["axis"],
         summary: "Sobel's answer in the middle of the chapter's patch, along u (axis=1) or v (axis=2)",
