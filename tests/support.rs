@@ -41,6 +41,9 @@ pub mod listings {
     /// Chapter "One photo gives directions, not distances".
     #[doc = include_str!("../content/rays.md")]
     pub struct Rays;
+    /// Chapter "An image is a function".
+    #[doc = include_str!("../content/gradients.md")]
+    pub struct Gradients;
     /// Chapter "Points you can find again".
     #[doc = include_str!("../content/corners.md")]
     pub struct Corners;

@@ -192,6 +192,38 @@ mod tests {
             ("eight-point.condition normalized=1 digits=1", "19.8"),
             ("eight-point.distance-px normalized=0", "0.24"),
             ("eight-point.distance-px normalized=1", "0.13"),
+            // (140 − 40) / 2, (120 − 60) / 2; √(50² + 30²); atan(30 / 50)
+            ("gradients.slope before=40 after=140 digits=0", "50"),
+            ("gradients.slope before=60 after=120", "30.0"),
+            ("gradients.magnitude du=50 dv=30", "58.31"),
+            ("gradients.angle-deg du=50 dv=30", "30.96"),
+            // 50 cos 90° + 30 sin 90°; 120.96° is a right angle away from 30.96°
+            ("gradients.along du=50 dv=30 angle=90", "30.00"),
+            ("gradients.along du=50 dv=30 angle=120.96", "0.00"),
+            // 60 + 2 · 100 + 115, 5 + 2 · 60 + 60; an eighth of them; √(2 · 6), √12 / 8
+            ("gradients.sobel axis=1", "375"),
+            ("gradients.sobel axis=2", "185"),
+            ("gradients.sobel-slope axis=1", "46.88"),
+            ("gradients.sobel-slope axis=2 digits=3", "23.125"),
+            ("gradients.sobel-noise divisor=1 digits=3", "3.464"),
+            ("gradients.sobel-noise divisor=8 digits=3", "0.433"),
+            // NumPy: x = np.arange(-r, r + 1), g = exp(−x²/2σ²) / Σ, d = x g / Σ x² g, r = 8 and 16;
+            // Σ d ramp, and 20 √(Σ g² Σ d²)
+            ("gradients.noise sigma=0 noise=20", "14.14"),
+            ("gradients.noise sigma=2 noise=20 digits=3", "0.998"),
+            ("gradients.noise sigma=4 noise=20 digits=3", "0.250"),
+            ("gradients.edge-slope sigma=0", "20.00"),
+            ("gradients.edge-slope sigma=2 digits=3", "17.495"),
+            ("gradients.edge-slope sigma=4 digits=3", "10.987"),
+            // 17.495 / 0.99774
+            ("gradients.ratio sigma=2 noise=20", "17.5"),
+            ("gradients.kernel-size sigma=2", "17"),
+            ("gradients.multiplications sigma=2 passes=1", "289"),
+            ("gradients.multiplications sigma=2 passes=2", "34"),
+            // √(25 + 4); 0.587 · 255, 0.114 · 255
+            ("gradients.root-of-squares a=5 b=2", "5.4"),
+            ("gradients.gray r=0 g=255 b=0", "150"),
+            ("gradients.gray r=0 g=0 b=255", "29"),
             // 4² + 0² + 2², 0² + 3² + 2², 4·0 + 0·3 + 2·2; 20 · 13 − 4²; 244 − 0.04 · 33²
             (&format!("corners.a {corner}"), "20"),
             (&format!("corners.b {corner}"), "13"),

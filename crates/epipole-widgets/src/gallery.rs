@@ -8,7 +8,9 @@ mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
 mod four_poses;
+mod gradient_field;
 pub mod harris;
+mod kernel_stepper;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
@@ -52,6 +54,8 @@ macro_rules! figures {
 figures![
     two_cameras::View,
     same_picture::View,
+    gradient_field::View,
+    kernel_stepper::View,
     window_shift::View,
     harris::View,
     epipolar_click::View,

@@ -36,6 +36,7 @@ enum Mark {
     Dot(Place, f64, Rgb),
     Marker(Place, f64, Shape, Role),
     Line(Place, Place, Stroke),
+    Face([Place; 4], Rgb, Stroke),
 }
 
 /// A scene as the reader sees it, collected mark by mark and then drawn.
@@ -137,6 +138,17 @@ impl Space {
         }
     }
 
+    /// A quadrilateral, such as a piece of a surface, with a line along the two sides that meet in its first
+    /// corner; none if a corner is behind the reader.
+    pub(crate) fn face(&mut self, corners: [Point3<f64>; 4], color: Rgb, outline: Stroke) {
+        let [Some(a), Some(b), Some(c), Some(d)] = corners.map(|corner| self.place(&corner)) else {
+            return;
+        };
+        let depth = 0.25 * (a.1 + b.1 + c.1 + d.1);
+        let places = [a.0, b.0, c.0, d.0];
+        self.marks.push((depth, Mark::Face(places, color, outline)));
+    }
+
     /// A camera: its center, and the outline of its picture at the depth `depth`, upper edge
     /// thicker.
     pub(crate) fn frustum(
@@ -235,6 +247,11 @@ impl Space {
                         canvas.marker(place, radius, shape, role, true);
                     }
                     Mark::Line(from, to, stroke) => canvas.line(from, to, stroke),
+                    Mark::Face(places, color, outline) => {
+                        canvas.polygon_color(&places, color);
+                        let [corner, next, _, last] = places;
+                        canvas.polyline(&[last, corner, next], outline);
+                    }
                 }
             }
         });

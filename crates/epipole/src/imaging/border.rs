@@ -1,5 +1,7 @@
 //! What an image holds beyond its edge.
 
+use super::GrayImage32;
+
 /// The value of pixels outside the image.
 ///
 /// ```
@@ -41,6 +43,26 @@ impl Border {
                 let folded = index.rem_euclid(2 * last);
                 Some(folded.min(2 * last - folded) as usize)
             }
+        }
+    }
+
+    /// The value at column `u`, row `v`, also where that is outside of the image; 0 in an image without
+    /// pixels, unless the border is constant.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::imaging::{Border, gray_from_values};
+    /// let image = gray_from_values(3, 1, vec![7.0, 8.0, 9.0])?;
+    /// assert_eq!(Border::Replicate.value(&image, -1, 0), 7.0);
+    /// assert_eq!(Border::Reflect101.value(&image, 3, 5), 8.0);
+    /// assert_eq!(Border::Constant(0.0).value(&image, 1, -1), 0.0);
+    /// # Ok(()) }
+    /// ```
+    pub fn value(self, image: &GrayImage32, u: isize, v: isize) -> f32 {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        match (self.index(u, width), self.index(v, height)) {
+            (Some(u), Some(v)) => image.as_raw()[v * width + u],
+            _ => self.constant(),
         }
     }
 

@@ -88,9 +88,24 @@ pub fn gaussian_blur(image: &GrayImage32, sigma_px: f64, border: Border) -> Resu
     Ok(blurred)
 }
 
-/// A smoothing kernel and its derivative, both sampled to 4σ: `g` sums to one, and `g'` gives a
-/// ramp of slope 1 the value 1.
-pub(crate) fn derivative_kernels(sigma_px: f64) -> Result<(Vec<f32>, Vec<f32>)> {
+/// The kernels of [`gaussian_derivative`](super::gaussian_derivative): a Gaussian `g` and its derivative
+/// `g′`, both sampled to about 4σ. `g` sums to one, and `g′` gives a ramp of slope 1 the value 1.
+///
+/// * `sigma_px`: standard deviation, pixels, in (0, 1000]
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a σ outside that range.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// let (smooth, slope) = epipole::imaging::gaussian_derivative_kernels(1.0)?;
+/// assert_eq!((smooth.len(), slope.len()), (9, 9));
+/// assert!((smooth.iter().sum::<f32>() - 1.0).abs() < 1e-6);
+/// // It looks at what is right minus what is left.
+/// assert!(slope[3] < 0.0 && slope[4] == 0.0 && slope[5] > 0.0);
+/// # Ok(()) }
+/// ```
+pub fn gaussian_derivative_kernels(sigma_px: f64) -> Result<(Vec<f32>, Vec<f32>)> {
     require_sigma(sigma_px)?;
     let radius = radius_for(sigma_px).max(1);
     let smooth = samples(sigma_px, radius);
@@ -146,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_very_narrow_derivative_is_still_a_derivative() {
-        let (smooth, derivative) = derivative_kernels(0.01).unwrap();
+        let (smooth, derivative) = gaussian_derivative_kernels(0.01).unwrap();
         assert!(smooth.iter().chain(&derivative).all(|w| w.is_finite()));
         assert_eq!(derivative, [-0.5, 0.0, 0.5]);
     }

@@ -1,7 +1,7 @@
 //! Image gradients: where gray values change, how fast, and in which direction.
 
 use super::approx::atan2;
-use super::gaussian::derivative_kernels;
+use super::gaussian::gaussian_derivative_kernels;
 use super::gray::from_vec;
 use super::separable::{filter, filter_into};
 use super::{Border, GrayImage32};
@@ -214,7 +214,7 @@ pub fn scharr(image: &GrayImage32, border: Border) -> Gradient {
 /// # Ok(()) }
 /// ```
 pub fn gaussian_derivative(image: &GrayImage32, sigma_px: f64, border: Border) -> Result<Gradient> {
-    let (smooth, slope) = derivative_kernels(sigma_px)?;
+    let (smooth, slope) = gaussian_derivative_kernels(sigma_px)?;
     let [du, dv] = filter(image, [(&slope, &smooth), (&smooth, &slope)], border);
     Ok(Gradient { du, dv })
 }

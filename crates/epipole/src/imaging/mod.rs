@@ -10,6 +10,7 @@
 pub(crate) mod approx;
 mod border;
 mod bytes;
+mod correlate;
 #[cfg(feature = "decode")]
 mod decode;
 #[cfg(feature = "decode")]
@@ -30,9 +31,10 @@ mod weigh;
 
 pub use border::Border;
 pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, pyramid_down_u8};
+pub use correlate::{correlate, noise_gain};
 #[cfg(feature = "decode")]
 pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
-pub use gaussian::{gaussian_blur, gaussian_kernel};
+pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{
     DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
     gaussian_derivative, scharr, sobel,

@@ -1,0 +1,9 @@
+//! `kernel-stepper`: a small window over enlarged pixels: products, their sum, and the answer.
+
+mod kernel;
+mod model;
+mod pixels;
+mod view;
+mod words;
+
+pub(super) use view::KernelStepperView as View;

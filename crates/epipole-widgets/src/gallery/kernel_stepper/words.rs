@@ -1,0 +1,71 @@
+//! What `kernel-stepper` says.
+
+use super::kernel::Kernel;
+use super::model::KernelStepper;
+use crate::contract::{Readout, Words, format_number};
+
+/// A number with as few decimals as it needs, two at most.
+pub(super) fn short(value: f64) -> String {
+    let digits = (0..2).find(|&digits| {
+        let times = [1.0, 10.0][digits];
+        ((value * times).round() - value * times).abs() < 1e-4
+    });
+    format_number(value, digits.unwrap_or(2))
+}
+
+impl Kernel {
+    /// Its rows, such as "0 1 0; 1 −4 1; 0 1 0", and the divisor.
+    fn words(&self) -> String {
+        let row = |row: &[f32]| {
+            let weights: Vec<String> = row.iter().map(|weight| short((*weight).into())).collect();
+            weights.join("\u{a0}")
+        };
+        let rows: Vec<String> = self.weights.chunks(3).map(row).collect();
+        format!("{}, ÷ {}", rows.join("; "), short(self.divisor.into()))
+    }
+}
+
+impl Words for KernelStepper {
+    fn readouts(&self) -> Vec<Readout> {
+        let pixel = self.pixel();
+        let sum = self.sum(pixel);
+        let divisor = f64::from(self.kernel().divisor);
+        vec![
+            Readout::number("sum", "Sum of products", sum, 0, "").main(),
+            Readout::number("divisor", "divided by", divisor, 0, "").main(),
+            Readout::number("answer", "Answer", self.answer(pixel), 2, "").main(),
+            Readout::words(
+                "place",
+                "Pixel",
+                format!("column {}, row {}", pixel.0, pixel.1),
+            ),
+            Readout::number(
+                "level",
+                "Its gray level",
+                f64::from(self.window()[4]),
+                0,
+                "",
+            ),
+            Readout::words("beyond", "Beyond the border", self.border_name()),
+            Readout::words("own-kernel", "Your own kernel", self.own().words()),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        let pixel = self.pixel();
+        let (name, along) = self.names();
+        let along = along.map_or(String::new(), |axis| format!(" along {axis}"));
+        let remark = self
+            .remark()
+            .map_or(String::new(), |remark| format!(" {remark}"));
+        format!(
+            "A window of 3 by 3 pixels at column {}, row {}. Kernel: {name}{along}. The products add up to \
+             {}; divided by {} that is {}.{remark}",
+            pixel.0,
+            pixel.1,
+            short(self.sum(pixel)),
+            short(self.kernel().divisor.into()),
+            short(self.answer(pixel)),
+        )
+    }
+}
