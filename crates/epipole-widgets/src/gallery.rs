@@ -20,6 +20,7 @@ mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
 pub mod window_shift;
+mod ratio_test;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -67,6 +68,7 @@ figures![
     bundle_adjustment::View,
     scale_drift::View,
     ransac_race::View,
+    ratio_test::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -25,7 +25,7 @@ pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_
 pub use keypoint::Keypoint;
 pub use matching::{
     BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors,
-    match_descriptors_with_progress, match_hamming, nearest_two, nearest_two_hamming,
+    match_descriptors_with_progress, match_hamming, nearest_few, nearest_two, nearest_two_hamming,
 };
 pub use nms::non_maximum_suppression;
 pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
