@@ -12,6 +12,7 @@ pub mod harris;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
+mod ratio_test;
 mod same_picture;
 mod scale_ambiguity;
 mod scale_drift;
@@ -20,7 +21,8 @@ mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
 pub mod window_shift;
-mod ratio_test;
+mod sift_descriptor;
+mod scale_space;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -69,6 +71,8 @@ figures![
     scale_drift::View,
     ransac_race::View,
     ratio_test::View,
+    sift_descriptor::View,
+    scale_space::View,
 ];
 
 const fn entry<V: View>() -> Entry {

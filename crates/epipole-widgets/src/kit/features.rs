@@ -43,9 +43,8 @@ impl Pair {
         }
         let (right_m, forward_m, left_deg) = MOTION;
         let cameras = still_life_pair(SIZE, right_m, forward_m, left_deg);
-        let mut shot = |camera, done: f64| {
-            photograph(camera, SIZE, &mut |share| progress(done + 0.3 * share))
-        };
+        let mut shot =
+            |camera, done: f64| photograph(camera, SIZE, &mut |share| progress(done + 0.3 * share));
         let photographs = [shot(&cameras[0], 0.0)?, shot(&cameras[1], 0.3)?];
         let both = [&photographs[0], &photographs[1]];
         let features = detect(both, &mut |share| progress(0.6 + 0.4 * share))?;
@@ -88,5 +87,8 @@ pub(crate) fn detect(
             progress(done + 0.5 * f64::from(share)) == ControlFlow::Continue(())
         })
     };
-    Ok([features(photographs[0], 0.0)?, features(photographs[1], 0.5)?])
+    Ok([
+        features(photographs[0], 0.0)?,
+        features(photographs[1], 0.5)?,
+    ])
 }

@@ -1,7 +1,7 @@
 //! Small pieces of photographs, turned as a feature sees them, beside each other for comparison.
 
-use crate::canvas::Canvas;
-use crate::contract::Rect;
+use crate::canvas::{Canvas, Stroke};
+use crate::contract::{Panel, Rect};
 use crate::kit::picture::Picture;
 use epipole::feature::Keypoint;
 use image::{Rgb, RgbImage};
@@ -116,6 +116,16 @@ impl Cuts {
     }
 }
 
+/// The square that a feature's descriptor looks at, with a hand in its direction.
+pub(crate) fn draw_window(canvas: &mut Canvas, panel: &Panel, spot: &Spot, stroke: Stroke) {
+    let at = |along, across| panel.canvas_from_world(spot.at(along, across));
+    let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
+    canvas.clipped(panel.rect, |canvas| {
+        canvas.polygon_outline(&corners, stroke);
+        canvas.line(at(0.0, 0.0), at(1.0, 0.0), stroke);
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,6 +150,13 @@ mod tests {
             ..spot
         };
         assert_eq!(nowhere.cut(&photograph, 2).get_pixel(0, 0).0, [236, 0, 0]);
-        assert!(nowhere.is_sound() && !Spot { scale_px: f64::NAN, ..spot }.is_sound());
+        assert!(
+            nowhere.is_sound()
+                && !Spot {
+                    scale_px: f64::NAN,
+                    ..spot
+                }
+                .is_sound()
+        );
     }
 }

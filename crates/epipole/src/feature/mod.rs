@@ -31,7 +31,10 @@ pub use nms::non_maximum_suppression;
 pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
-pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
+pub use sift::{
+    Features, ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
+    detect_sift_with_progress, scale_space, sift_directions,
+};
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };

@@ -64,7 +64,9 @@ impl question::Question for Question {
         };
         let both = photographs.each_ref().map(Picture::image);
         let found = features::detect(both, &mut |share| progress(0.9 * share))?;
-        let matches = find_matches(&found, |_, _| None, &mut |share| progress(0.9 + 0.1 * share))?;
+        let matches = find_matches(&found, |_, _| None, &mut |share| {
+            progress(0.9 + 0.1 * share)
+        })?;
         Ok(Answer {
             photographs,
             matches,

@@ -19,7 +19,7 @@ const KNOBS: &[Knob] = &[Knob::Slider(&RATIO), Knob::Toggle(&MUTUAL)];
 /// So little below τ, a match is the next to go.
 const BRINK: f32 = 0.05;
 /// Where the probe is at first: on the fringe of the cloth.
-const PROBE: (f64, f64) = (150.0, 320.0);
+const PROBE: (f64, f64) = (217.0, 324.0);
 
 /// The model of `ratio-test`.
 pub(crate) struct RatioTest {
@@ -69,8 +69,8 @@ impl RatioTest {
             let [x, y] = answer.spots[0][*index].place;
             libm::hypot(x - u, y - v)
         };
-        let nearest = (0..answer.candidates.len())
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let nearest =
+            (0..answer.candidates.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         Some((nearest, &answer.candidates[nearest]))
     }
 }
@@ -79,7 +79,15 @@ impl RatioTest {
 fn curve(answer: &Answer, is_mutual: bool) -> Vec<Tally> {
     let num_steps = ((RATIO.max - RATIO.min) / RATIO.step).round() as usize;
     let ratios = (0..=num_steps).map(|k| RATIO.snap(RATIO.min + RATIO.step * k as f64) as f32);
-    let tallies = ratios.map(|max_ratio| Tally::of(answer, Rules { max_ratio, is_mutual }));
+    let tallies = ratios.map(|max_ratio| {
+        Tally::of(
+            answer,
+            Rules {
+                max_ratio,
+                is_mutual,
+            },
+        )
+    });
     tallies.collect()
 }
 
@@ -152,6 +160,19 @@ const CHALLENGES: &[Challenge<RatioTest>] = &[
         solution: || vec![Event::set(&RATIO, 1.0)],
     },
     Challenge {
+        id: "nine-of-ten",
+        goal: "Keep at least 100 matches, of which nine in ten are right.",
+        hint: "Be stricter than usual.",
+        why: "Wrong matches have ratios near 1, so a stricter test removes many of them for each right one.",
+        check: |model| {
+            let tally = model.tally();
+            tally.is_some_and(|tally| {
+                tally.num_kept >= 100 && tally.precision().is_some_and(|share| share >= 0.9)
+            })
+        },
+        solution: || vec![Event::set(&RATIO, 0.6)],
+    },
+    Challenge {
         id: "right-and-rejected",
         goal: "With τ = 0.8, find a feature whose nearest neighbor is right and rejected all the same.",
         hint: "Look where one thing resembles the next.",
@@ -162,7 +183,7 @@ const CHALLENGES: &[Challenge<RatioTest>] = &[
             let is_one = |found: &Candidate| found.is_right && !rules.keep(found);
             rules.max_ratio == 0.8 && model.probed().is_some_and(|(_, found)| is_one(found))
         },
-        solution: || vec![Event::moved("probe", 100.0, 100.0)],
+        solution: || vec![Event::moved("probe", 193.0, 319.0)],
     },
 ];
 
@@ -195,14 +216,51 @@ mod tests {
                 ..MatchOptions::default()
             };
             let matches = match_descriptors(first, second, &options).unwrap();
-            let tally = Tally::of(answer, Rules { max_ratio, is_mutual });
+            let tally = Tally::of(
+                answer,
+                Rules {
+                    max_ratio,
+                    is_mutual,
+                },
+            );
             assert_eq!(matches.len(), tally.num_kept);
             for found in matches {
                 let ours = &answer.candidates[found.index1];
                 assert_eq!(ours.nearest[0] as usize, found.index2);
                 assert!((ours.ratio - found.ratio).abs() < 1e-6);
-                assert!(ours.nearest[1] != ours.nearest[0] && ours.distances[0] <= ours.distances[1]);
+                assert!(
+                    ours.nearest[1] != ours.nearest[0] && ours.distances[0] <= ours.distances[1]
+                );
             }
+        }
+    }
+
+    /// NumPy: every distance of two descriptors, sorted; the same photographs, features and truth.
+    #[test]
+    fn the_curve_is_that_of_numpy() {
+        let mut model = finished();
+        assert_eq!(model.asked.answer().unwrap().num_findable, 334);
+        for (ratio, is_mutual, num_kept, num_right, precision, recall) in [
+            (0.5, false, 104, 98, 0.942308, 0.293413),
+            (0.6, false, 117, 106, 0.905983, 0.317365),
+            (0.7, false, 147, 125, 0.850340, 0.374251),
+            (0.8, false, 191, 141, 0.738220, 0.422156),
+            (0.9, false, 292, 158, 0.541096, 0.473054),
+            (1.0, false, 600, 181, 0.301667, 0.541916),
+            (0.6, true, 112, 101, 0.901786, 0.302395),
+            (0.7, true, 139, 119, 0.856115, 0.356287),
+            (0.8, true, 165, 132, 0.800000, 0.395210),
+            (0.9, true, 199, 143, 0.718593, 0.428144),
+            (1.0, true, 260, 155, 0.596154, 0.464072),
+        ] {
+            model.update(&Event::set(&RATIO, ratio)).unwrap();
+            model.update(&Event::set(&MUTUAL, is_mutual)).unwrap();
+            let tally = model.tally().unwrap();
+            assert_eq!((tally.num_kept, tally.num_right), (num_kept, num_right));
+            assert!((tally.precision().unwrap() - precision).abs() < 1e-6);
+            assert!((tally.recall() - recall).abs() < 1e-6);
+            // The point lies on the curve that is drawn.
+            assert!(model.curves()[usize::from(is_mutual)].contains(&tally));
         }
     }
 }

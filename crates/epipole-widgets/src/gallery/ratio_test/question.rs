@@ -80,7 +80,8 @@ impl question::Question for Question {
             .map(|keypoint| keypoint.point())
             .collect();
         let findable = pair.truths.iter().flatten().filter(|truth| {
-            let is_near = |place: &nalgebra::Point2<f64>| (place - **truth).norm() < RIGHT_WITHIN_PX;
+            let is_near =
+                |place: &nalgebra::Point2<f64>| (place - **truth).norm() < RIGHT_WITHIN_PX;
             places2.iter().any(is_near)
         });
         Ok(Answer {

@@ -9,7 +9,7 @@ use crate::kit::features::SIZE;
 use crate::kit::grid::{self, GAP, Grid, SMALL, TITLE};
 use crate::kit::labels::Labels;
 use crate::kit::legend::{self, Entry, Swatch};
-use crate::kit::patch::{Cuts, Spot};
+use crate::kit::patch::{self, Cuts};
 use crate::kit::plot::{self, Ruler};
 use crate::kit::question::Question as _;
 use crate::theme::Role;
@@ -23,7 +23,7 @@ const NAMES: [&str; 3] = ["feature", "nearest", "second"];
 const MARKS: [(Role, Shape); 3] = [
     (Role::Grip, Shape::Ring),
     (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
+    (Role::Series(3), Shape::Square),
 ];
 
 /// Draws [`RatioTest`].
@@ -35,8 +35,8 @@ pub(crate) struct RatioTestView {
 fn rulers() -> [Ruler; 2] {
     let percent = |ruler: Ruler| ruler.shown(100.0, " %");
     [
-        percent(Ruler::linear(0.0, 1.0)).named("recall"),
-        percent(Ruler::linear(0.0, 1.0)),
+        percent(Ruler::linear(0.2, 0.6)).named("recall"),
+        percent(Ruler::linear(0.2, 1.0)),
     ]
 }
 
@@ -90,7 +90,10 @@ impl View for RatioTestView {
         first.clickable = true;
         grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
         let mut panels = vec![first, second, plot::panel("curve", curve, &x, &y)];
-        for (id, rect) in ["feature", "nearest", "second-nearest"].into_iter().zip(squares(patches)) {
+        for (id, rect) in ["feature", "nearest", "second-nearest"]
+            .into_iter()
+            .zip(squares(patches))
+        {
             panels.push(Panel::photograph(id, rect, 1, 1));
         }
         grid.layout(panels)
@@ -184,7 +187,11 @@ fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
     let place = |tally: &Tally| Some((tally.recall(), tally.precision()?));
     let is_mutual = model.rules().is_mutual;
     let [without, with] = model.curves();
-    let (now, other) = if is_mutual { (with, without) } else { (without, with) };
+    let (now, other) = if is_mutual {
+        (with, without)
+    } else {
+        (without, with)
+    };
     let style = |is_now| match is_now {
         true => Stroke::solid(Role::Best, 2.0),
         false => Stroke::solid(Role::Reference, 1.25).dashed(),
@@ -203,14 +210,23 @@ fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
             labels.keep_free(panel.canvas_from_world(place), 2.0);
         }
     }
-    let text = format!("τ = {}", format_number(f64::from(model.rules().max_ratio), 2));
+    let text = format!(
+        "τ = {}",
+        format_number(f64::from(model.rules().max_ratio), 2)
+    );
     let style = TextStyle::new(Role::Ink, SMALL).cased();
     labels.draw(canvas, &Labels::around(at, 8.0), &text, style);
 }
 
 impl RatioTestView {
     /// The feature under the probe, its two nearest, and their patches.
-    fn draw_probed(&mut self, model: &RatioTest, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
+    fn draw_probed(
+        &mut self,
+        model: &RatioTest,
+        answer: &Answer,
+        layout: &Layout,
+        canvas: &mut Canvas,
+    ) {
         let Some((index1, found)) = model.probed() else {
             return;
         };
@@ -229,7 +245,11 @@ impl RatioTestView {
         ];
         let patches = layout.panel("feature").rect;
         let is_small = patches.width < 70.0;
-        let verdict = if model.rules().keep(found) { "keep" } else { "reject" };
+        let verdict = if model.rules().keep(found) {
+            "keep"
+        } else {
+            "reject"
+        };
         let ratio = format!(
             "d₁/d₂ = {}: {verdict}",
             format_number(f64::from(found.ratio), 3)
@@ -238,12 +258,17 @@ impl RatioTestView {
         for (k, (spot, photograph, panel, id)) in three.into_iter().enumerate() {
             let (role, shape) = MARKS[k];
             let panel = layout.panel(panel);
-            draw_window(canvas, panel, &spot, Stroke::solid(role, 2.0).cased());
+            patch::draw_window(canvas, panel, &spot, Stroke::solid(role, 2.0).cased());
             let rect = layout.panel(id).rect;
             let picture = &answer.photographs[photograph];
-            self.cuts.draw(canvas, rect, picture, &spot, version + photograph as u64);
+            self.cuts
+                .draw(canvas, rect, picture, &spot, version + photograph as u64);
             canvas.stroke_rect(rect, Stroke::solid(role, 2.0));
-            let text = if k == 0 || is_small && texts[k].is_empty() { NAMES[k] } else { &texts[k] };
+            let text = if k == 0 || is_small && texts[k].is_empty() {
+                NAMES[k]
+            } else {
+                &texts[k]
+            };
             let place = (rect.center().0, rect.bottom() + BELOW / 2.0 + 1.0);
             canvas.label(place, text, TextStyle::new(Role::Ink, SMALL).middle());
             if k > 0 {
@@ -259,14 +284,4 @@ impl RatioTestView {
         canvas.line(probe, feature, Stroke::solid(Role::Grip, 1.5).cased());
         canvas.grip(probe, Role::Grip);
     }
-}
-
-/// The square that a feature's descriptor looks at, with a hand in its direction.
-fn draw_window(canvas: &mut Canvas, panel: &Panel, spot: &Spot, stroke: Stroke) {
-    let at = |along, across| panel.canvas_from_world(spot.at(along, across));
-    let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
-    canvas.clipped(panel.rect, |canvas| {
-        canvas.polygon_outline(&corners, stroke);
-        canvas.line(at(0.0, 0.0), at(1.0, 0.0), stroke);
-    });
 }

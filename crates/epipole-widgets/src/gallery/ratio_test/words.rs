@@ -64,8 +64,16 @@ impl Words for RatioTest {
             1.0 => "Without the ratio test".to_owned(),
             ratio => format!("With τ = {}", format_number(f64::from(ratio), 2)),
         };
-        let mutual = if rules.is_mutual { " and the mutual check" } else { "" };
-        let verdict = if rules.keep(found) { "kept" } else { "rejected" };
+        let mutual = if rules.is_mutual {
+            " and the mutual check"
+        } else {
+            ""
+        };
+        let verdict = if rules.keep(found) {
+            "kept"
+        } else {
+            "rejected"
+        };
         format!(
             "{test}{mutual}, {} matches are kept and {} of them are right: precision {} %, recall {} %. \
              The feature at the probe has its two nearest at the distances {} and {}, a ratio of {}: \
