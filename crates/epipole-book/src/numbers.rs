@@ -225,21 +225,39 @@ mod tests {
             ("corners.opencv-divisor block=2", "2040"),
             ("corners.opencv-divisor block=3", "3060"),
             // √(4 · 60²); √(10² + 30² + 40² + 80²); √(30² + 20² + 40² + 50²); √(70² + 10² + 10² + 70²)
-            (&format!("matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=0"), "120.0"),
-            (&format!("matching.patch-distance {patch} e=20 f=60 g=80 h=160 normalized=0"), "94.9"),
-            (&format!("matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=0"), "73.5"),
-            (&format!("matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=0"), "100.0"),
+            (
+                &format!("matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=0"),
+                "120.0",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=20 f=60 g=80 h=160 normalized=0"),
+                "94.9",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=0"),
+                "73.5",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=0"),
+                "100.0",
+            ),
             // NumPy: p = (p - p.mean()) / np.linalg.norm(p - p.mean())
             (
-                &format!("matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=1 digits=2"),
+                &format!(
+                    "matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=1 digits=2"
+                ),
                 "0.00",
             ),
             (
-                &format!("matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=1 digits=2"),
+                &format!(
+                    "matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=1 digits=2"
+                ),
                 "1.44",
             ),
             (
-                &format!("matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=1 digits=2"),
+                &format!(
+                    "matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=1 digits=2"
+                ),
                 "1.96",
             ),
             // 0.18 / 0.21, 0.12 / 0.40 and 0.24 / 0.32

@@ -9,6 +9,7 @@ pub mod eight_point;
 mod epipolar_click;
 mod four_poses;
 pub mod harris;
+mod patch_match;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
@@ -16,13 +17,13 @@ mod ratio_test;
 mod same_picture;
 mod scale_ambiguity;
 mod scale_drift;
+mod scale_space;
+mod sift_descriptor;
 mod stereo_slider;
 mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
 pub mod window_shift;
-mod sift_descriptor;
-mod scale_space;
 
 /// A figure's entry in the list.
 pub struct Entry {
@@ -57,6 +58,10 @@ figures![
     same_picture::View,
     window_shift::View,
     harris::View,
+    patch_match::View,
+    ratio_test::View,
+    sift_descriptor::View,
+    scale_space::View,
     epipolar_click::View,
     eight_point::View,
     ransac_budget::View,
@@ -70,9 +75,6 @@ figures![
     bundle_adjustment::View,
     scale_drift::View,
     ransac_race::View,
-    ratio_test::View,
-    sift_descriptor::View,
-    scale_space::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -104,8 +104,8 @@ impl Cuts {
     ) {
         let known = |(other, of, _): &(Spot, u64, RgbImage)| other == spot && *of == version;
         let index = self.kept.iter().position(known).unwrap_or_else(|| {
-            // The last dozen: as many as a figure shows at a time.
-            if self.kept.len() >= 12 {
+            // As many as a figure shows at a time, and some more.
+            if self.kept.len() >= 40 {
                 self.kept.remove(0);
             }
             let cut = spot.cut(photograph.image(), SIDE);

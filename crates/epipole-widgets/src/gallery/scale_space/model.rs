@@ -16,7 +16,7 @@ const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .unit("px");
 const KNOBS: &[Knob] = &[Knob::Slider(&SIGMA)];
 /// Where the probe is at first: on a fruit.
-const PROBE: (f64, f64) = (214.0, 264.0);
+const PROBE: (f64, f64) = (186.0, 275.0);
 
 /// The blur at which a place answers most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,10 @@ impl ScaleSpace {
     pub(super) fn answers(&self) -> Vec<(f64, f64)> {
         let layers = self.asked.answer().map_or(&[][..], |answer| &answer.layers);
         let place = self.place();
-        layers.iter().map(|layer| (layer.sigma_px, layer.at(place))).collect()
+        layers
+            .iter()
+            .map(|layer| (layer.sigma_px, layer.at(place)))
+            .collect()
     }
 
     /// The answer at the slider's blur, between those of the layers.
@@ -152,19 +155,19 @@ const CHALLENGES: &[Challenge<ScaleSpace>] = &[
             let extremum = model.extremum();
             extremum.is_some_and(|found| (model.sigma_px() / found.sigma_px - 1.0).abs() < 0.05)
         },
-        solution: || vec![Event::set(&SIGMA, 10.0)],
+        solution: || vec![Event::set(&SIGMA, 7.6)],
     },
     Challenge {
-        id: "dark",
-        goal: "Find something dark that is larger than 4 px.",
-        hint: "What is darker than all around it is left brighter by the blur.",
-        why: "Blur fills a dark spot from around, so more blur less less blur is positive there; SIFT keeps \
-              both kinds of extremum.",
+        id: "bright",
+        goal: "Find something bright that is larger than 4 px.",
+        hint: "What is brighter than all around it loses to the blur.",
+        why: "Blur spreads the light of a bright spot, so more blur less less blur is negative there; SIFT \
+              keeps both kinds of extremum.",
         check: |model| {
             let extremum = model.extremum();
-            extremum.is_some_and(|found| found.value > 4.0 && found.sigma_px > 4.0)
+            extremum.is_some_and(|found| found.value < -4.0 && found.sigma_px > 4.0)
         },
-        solution: || vec![Event::moved("probe", 186.0, 275.0)],
+        solution: || vec![Event::moved("probe", 210.0, 243.0)],
     },
 ];
 
@@ -186,12 +189,20 @@ mod tests {
         let large = keypoints.filter(|one| (3.0..18.0).contains(&one.scale_px));
         let (mut near, mut all) = (0, 0);
         for keypoint in large.take(60) {
-            model.update(&Event::moved("probe", keypoint.u.round(), keypoint.v.round())).unwrap();
+            model
+                .update(&Event::moved(
+                    "probe",
+                    keypoint.u.round(),
+                    keypoint.v.round(),
+                ))
+                .unwrap();
             all += 1;
             let scale = f64::from(keypoint.scale_px);
-            near += usize::from(model.extremum().is_some_and(|found| {
-                libm::log2(found.sigma_px / scale).abs() < 0.25
-            }));
+            near += usize::from(
+                model
+                    .extremum()
+                    .is_some_and(|found| libm::log2(found.sigma_px / scale).abs() < 0.25),
+            );
             assert!(model.now().is_some_and(f64::is_finite));
         }
         assert!(all > 30 && 4 * near > 3 * all, "{near} of {all}");

@@ -69,12 +69,15 @@ impl question::Question for Question {
         let layers = octaves.flat_map(|octave| {
             let (step_px, origin) = (octave.step_px, octave.origin);
             let inner = octave.differences.into_iter().zip(octave.sigmas_px);
-            inner.skip(1).take(NUM_LAYERS).map(move |(values, sigma_px)| Layer {
-                sigma_px,
-                step_px,
-                origin,
-                values,
-            })
+            inner
+                .skip(1)
+                .take(NUM_LAYERS)
+                .map(move |(values, sigma_px)| Layer {
+                    sigma_px,
+                    step_px,
+                    origin,
+                    values,
+                })
         });
         Ok(Answer {
             layers: layers.collect(),

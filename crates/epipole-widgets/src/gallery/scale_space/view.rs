@@ -17,13 +17,17 @@ const COUNT: usize = NUM_OCTAVES * NUM_LAYERS;
 /// The difference that is drawn in full color, gray levels.
 const STRONG: f64 = 20.0;
 const LEGEND: f64 = 24.0;
+/// Small maps show one in so many samples.
+const SMALLER: u32 = 3;
 /// Between two small maps.
 const BETWEEN: f64 = 4.0;
 
 /// Draws [`ScaleSpace`].
 #[derive(Default)]
 pub(crate) struct ScaleSpaceView {
-    maps: Heat<COUNT>,
+    /// The present layer, and all of them small.
+    large: Heat,
+    small: Heat<COUNT>,
 }
 
 fn rulers(answers: &[(f64, f64)]) -> [Ruler; 2] {
@@ -47,12 +51,13 @@ impl View for ScaleSpaceView {
             let [first, second, third] = grid.row([aspect, aspect, 0.8], 290.0);
             (pictures, curve) = ([first, second], third);
         } else {
-            pictures = grid.row([aspect; 2], 290.0);
-            let height = if grid::is_narrow(width) { 112.0 } else { 170.0 };
+            pictures = grid.row([aspect; 2], 215.0);
+            let height = if grid::is_narrow(width) { 100.0 } else { 140.0 };
             [curve] = grid.shares([1.0], height);
         }
-        let [mut photograph, difference] = [("photograph", pictures[0]), ("difference", pictures[1])]
-            .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
+        let [mut photograph, difference] =
+            [("photograph", pictures[0]), ("difference", pictures[1])]
+                .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
         photograph.clickable = true;
         let first = if grid::is_narrow(width) { 37.0 } else { 84.0 };
         let [layers] = grid.shares([1.0], first * aspect + 2.0);
@@ -71,12 +76,21 @@ impl View for ScaleSpaceView {
         let sigma = format_number(model.sigma_px(), 1);
         let title = format!("Difference of Gaussians, σ = {sigma} px");
         let short = format!("Difference, σ = {sigma}");
-        let (wide, narrow) = (["Photograph: drag the probe", "Photograph"], [&*title, &*short]);
+        let (wide, narrow) = (
+            ["Photograph: drag the probe", "Photograph"],
+            [&*title, &*short],
+        );
         grid::fitting_title(canvas, photograph.rect, &wide);
         grid::fitting_title(canvas, difference.rect, &narrow);
-        let wordings = ["Difference at the probe, gray levels", "Difference, gray levels"];
+        let wordings = [
+            "Difference at the probe, gray levels",
+            "Difference, gray levels",
+        ];
         grid::fitting_title(canvas, curve.rect, &wordings);
-        let wordings = ["Four octaves of three layers, each octave half as wide", "Four octaves"];
+        let wordings = [
+            "Four octaves of three layers, each octave half as wide",
+            "Four octaves",
+        ];
         grid::fitting_title(canvas, layers.rect, &wordings);
         for panel in [photograph, difference] {
             canvas.panel(panel.rect);
@@ -92,10 +106,12 @@ impl View for ScaleSpaceView {
         };
         canvas.photograph(photograph.rect, answer.photograph.image());
         let theme = canvas.theme();
-        let color = || std::array::from_fn(|k| colored(&answer.layers[k], theme));
-        let maps = self.maps.maps(model.asked().version(), theme, color);
-        let shown = model.layer(answer);
-        canvas.photograph(difference.rect, &maps[shown]);
+        let (version, shown) = (model.asked().version(), model.layer(answer));
+        let color = || [colored(&answer.layers[shown], theme, 1)];
+        let [map] = (self.large).maps(version * COUNT as u64 + shown as u64, theme, color);
+        canvas.photograph(difference.rect, map);
+        let color = || std::array::from_fn(|k| colored(&answer.layers[k], theme, SMALLER));
+        let maps = self.small.maps(version, theme, color);
         draw_layers(canvas, layers.rect, answer, maps, shown);
         let place = model.place();
         for panel in [photograph, difference] {
@@ -115,14 +131,16 @@ impl View for ScaleSpaceView {
     }
 }
 
-/// Warm where the difference is positive, cool and striped where it is negative.
-fn colored(layer: &Layer, theme: Theme) -> RgbImage {
+/// Warm where the difference is positive, cool and striped where it is negative; one in so many
+/// samples.
+fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
     let [zero, warm, cool] =
         [Role::Surface, Role::Outlier, Role::Candidate].map(|role| theme.color(role));
-    RgbImage::from_fn(layer.values.width(), layer.values.height(), |u, v| {
-        let value = 255.0 * f64::from(layer.values.get_pixel(u, v).0[0]);
+    let (width, height) = layer.values.dimensions();
+    RgbImage::from_fn(width / every, height / every, |u, v| {
+        let value = 255.0 * f64::from(layer.values.get_pixel(every * u, every * v).0[0]);
         let strength = (value.abs() / STRONG).min(1.0).sqrt() as f32;
-        let is_faint = value < 0.0 && heat::is_stripe(u, v);
+        let is_faint = value < 0.0 && every == 1 && heat::is_stripe(u, v);
         let share = if is_faint { 0.55 * strength } else { strength };
         Rgb(mix(zero, if value < 0.0 { cool } else { warm }, share))
     })
@@ -152,7 +170,12 @@ fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canva
     let (left, right) = (panel.rect.x + 1.0, panel.rect.right() - 1.0);
     canvas.line((left, zero), (right, zero), Stroke::solid(Role::Edge, 1.5));
     let places = answers.iter().map(|answer| world(*answer));
-    plot::draw_curve(canvas, panel, places.clone(), Stroke::solid(Role::Ink, 1.75));
+    plot::draw_curve(
+        canvas,
+        panel,
+        places.clone(),
+        Stroke::solid(Role::Ink, 1.75),
+    );
     let mut labels = Labels::new(panel.rect.inset(3.0));
     for place in places {
         let at = panel.canvas_from_world(place);
@@ -166,10 +189,16 @@ fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canva
         labels.keep_free(at, 6.0);
         let text = format!("extremum: σ = {} px", format_number(found.sigma_px, 1));
         let style = TextStyle::new(Role::Ink, SMALL).cased();
-        let away = if found.value < 0.0 { 14.0 } else { -14.0 };
-        let mut around = vec![((at.0, at.1 + away), Align::Middle)];
-        around.extend(Labels::around(at, 10.0));
-        labels.draw(canvas, &around, &text, style);
+        // The curve keeps to one side of zero there.
+        let away = if found.value < 0.0 { -12.0 } else { 12.0 };
+        labels.draw(
+            canvas,
+            &[((at.0, zero + away), Align::Middle)],
+            &text,
+            style,
+        );
+        let stem = Stroke::solid(Role::Best, 1.25).dashed();
+        canvas.line(at, (at.0, zero), stem);
     }
     if let Some(now) = model.now() {
         let at = panel.canvas_from_world(world((model.sigma_px(), now)));
@@ -181,10 +210,19 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout) {
     let y = layout.height - LEGEND / 2.0;
     let mut x = 0.0;
     for (role, opacity, label, short) in [
-        (Role::Candidate, 0.7, "negative: something bright (striped)", "bright"),
+        (
+            Role::Candidate,
+            0.7,
+            "negative: something bright (striped)",
+            "bright",
+        ),
         (Role::Outlier, 0.9, "positive: something dark", "dark"),
     ] {
-        let label = if grid::is_narrow(layout.width) { short } else { label };
+        let label = if grid::is_narrow(layout.width) {
+            short
+        } else {
+            label
+        };
         heat::swatch(canvas, (x, y), Fill::Role(role, opacity), label);
         x += 36.0 + crate::canvas::text_width(label, SMALL);
     }

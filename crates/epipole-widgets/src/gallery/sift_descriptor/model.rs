@@ -150,7 +150,10 @@ impl SiftDescriptor {
             Ok(Look { piece, prints })
         };
         let looks = [look(Change::NONE, SIGMA_PX)?, look(change, scale_px)?];
-        let mut distances = [Distance { original: 0.0, other: 0.0 }; 3];
+        let mut distances = [Distance {
+            original: 0.0,
+            other: 0.0,
+        }; 3];
         for (way, distance) in distances.iter_mut().enumerate() {
             let [before, after] = looks.each_ref().map(|look| &look.prints.lists[way]);
             let query = after.get(0).unwrap_or_default();
@@ -288,13 +291,27 @@ mod tests {
         for (knob, value) in [(&TURN, 0.0), (&ZOOM, 1.0), (&BRIGHTER, 0.0)] {
             model.update(&Event::set(knob, value)).unwrap();
         }
-        assert!(model.compared().unwrap().distances.iter().all(|d| d.original == 0.0 && d.other > 0.0));
+        assert!(
+            model
+                .compared()
+                .unwrap()
+                .distances
+                .iter()
+                .all(|d| d.original == 0.0 && d.other > 0.0)
+        );
         // A right angle moves pixels onto pixels, up to the interpolation at the middle.
         model.update(&Event::set(&TURN, 90.0)).unwrap();
         let turned = model.compared().unwrap();
         let angles = turned.looks.each_ref().map(|look| look.prints.angle_rad);
         let apart = libm::remainder(angles[1] - angles[0], std::f64::consts::TAU);
-        assert!((apart - std::f64::consts::FRAC_PI_2).abs() < 1e-3, "{apart}");
-        assert!(turned.distances[2].original < 0.02, "{:?}", turned.distances);
+        assert!(
+            (apart - std::f64::consts::FRAC_PI_2).abs() < 1e-3,
+            "{apart}"
+        );
+        assert!(
+            turned.distances[2].original < 0.02,
+            "{:?}",
+            turned.distances
+        );
     }
 }

@@ -50,7 +50,11 @@ impl Change {
     ///
     /// # Errors
     /// As [`gaussian_blur`].
-    pub(super) fn piece(&self, gray: &GrayImage32, place: (f64, f64)) -> Result<GrayImage32, Error> {
+    pub(super) fn piece(
+        &self,
+        gray: &GrayImage32,
+        place: (f64, f64),
+    ) -> Result<GrayImage32, Error> {
         let (sin, cos) = (libm::sin(self.turn_rad), libm::cos(self.turn_rad));
         // Whoever makes a picture smaller has to blur it first.
         let blur_px = 0.5 * (1.0 / (self.zoom * self.zoom) - 1.0).max(0.0).sqrt();
@@ -113,7 +117,9 @@ impl Prints {
             }
         }
         Ok(Self {
-            angle_rad: keypoints.first().map_or(0.0, |first| f64::from(first.angle_rad)),
+            angle_rad: keypoints
+                .first()
+                .map_or(0.0, |first| f64::from(first.angle_rad)),
             scale_px,
             lists: [
                 raw_patches(gray, places)?,

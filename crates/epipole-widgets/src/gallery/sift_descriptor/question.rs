@@ -66,7 +66,10 @@ impl question::Question for Question {
         let count = answer.places.len();
         answer.photograph.size() == SIZE
             && count > 0
-            && answer.places.iter().all(|(u, v)| u.abs() < 1e5 && v.abs() < 1e5)
+            && answer
+                .places
+                .iter()
+                .all(|(u, v)| u.abs() < 1e5 && v.abs() < 1e5)
             && answer.values[0].len() == 256 * count
             && answer.values[1].len() == 256 * count
             && answer.values[2].len() == 128 * count

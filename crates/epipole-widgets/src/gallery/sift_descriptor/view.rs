@@ -52,7 +52,10 @@ impl View for SiftDescriptorView {
         let mut panels = vec![Panel::photograph("photograph", photograph, SIZE.0, SIZE.1)];
         panels[0].clickable = true;
         let around = f64::from(SHOWN_PX) + 0.5;
-        for (id, rect) in ["before", "before-sift", "after", "after-sift"].into_iter().zip(squares) {
+        for (id, rect) in ["before", "before-sift", "after", "after-sift"]
+            .into_iter()
+            .zip(squares)
+        {
             let side = rect.width.min(rect.height);
             let square = Rect::new(rect.x, rect.y, side, side);
             let (start, end) = match id {
@@ -73,7 +76,11 @@ impl View for SiftDescriptorView {
 
     fn draw(&mut self, model: &SiftDescriptor, layout: &Layout, canvas: &mut Canvas) {
         let photograph = layout.panel("photograph");
-        let wordings = ["Photograph: drag the keypoint", "Drag the keypoint", "Photograph"];
+        let wordings = [
+            "Photograph: drag the keypoint",
+            "Drag the keypoint",
+            "Photograph",
+        ];
         grid::fitting_title(canvas, photograph.rect, &wordings);
         canvas.panel(photograph.rect);
         let (Some(answer), Some(compared)) = (model.asked().answer(), model.compared()) else {
@@ -88,7 +95,12 @@ impl View for SiftDescriptorView {
             scale_px: SIGMA_PX,
             angle_rad: compared.looks[0].prints.angle_rad,
         };
-        patch::draw_window(canvas, photograph, &spot, Stroke::solid(Role::Grip, 2.0).cased());
+        patch::draw_window(
+            canvas,
+            photograph,
+            &spot,
+            Stroke::solid(Role::Grip, 2.0).cased(),
+        );
         canvas.grip(photograph.canvas_from_world((u, v)), Role::Grip);
         let color = || compared.looks.each_ref().map(shown);
         let pieces = self.pieces.maps(model.version(), canvas.theme(), color);
@@ -156,7 +168,11 @@ fn draw_histogram(canvas: &mut Canvas, panel: &Panel, histogram: &[f32]) {
 
 /// The three ratios as bars, and the line below which a match is believed.
 fn draw_ratios(canvas: &mut Canvas, rect: Rect, ratios: [f64; 3]) {
-    let wordings = ["Distance ratio to the nearest other", "Distance ratio d₁/d₂", "d₁/d₂"];
+    let wordings = [
+        "Distance ratio to the nearest other",
+        "Distance ratio d₁/d₂",
+        "d₁/d₂",
+    ];
     grid::fitting_title(canvas, rect, &wordings);
     canvas.panel(rect);
     let inside = rect.inset(10.0);
@@ -167,7 +183,11 @@ fn draw_ratios(canvas: &mut Canvas, rect: Rect, ratios: [f64; 3]) {
     for (k, (ratio, name)) in ratios.into_iter().zip(WAYS).enumerate() {
         let top = inside.y + step * k as f64;
         let is_believed = ratio < BELIEVED;
-        let role = if is_believed { Role::Inlier } else { Role::Outlier };
+        let role = if is_believed {
+            Role::Inlier
+        } else {
+            Role::Outlier
+        };
         let verdict = if is_believed { "recognized" } else { "lost" };
         let number = format_number(ratio, 2);
         let text = format!("{name}: {number}, {verdict}");
@@ -175,13 +195,21 @@ fn draw_ratios(canvas: &mut Canvas, rect: Rect, ratios: [f64; 3]) {
             true => text,
             false => format!("{}: {number}", name.split(' ').next().unwrap_or(name)),
         };
-        canvas.label((inside.x, top + 9.0), &text, TextStyle::new(Role::Ink, TEXT));
+        canvas.label(
+            (inside.x, top + 9.0),
+            &text,
+            TextStyle::new(Role::Ink, TEXT),
+        );
         let bar = Rect::new(inside.x, top + 20.0, x(ratio) - inside.x, height);
         canvas.fill_rect(bar, role, 0.85);
         let all = Rect::new(inside.x, top + 20.0, inside.width, height);
         canvas.stroke_rect(all, Stroke::solid(Role::Edge, 1.0));
         let tick = Stroke::solid(Role::Ink, 2.0).cased();
-        canvas.line((x(BELIEVED), top + 18.0), (x(BELIEVED), bar.bottom() + 2.0), tick);
+        canvas.line(
+            (x(BELIEVED), top + 18.0),
+            (x(BELIEVED), bar.bottom() + 2.0),
+            tick,
+        );
     }
     let style = TextStyle::new(Role::Ink, SMALL).middle();
     let below = inside.y + 2.0 * step + 20.0 + height + 14.0;

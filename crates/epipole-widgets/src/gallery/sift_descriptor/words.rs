@@ -26,7 +26,14 @@ impl Words for SiftDescriptor {
             })
             .collect();
         let details = [
-            ("raw", "Raw, to itself", "raw-other", "Raw, to another", 1, "levels"),
+            (
+                "raw",
+                "Raw, to itself",
+                "raw-other",
+                "Raw, to another",
+                1,
+                "levels",
+            ),
             (
                 "normalized",
                 "Normalized, to itself",
@@ -35,17 +42,42 @@ impl Words for SiftDescriptor {
                 2,
                 "",
             ),
-            ("sift", "SIFT, to itself", "sift-other", "SIFT, to another", 2, ""),
+            (
+                "sift",
+                "SIFT, to itself",
+                "sift-other",
+                "SIFT, to another",
+                2,
+                "",
+            ),
         ];
         for ((id, label, other_id, other, digits, unit), distance) in
             details.into_iter().zip(&compared.distances)
         {
             readouts.push(Readout::number(id, label, distance.original, digits, unit));
-            readouts.push(Readout::number(other_id, other, distance.other, digits, unit));
+            readouts.push(Readout::number(
+                other_id,
+                other,
+                distance.other,
+                digits,
+                unit,
+            ));
         }
         let angles = (compared.looks.each_ref()).map(|look| look.prints.angle_rad.to_degrees());
-        readouts.push(Readout::number("before", "Direction before", angles[0], 0, "°"));
-        readouts.push(Readout::number("after", "Direction after", angles[1], 0, "°"));
+        readouts.push(Readout::number(
+            "before",
+            "Direction before",
+            angles[0],
+            0,
+            "°",
+        ));
+        readouts.push(Readout::number(
+            "after",
+            "Direction after",
+            angles[1],
+            0,
+            "°",
+        ));
         readouts
     }
 

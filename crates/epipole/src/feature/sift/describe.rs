@@ -45,7 +45,7 @@ pub fn describe_sift(
         options,
         |index, layer, center, sigma, scratch| {
             // The histogram takes directions in [−π, π].
-        let angle = libm::remainderf(keypoints[index].angle_rad, std::f32::consts::TAU);
+            let angle = libm::remainderf(keypoints[index].angle_rad, std::f32::consts::TAU);
             let sums = descriptor::histogram(layer, center, sigma, angle, scratch);
             let normalized = descriptor::normalize(sums, options.normalization);
             bytes[128 * index..128 * (index + 1)].copy_from_slice(&normalized);
