@@ -15,7 +15,7 @@ const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .digits(1)
     .unit("px");
 const KNOBS: &[Knob] = &[Knob::Slider(&SIGMA)];
-/// Where the probe is at first: on a fruit.
+/// Where the probe is at first: on the shaded side of an orange.
 const PROBE: (f64, f64) = (186.0, 275.0);
 
 /// The blur at which a place answers most.
