@@ -81,6 +81,8 @@ impl Distance {
 
 /// All that follows from the state.
 pub(super) struct Compared {
+    place: (f64, f64),
+    finds_direction: bool,
     /// Before and after.
     pub(super) looks: [Look; 2],
     pub(super) distances: [Distance; 3],
@@ -127,13 +129,21 @@ impl SiftDescriptor {
         Some(self.compared()?.distances[way].ratio())
     }
 
-    /// Looks at both photographs anew.
+    /// Looks at both photographs anew, at the one before the change only if it is another place.
     fn look(&mut self) {
         self.version += 1;
-        self.compared = self.compare().ok().flatten();
+        let (place, finds_direction) = (self.place(), self.settings.flag(&DIRECTION));
+        let is_same = |old: &Compared| old.place == place && old.finds_direction == finds_direction;
+        let before = self.compared.take().filter(is_same);
+        let before = before.map(
+            |Compared {
+                 looks: [before, _], ..
+             }| before,
+        );
+        self.compared = self.compare(before).ok().flatten();
     }
 
-    fn compare(&self) -> Result<Option<Compared>, Error> {
+    fn compare(&self, before: Option<Look>) -> Result<Option<Compared>, Error> {
         let (Some((gray, others)), Some(answer)) = (&self.known, self.asked.answer()) else {
             return Ok(None);
         };
@@ -149,7 +159,8 @@ impl SiftDescriptor {
             let prints = Prints::of(&piece, &middle, scale_px, finds_direction)?;
             Ok(Look { piece, prints })
         };
-        let looks = [look(Change::NONE, SIGMA_PX)?, look(change, scale_px)?];
+        let before = before.map_or_else(|| look(Change::NONE, SIGMA_PX), Ok)?;
+        let looks = [before, look(change, scale_px)?];
         let mut distances = [Distance {
             original: 0.0,
             other: 0.0,
@@ -171,7 +182,12 @@ impl SiftDescriptor {
                 other: in_units(ranked.iter().find(is_other)),
             };
         }
-        Ok(Some(Compared { looks, distances }))
+        Ok(Some(Compared {
+            place,
+            finds_direction,
+            looks,
+            distances,
+        }))
     }
 }
 
@@ -313,5 +329,27 @@ mod tests {
             "{:?}",
             turned.distances
         );
+    }
+
+    #[test]
+    fn zz_time() {
+        let mut model = finished();
+        for turn in [10.0, 20.0, 30.0, 45.0, 60.0] {
+            let start = std::time::Instant::now();
+            model.update(&Event::set(&TURN, turn)).unwrap();
+            println!("turn {:?}", start.elapsed());
+        }
+        let start = std::time::Instant::now();
+        let piece = Change::NONE
+            .piece(&model.known.as_ref().unwrap().0, (100.0, 100.0))
+            .unwrap();
+        println!("piece {:?}", start.elapsed());
+        let start = std::time::Instant::now();
+        let p = Prints::of(&piece, &[(MIDDLE, MIDDLE)], SIGMA_PX, true).unwrap();
+        println!("prints {:?} {}", start.elapsed(), p.angle_rad);
+        let l = &model.known.as_ref().unwrap().1;
+        let start = std::time::Instant::now();
+        let r = nearest_few(&p.lists[0].get(0).unwrap(), &l[0], 200).unwrap();
+        println!("near {:?} {}", start.elapsed(), r.len());
     }
 }
