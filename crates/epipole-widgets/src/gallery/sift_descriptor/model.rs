@@ -330,26 +330,4 @@ mod tests {
             turned.distances
         );
     }
-
-    #[test]
-    fn zz_time() {
-        let mut model = finished();
-        for turn in [10.0, 20.0, 30.0, 45.0, 60.0] {
-            let start = std::time::Instant::now();
-            model.update(&Event::set(&TURN, turn)).unwrap();
-            println!("turn {:?}", start.elapsed());
-        }
-        let start = std::time::Instant::now();
-        let piece = Change::NONE
-            .piece(&model.known.as_ref().unwrap().0, (100.0, 100.0))
-            .unwrap();
-        println!("piece {:?}", start.elapsed());
-        let start = std::time::Instant::now();
-        let p = Prints::of(&piece, &[(MIDDLE, MIDDLE)], SIGMA_PX, true).unwrap();
-        println!("prints {:?} {}", start.elapsed(), p.angle_rad);
-        let l = &model.known.as_ref().unwrap().1;
-        let start = std::time::Instant::now();
-        let r = nearest_few(&p.lists[0].get(0).unwrap(), &l[0], 200).unwrap();
-        println!("near {:?} {}", start.elapsed(), r.len());
-    }
 }

@@ -4,7 +4,7 @@ use epipole::Error;
 use epipole::feature::{
     Descriptors, Keypoint, SiftOptions, describe_patches, describe_sift, sift_directions,
 };
-use epipole::imaging::{Border, GrayImage32, gaussian_blur, sample_bicubic, sample_bilinear};
+use epipole::imaging::{Border, GrayImage32, gaussian_blur, sample_bilinear};
 
 /// Blur of the keypoint in the photograph as it was taken, pixels.
 pub(super) const SIGMA_PX: f64 = 3.2;
@@ -70,7 +70,7 @@ impl Change {
             let (x, y) = (f64::from(i) - MIDDLE, f64::from(j) - MIDDLE);
             let u = place.0 + (x * cos + y * sin) / self.zoom;
             let v = place.1 + (y * cos - x * sin) / self.zoom;
-            let value = f64::from(sample_bicubic(source, u, v, Border::Replicate));
+            let value = f64::from(sample_bilinear(source, u, v, Border::Replicate));
             let lit = (value - 0.5) * self.contrast + 0.5 + self.brighter;
             image::Luma([lit.clamp(0.0, 1.0) as f32])
         }))
