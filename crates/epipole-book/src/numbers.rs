@@ -152,6 +152,7 @@ mod tests {
         let matched = format!("{pair} u=400 v=300 u2=362 v2=324 digits=2");
         let corner = "u1=4 v1=0 u2=0 v2=3 u3=2 v3=2";
         let edge = "u1=4 v1=0 u2=5 v2=0 u3=3 v3=0";
+        let patch = "a=10 b=30 c=40 d=80";
         let mut used = Vec::new();
         // u′u, u′v, u′, v′u, v′v, v′, u, v, 1
         let row = [
@@ -256,6 +257,46 @@ mod tests {
             // OpenCV's corner.cpp: 2^(3 − 1) · block · 255
             ("corners.opencv-divisor block=2", "2040"),
             ("corners.opencv-divisor block=3", "3060"),
+            // √(4 · 60²); √(10² + 30² + 40² + 80²); √(30² + 20² + 40² + 50²); √(70² + 10² + 10² + 70²)
+            (
+                &format!("matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=0"),
+                "120.0",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=20 f=60 g=80 h=160 normalized=0"),
+                "94.9",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=0"),
+                "73.5",
+            ),
+            (
+                &format!("matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=0"),
+                "100.0",
+            ),
+            // NumPy: p = (p - p.mean()) / np.linalg.norm(p - p.mean())
+            (
+                &format!(
+                    "matching.patch-distance {patch} e=70 f=90 g=100 h=140 normalized=1 digits=2"
+                ),
+                "0.00",
+            ),
+            (
+                &format!(
+                    "matching.patch-distance {patch} e=40 f=10 g=80 h=30 normalized=1 digits=2"
+                ),
+                "1.44",
+            ),
+            (
+                &format!(
+                    "matching.patch-distance {patch} e=80 f=40 g=30 h=10 normalized=1 digits=2"
+                ),
+                "1.96",
+            ),
+            // 0.18 / 0.21, 0.12 / 0.40 and 0.24 / 0.32
+            ("matching.ratio d1=0.18 d2=0.21", "0.857"),
+            ("matching.ratio d1=0.12 d2=0.40", "0.300"),
+            ("matching.ratio d1=0.24 d2=0.32", "0.750"),
             // 320 + 500 · (−0.2) / (−0.5), and 240.
             (&format!("epipolar.epipole2-u {pair}"), "520"),
             (&format!("epipolar.epipole2-v {pair}"), "240"),

@@ -11,12 +11,16 @@ mod four_poses;
 mod gradient_field;
 pub mod harris;
 mod kernel_stepper;
+mod patch_match;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
+mod ratio_test;
 mod same_picture;
 mod scale_ambiguity;
 mod scale_drift;
+mod scale_space;
+mod sift_descriptor;
 mod stereo_slider;
 mod triangulate;
 mod two_cameras;
@@ -58,6 +62,10 @@ figures![
     kernel_stepper::View,
     window_shift::View,
     harris::View,
+    patch_match::View,
+    ratio_test::View,
+    sift_descriptor::View,
+    scale_space::View,
     epipolar_click::View,
     eight_point::View,
     ransac_budget::View,

@@ -3,8 +3,10 @@
 //! | room | what it does for a figure |
 //! |---|---|
 //! | [`question`] | a computation that takes long: asked, carried out elsewhere, answered |
+//! | [`patch`] | what the windows of features show, for comparison |
 //! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
+//! | [`features`] | two photographs of the still life with their features |
 //! | [`probe`] | a place that the reader drags over a photograph, or clicks |
 //! | [`pin`] | a thing that the reader moves over a view from above |
 //! | [`running`] | a loop that runs, steps and starts over |
@@ -18,6 +20,7 @@
 //! | [`pair`] | two photographs with epipolar lines |
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
+pub(crate) mod features;
 pub(crate) mod grid;
 pub(crate) mod heat;
 pub(crate) mod house;
@@ -25,6 +28,7 @@ pub(crate) mod labels;
 pub(crate) mod legend;
 pub(crate) mod orbit;
 pub(crate) mod pair;
+pub(crate) mod patch;
 pub(crate) mod photo;
 pub(crate) mod picture;
 pub(crate) mod pin;

@@ -25,13 +25,16 @@ pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_
 pub use keypoint::Keypoint;
 pub use matching::{
     BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors,
-    match_descriptors_with_progress, match_hamming, nearest_two, nearest_two_hamming,
+    match_descriptors_with_progress, match_hamming, nearest_few, nearest_two, nearest_two_hamming,
 };
 pub use nms::non_maximum_suppression;
 pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
-pub use sift::{Features, SiftNormalization, SiftOptions, detect_sift, detect_sift_with_progress};
+pub use sift::{
+    Features, ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
+    detect_sift_with_progress, scale_space, sift_directions,
+};
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };

@@ -1,29 +1,18 @@
 //! Which features of two photographs look alike? Both photographs and their matches.
 
 use crate::contract::{Problem, Progress};
+use crate::kit::features::{self, Pair};
 use crate::kit::picture::Picture;
 use crate::kit::question;
-use crate::kit::scenes::{self, still_life_pair};
 use epipole::Error;
-use epipole::feature::{
-    Features, MatchOptions, SiftOptions, detect_sift_with_progress, match_descriptors_with_progress,
-};
-use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
-use epipole::synthetic::Transfer;
-use image::RgbImage;
+use epipole::feature::{Features, MatchOptions, match_descriptors_with_progress};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 /// Size of the rendered photographs, pixels.
-pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
-/// Where the second camera stands: meters to the right, meters forward, degrees to the left.
-const MOTION: (f64, f64, f64) = (0.35, -0.25, 14.0);
-/// The strongest features of a photograph; more make the picture fuller, not clearer.
-const MAX_FEATURES: usize = 600;
-/// A match is right if it is so near to where the scene's geometry puts it, pixels.
-const RIGHT_WITHIN_PX: f64 = 3.0;
+pub(super) const STILL_LIFE_SIZE: (u32, u32) = features::SIZE;
 
 /// Where the photographs come from.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +62,11 @@ impl question::Question for Question {
             Self::StillLife => return still_life(progress),
             Self::Own(photographs) => photographs.clone(),
         };
-        let matches = find_matches([photographs[0].image(), photographs[1].image()], progress)?;
+        let both = photographs.each_ref().map(Picture::image);
+        let found = features::detect(both, &mut |share| progress(0.9 * share))?;
+        let matches = find_matches(&found, |_, _| None, &mut |share| {
+            progress(0.9 + 0.1 * share)
+        })?;
         Ok(Answer {
             photographs,
             matches,
@@ -95,58 +88,31 @@ impl question::Question for Question {
 
 /// The still life never changes, and posters of several sizes need it several times.
 fn still_life(progress: Progress<'_>) -> Result<Answer, Problem> {
-    static FOUND: OnceLock<([RgbImage; 2], Vec<Match>)> = OnceLock::new();
-    let (photographs, matches) = match FOUND.get() {
+    static FOUND: OnceLock<Vec<Match>> = OnceLock::new();
+    let pair = Pair::of_still_life(&mut |share| progress(0.9 * share))?;
+    let matches = match FOUND.get() {
         Some(found) => found,
         None => {
-            let found = match_still_life(progress)?;
-            FOUND.get_or_init(|| found)
+            let go_on = &mut |share| progress(0.9 + 0.1 * share);
+            let judge = |index1, index2| Some(pair.is_right(index1, index2));
+            let matches = find_matches(&pair.features, judge, go_on)?;
+            FOUND.get_or_init(|| matches)
         }
     };
     Ok(Answer {
-        photographs: photographs.clone().map(Picture::from),
+        photographs: pair.photographs.clone().map(Picture::from),
         matches: matches.clone(),
     })
 }
 
-fn match_still_life(progress: Progress<'_>) -> Result<([RgbImage; 2], Vec<Match>), Error> {
-    let (right_m, forward_m, left_deg) = MOTION;
-    let cameras = still_life_pair(STILL_LIFE_SIZE, right_m, forward_m, left_deg);
-    let mut photograph = |camera, done: f64| {
-        let part = &mut |share| progress(done + 0.3 * share);
-        scenes::photograph(camera, STILL_LIFE_SIZE, part)
-    };
-    let photographs = [photograph(&cameras[0], 0.0)?, photograph(&cameras[1], 0.3)?];
-    let both = [&photographs[0], &photographs[1]];
-    let mut matches = find_matches(both, &mut |share| progress(0.6 + 0.4 * share))?;
-    let scene = scenes::still_life();
-    for found in &mut matches {
-        let truth = scene.transfer(&cameras[0], &cameras[1], &found.pixel1());
-        found.is_right = Some(match truth {
-            Transfer::Visible { pixel2, .. } => (pixel2 - found.pixel2()).norm() < RIGHT_WITHIN_PX,
-            _ => false,
-        });
-    }
-    Ok((photographs, matches))
-}
-
-/// SIFT on both photographs, then mutual nearest neighbors, told apart later by their ratio.
-fn find_matches(photographs: [&RgbImage; 2], progress: Progress<'_>) -> Result<Vec<Match>, Error> {
-    let mut go_on = |share: f64| progress(share) == ControlFlow::Continue(());
-    let options = SiftOptions {
-        max_features: MAX_FEATURES,
-        ..SiftOptions::default()
-    };
-    let mut features = |photograph: &RgbImage, done: f64| -> Result<Features, Error> {
-        let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
-        detect_sift_with_progress(&gray, &options, &mut |share| {
-            go_on(done + 0.45 * f64::from(share))
-        })
-    };
-    let (first, second) = (
-        features(photographs[0], 0.0)?,
-        features(photographs[1], 0.45)?,
-    );
+/// Mutual nearest neighbors, told apart later by their ratio.
+///
+/// * `judge`: whether the features of these indices belong together, if that is known
+fn find_matches(
+    [first, second]: &[Features; 2],
+    judge: impl Fn(usize, usize) -> Option<bool>,
+    progress: Progress<'_>,
+) -> Result<Vec<Match>, Error> {
     let any_ratio = MatchOptions {
         max_ratio: None,
         ..MatchOptions::default()
@@ -155,7 +121,7 @@ fn find_matches(photographs: [&RgbImage; 2], progress: Progress<'_>) -> Result<V
         &first.descriptors,
         &second.descriptors,
         &any_ratio,
-        &mut |share| go_on(0.9 + 0.1 * f64::from(share)),
+        &mut |share| progress(f64::from(share)) == ControlFlow::Continue(()),
     )?;
     let mut matches: Vec<Match> = Vec::with_capacity(found.len());
     for found in &found {
@@ -169,7 +135,7 @@ fn find_matches(photographs: [&RgbImage; 2], progress: Progress<'_>) -> Result<V
             matches.push(Match {
                 places,
                 ratio: found.ratio,
-                is_right: None,
+                is_right: judge(found.index1, found.index2),
             });
         }
     }

@@ -94,6 +94,52 @@ pub fn nearest_two(first: &Descriptors, second: &Descriptors) -> Result<Vec<Neig
     Ok(dense::search(first, second, &mut |_| true)?.rows)
 }
 
+/// The entries of a list nearest to one descriptor, by Euclidean distance: their indices and
+/// distances, nearest first, of equally near ones the lowest index first.
+///
+/// * `query`: a descriptor, as long as those of the list
+/// * `count`: at most so many
+///
+/// Where [`nearest_two`] tells how far the second nearest is, this tells which one it is.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] for a query of another length, [`Error::NotFinite`] for one with NaN or
+/// infinity.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Descriptors, nearest_few};
+/// let list = Descriptors::from_bytes(2, vec![30, 40, 6, 8, 0, 1])?;
+/// assert_eq!(nearest_few(&[0.0, 0.0], &list, 2)?, [(2, 1.0), (1, 10.0)]);
+/// # Ok(()) }
+/// ```
+pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Vec<(usize, f32)>> {
+    if query.len() != list.dimension() {
+        return Err(Error::SizeMismatch {
+            what: "a descriptor and those of the list",
+            first: query.len(),
+            second: list.dimension(),
+        });
+    }
+    if query.iter().any(|v| !v.is_finite()) {
+        return Err(Error::NotFinite {
+            what: "every value of a descriptor",
+        });
+    }
+    let values = list.to_floats();
+    let mut found: Vec<(usize, f32)> = (values.chunks_exact(query.len()))
+        .map(|other| {
+            let pairs = query.iter().zip(other);
+            let apart = pairs.map(|(a, b)| f64::from(*a) - f64::from(*b));
+            apart.map(|d| d * d).sum::<f64>().sqrt() as f32
+        })
+        .enumerate()
+        .collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    found.truncate(count);
+    Ok(found)
+}
+
 /// Matches between two lists of descriptors, in the order of the first list.
 ///
 /// Empty lists give no matches. See [`Match`] for what becomes of a lone candidate.

@@ -1,7 +1,9 @@
 //! SIFT: keypoints that survive scaling and rotation, and descriptors that survive light.
 
+mod describe;
 mod descriptor;
 mod extrema;
+mod layers;
 mod orientation;
 mod scale_space;
 
@@ -10,8 +12,10 @@ use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::{Error, Result};
+pub use describe::{describe_sift, sift_directions};
 use descriptor::Samples;
 use extrema::Extremum;
+pub use layers::{ScaleOctave, ScaleSpace, scale_space};
 use scale_space::{Octave, OctaveGrid};
 
 /// How the 128 sums of a SIFT descriptor are scaled.

@@ -1,0 +1,203 @@
+//! What the reader picks, and what is right.
+
+use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
+use crate::contract::{
+    Challenge, Choice, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Progress,
+    Settings, Value,
+};
+use crate::kit::question::{Asked, carry_out};
+
+/// The panels of a round's options, and their names.
+pub(super) const OPTIONS: [[&str; NUM_OPTIONS]; NUM_ROUNDS] = [
+    ["1a", "1b", "1c", "1d"],
+    ["2a", "2b", "2c", "2d"],
+    ["3a", "3b", "3c", "3d"],
+    ["4a", "4b", "4c", "4d"],
+    ["5a", "5b", "5c", "5d"],
+];
+const LETTERS: &[(&str, &str)] = &[
+    ("none", "–"),
+    ("a", "A"),
+    ("b", "B"),
+    ("c", "C"),
+    ("d", "D"),
+];
+static PICKS: [Choice; NUM_ROUNDS] = [
+    Choice::new("patch1", "Patch 1", LETTERS),
+    Choice::new("patch2", "Patch 2", LETTERS),
+    Choice::new("patch3", "Patch 3", LETTERS),
+    Choice::new("patch4", "Patch 4", LETTERS),
+    Choice::new("patch5", "Patch 5", LETTERS),
+];
+static KNOBS: [Knob; NUM_ROUNDS] = [
+    Knob::Choice(&PICKS[0]),
+    Knob::Choice(&PICKS[1]),
+    Knob::Choice(&PICKS[2]),
+    Knob::Choice(&PICKS[3]),
+    Knob::Choice(&PICKS[4]),
+];
+
+/// The model of `patch-match`.
+pub(crate) struct PatchMatch {
+    settings: Settings,
+    asked: Asked<Question>,
+}
+
+impl PatchMatch {
+    pub(super) fn asked(&self) -> &Asked<Question> {
+        &self.asked
+    }
+
+    /// The option that the reader has picked in a round.
+    pub(super) fn picked(&self, round: usize) -> Option<usize> {
+        self.settings.chosen(&PICKS[round]).checked_sub(1)
+    }
+
+    pub(super) fn num_picked(&self) -> usize {
+        (0..NUM_ROUNDS)
+            .filter(|round| self.picked(*round).is_some())
+            .count()
+    }
+
+    pub(super) fn is_finished(&self) -> bool {
+        self.num_picked() == NUM_ROUNDS
+    }
+
+    fn rounds(&self) -> &[Round] {
+        self.asked.answer().map_or(&[], |answer| &answer.rounds)
+    }
+
+    /// How many the reader has right.
+    pub(super) fn score(&self) -> usize {
+        let rounds = self.rounds().iter().enumerate();
+        rounds
+            .filter(|(k, round)| self.picked(*k) == Some(usize::from(round.right)))
+            .count()
+    }
+
+    /// How many the nearest descriptor has right.
+    pub(super) fn machine_score(&self) -> usize {
+        let is_right = |round: &&Round| round.machine() == usize::from(round.right);
+        self.rounds().iter().filter(is_right).count()
+    }
+}
+
+impl Declared for PatchMatch {
+    const NAME: &'static str = "patch-match";
+    const TITLE: &'static str = "Match them by eye";
+    const HELP: &'static str = "For each patch of photograph 1, click the patch of photograph 2 that shows the \
+        same place, or choose its letter. When all five are chosen, you see what the descriptors say.";
+
+    fn new() -> Self {
+        Self {
+            settings: Settings::new(&KNOBS),
+            asked: Asked::about(Question),
+        }
+    }
+
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for PatchMatch {
+    fn controls(&self) -> Vec<Control> {
+        self.settings.controls()
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        match event {
+            Event::Set { id, value } => drop(self.settings.set(id, value)?),
+            Event::Clicked { panel, .. } => {
+                for (round, names) in OPTIONS.iter().enumerate() {
+                    if let Some(option) = names.iter().position(|name| name == panel) {
+                        let letter = Value::from(LETTERS[option + 1].0);
+                        self.settings.set(PICKS[round].id, &letter)?;
+                    }
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.asked.take(result);
+    }
+}
+
+/// Picks of all rounds, by letter.
+fn picks(letters: [&'static str; NUM_ROUNDS]) -> Vec<Event> {
+    let pairs = PICKS.iter().zip(letters);
+    pairs
+        .map(|(pick, letter)| Event::set(pick, letter))
+        .collect()
+}
+
+const CHALLENGES: &[Challenge<PatchMatch>] = &[
+    Challenge {
+        id: "four",
+        goal: "Match at least four of the five.",
+        hint: "Look at what is around the middle, too.",
+        why: "You compared shapes and ignored light, direction and size: a descriptor has to do the same.",
+        check: |model| model.score() >= 4,
+        solution: || picks(RIGHT),
+    },
+    Challenge {
+        id: "better",
+        goal: "Have more right than the nearest descriptor.",
+        hint: "One of the five is at a border, where half the window shows something else.",
+        why: "The nearest descriptor is only the one that looks most alike, and that is not always the same \
+              place: matches need a test.",
+        check: |model| model.is_finished() && model.score() > model.machine_score(),
+        solution: || picks(RIGHT),
+    },
+];
+
+/// The right letters, as a test makes sure.
+const RIGHT: [&str; NUM_ROUNDS] = ["c", "c", "b", "c", "a"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ops::ControlFlow;
+
+    fn finished() -> PatchMatch {
+        let mut model = PatchMatch::new();
+        let request = model.job().unwrap().request();
+        let go_on = &mut |_| ControlFlow::Continue(());
+        model.job_done(PatchMatch::compute(&request, go_on));
+        model
+    }
+
+    #[test]
+    fn the_nearest_descriptor_is_wrong_twice() {
+        let mut model = finished();
+        let rounds = model.rounds().to_vec();
+        let letters: Vec<_> = rounds
+            .iter()
+            .map(|one| LETTERS[usize::from(one.right) + 1].0)
+            .collect();
+        assert_eq!(letters, RIGHT);
+        assert_eq!(model.machine_score(), 3);
+        for round in &rounds {
+            let places: Vec<_> = round.options.iter().map(|spot| spot.place).collect();
+            assert!((1..4).all(|k| !places[..k].contains(&places[k])));
+        }
+        assert_eq!((model.score(), model.is_finished()), (0, false));
+        for event in picks(RIGHT) {
+            model.update(&event).unwrap();
+        }
+        assert_eq!((model.score(), model.is_finished()), (5, true));
+        model.update(&Event::clicked("2d", 0.0, 0.0)).unwrap();
+        assert_eq!(model.picked(1), Some(3));
+    }
+}

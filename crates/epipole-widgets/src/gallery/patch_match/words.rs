@@ -1,0 +1,41 @@
+//! What `patch-match` says.
+
+use super::model::PatchMatch;
+use super::question::{NUM_ROUNDS, Question};
+use crate::contract::{Readout, Words};
+use crate::kit::question::Question as _;
+
+impl Words for PatchMatch {
+    fn readouts(&self) -> Vec<Readout> {
+        let machine = match self.is_finished() && self.asked().answer().is_some() {
+            true => format!("{} of {NUM_ROUNDS}", self.machine_score()),
+            false => "after you".to_owned(),
+        };
+        let yours = format!("{} of {}", self.score(), self.num_picked());
+        vec![
+            Readout::words("score", "You have right", yours).main(),
+            Readout::words("machine", "Nearest descriptor", machine).main(),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        if let Some(problem) = self.asked().problem() {
+            return problem.to_owned();
+        }
+        if self.asked().answer().is_none() {
+            return format!("{}.", Question::LABEL);
+        }
+        let (picked, score) = (self.num_picked(), self.score());
+        if self.is_finished() {
+            let machine = self.machine_score();
+            return format!(
+                "All five patches are matched, {score} of them rightly. The nearest descriptor is right for \
+                 {machine} of {NUM_ROUNDS}."
+            );
+        }
+        format!(
+            "Five patches of photograph 1, each with four patches of photograph 2 of which one shows the same \
+             place. {picked} are matched, {score} of them rightly."
+        )
+    }
+}

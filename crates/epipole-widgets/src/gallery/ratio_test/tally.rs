@@ -1,0 +1,53 @@
+//! How many matches pass the tests, and how many of those are right.
+
+use super::question::{Answer, Candidate};
+
+/// Which matches are believed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rules {
+    /// The nearest must be closer than this share of the second nearest; 1 leaves the test out.
+    pub(super) max_ratio: f32,
+    /// Each must be the other's nearest.
+    pub(super) is_mutual: bool,
+}
+
+impl Rules {
+    pub(super) fn keep(&self, candidate: &Candidate) -> bool {
+        (candidate.ratio < self.max_ratio || self.max_ratio == 1.0)
+            && (candidate.is_mutual || !self.is_mutual)
+    }
+}
+
+/// What is left of the matches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tally {
+    pub(super) num_kept: usize,
+    pub(super) num_right: usize,
+    num_findable: usize,
+}
+
+impl Tally {
+    pub(super) fn of(answer: &Answer, rules: Rules) -> Self {
+        let kept = answer.candidates.iter().filter(|found| rules.keep(found));
+        let (mut num_kept, mut num_right) = (0, 0);
+        for found in kept {
+            num_kept += 1;
+            num_right += usize::from(found.is_right);
+        }
+        Self {
+            num_kept,
+            num_right,
+            num_findable: answer.num_findable as usize,
+        }
+    }
+
+    /// The share of the kept ones that are right; `None` if none are kept.
+    pub(super) fn precision(&self) -> Option<f64> {
+        (self.num_kept > 0).then(|| self.num_right as f64 / self.num_kept as f64)
+    }
+
+    /// The share of those that could be found that are found.
+    pub(super) fn recall(&self) -> f64 {
+        self.num_right as f64 / self.num_findable.max(1) as f64
+    }
+}

@@ -1,0 +1,287 @@
+//! Two photographs and their matches, the curve of all settings, and the patches under the probe.
+
+use super::model::RatioTest;
+use super::question::{Answer, Candidate, Question};
+use super::tally::Tally;
+use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::features::SIZE;
+use crate::kit::grid::{self, GAP, Grid, SMALL, TITLE};
+use crate::kit::labels::Labels;
+use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::patch::{self, Cuts};
+use crate::kit::plot::{self, Ruler};
+use crate::kit::question::Question as _;
+use crate::theme::Role;
+
+/// One in so many right matches has its line drawn: more would hide the photographs.
+const EVERY: usize = 3;
+/// Room for the words below a patch.
+const BELOW: f64 = 20.0;
+const NAMES: [&str; 3] = ["feature", "nearest", "second"];
+/// The marks of the three patches, in the photographs and beside them.
+const MARKS: [(Role, Shape); 3] = [
+    (Role::Grip, Shape::Ring),
+    (Role::Series(0), Shape::Disk),
+    (Role::Series(3), Shape::Square),
+];
+
+/// Draws [`RatioTest`].
+#[derive(Default)]
+pub(crate) struct RatioTestView {
+    cuts: Cuts,
+}
+
+fn rulers() -> [Ruler; 2] {
+    let percent = |ruler: Ruler| ruler.shown(100.0, " %");
+    [
+        percent(Ruler::linear(0.2, 0.6)).named("recall"),
+        percent(Ruler::linear(0.2, 1.0)),
+    ]
+}
+
+fn right_stroke() -> Stroke {
+    Stroke::solid(Role::Inlier, 1.25)
+}
+
+fn wrong_stroke() -> Stroke {
+    Stroke::solid(Role::Outlier, 1.5).dashed()
+}
+
+/// The stroke of a match that goes next.
+fn faint(stroke: Stroke) -> Stroke {
+    Stroke {
+        role: Role::Muted,
+        width: 0.75,
+        ..stroke
+    }
+}
+
+fn legend_entries() -> Vec<Entry> {
+    vec![
+        (Swatch::Line(right_stroke()), "right"),
+        (Swatch::Line(wrong_stroke()), "wrong"),
+        (Swatch::Line(faint(right_stroke())), "next to go"),
+    ]
+}
+
+impl View for RatioTestView {
+    type Model = RatioTest;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, _: &RatioTest, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let [x, y] = rulers();
+        let (photographs, curve, patches);
+        if grid::is_broad(width) {
+            let [first, second, column] = grid.row([aspect, aspect, 1.3], 330.0);
+            photographs = [first, second];
+            let patches_height = (column.width - 2.0 * GAP) / 3.0 + BELOW;
+            let shares = [column.height - patches_height - GAP - TITLE, patches_height];
+            [curve, patches] = grid::stack(column, shares);
+        } else {
+            photographs = grid.row([aspect; 2], 330.0);
+            let height = if grid::is_narrow(width) { 128.0 } else { 172.0 };
+            [curve, patches] = grid.shares([1.0, 1.0], height);
+        }
+        let [mut first, second] = [("first", photographs[0]), ("second", photographs[1])]
+            .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
+        first.clickable = true;
+        grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
+        let mut panels = vec![first, second, plot::panel("curve", curve, &x, &y)];
+        for (id, rect) in ["feature", "nearest", "second-nearest"]
+            .into_iter()
+            .zip(squares(patches))
+        {
+            panels.push(Panel::photograph(id, rect, 1, 1));
+        }
+        grid.layout(panels)
+    }
+
+    fn draw(&mut self, model: &RatioTest, layout: &Layout, canvas: &mut Canvas) {
+        let photographs = [layout.panel("first"), layout.panel("second")];
+        let curve = layout.panel("curve");
+        for (panel, wordings) in photographs.into_iter().zip([
+            &["Photograph 1: click a feature", "Photograph 1"],
+            &["Photograph 2: its two nearest", "Photograph 2"],
+        ]) {
+            grid::fitting_title(canvas, panel.rect, wordings);
+            canvas.panel(panel.rect);
+        }
+        let wordings = ["Precision against recall", "Precision"];
+        grid::fitting_title(canvas, curve.rect, &wordings);
+        let [x, y] = rulers();
+        plot::draw_axes(canvas, curve, &x, &y);
+        let bottom = layout.height - 1.0 - legend::height(&legend_entries(), layout.width, 0.0);
+        legend::draw(canvas, &legend_entries(), layout.width, 0.0, bottom);
+        let Some(answer) = model.asked().answer() else {
+            let notice = model.asked().problem().unwrap_or(Question::LABEL);
+            grid::notice(canvas, photographs[0].rect, notice);
+            return;
+        };
+        for (panel, photograph) in photographs.into_iter().zip(&answer.photographs) {
+            canvas.photograph(panel.rect, photograph.image());
+        }
+        draw_matches(model, answer, photographs, canvas);
+        draw_curves(model, curve, canvas);
+        self.draw_probed(model, answer, layout, canvas);
+    }
+}
+
+/// Three squares in a row, with room for words below them.
+fn squares(rect: Rect) -> [Rect; 3] {
+    let room = rect.height - BELOW;
+    let side = ((rect.width - 2.0 * GAP) / 3.0).min(room);
+    let all = 3.0 * side + 2.0 * GAP;
+    let left = rect.x + (rect.width - all) / 2.0;
+    let top = rect.y + (room - side) / 2.0;
+    [0.0, 1.0, 2.0].map(|k| Rect::new(left + k * (side + GAP), top, side, side))
+}
+
+/// Both ends of a match, on the page.
+fn ends(answer: &Answer, index1: usize, found: &Candidate, panels: [&Panel; 2]) -> [Place; 2] {
+    let [u, v] = answer.spots[0][index1].place;
+    let [x, y] = answer.spots[1][found.nearest[0] as usize].place;
+    [
+        panels[0].canvas_from_world((u, v)),
+        panels[1].canvas_from_world((x, y)),
+    ]
+}
+
+fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas: &mut Canvas) {
+    let rules = model.rules();
+    let is_small = panels[0].rect.width < 250.0;
+    let every = if is_small { 2 * EVERY } else { EVERY };
+    let radius = if is_small { 1.5 } else { 2.25 };
+    // Faint ones first, so that they cover nothing, then right ones, then wrong ones.
+    for pass in 0..3 {
+        for (index1, found) in answer.candidates.iter().enumerate() {
+            let is_faint = model.is_on_the_brink(found);
+            let wanted = match pass {
+                0 => is_faint,
+                1 => !is_faint && found.is_right,
+                _ => !is_faint && !found.is_right,
+            };
+            if !(wanted && rules.keep(found)) {
+                continue;
+            }
+            let (stroke, shape) = match found.is_right {
+                true => (right_stroke(), Shape::Disk),
+                false => (wrong_stroke(), Shape::Cross),
+            };
+            let stroke = if is_faint { faint(stroke) } else { stroke };
+            let [from, to] = ends(answer, index1, found, panels);
+            // The same ones whatever τ is, so that nothing flickers.
+            if !found.is_right && !is_small || index1 % every == 0 {
+                canvas.line(from, to, stroke);
+            }
+            for place in [from, to] {
+                canvas.marker(place, radius, shape, stroke.role, !is_small && !is_faint);
+            }
+        }
+    }
+}
+
+fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
+    let place = |tally: &Tally| Some((tally.recall(), tally.precision()?));
+    let is_mutual = model.rules().is_mutual;
+    let [without, with] = model.curves();
+    let (now, other) = if is_mutual {
+        (with, without)
+    } else {
+        (without, with)
+    };
+    let style = |is_now| match is_now {
+        true => Stroke::solid(Role::Best, 2.0),
+        false => Stroke::solid(Role::Reference, 1.25).dashed(),
+    };
+    for (curve, is_now) in [(other, false), (now, true)] {
+        plot::draw_curve(canvas, panel, curve.iter().filter_map(place), style(is_now));
+    }
+    let Some((recall, precision)) = model.tally().as_ref().and_then(place) else {
+        return;
+    };
+    let at = panel.canvas_from_world((recall, precision));
+    canvas.marker(at, 5.0, Shape::Disk, Role::Grip, true);
+    let mut labels = Labels::new(panel.rect.inset(3.0));
+    for curve in [without, with] {
+        for place in curve.iter().filter_map(place) {
+            labels.keep_free(panel.canvas_from_world(place), 2.0);
+        }
+    }
+    let text = format!(
+        "τ = {}",
+        format_number(f64::from(model.rules().max_ratio), 2)
+    );
+    let style = TextStyle::new(Role::Ink, SMALL).cased();
+    labels.draw(canvas, &Labels::around(at, 8.0), &text, style);
+}
+
+impl RatioTestView {
+    /// The feature under the probe, its two nearest, and their patches.
+    fn draw_probed(
+        &mut self,
+        model: &RatioTest,
+        answer: &Answer,
+        layout: &Layout,
+        canvas: &mut Canvas,
+    ) {
+        let Some((index1, found)) = model.probed() else {
+            return;
+        };
+        let [near, far] = found.nearest.map(|index| answer.spots[1][index as usize]);
+        let version = 2 * model.asked().version();
+        let three = [
+            (answer.spots[0][index1], 0, "first", "feature"),
+            (near, 1, "second", "nearest"),
+            (far, 1, "second", "second-nearest"),
+        ];
+        let distances = found.distances.map(|d| format_number(f64::from(d), 2));
+        let texts = [
+            String::new(),
+            format!("d₁ = {}", distances[0]),
+            format!("d₂ = {}", distances[1]),
+        ];
+        let patches = layout.panel("feature").rect;
+        let is_small = patches.width < 70.0;
+        let verdict = if model.rules().keep(found) {
+            "keep"
+        } else {
+            "reject"
+        };
+        let ratio = format!(
+            "d₁/d₂ = {}: {verdict}",
+            format_number(f64::from(found.ratio), 3)
+        );
+        grid::title(canvas, patches, &ratio);
+        for (k, (spot, photograph, panel, id)) in three.into_iter().enumerate() {
+            let (role, shape) = MARKS[k];
+            let panel = layout.panel(panel);
+            patch::draw_window(canvas, panel, &spot, Stroke::solid(role, 2.0).cased());
+            let rect = layout.panel(id).rect;
+            let picture = &answer.photographs[photograph];
+            self.cuts
+                .draw(canvas, rect, picture, &spot, version + photograph as u64);
+            canvas.stroke_rect(rect, Stroke::solid(role, 2.0));
+            let text = if k == 0 || is_small && texts[k].is_empty() {
+                NAMES[k]
+            } else {
+                &texts[k]
+            };
+            let place = (rect.center().0, rect.bottom() + BELOW / 2.0 + 1.0);
+            canvas.label(place, text, TextStyle::new(Role::Ink, SMALL).middle());
+            if k > 0 {
+                let corner = (rect.x + 9.0, rect.y + 9.0);
+                canvas.marker(corner, 4.5, shape, role, true);
+                let place = panel.canvas_from_world((spot.place[0], spot.place[1]));
+                canvas.marker(place, 4.0, shape, role, true);
+            }
+        }
+        let probe = layout.panel("first").canvas_from_world(model.probe_place());
+        let [u, v] = three[0].0.place;
+        let feature = layout.panel("first").canvas_from_world((u, v));
+        canvas.line(probe, feature, Stroke::solid(Role::Grip, 1.5).cased());
+        canvas.grip(probe, Role::Grip);
+    }
+}

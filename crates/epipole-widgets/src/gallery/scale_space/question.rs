@@ -1,0 +1,103 @@
+//! What is as large as each blur? The photograph and its differences of Gaussians.
+
+use crate::contract::{Problem, Progress};
+use crate::kit::features::SIZE;
+use crate::kit::picture::{self, Picture};
+use crate::kit::question::{self, tell};
+use crate::kit::scenes::photograph;
+use epipole::feature::{SiftOptions, scale_space};
+use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32, sample_bilinear};
+use epipole::synthetic::still_life_camera;
+use serde::{Deserialize, Serialize};
+
+/// Octaves that are shown, and layers of each in which extrema are looked for.
+pub(super) const NUM_OCTAVES: usize = 4;
+pub(super) const NUM_LAYERS: usize = 3;
+
+/// The rendered still life, always.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Question;
+
+/// A difference of two blurs.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Layer {
+    /// Blur that its extrema belong to, pixels.
+    pub(super) sigma_px: f64,
+    /// Pixels of the photograph per sample.
+    pub(super) step_px: f64,
+    /// Place of the first sample, pixels.
+    origin: [f64; 2],
+    /// More blurred less less blurred, of gray values in [0, 1].
+    #[serde(with = "picture::floats")]
+    pub(super) values: GrayImage32,
+}
+
+/// What the computation finds.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Answer {
+    pub(super) photograph: Picture,
+    /// By growing blur.
+    pub(super) layers: Vec<Layer>,
+}
+
+impl Layer {
+    /// Its value at a place of the photograph, gray levels.
+    pub(super) fn at(&self, (u, v): (f64, f64)) -> f64 {
+        let x = (u - self.origin[0]) / self.step_px;
+        let y = (v - self.origin[1]) / self.step_px;
+        255.0 * f64::from(sample_bilinear(&self.values, x, y, Border::Replicate))
+    }
+}
+
+impl question::Question for Question {
+    type Answer = Answer;
+    const LABEL: &'static str = "Blurring the photograph";
+    const FAILED: &'static str = "There is no scale space";
+
+    fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
+        let camera = still_life_camera(SIZE.0, SIZE.1);
+        let shot = photograph(&camera, SIZE, &mut |share| progress(0.8 * share))?;
+        let gray = rgb_to_gray_f32(&shot, &BT601_WEIGHTS);
+        let options = SiftOptions {
+            layers_per_octave: NUM_LAYERS,
+            upsample: false,
+            ..SiftOptions::default()
+        };
+        let space = scale_space(&gray, &options)?;
+        tell(progress, 0.95)?;
+        let octaves = space.octaves.into_iter().take(NUM_OCTAVES);
+        let layers = octaves.flat_map(|octave| {
+            let (step_px, origin) = (octave.step_px, octave.origin);
+            let inner = octave.differences.into_iter().zip(octave.sigmas_px);
+            inner
+                .skip(1)
+                .take(NUM_LAYERS)
+                .map(move |(values, sigma_px)| Layer {
+                    sigma_px,
+                    step_px,
+                    origin,
+                    values,
+                })
+        });
+        Ok(Answer {
+            layers: layers.collect(),
+            photograph: shot.into(),
+        })
+    }
+
+    fn fits(&self, answer: &Answer) -> bool {
+        let is_sound = |layer: &Layer| {
+            let [u, v] = layer.origin;
+            (0.5..1e3).contains(&layer.sigma_px)
+                && (0.5..1e3).contains(&layer.step_px)
+                && u.abs() < 1e3
+                && v.abs() < 1e3
+                && layer.values.width() > 1
+                && layer.values.iter().all(|value| value.abs() <= 1.0)
+        };
+        answer.photograph.size() == SIZE
+            && answer.layers.len() == NUM_OCTAVES * NUM_LAYERS
+            && answer.layers.iter().all(is_sound)
+            && (answer.layers.windows(2)).all(|two| two[0].sigma_px < two[1].sigma_px)
+    }
+}

@@ -1,0 +1,229 @@
+//! The photograph, the difference of Gaussians of the present blur, all layers small, and the curve.
+
+use super::model::ScaleSpace;
+use super::question::{Answer, Layer, NUM_LAYERS, NUM_OCTAVES, Question};
+use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::features::SIZE;
+use crate::kit::grid::{self, GAP, Grid, SMALL};
+use crate::kit::heat::{self, Fill, Heat};
+use crate::kit::labels::Labels;
+use crate::kit::plot::{self, Ruler, decade};
+use crate::kit::question::Question as _;
+use crate::theme::{Role, Theme, mix};
+use image::{Rgb, RgbImage};
+
+const COUNT: usize = NUM_OCTAVES * NUM_LAYERS;
+/// The difference that is drawn in full color, gray levels.
+const STRONG: f64 = 20.0;
+const LEGEND: f64 = 24.0;
+/// Small maps show one in so many samples.
+const SMALLER: u32 = 3;
+/// Between two small maps.
+const BETWEEN: f64 = 4.0;
+
+/// Draws [`ScaleSpace`].
+#[derive(Default)]
+pub(crate) struct ScaleSpaceView {
+    /// The present layer, and all of them small.
+    large: Heat,
+    small: Heat<COUNT>,
+}
+
+fn rulers(answers: &[(f64, f64)]) -> [Ruler; 2] {
+    let most = answers.iter().map(|(_, d)| d.abs()).fold(5.0, f64::max) * 1.15;
+    [
+        Ruler::decades(decade(1.9), decade(26.5)).named("blur σ, px"),
+        Ruler::linear(-most, most),
+    ]
+}
+
+impl View for ScaleSpaceView {
+    type Model = ScaleSpace;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, model: &ScaleSpace, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let [x, y] = rulers(&model.answers());
+        let (pictures, curve);
+        if grid::is_broad(width) {
+            let [first, second, third] = grid.row([aspect, aspect, 0.8], 290.0);
+            (pictures, curve) = ([first, second], third);
+        } else {
+            pictures = grid.row([aspect; 2], 215.0);
+            let height = if grid::is_narrow(width) { 100.0 } else { 140.0 };
+            [curve] = grid.shares([1.0], height);
+        }
+        let [mut photograph, difference] =
+            [("photograph", pictures[0]), ("difference", pictures[1])]
+                .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
+        photograph.clickable = true;
+        let first = if grid::is_narrow(width) { 37.0 } else { 84.0 };
+        let [layers] = grid.shares([1.0], first * aspect + 2.0);
+        grid.strip(LEGEND);
+        grid.layout(vec![
+            photograph,
+            difference,
+            plot::panel("curve", curve, &x, &y),
+            Panel::photograph("layers", layers, 1, 1),
+        ])
+    }
+
+    fn draw(&mut self, model: &ScaleSpace, layout: &Layout, canvas: &mut Canvas) {
+        let [photograph, difference, curve, layers] =
+            ["photograph", "difference", "curve", "layers"].map(|id| layout.panel(id));
+        let sigma = format_number(model.sigma_px(), 1);
+        let title = format!("Difference of Gaussians, σ = {sigma} px");
+        let short = format!("Difference, σ = {sigma}");
+        let (wide, narrow) = (
+            ["Photograph: drag the probe", "Photograph"],
+            [&*title, &*short],
+        );
+        grid::fitting_title(canvas, photograph.rect, &wide);
+        grid::fitting_title(canvas, difference.rect, &narrow);
+        let wordings = [
+            "Difference at the probe, gray levels",
+            "Difference, gray levels",
+        ];
+        grid::fitting_title(canvas, curve.rect, &wordings);
+        let wordings = [
+            "Four octaves of three layers, each octave half as wide",
+            "Four octaves",
+        ];
+        grid::fitting_title(canvas, layers.rect, &wordings);
+        for panel in [photograph, difference] {
+            canvas.panel(panel.rect);
+        }
+        let answers = model.answers();
+        let [x, y] = rulers(&answers);
+        plot::draw_axes(canvas, curve, &x, &y);
+        draw_legend(canvas, layout);
+        let Some(answer) = model.asked().answer() else {
+            let notice = model.asked().problem().unwrap_or(Question::LABEL);
+            grid::notice(canvas, photograph.rect, notice);
+            return;
+        };
+        canvas.photograph(photograph.rect, answer.photograph.image());
+        let theme = canvas.theme();
+        let (version, shown) = (model.asked().version(), model.layer(answer));
+        let color = || [colored(&answer.layers[shown], theme, 1)];
+        let [map] = (self.large).maps(version * COUNT as u64 + shown as u64, theme, color);
+        canvas.photograph(difference.rect, map);
+        let color = || std::array::from_fn(|k| colored(&answer.layers[k], theme, SMALLER));
+        let maps = self.small.maps(version, theme, color);
+        draw_layers(canvas, layers.rect, answer, maps, shown);
+        let place = model.place();
+        for panel in [photograph, difference] {
+            canvas.clipped(panel.rect, |canvas| {
+                let at = panel.canvas_from_world(place);
+                let radius = |sigma: f64| std::f64::consts::SQRT_2 * sigma * panel.scale_x();
+                if let Some(found) = model.extremum() {
+                    let stroke = Stroke::solid(Role::Best, 2.0).dashed().cased();
+                    canvas.circle(at, radius(found.sigma_px), stroke);
+                }
+                let stroke = Stroke::solid(Role::Grip, 2.0).cased();
+                canvas.circle(at, radius(model.sigma_px()), stroke);
+            });
+        }
+        canvas.grip(photograph.canvas_from_world(place), Role::Grip);
+        draw_answers(model, &answers, curve, canvas);
+    }
+}
+
+/// Warm where the difference is positive, cool and striped where it is negative; one in so many
+/// samples.
+fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
+    let [zero, warm, cool] =
+        [Role::Surface, Role::Outlier, Role::Candidate].map(|role| theme.color(role));
+    let (width, height) = layer.values.dimensions();
+    RgbImage::from_fn(width / every, height / every, |u, v| {
+        let value = 255.0 * f64::from(layer.values.get_pixel(every * u, every * v).0[0]);
+        let strength = (value.abs() / STRONG).min(1.0).sqrt() as f32;
+        let is_faint = value < 0.0 && every == 1 && heat::is_stripe(u, v);
+        let share = if is_faint { 0.55 * strength } else { strength };
+        Rgb(mix(zero, if value < 0.0 { cool } else { warm }, share))
+    })
+}
+
+/// Every layer at its own size, the present one framed.
+fn draw_layers(canvas: &mut Canvas, rect: Rect, answer: &Answer, maps: &[RgbImage], shown: usize) {
+    let height = rect.height - 2.0;
+    let first = height * f64::from(SIZE.0) / f64::from(SIZE.1);
+    let mut x = rect.x + 1.0;
+    for (k, (layer, map)) in answer.layers.iter().zip(maps).enumerate() {
+        let (width, height) = (first / layer.step_px, height / layer.step_px);
+        let small = Rect::new(x, rect.bottom() - 1.0 - height, width, height);
+        canvas.photograph(small, map);
+        if k == shown {
+            canvas.stroke_rect(small, Stroke::solid(Role::Grip, 2.5));
+        }
+        let is_last = k % NUM_LAYERS == NUM_LAYERS - 1;
+        x = small.right() + if is_last { GAP } else { BETWEEN };
+    }
+}
+
+/// The curve, where the reader is on it, and its extremum.
+fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canvas: &mut Canvas) {
+    let world = |(sigma, value): (f64, f64)| (decade(sigma), value);
+    let zero = panel.canvas_from_world((0.0, 0.0)).1;
+    let (left, right) = (panel.rect.x + 1.0, panel.rect.right() - 1.0);
+    canvas.line((left, zero), (right, zero), Stroke::solid(Role::Edge, 1.5));
+    let places = answers.iter().map(|answer| world(*answer));
+    plot::draw_curve(
+        canvas,
+        panel,
+        places.clone(),
+        Stroke::solid(Role::Ink, 1.75),
+    );
+    let mut labels = Labels::new(panel.rect.inset(3.0));
+    for place in places {
+        let at = panel.canvas_from_world(place);
+        canvas.marker(at, 2.0, Shape::Disk, Role::Ink, false);
+        labels.keep_free(at, 4.0);
+    }
+    plot::draw_now(canvas, panel, decade(model.sigma_px()));
+    if let Some(found) = model.extremum() {
+        let at = panel.canvas_from_world(world((found.sigma_px, found.value)));
+        canvas.marker(at, 5.0, Shape::Diamond, Role::Best, true);
+        labels.keep_free(at, 6.0);
+        let text = format!("extremum: σ = {} px", format_number(found.sigma_px, 1));
+        let style = TextStyle::new(Role::Ink, SMALL).cased();
+        // The curve keeps to one side of zero there.
+        let away = if found.value < 0.0 { -12.0 } else { 12.0 };
+        labels.draw(
+            canvas,
+            &[((at.0, zero + away), Align::Middle)],
+            &text,
+            style,
+        );
+        let stem = Stroke::solid(Role::Best, 1.25).dashed();
+        canvas.line(at, (at.0, zero), stem);
+    }
+    if let Some(now) = model.now() {
+        let at = panel.canvas_from_world(world((model.sigma_px(), now)));
+        canvas.grip(at, Role::Grip);
+    }
+}
+
+fn draw_legend(canvas: &mut Canvas, layout: &Layout) {
+    let y = layout.height - LEGEND / 2.0;
+    let mut x = 0.0;
+    for (role, opacity, label, short) in [
+        (
+            Role::Candidate,
+            0.7,
+            "negative: something bright (striped)",
+            "bright",
+        ),
+        (Role::Outlier, 0.9, "positive: something dark", "dark"),
+    ] {
+        let label = if grid::is_narrow(layout.width) {
+            short
+        } else {
+            label
+        };
+        heat::swatch(canvas, (x, y), Fill::Role(role, opacity), label);
+        x += 36.0 + crate::canvas::text_width(label, SMALL);
+    }
+}

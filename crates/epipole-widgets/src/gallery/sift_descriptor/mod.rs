@@ -1,0 +1,9 @@
+//! `sift-descriptor`: a patch of a photograph and its fingerprint, while the photograph changes.
+
+mod model;
+mod prints;
+mod question;
+mod view;
+mod words;
+
+pub(super) use view::SiftDescriptorView as View;

@@ -1,0 +1,94 @@
+//! Two photographs of the still life with their SIFT features, and which matches of them are right.
+//!
+//! Figures that match features show this pair, so that a reader meets the same matches again.
+
+use crate::contract::Progress;
+use crate::kit::scenes::{self, photograph, still_life_pair};
+use epipole::Error;
+use epipole::feature::{Features, SiftOptions, detect_sift_with_progress};
+use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
+use epipole::synthetic::Transfer;
+use image::RgbImage;
+use nalgebra::Point2;
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
+/// Size of the rendered photographs, pixels.
+pub(crate) const SIZE: (u32, u32) = (480, 360);
+/// Where the second camera stands: meters to the right, meters forward, degrees to the left.
+const MOTION: (f64, f64, f64) = (0.35, -0.25, 14.0);
+/// The strongest features of a photograph; more make the picture fuller, not clearer.
+const MAX_FEATURES: usize = 600;
+/// A match is right if it is so near to where the scene's geometry puts it, pixels.
+pub(crate) const RIGHT_WITHIN_PX: f64 = 3.0;
+
+/// The still life from two places. It never changes, and posters of several sizes and figures need
+/// it several times.
+pub(crate) struct Pair {
+    pub(crate) photographs: [RgbImage; 2],
+    pub(crate) features: [Features; 2],
+    /// Where photograph 2 shows what is at each feature of photograph 1; `None` if it does not.
+    pub(crate) truths: Vec<Option<Point2<f64>>>,
+}
+
+impl Pair {
+    /// Renders the photographs and finds their features, unless that has been done.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` ended it.
+    pub(crate) fn of_still_life(progress: Progress<'_>) -> Result<&'static Self, Error> {
+        static FOUND: OnceLock<Pair> = OnceLock::new();
+        if let Some(found) = FOUND.get() {
+            return Ok(found);
+        }
+        let (right_m, forward_m, left_deg) = MOTION;
+        let cameras = still_life_pair(SIZE, right_m, forward_m, left_deg);
+        let mut shot =
+            |camera, done: f64| photograph(camera, SIZE, &mut |share| progress(done + 0.3 * share));
+        let photographs = [shot(&cameras[0], 0.0)?, shot(&cameras[1], 0.3)?];
+        let both = [&photographs[0], &photographs[1]];
+        let features = detect(both, &mut |share| progress(0.6 + 0.4 * share))?;
+        let (scene, [camera1, camera2]) = (scenes::still_life(), &cameras);
+        let truth = |pixel1: Point2<f64>| match scene.transfer(camera1, camera2, &pixel1) {
+            Transfer::Visible { pixel2, .. } => Some(pixel2),
+            _ => None,
+        };
+        let places = features[0].keypoints.iter();
+        let pair = Self {
+            truths: places.map(|keypoint| truth(keypoint.point())).collect(),
+            photographs,
+            features,
+        };
+        Ok(FOUND.get_or_init(|| pair))
+    }
+
+    /// Whether two features show the same thing, by their indices in photograph 1 and 2.
+    pub(crate) fn is_right(&self, index1: usize, index2: usize) -> bool {
+        let place2 = self.features[1].keypoints[index2].point();
+        self.truths[index1].is_some_and(|truth| (truth - place2).norm() < RIGHT_WITHIN_PX)
+    }
+}
+
+/// The strongest SIFT features of two photographs.
+///
+/// # Errors
+/// As [`detect_sift_with_progress`].
+pub(crate) fn detect(
+    photographs: [&RgbImage; 2],
+    progress: Progress<'_>,
+) -> Result<[Features; 2], Error> {
+    let options = SiftOptions {
+        max_features: MAX_FEATURES,
+        ..SiftOptions::default()
+    };
+    let mut features = |photograph: &RgbImage, done: f64| {
+        let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
+        detect_sift_with_progress(&gray, &options, &mut |share| {
+            progress(done + 0.5 * f64::from(share)) == ControlFlow::Continue(())
+        })
+    };
+    Ok([
+        features(photographs[0], 0.0)?,
+        features(photographs[1], 0.5)?,
+    ])
+}

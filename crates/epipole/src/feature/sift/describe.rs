@@ -1,0 +1,262 @@
+//! Directions and descriptors at places that were not detected but are given.
+
+use super::descriptor::Samples;
+use super::scale_space::{Octave, OctaveGrid};
+use super::{SiftOptions, check, descriptor, orientation};
+use crate::feature::{Descriptors, Keypoint};
+use crate::imaging::{GrayImage32, require_finite};
+use crate::{Error, Result};
+
+/// SIFT descriptors at given places, scales and directions, one for each keypoint: what
+/// [`detect_sift`](super::detect_sift) computes at the places that it finds.
+///
+/// * `keypoints`: `u`, `v`, `scale_px` (> 0) and `angle_rad` count. Where two octaves hold layers of
+///   this blur, `octave` says which; a blur beyond all layers takes the nearest one.
+///
+/// What lies outside the image counts as without gradient, so a place far outside gives zeros. An
+/// image too small for an octave gives zeros everywhere.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for an option or a scale outside its range, [`Error::NotFinite`] for a bad
+/// pixel or place.
+///
+/// Source: Lowe 2004, "Distinctive image features from scale-invariant keypoints", §6.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Keypoint, SiftOptions, describe_sift};
+/// use epipole::imaging::GrayImage32;
+/// // Brighter to the right: all gradients point along the rows, into the first of eight directions.
+/// let ramp = GrayImage32::from_fn(64, 64, |u, _| image::Luma([u as f32 / 64.0]));
+/// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
+/// let descriptor = describe_sift(&ramp, &[middle], &SiftOptions::default())?.get(0).unwrap();
+/// assert!(descriptor.iter().enumerate().all(|(k, &v)| (v > 0.0) == (k % 8 == 0)));
+/// # Ok(()) }
+/// ```
+pub fn describe_sift(
+    image: &GrayImage32,
+    keypoints: &[Keypoint],
+    options: &SiftOptions,
+) -> Result<Descriptors> {
+    let mut bytes = vec![0u8; 128 * keypoints.len()];
+    at_layers(
+        image,
+        keypoints,
+        options,
+        |index, layer, center, sigma, scratch| {
+            // The histogram takes directions in [−π, π].
+            let angle = libm::remainderf(keypoints[index].angle_rad, std::f32::consts::TAU);
+            let sums = descriptor::histogram(layer, center, sigma, angle, scratch);
+            let normalized = descriptor::normalize(sums, options.normalization);
+            bytes[128 * index..128 * (index + 1)].copy_from_slice(&normalized);
+        },
+    )?;
+    Descriptors::from_bytes(128, bytes)
+}
+
+/// The directions of the gradients around given places, strongest first, in (−π, π]: what
+/// [`detect_sift`](super::detect_sift) makes features of. At most `options.max_orientations` each.
+///
+/// Arguments, errors and what is outside as for [`describe_sift`]; where there is no gradient at all,
+/// the direction is 0.
+///
+/// Source: Lowe 2004, §5.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Keypoint, SiftOptions, sift_directions};
+/// use epipole::imaging::GrayImage32;
+/// let ramp = GrayImage32::from_fn(64, 64, |_, v| image::Luma([v as f32 / 64.0]));
+/// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
+/// let directions = sift_directions(&ramp, &[middle], &SiftOptions::default())?;
+/// assert!((directions[0][0] - std::f32::consts::FRAC_PI_2).abs() < 0.01);
+/// # Ok(()) }
+/// ```
+pub fn sift_directions(
+    image: &GrayImage32,
+    keypoints: &[Keypoint],
+    options: &SiftOptions,
+) -> Result<Vec<Vec<f32>>> {
+    let mut found = vec![vec![0.0]; keypoints.len()];
+    at_layers(
+        image,
+        keypoints,
+        options,
+        |index, layer, center, sigma, scratch| {
+            found[index] = orientation::directions(layer, center, sigma, options, scratch);
+        },
+    )?;
+    Ok(found)
+}
+
+/// Visits each keypoint with the layer of its blur: index, layer, place and blur in samples of it.
+fn at_layers(
+    image: &GrayImage32,
+    keypoints: &[Keypoint],
+    options: &SiftOptions,
+    mut visit: impl FnMut(usize, &GrayImage32, (f32, f32), f32, &mut Samples),
+) -> Result<()> {
+    check(options)?;
+    require_finite(image)?;
+    for keypoint in keypoints {
+        if !(keypoint.scale_px > 0.0 && keypoint.scale_px < 1e6) {
+            return Err(Error::OutOfRange {
+                what: "the scale of a keypoint in pixels",
+                requirement: "greater than 0",
+                value: f64::from(keypoint.scale_px),
+            });
+        }
+        if ![keypoint.u, keypoint.v, f64::from(keypoint.angle_rad)]
+            .iter()
+            .all(|x| x.abs() < 1e9)
+        {
+            return Err(Error::NotFinite {
+                what: "the place and direction of a keypoint",
+            });
+        }
+    }
+    let homes = keypoints.iter().map(|keypoint| home(keypoint, options));
+    let mut waiting: Vec<(i32, usize, usize)> = (homes.enumerate())
+        .map(|(index, (octave, layer))| (octave, layer, index))
+        .collect();
+    waiting.sort_unstable();
+    let mut waiting = waiting.into_iter().peekable();
+    let (mut memory, mut scratch) = (Default::default(), Samples::default());
+    let mut next = OctaveGrid::first(image, options);
+    while let Some(grid) = next.filter(|_| waiting.peek().is_some()) {
+        let mut octave = Octave::new(grid, memory, options);
+        octave.advance_to(1);
+        next = octave.next_grid();
+        let (number, is_last) = (octave.grid().octave, next.is_none());
+        let is_here = |home: &(i32, usize, usize)| home.0 == number || is_last;
+        while let Some((of, layer, index)) = waiting.next_if(is_here) {
+            // Octaves beyond the last have larger blurs than any layer of it.
+            let largest = options.layers_per_octave + 1;
+            let layer = if of > number { largest } else { layer };
+            octave.advance_to(layer.max(3) - 2);
+            let (grid, keypoint) = (octave.grid(), &keypoints[index]);
+            let x = ((keypoint.u - grid.origin_u) / grid.step) as f32;
+            let y = ((keypoint.v - grid.origin_v) / grid.step) as f32;
+            let sigma = (f64::from(keypoint.scale_px) / grid.step) as f32;
+            visit(index, octave.layer(layer), (x, y), sigma, &mut scratch);
+        }
+        memory = octave.into_memory();
+    }
+    Ok(())
+}
+
+/// The octave and the layer of a keypoint's blur.
+fn home(keypoint: &Keypoint, options: &SiftOptions) -> (i32, usize) {
+    let first = if options.upsample { -1 } else { 0 };
+    let n = options.layers_per_octave as f64;
+    let octaves = libm::log2(f64::from(keypoint.scale_px) / options.sigma_px);
+    let layer = |octave: i32| (n * (octaves - f64::from(octave))).round();
+    let named = layer(keypoint.octave.max(first));
+    if keypoint.octave >= first && (0.0..=n + 1.0).contains(&named) {
+        return (keypoint.octave, named as usize);
+    }
+    // Layers 1 to n are those in which extrema are looked for.
+    let octave = (libm::floor(octaves - 0.5 / n) as i32).max(first);
+    (octave, layer(octave).clamp(0.0, n + 1.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feature::detect_sift;
+    use crate::imaging::{fixture, gray_to_f32};
+
+    #[test]
+    fn detected_features_are_described_as_they_were() {
+        let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
+        for upsample in [true, false] {
+            let options = SiftOptions {
+                upsample,
+                max_orientations: 1,
+                ..SiftOptions::default()
+            };
+            let found = detect_sift(&image, &options).unwrap();
+            assert!(found.keypoints.len() > 20, "{}", found.keypoints.len());
+            let again = describe_sift(&image, &found.keypoints, &options).unwrap();
+            assert_eq!(again, found.descriptors);
+            let directions = sift_directions(&image, &found.keypoints, &options).unwrap();
+            for (keypoint, directions) in found.keypoints.iter().zip(directions) {
+                assert_eq!(directions, [keypoint.angle_rad]);
+            }
+        }
+    }
+
+    /// OpenCV weighs and shares the gradients of the same layers in the same way, but cuts the window at
+    /// a rounded radius.
+    #[test]
+    fn descriptors_equal_those_of_opencv() {
+        let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
+        let expected = fixture::floats("sift_described.npy");
+        let rows: Vec<&[f32]> = expected.values.chunks_exact(132).collect();
+        let keypoints: Vec<Keypoint> = (rows.iter())
+            .map(|row| Keypoint {
+                scale_px: row[2],
+                angle_rad: row[3].to_radians(),
+                ..Keypoint::at(f64::from(row[0]), f64::from(row[1]), 1.0)
+            })
+            .collect();
+        let options = SiftOptions {
+            upsample: false,
+            input_blur_px: 0.5,
+            ..SiftOptions::default()
+        };
+        let ours = describe_sift(&image, &keypoints, &options).unwrap();
+        assert_eq!(rows.len(), 24);
+        for (index, row) in rows.iter().enumerate() {
+            let (ours, theirs) = (ours.get(index).unwrap(), &row[4..]);
+            let apart = ours.iter().zip(theirs).map(|(a, b)| (a - b) * (a - b));
+            let norm: f32 = theirs.iter().map(|b| b * b).sum();
+            let relative = (apart.sum::<f32>() / norm).sqrt();
+            assert!(relative < 0.02, "{index}: {relative}");
+        }
+    }
+
+    #[test]
+    fn bad_keypoints_are_refused_and_far_ones_are_empty() {
+        let image = fixture::gray32("texture.npy");
+        let options = SiftOptions::default();
+        let keypoint = Keypoint::at(20.0, 20.0, 1.0);
+        for bad in [
+            Keypoint {
+                u: f64::NAN,
+                ..keypoint
+            },
+            Keypoint {
+                scale_px: 0.0,
+                ..keypoint
+            },
+            Keypoint {
+                scale_px: f32::NAN,
+                ..keypoint
+            },
+            Keypoint {
+                angle_rad: f32::INFINITY,
+                ..keypoint
+            },
+        ] {
+            assert!(describe_sift(&image, &[bad], &options).is_err());
+        }
+        let far = Keypoint::at(-5e4, 7e5, 1.0);
+        let huge = Keypoint {
+            scale_px: 5e3,
+            ..keypoint
+        };
+        let tiny = Keypoint {
+            scale_px: 1e-3,
+            ..keypoint
+        };
+        let described = describe_sift(&image, &[far, huge, tiny], &options).unwrap();
+        assert_eq!(described.get(0).unwrap(), vec![0.0; 128]);
+        assert_eq!(described.len(), 3);
+        let small = GrayImage32::new(3, 3);
+        assert_eq!(
+            sift_directions(&small, &[keypoint], &options).unwrap(),
+            [[0.0]]
+        );
+    }
+}

@@ -1,0 +1,182 @@
+//! The whole scale space, for those who want to look at it.
+
+use super::scale_space::{Octave, OctaveGrid};
+use super::{SiftOptions, check};
+use crate::Result;
+use crate::imaging::{Border, GrayImage32, from_vec, require_finite, sample_bilinear};
+
+/// An image blurred more and more, and the differences of neighboring blurs, in which
+/// [`detect_sift`](super::detect_sift) looks for extrema.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScaleSpace {
+    /// Each with half as many samples along an axis as the one before it.
+    pub octaves: Vec<ScaleOctave>,
+}
+
+/// The layers that have samples at the same places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScaleOctave {
+    /// log₂ of the pixels of the image per sample.
+    pub octave: i32,
+    /// Pixels of the image per sample.
+    pub step_px: f64,
+    /// Place of the first sample, pixels of the image.
+    pub origin: [f64; 2],
+    /// Blurred images, `layers_per_octave + 3` of them.
+    pub blurred: Vec<GrayImage32>,
+    /// Standard deviation of each one's blur, pixels of the image.
+    pub sigmas_px: Vec<f64>,
+    /// Each blurred image less the one before it: one fewer.
+    pub differences: Vec<GrayImage32>,
+}
+
+/// The scale space of an image.
+///
+/// Difference k of an octave is `G(σₖ₊₁) ∗ I − G(σₖ) ∗ I`. Its extrema belong to the blur `σₖ`. An
+/// image smaller than about a dozen pixels has no octaves.
+///
+/// # Errors
+/// As [`detect_sift`](super::detect_sift).
+///
+/// Source: Lowe 2004, §3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{SiftOptions, scale_space};
+/// use epipole::imaging::GrayImage32;
+/// let space = scale_space(&GrayImage32::new(64, 48), &SiftOptions::default())?;
+/// let first = &space.octaves[0];
+/// assert_eq!((first.step_px, first.blurred.len(), first.differences.len()), (0.5, 6, 5));
+/// assert_eq!(first.blurred[0].dimensions(), (127, 95));
+/// assert!((first.sigmas_px[3] - 1.6).abs() < 1e-12);
+/// # Ok(()) }
+/// ```
+pub fn scale_space(image: &GrayImage32, options: &SiftOptions) -> Result<ScaleSpace> {
+    check(options)?;
+    require_finite(image)?;
+    let last = options.layers_per_octave + 2;
+    let mut octaves = Vec::new();
+    let mut next = OctaveGrid::first(image, options);
+    while let Some(grid) = next {
+        let mut octave = Octave::new(grid, Default::default(), options);
+        octave.advance_to(1);
+        next = octave.next_grid();
+        let mut blurred: Vec<GrayImage32> = (0..=3).map(|k| octave.layer(k).clone()).collect();
+        for k in 4..=last {
+            octave.advance_to(k - 2);
+            blurred.push(octave.layer(k).clone());
+        }
+        blurred.truncate(last + 1);
+        let grid = octave.grid();
+        octaves.push(ScaleOctave {
+            octave: grid.octave,
+            step_px: grid.step,
+            origin: [grid.origin_u, grid.origin_v],
+            sigmas_px: (0..=last)
+                .map(|k| octave.sigma_at(k as f64) * grid.step)
+                .collect(),
+            differences: blurred.windows(2).map(difference).collect(),
+            blurred,
+        });
+    }
+    Ok(ScaleSpace { octaves })
+}
+
+fn difference(pair: &[GrayImage32]) -> GrayImage32 {
+    let values = pair[1].as_raw().iter().zip(pair[0].as_raw());
+    let (width, height) = pair[0].dimensions();
+    from_vec(
+        width,
+        height,
+        values.map(|(more, less)| more - less).collect(),
+    )
+}
+
+impl ScaleSpace {
+    /// How the differences answer at a place of the image: pairs of the blur in pixels and the
+    /// difference there, by growing blur. Each octave gives the layers in which it looks for extrema.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::feature::{SiftOptions, scale_space};
+    /// use epipole::imaging::GrayImage32;
+    /// // A bright blob of standard deviation 5 answers most where the blur is as wide as itself.
+    /// let blob = GrayImage32::from_fn(129, 129, |u, v| {
+    ///     let (x, y) = (u as f32 - 64.0, v as f32 - 64.0);
+    ///     image::Luma([libm::expf(-(x * x + y * y) / 50.0)])
+    /// });
+    /// let answers = scale_space(&blob, &SiftOptions::default())?.answers(64.0, 64.0);
+    /// let least = answers.iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+    /// assert!(least.0 > 4.0 && least.0 < 5.5 && least.1 < 0.0);
+    /// # Ok(()) }
+    /// ```
+    pub fn answers(&self, u: f64, v: f64) -> Vec<(f64, f64)> {
+        let octaves = self.octaves.iter().flat_map(|octave| {
+            let (x, y) = (u - octave.origin[0], v - octave.origin[1]);
+            let (x, y) = (x / octave.step_px, y / octave.step_px);
+            let inner = 1..octave.differences.len() - 1;
+            inner.map(move |k| {
+                let value = sample_bilinear(&octave.differences[k], x, y, Border::Replicate);
+                (octave.sigmas_px[k], f64::from(value))
+            })
+        });
+        octaves.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feature::detect_sift;
+    use crate::imaging::{fixture, gray_to_f32};
+
+    #[test]
+    fn features_are_extrema_of_the_answers() {
+        let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
+        let options = SiftOptions::default();
+        let space = scale_space(&image, &options).unwrap();
+        let found = detect_sift(&image, &options).unwrap();
+        let mut count = 0;
+        for keypoint in &found.keypoints {
+            let answers = space.answers(keypoint.u, keypoint.v);
+            let near = answers.iter().position(|(sigma, _)| {
+                (libm::log2(*sigma / f64::from(keypoint.scale_px)) * 3.0).abs() <= 0.5
+            });
+            let Some(k) = near.filter(|k| (1..answers.len() - 1).contains(k)) else {
+                continue;
+            };
+            let [before, here, after] = [k - 1, k, k + 1].map(|k| answers[k].1.abs());
+            count += usize::from(here >= 0.95 * before && here >= 0.95 * after);
+        }
+        assert!(
+            10 * count >= 8 * found.keypoints.len(),
+            "{count} of {}",
+            found.keypoints.len()
+        );
+    }
+
+    #[test]
+    fn sigmas_grow_from_octave_to_octave() {
+        let image = GrayImage32::new(100, 80);
+        for layers_per_octave in [1, 3, 5] {
+            let options = SiftOptions {
+                layers_per_octave,
+                ..SiftOptions::default()
+            };
+            let space = scale_space(&image, &options).unwrap();
+            let sigmas: Vec<f64> = space.answers(3.0, 4.0).iter().map(|a| a.0).collect();
+            let factor = libm::exp2(1.0 / layers_per_octave as f64);
+            for pair in sigmas.windows(2) {
+                assert!((pair[1] / pair[0] - factor).abs() < 1e-9);
+            }
+            assert_eq!(space.octaves[1].step_px, 1.0);
+            assert_eq!(space.octaves[0].blurred.len(), layers_per_octave + 3);
+        }
+        assert!(
+            scale_space(&GrayImage32::new(4, 4), &SiftOptions::default())
+                .unwrap()
+                .octaves
+                .is_empty()
+        );
+    }
+}
