@@ -7,8 +7,10 @@ mod bundle_adjustment;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
+mod epipolar_plane;
 mod four_poses;
 pub mod harris;
+mod outlier_drag;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 pub mod ransac_race;
@@ -55,7 +57,9 @@ figures![
     window_shift::View,
     harris::View,
     epipolar_click::View,
+    epipolar_plane::View,
     eight_point::View,
+    outlier_drag::View,
     ransac_budget::View,
     ransac_epipolar::View,
     triangulate::View,
