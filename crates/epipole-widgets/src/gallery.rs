@@ -13,6 +13,7 @@ pub mod harris;
 mod outlier_drag;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
+mod ransac_line;
 pub mod ransac_race;
 mod same_picture;
 mod scale_ambiguity;
@@ -60,6 +61,7 @@ figures![
     epipolar_plane::View,
     eight_point::View,
     outlier_drag::View,
+    ransac_line::View,
     ransac_budget::View,
     ransac_epipolar::View,
     triangulate::View,

@@ -30,6 +30,7 @@ pub(crate) struct Scatter {
     pub(crate) truth: Line2,
     /// Those near the line first.
     pub(crate) points: Vec<DataPoint>,
+    pub(crate) num_outliers: usize,
     /// Where about half of the outliers lie.
     pub(crate) region: Rect,
 }
@@ -91,6 +92,7 @@ pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
     let top = if sin < 0.0 { 1.0 - upper - high } else { upper };
     Scatter {
         truth,
+        num_outliers,
         points: places.into_iter().enumerate().map(point).collect(),
         region: Rect::new(
             left * WIDTH_PX,

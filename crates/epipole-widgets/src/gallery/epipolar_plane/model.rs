@@ -421,14 +421,6 @@ mod tests {
     use super::*;
     use epipole::synthetic::{Sampling, Scene};
 
-    fn after(events: &[Event]) -> EpipolarPlane {
-        let mut model = EpipolarPlane::new();
-        for event in events {
-            model.update(event).unwrap();
-        }
-        model
-    }
-
     fn handle(model: &EpipolarPlane, id: &str) -> Handle {
         let mut handles = model.handles().into_iter();
         handles.find(|handle| handle.id == id).unwrap()

@@ -262,7 +262,7 @@ fn draw_plane(space: &mut Space<'_>, scenery: &Scenery, plane: &Plane, is_lit: b
     let out = plane.towards * SHEET_M;
     let sheet = [one + back, two + on, two + on + out, one + back + out];
     let (role, opacity) = if is_lit {
-        (LIT, 0.26)
+        (LIT, 0.2)
     } else {
         (Role::Muted, 0.12)
     };

@@ -190,16 +190,16 @@ fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
 
 const CHALLENGES: &[Challenge<OutlierDrag>] = &[
     Challenge {
-        id: "break",
-        goal: "With the wrong match in use, take the worst true match 60 px off its line.",
-        hint: "Across the line hurts most, and the fewer the others, the more.",
-        why: "The cost of the wrong match grows with the square of its error, so F bends until the others \
-              pay nearly as much.",
+        id: "more",
+        goal: "With the wrong match in use, take the worst true match 40 px off its line.",
+        hint: "Do more true matches help?",
+        why: "Least squares listens to every match alike, so more true ones do not outvote the wrong one; \
+              they only add matches that can suffer.",
         check: |model| {
             let worst = model.state().map_or(0.0, |state| state.fit.worst_px);
-            model.is_heard() && worst >= 60.0
+            model.is_heard() && worst >= 40.0
         },
-        solution: || vec![Event::set(&COUNT, 9.0)],
+        solution: || vec![Event::set(&COUNT, 59.0)],
     },
     Challenge {
         id: "harmless",

@@ -19,7 +19,7 @@ const MARKER: f64 = 4.5;
 const ASPECT: f64 = 0.75;
 /// So many true matches have their line drawn; more would hide the photograph.
 const NUM_LINES: usize = 8;
-const DECADES: [f64; 2] = [-1.3, 3.0];
+const DECADES: [f64; 2] = [-1.2, 2.2];
 const MEAN: Role = Role::Series(0);
 const WORST: Role = Role::Series(3);
 

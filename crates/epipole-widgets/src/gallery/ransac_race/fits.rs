@@ -134,6 +134,7 @@ mod tests {
         epsilon_px: 1.0,
         seed: 1,
         max_samples: 100,
+        msac: false,
         local_optimization: false,
     };
 

@@ -114,6 +114,7 @@ fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
         epsilon_px: settings.number(&EPSILON),
         seed: settings.count(&SEED) as u64,
         max_samples: MAX_SAMPLES,
+        msac: false,
         // The reader sees the plain loop: candidates come straight from two points.
         local_optimization: false,
     };
