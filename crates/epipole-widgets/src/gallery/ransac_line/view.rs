@@ -71,12 +71,12 @@ fn run_rulers() -> [Ruler; 2] {
 fn cells(grid: &mut Grid, width: f64) -> [Rect; 3] {
     const ASPECT: f64 = HEIGHT_PX / WIDTH_PX;
     if grid::is_narrow(width) {
-        let [plane] = grid.row([ASPECT], 150.0);
-        let [tally, runs] = grid.shares([1.0, 1.0], 98.0);
+        let [plane] = grid.row([ASPECT], 144.0);
+        let [tally, runs] = grid.shares([1.0, 1.0], 106.0);
         return [plane, tally, runs];
     }
     let [plane, side] = grid.row([ASPECT, 0.82], 400.0);
-    let [tally, runs] = grid::stack(side, [1.2, 1.0]);
+    let [tally, runs] = grid::stack(side, [1.0, 1.1]);
     [plane, tally, runs]
 }
 
@@ -105,7 +105,10 @@ impl View for RansacLineView {
         let titles: [(&Panel, &[&str]); 3] = [
             (
                 plane,
-                &["Two points, the band around their line, and who is in it"],
+                &[
+                    "Two points, the band around their line, and who is in it",
+                    "Two points, a band, votes",
+                ],
             ),
             (tally, &["Votes for each sample", "Votes"]),
             (runs, &["100 runs each: degrees off", "100 runs: ° off"]),
@@ -322,7 +325,11 @@ fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
     let mut labels = Labels::new(panel.rect.inset(2.0));
     for kind in 0..NUM_KINDS {
         let place = (panel.rect.right() - 4.0, at(1.0, kind as f64 + 1.0).1);
-        let text = format!("{} within 1°", format_number(runs.num_near(kind) as f64, 0));
+        let near = format_number(runs.num_near(kind) as f64, 0);
+        let text = match panel.rect.width {
+            width if width > 200.0 => format!("{near} within 1°"),
+            _ => near,
+        };
         let role = if kind == model.kind() {
             Role::Best
         } else {
