@@ -123,9 +123,9 @@ impl Lens {
 }
 
 /// Where a handle of a panel of [`Lens::of_panel`] may be: a little off its edge.
-pub(crate) const ACROSS: [f64; 2] = [-0.96 * HALF_TURN_DEG, 0.96 * HALF_TURN_DEG];
+pub(crate) const ACROSS: [f64; 2] = [8.0 - HALF_TURN_DEG, HALF_TURN_DEG - 8.0];
 /// The same from top to bottom.
-pub(crate) const DOWN: [f64; 2] = [-0.94 * HALF_RISE_DEG, 0.94 * HALF_RISE_DEG];
+pub(crate) const DOWN: [f64; 2] = [5.0 - HALF_RISE_DEG, HALF_RISE_DEG - 5.0];
 
 #[cfg(test)]
 mod tests {

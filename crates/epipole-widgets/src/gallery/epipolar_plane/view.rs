@@ -401,8 +401,14 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
     }
     if let Some(place) = image {
         let inside = (
-            place.0.clamp(panel.rect.x + 8.0, panel.rect.right() - 8.0),
-            place.1.clamp(panel.rect.y + 8.0, panel.rect.bottom() - 8.0),
+            place
+                .0
+                .min(panel.rect.right() - 8.0)
+                .max(panel.rect.x + 8.0),
+            place
+                .1
+                .min(panel.rect.bottom() - 8.0)
+                .max(panel.rect.y + 8.0),
         );
         draw_name(canvas, &mut labels, inside, "p′", lit == Lit::Point);
     }

@@ -252,7 +252,7 @@ fn draw_values(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut C
         plot::draw_curve(canvas, panel, places.iter().copied(), stroke);
         for place in &places {
             let (x, y) = panel.canvas_from_world(*place);
-            let y = y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0);
+            let y = y.min(panel.rect.bottom() - 5.0).max(panel.rect.y + 5.0);
             canvas.marker((x, y), 4.0, shape, role, false);
             labels.keep_free((x, y), 6.0);
         }

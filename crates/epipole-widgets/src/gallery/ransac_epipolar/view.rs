@@ -119,7 +119,7 @@ fn ends(model: &RansacEpipolar, [first, second]: [&Panel; 2]) -> Vec<Ends> {
 
 /// At most `count` of a list, evenly from all of it.
 fn thinned<T: Copy>(list: &[T], count: usize) -> Vec<T> {
-    let every = list.len().div_ceil(count).max(1);
+    let every = list.len().div_ceil(count.max(1)).max(1);
     list.iter().step_by(every).copied().collect()
 }
 

@@ -241,14 +241,14 @@ impl Model for RansacLine {
 const CHALLENGES: &[Challenge<RansacLine>] = &[
     Challenge {
         id: "narrow",
-        goal: "With half of the points outliers, make the loop need more than 100 samples.",
+        goal: "With half of the points outliers, make the loop need more than 60 samples.",
         hint: "Good points are lost, too, if the band is too narrow for their noise.",
         why: "The points scatter by 4 px, so a band of 2 px to each side loses more than half of the good \
               ones, and the loop takes them for outliers.",
         check: |model| {
             let budget = model.tally().ok().and_then(|tally| tally.samples.budget());
             let half = (model.settings.number(&OUTLIERS) - 0.5).abs() < 1e-9;
-            half && model.drawn().1 && budget.is_some_and(|budget| budget > 100)
+            half && model.drawn().1 && budget.is_some_and(|budget| budget > 60)
         },
         solution: || {
             vec![

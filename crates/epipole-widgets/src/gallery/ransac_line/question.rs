@@ -108,7 +108,7 @@ impl question::Question for Question {
     const FAILED: &'static str = "There are no runs";
 
     fn answer(&self, progress: Progress<'_>) -> Result<Runs, Problem> {
-        let mut runs = vec![Vec::with_capacity(NUM_RUNS); NUM_KINDS];
+        let mut runs = vec![Vec::new(); NUM_KINDS];
         for seed in 1..=NUM_RUNS as u64 {
             tell(progress, seed as f64 / NUM_RUNS as f64)?;
             for (msac, local) in [(false, false), (true, false), (false, true), (true, true)] {
