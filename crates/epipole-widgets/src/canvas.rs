@@ -18,6 +18,7 @@ mod stamp;
 mod strokes;
 mod style;
 mod text;
+mod warped;
 
 pub use picture::Picture;
 pub use style::{Align, Dash, Shape, Stroke, TextStyle};

@@ -7,13 +7,16 @@ mod bundle_adjustment;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
+mod epipolar_plane;
 mod four_poses;
 mod gradient_field;
 pub mod harris;
 mod kernel_stepper;
 mod patch_match;
+mod outlier_drag;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
+mod ransac_line;
 pub mod ransac_race;
 mod ratio_test;
 mod same_picture;
@@ -67,7 +70,10 @@ figures![
     sift_descriptor::View,
     scale_space::View,
     epipolar_click::View,
+    epipolar_plane::View,
     eight_point::View,
+    outlier_drag::View,
+    ransac_line::View,
     ransac_budget::View,
     ransac_epipolar::View,
     triangulate::View,

@@ -95,6 +95,25 @@ impl Grid {
         (panel, stack(column, [1.0; 2]))
     }
 
+    /// Two photographs and two smaller panels: beside them, below each other, on a broad page; else in a
+    /// low row below them.
+    ///
+    /// * `aspect`: height over width of a photograph
+    /// * `shares`: of the smaller panels, of their height beside and of their width below
+    pub(crate) fn photographs_and_two(&mut self, aspect: f64, shares: [[f64; 2]; 2]) -> [Rect; 4] {
+        const BESIDE: f64 = 404.0;
+        const ABOVE: f64 = 254.0;
+        const LOW: f64 = 104.0;
+        if is_broad(self.width) {
+            let [first, second, side] = self.row([aspect, aspect, 1.05], BESIDE);
+            let [upper, lower] = stack(side, shares[0]);
+            return [first, second, upper, lower];
+        }
+        let [first, second] = self.row([aspect; 2], ABOVE);
+        let [left, right] = self.shares(shares[1], LOW);
+        [first, second, left, right]
+    }
+
     /// Room below everything for a legend or a line of words, over the whole width.
     pub(crate) fn strip(&mut self, height: f64) -> Rect {
         let strip = Rect::new(0.0, self.bottom, self.width, height);

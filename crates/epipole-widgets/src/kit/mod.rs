@@ -10,8 +10,12 @@
 //! | [`probe`] | a place that the reader drags over a photograph, or clicks |
 //! | [`pin`] | a thing that the reader moves over a view from above |
 //! | [`running`] | a loop that runs, steps and starts over |
+//! | [`matches`] | exact and noisy matches of the still life |
+//! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
 //! | [`samples`] | the RANSAC loop, sample by sample |
-//! | [`orbit`], [`space`] | things in three dimensions, and where the reader looks from |
+//! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
+//! | [`standing`] | photographs that stand among them |
+//! | [`geometry`] | the epipolar geometry of two cameras |
 //! | [`grid`] | titled panels in rows, one breakpoint, notices |
 //! | [`plot`] | axes, linear or logarithmic, and curves |
 //! | [`plan`] | a view from above |
@@ -21,11 +25,16 @@
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
 pub(crate) mod features;
+pub(crate) mod geometry;
 pub(crate) mod grid;
 pub(crate) mod heat;
 pub(crate) mod house;
 pub(crate) mod labels;
 pub(crate) mod legend;
+pub(crate) mod lens;
+pub(crate) mod line_plane;
+pub(crate) mod line_points;
+pub(crate) mod matches;
 pub(crate) mod orbit;
 pub(crate) mod pair;
 pub(crate) mod patch;
@@ -40,4 +49,5 @@ pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;
 pub(crate) mod space;
+pub(crate) mod standing;
 pub(crate) mod words;

@@ -31,9 +31,9 @@ pub(crate) const RECENTER: Button =
     Button::new("recenter", "Reset viewpoint", ButtonRole::Action).more();
 
 /// Half of the panel's width, degrees.
-const HALF_TURN_DEG: f64 = 180.0;
+pub(crate) const HALF_TURN_DEG: f64 = 180.0;
 /// Half of its height, degrees.
-const HALF_RISE_DEG: f64 = 90.0;
+pub(crate) const HALF_RISE_DEG: f64 = 90.0;
 /// Beyond this the scene's vertical axis points at the reader.
 const HIGHEST_DEG: f64 = 85.0;
 

@@ -17,6 +17,8 @@ pub(crate) struct Rules {
     pub(crate) seed: u64,
     /// No more samples are drawn.
     pub(crate) max_samples: usize,
+    /// Whether an inlier counts less the farther off it is; else each counts 1.
+    pub(crate) msac: bool,
     /// Whether each new best model is fitted to its inliers at once.
     pub(crate) local_optimization: bool,
 }
@@ -49,7 +51,11 @@ impl<E: Estimator> Samples<E> {
             min_iterations: 1,
             max_iterations: rules.max_samples,
             seed: rules.seed,
-            score: ScoreKind::InlierCount,
+            score: if rules.msac {
+                ScoreKind::Msac
+            } else {
+                ScoreKind::InlierCount
+            },
             budget: Budget::WithReplacement,
             local_optimization: rules.local_optimization,
             ..RansacOptions::default()
@@ -155,6 +161,7 @@ mod tests {
         epsilon_px: 1.0,
         seed: 3,
         max_samples: 40,
+        msac: false,
         local_optimization: false,
     };
 

@@ -6,147 +6,178 @@ use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::Panel;
 use crate::kit::grid::SMALL;
 use crate::kit::labels::Labels;
+use crate::kit::lens::Lens;
+pub(crate) use crate::kit::lens::Subject;
 use crate::kit::orbit::Orbit;
+use crate::kit::standing::{Standing, half};
 use crate::theme::{Rgb, Role};
-use epipole::camera::{Camera, Intrinsics, look_at};
+use epipole::camera::Camera;
+use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
-
-/// How far the reader stands off at zoom 1, in radii of the scene.
-const DISTANCE: f64 = 2.6;
-/// Share of the panel's shorter side that the scene fills at zoom 1.
-const FILL: f64 = 0.94;
-/// Nothing nearer to the reader than this is drawn, in radii of the scene.
-const NEAREST: f64 = 0.02;
 
 /// Narrower panels do not show how things are moved across, CSS pixels.
 const SMALLEST: f64 = 300.0;
 /// Size of labels, CSS pixels.
 const TEXT: f64 = 13.0;
 
-/// The ball that the reader looks at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Subject {
-    /// Its middle.
-    pub(crate) middle: Point3<f64>,
-    /// Its radius, > 0.
-    pub(crate) radius: f64,
-}
-
 enum Mark {
     Dot(Place, f64, Rgb),
     Marker(Place, f64, Shape, Role),
     Line(Place, Place, Stroke),
-    Face([Place; 4], Rgb, Stroke),
+    Facet([Place; 4], Rgb, Stroke),
+    Face(Vec<Place>, Role, f64),
 }
 
 /// A scene as the reader sees it, collected mark by mark and then drawn.
-pub(crate) struct Space {
-    eye: Camera,
-    distance: f64,
-    nearest: f64,
+pub(crate) struct Space<'a> {
+    lens: Lens,
     /// Drawn first, in their order.
     ground: Vec<(Place, Place, Stroke)>,
-    marks: Vec<(f64, Mark)>,
+    /// Far ones first.
+    photographs: Vec<Standing<'a>>,
+    /// How many photographs are drawn before it, and how far it is from the reader.
+    marks: Vec<(usize, f64, Mark)>,
     labels: Vec<(Place, &'static str, Role)>,
 }
 
-impl Space {
+impl<'a> Space<'a> {
     /// An empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the subject
     /// is nowhere.
     pub(crate) fn new(panel: &Panel, orbit: &Orbit, zoom: f64, subject: &Subject) -> Option<Self> {
-        let side = panel.rect.width.min(panel.rect.height);
-        let distance = DISTANCE * subject.radius / zoom;
-        let (turn, rise) = (orbit.turn_deg().to_radians(), orbit.rise_deg().to_radians());
-        let level = libm::cos(rise);
-        let towards_eye = Vector3::new(
-            -libm::sin(turn) * level,
-            -libm::sin(rise),
-            -libm::cos(turn) * level,
-        );
-        let (u, v) = panel.canvas_from_world(orbit.middle());
-        let focal_px = 0.5 * FILL * side * DISTANCE;
-        let eye = Camera {
-            intrinsics: Intrinsics::new(focal_px, focal_px, u, v).ok()?,
-            cam_from_world: look_at(
-                &(subject.middle + distance * towards_eye),
-                &subject.middle,
-                &Vector3::new(0.0, -1.0, 0.0),
-            )
-            .ok()?,
-        };
+        let size = (panel.rect.width, panel.rect.height);
+        let middle = panel.canvas_from_world(orbit.middle());
         Some(Self {
-            eye,
-            distance,
-            nearest: NEAREST * subject.radius,
+            lens: Lens::new(size, (1.0, 1.0), middle, (orbit, zoom), subject)?,
             ground: Vec::new(),
+            photographs: Vec::new(),
             marks: Vec::new(),
             labels: Vec::new(),
         })
     }
 
+    /// Puts up photographs that hide what is behind them, each `depth` in front of its camera. Before
+    /// any other mark but the ground.
+    pub(crate) fn stand<'b: 'a>(
+        &mut self,
+        photographs: impl IntoIterator<Item = (&'b Camera, &'a RgbImage)>,
+        depth: f64,
+    ) {
+        let standing = photographs
+            .into_iter()
+            .filter_map(|(camera, image)| Standing::new(&self.lens, camera, image, depth));
+        self.photographs = standing.collect();
+        self.photographs.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+    }
+
+    /// Collects a mark with its middle and its corners on the page.
+    fn push(&mut self, in_eye: &Point3<f64>, places: &[Place], mark: Mark) {
+        let behind = (self.photographs.iter()).position(|photo| photo.hides(in_eye, places));
+        let layer = behind.unwrap_or(self.photographs.len());
+        self.marks.push((layer, in_eye.z, mark));
+    }
+
+    fn in_eye(&self, point: &Point3<f64>) -> Point3<f64> {
+        self.lens.eye.cam_from_world * point
+    }
+
     /// Where a point is shown and how far from the reader it is; `None` behind the reader.
     pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(Place, f64)> {
-        self.shown(&(self.eye.cam_from_world * point))
+        self.lens.shown(&self.in_eye(point))
     }
 
-    fn shown(&self, in_eye: &Point3<f64>) -> Option<(Place, f64)> {
-        if in_eye.z.is_nan() || in_eye.z < self.nearest {
-            return None;
-        }
-        let place = self.eye.intrinsics.project(in_eye).ok()?;
-        let finite = place.x.is_finite() && place.y.is_finite();
-        finite.then_some(((place.x, place.y), in_eye.z))
-    }
-
-    /// The visible part of a segment, and the depth of its middle.
-    fn segment(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<(Place, Place, f64)> {
-        let (mut a, mut b) = (self.eye.cam_from_world * from, self.eye.cam_from_world * to);
-        if a.z.max(b.z) <= self.nearest {
+    /// The part of a segment that is in front of the reader, in the eye's frame.
+    fn segment(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<[Point3<f64>; 2]> {
+        let (mut a, mut b) = (self.in_eye(from), self.in_eye(to));
+        let nearest = self.lens.nearest;
+        if a.z.is_nan() || b.z.is_nan() || a.z.max(b.z) <= nearest {
             return None;
         }
         // The nearer end is moved along the segment to where things can be seen.
         let (nearer, farther) = if a.z < b.z { (&mut a, b) } else { (&mut b, a) };
-        if nearer.z < self.nearest {
-            let share = (self.nearest - nearer.z) / (farther.z - nearer.z);
+        if nearer.z < nearest {
+            let share = (nearest - nearer.z) / (farther.z - nearer.z);
             *nearer += (farther - *nearer) * share;
-            nearer.z = self.nearest;
+            nearer.z = nearest;
         }
-        let ((a, depth_a), (b, depth_b)) = (self.shown(&a)?, self.shown(&b)?);
-        Some((a, b, 0.5 * (depth_a + depth_b)))
+        Some([a, b])
+    }
+
+    fn places(&self, [a, b]: &[Point3<f64>; 2]) -> Option<(Place, Place)> {
+        Some((self.lens.shown(a)?.0, self.lens.shown(b)?.0))
     }
 
     /// A colored point; `radius` is that of its disk in the middle of the scene, CSS pixels.
     pub(crate) fn dot(&mut self, point: &Point3<f64>, radius: f64, color: Rgb) {
-        if let Some((place, depth)) = self.place(point) {
-            let radius = (radius * self.distance / depth).clamp(0.6 * radius, 2.5 * radius);
-            self.marks.push((depth, Mark::Dot(place, radius, color)));
+        let in_eye = self.in_eye(point);
+        if let Some((place, depth)) = self.lens.shown(&in_eye) {
+            let scale = (self.lens.distance / depth).clamp(0.6, 2.5);
+            self.push(&in_eye, &[place], Mark::Dot(place, radius * scale, color));
         }
     }
 
     /// A marker of fixed size.
     pub(crate) fn marker(&mut self, point: &Point3<f64>, radius: f64, shape: Shape, role: Role) {
-        if let Some((place, depth)) = self.place(point) {
-            self.marks
-                .push((depth, Mark::Marker(place, radius, shape, role)));
+        let in_eye = self.in_eye(point);
+        if let Some((place, _)) = self.lens.shown(&in_eye) {
+            self.push(&in_eye, &[place], Mark::Marker(place, radius, shape, role));
         }
     }
 
     /// A straight line.
     pub(crate) fn line(&mut self, from: &Point3<f64>, to: &Point3<f64>, stroke: Stroke) {
-        if let Some((a, b, depth)) = self.segment(from, to) {
-            self.marks.push((depth, Mark::Line(a, b, stroke)));
+        let Some([a, b]) = self.segment(from, to) else {
+            return;
+        };
+        let mut cuts: Vec<f64> = (self.photographs.iter())
+            .filter_map(|photograph| photograph.crossing(&a, &b))
+            .collect();
+        cuts.sort_by(f64::total_cmp);
+        let at = |share: f64| a + (b - a) * share;
+        let ends = [0.0].into_iter().chain(cuts.iter().copied());
+        for (start, end) in ends.zip(cuts.iter().copied().chain([1.0])) {
+            if let Some((from, to)) = self.places(&[at(start), at(end)]) {
+                let middle = at(0.5 * (start + end));
+                self.push(&middle, &[from, to], Mark::Line(from, to, stroke));
+            }
+        }
+    }
+
+    /// A flat convex piece, which lets what is behind it shine through.
+    pub(crate) fn face(&mut self, corners: &[Point3<f64>], role: Role, opacity: f64) {
+        let corners: Vec<_> = corners.iter().map(|corner| self.in_eye(corner)).collect();
+        if corners
+            .iter()
+            .any(|corner| !corner.coords.iter().all(|x| x.is_finite()))
+        {
+            return;
+        }
+        let mut pieces = vec![half(&corners, |corner| corner.z - self.lens.nearest)];
+        for photograph in &self.photographs {
+            pieces = (pieces.iter())
+                .flat_map(|piece| photograph.halves(piece))
+                .collect();
+        }
+        for piece in pieces.iter().filter(|piece| piece.len() > 2) {
+            let places = piece.iter().filter_map(|corner| self.lens.shown(corner));
+            let places: Vec<Place> = places.map(|(place, _)| place).collect();
+            let sum = piece
+                .iter()
+                .fold(Vector3::zeros(), |sum, corner| sum + corner.coords);
+            let middle = Point3::from(sum / piece.len() as f64);
+            self.push(&middle, &places.clone(), Mark::Face(places, role, opacity));
         }
     }
 
     /// A quadrilateral, such as a piece of a surface, with a line along the two sides that meet in its first
     /// corner; none if a corner is behind the reader.
-    pub(crate) fn face(&mut self, corners: [Point3<f64>; 4], color: Rgb, outline: Stroke) {
+    pub(crate) fn facet(&mut self, corners: [Point3<f64>; 4], color: Rgb, outline: Stroke) {
         let [Some(a), Some(b), Some(c), Some(d)] = corners.map(|corner| self.place(&corner)) else {
             return;
         };
-        let depth = 0.25 * (a.1 + b.1 + c.1 + d.1);
         let places = [a.0, b.0, c.0, d.0];
-        self.marks.push((depth, Mark::Face(places, color, outline)));
+        let sum: Vector3<f64> = corners.iter().map(|corner| corner.coords).sum();
+        let middle = self.in_eye(&Point3::from(sum / 4.0));
+        self.push(&middle, &places, Mark::Facet(places, color, outline));
     }
 
     /// A camera: its center, and the outline of its picture at the depth `depth`, upper edge
@@ -200,7 +231,8 @@ impl Space {
                 ),
             ];
             for (from, to) in ends {
-                if let Some((a, b, _)) = self.segment(&from, &to) {
+                let ends = self.segment(&from, &to);
+                if let Some((a, b)) = ends.and_then(|ends| self.places(&ends)) {
                     self.ground.push((a, b, Stroke::solid(Role::Grid, 1.0)));
                 }
             }
@@ -235,24 +267,36 @@ impl Space {
     /// Draws everything, far things first.
     pub(crate) fn draw(mut self, canvas: &mut Canvas, panel: &Panel) {
         // The order of equally far marks is that in which they came.
-        self.marks.sort_by(|a, b| b.0.total_cmp(&a.0));
+        self.marks
+            .sort_by(|a, b| (a.0.cmp(&b.0)).then(b.1.total_cmp(&a.1)));
         canvas.clipped(panel.rect.inset(1.0), |canvas| {
             for (from, to, stroke) in self.ground {
                 canvas.line(from, to, stroke);
             }
-            for (_, mark) in self.marks {
+            let mut photographs = self.photographs.iter().enumerate().peekable();
+            let put_up = |canvas: &mut Canvas, photo: &Standing<'_>| {
+                canvas.warped_photograph(&photo.corners, &photo.photo_from_page, photo.image);
+            };
+            for (layer, _, mark) in self.marks {
+                while let Some((_, photo)) = photographs.next_if(|(index, _)| *index < layer) {
+                    put_up(canvas, photo);
+                }
                 match mark {
+                    Mark::Face(places, role, opacity) => canvas.polygon(&places, role, opacity),
                     Mark::Dot(place, radius, color) => canvas.dot(place, radius, color),
                     Mark::Marker(place, radius, shape, role) => {
                         canvas.marker(place, radius, shape, role, true);
                     }
                     Mark::Line(from, to, stroke) => canvas.line(from, to, stroke),
-                    Mark::Face(places, color, outline) => {
+                    Mark::Facet(places, color, outline) => {
                         canvas.polygon_color(&places, color);
                         let [corner, next, _, last] = places;
                         canvas.polyline(&[last, corner, next], outline);
                     }
                 }
+            }
+            for (_, photo) in photographs {
+                put_up(canvas, photo);
             }
         });
         let mut labels = Labels::new(panel.rect.inset(4.0));
@@ -303,7 +347,7 @@ mod tests {
     use super::*;
     use crate::contract::Rect;
 
-    fn space(orbit: &Orbit, zoom: f64) -> Space {
+    fn space(orbit: &Orbit, zoom: f64) -> Space<'static> {
         let panel = Orbit::panel(Rect::new(0.0, 0.0, 400.0, 300.0));
         let subject = Subject {
             middle: Point3::new(0.0, 0.0, 5.0),
@@ -320,7 +364,7 @@ mod tests {
             let seen = space(&Orbit::new(turn, rise), 1.0);
             let (place, depth) = seen.place(&middle).unwrap();
             assert!((place.0 - 200.0).abs() < 1e-9 && (place.1 - 150.0).abs() < 1e-9);
-            assert!((depth - DISTANCE * 2.0).abs() < 1e-9);
+            assert!((depth - seen.lens.distance).abs() < 1e-9);
         }
         let (place, _) = space(&Orbit::new(30.0, 0.0), 1.0).place(&front).unwrap();
         assert!(place.0 > 210.0);
@@ -337,8 +381,9 @@ mod tests {
         let seen = space(&Orbit::new(0.0, 0.0), 6.0);
         let (behind, ahead) = (Point3::new(0.5, 0.2, -50.0), Point3::new(0.5, 0.2, 6.0));
         assert!(seen.place(&behind).is_none());
-        let (a, b, depth) = seen.segment(&behind, &ahead).unwrap();
-        assert!([a.0, a.1, b.0, b.1, depth].iter().all(|x| x.is_finite()));
+        let ends = seen.segment(&behind, &ahead).unwrap();
+        let (a, b) = seen.places(&ends).unwrap();
+        assert!([a.0, a.1, b.0, b.1].iter().all(|x| x.is_finite()));
         assert!(
             seen.segment(&behind, &Point3::new(0.0, 0.0, -40.0))
                 .is_none()

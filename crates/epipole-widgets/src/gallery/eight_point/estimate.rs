@@ -1,6 +1,6 @@
 //! F from matches by the core's eight-point algorithm, and what can be said about it.
 
-use super::matches::Match;
+use crate::kit::matches::Match;
 use epipole::epipolar::{
     EightPoint, epipolar_line2, fundamental_8point_explained, fundamental_8point_unnormalized,
 };

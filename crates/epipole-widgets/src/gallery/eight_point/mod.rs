@@ -2,7 +2,6 @@
 //! normalization, with and without rank 2.
 
 mod estimate;
-mod matches;
 mod model;
 mod question;
 mod view;

@@ -4,12 +4,12 @@
 //! needed; the photographs come from a worker, and nothing waits for them.
 
 use super::estimate::{Estimate, line2};
-use super::matches::{MAX_USED, Matches, cameras, exact_match};
 use super::question::{Answer, Question};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
     Settings, Slider, Toggle,
 };
+use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, Question as _, carry_out};
 use crate::kit::scenes::PHOTO_SIZE;

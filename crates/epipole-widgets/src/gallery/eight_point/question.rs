@@ -1,8 +1,8 @@
 //! Both photographs. The matches need the scene's shapes alone, but a picture needs its light, which
 //! takes too long for a page.
 
-use super::matches::cameras;
 use crate::contract::{Problem, Progress};
+use crate::kit::matches::cameras;
 use crate::kit::picture::Picture;
 use crate::kit::question;
 use crate::kit::scenes::{PHOTO_SIZE, photograph};

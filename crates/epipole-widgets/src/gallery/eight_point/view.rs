@@ -22,11 +22,6 @@ const NUM_LINES: usize = 10;
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
 /// Height over width of the photographs.
 const ASPECT: f64 = 0.75;
-/// Photographs above the plots are no taller, CSS pixels.
-const TALLEST: f64 = 254.0;
-/// Height of the plots below the photographs, CSS pixels.
-const LOW: f64 = 104.0;
-
 /// Draws [`EightPoint`].
 #[derive(Default)]
 pub struct EightPointView;
@@ -36,25 +31,14 @@ fn rulers() -> [Ruler; 2] {
     [Ruler::things(names), Ruler::decades(-3.2, 6.6)]
 }
 
-/// The photographs, the enlarged place and the plot.
-fn cells(grid: &mut Grid, width: f64) -> [Rect; 4] {
-    if grid::is_broad(width) {
-        let [first, second, side] = grid.row([ASPECT, ASPECT, 1.05], 404.0);
-        let [meeting, values] = grid::stack(side, [1.0, 1.15]);
-        return [first, second, meeting, values];
-    }
-    let [first, second] = grid.row([ASPECT; 2], TALLEST);
-    let [meeting, values] = grid.shares([0.8, 1.0], LOW);
-    [first, second, meeting, values]
-}
-
 impl View for EightPointView {
     type Model = EightPoint;
     const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, model: &EightPoint, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let [first, second, meeting, values] = cells(&mut grid, width);
+        let shares = [[1.0, 1.15], [0.8, 1.0]];
+        let [first, second, meeting, values] = grid.photographs_and_two(ASPECT, shares);
         let (columns, rows) = PHOTO_SIZE;
         let mut first = Panel::photograph("first", first, columns, rows);
         first.clickable = true;

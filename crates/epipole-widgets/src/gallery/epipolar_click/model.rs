@@ -1,10 +1,11 @@
 //! Points of one photograph, and where the camera of the other one stands.
 
-use super::geometry::{self, Geometry, Match, find_match};
+use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Value,
 };
+use crate::kit::geometry::Geometry;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;

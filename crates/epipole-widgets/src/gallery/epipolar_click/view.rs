@@ -1,10 +1,11 @@
 //! Two photographs, points in the first, lines in the second.
 
-use super::geometry::{Geometry, Match};
+use super::geometry::Match;
 use super::model::EpipolarClick;
 use super::words::NO_BASELINE;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::geometry::Geometry;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::{border_arrow, draw_epipole, draw_line};

@@ -25,7 +25,7 @@ impl Words for EpipolarClick {
             .map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
         let text = |id, label, text: String| Readout::words(id, label, text);
         let none = || "none".to_owned();
-        let of_geometry = |say: &dyn Fn(&super::geometry::Geometry) -> String| {
+        let of_geometry = |say: &dyn Fn(&crate::kit::geometry::Geometry) -> String| {
             geometry.as_ref().map_or_else(none, say)
         };
         vec![

@@ -199,7 +199,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
             let mean = pixels.map(|pixel| field.level(pixel)).iter().sum::<f64>() / 4.0;
             let share = (mean / 255.0).clamp(0.0, 1.0) as f32;
             let corners = pixels.map(|(u, v)| corner(u, v));
-            space.face(corners, mix(dark, bright, share), outline);
+            space.facet(corners, mix(dark, bright, share), outline);
         }
     }
     let mut marks = None;

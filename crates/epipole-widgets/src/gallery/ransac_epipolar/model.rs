@@ -164,6 +164,7 @@ impl RansacEpipolar {
             epsilon_px: self.epsilon_px(),
             seed: self.settings.count(&SEED) as u64,
             max_samples: MAX_SAMPLES,
+            msac: false,
             local_optimization: self.settings.flag(&LOCAL),
         };
         let count = self.settings.count(&ITERATIONS);

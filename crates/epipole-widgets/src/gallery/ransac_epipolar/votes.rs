@@ -111,6 +111,7 @@ mod tests {
         epsilon_px: 1.0,
         seed: 3,
         max_samples: 1000,
+        msac: false,
         local_optimization: false,
     };
 

@@ -1,5 +1,6 @@
 //! Both fits to the points as they are: least squares, and RANSAC after some number of samples.
 
+use crate::kit::line_points::{Consensus, angle_between_deg};
 use crate::kit::samples::{Rules, Samples};
 use epipole::math::Line2;
 use epipole::robust::{LineEstimator, fit_line_total_least_squares};
@@ -7,38 +8,6 @@ use nalgebra::Point2;
 
 /// A line farther from the hidden one is a wrong line, degrees.
 const WRONG_DEG: f64 = 5.0;
-
-/// A line and the points that vote for it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Consensus {
-    pub(super) line: Line2,
-    pub(super) is_inlier: Vec<bool>,
-}
-
-impl Consensus {
-    fn of(line: Line2, places: &[Point2<f64>], epsilon_px: f64) -> Self {
-        let is_near = |place: &Point2<f64>| line.signed_distance(place).abs() < epsilon_px;
-        Self {
-            line,
-            is_inlier: places.iter().map(is_near).collect(),
-        }
-    }
-
-    /// The same votes, the line fitted to all of them. Voters without a direction of their own
-    /// keep the line of their sample.
-    fn refitted(self, places: &[Point2<f64>]) -> Self {
-        let voters = places.iter().zip(&self.is_inlier);
-        let voters: Vec<_> = voters.filter(|(_, is)| **is).map(|(p, _)| *p).collect();
-        Self {
-            line: fit_line_total_least_squares(&voters).unwrap_or(self.line),
-            ..self
-        }
-    }
-
-    pub(super) fn num_votes(&self) -> usize {
-        self.is_inlier.iter().filter(|is| **is).count()
-    }
-}
 
 /// What follows from the points, the rules and the number of samples. A few hundred samples take well
 /// under a millisecond, so all is computed anew after each event.
@@ -157,13 +126,6 @@ impl Fits {
     }
 }
 
-/// The acute angle between two lines, degrees.
-fn angle_between_deg(one: &Line2, other: &Line2) -> f64 {
-    let cross = one.a * other.b - one.b * other.a;
-    let dot = one.a * other.a + one.b * other.b;
-    libm::atan2(cross.abs(), dot.abs()).to_degrees()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -172,6 +134,7 @@ mod tests {
         epsilon_px: 1.0,
         seed: 1,
         max_samples: 100,
+        msac: false,
         local_optimization: false,
     };
 

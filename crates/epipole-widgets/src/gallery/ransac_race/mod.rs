@@ -2,7 +2,6 @@
 
 mod fits;
 mod model;
-mod points;
 mod view;
 mod words;
 

@@ -5,11 +5,11 @@
 //! computed from these anew after each event, and so a permalink replays exactly.
 
 use super::fits::Fits;
-use super::points::{DIGITS, DataPoint, HEIGHT_PX, WIDTH_PX, scatter};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Value,
     format_number, round_to_digits,
 };
+use crate::kit::line_points::{DIGITS, DataPoint, HEIGHT_PX, Scatter, WIDTH_PX, scatter};
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
 use epipole::math::Line2;
@@ -100,11 +100,12 @@ impl RansacRace {
 }
 
 fn scatter_as(settings: &Settings) -> (Line2, Vec<DataPoint>) {
-    scatter(
+    let Scatter { truth, points, .. } = scatter(
         settings.count(&SEED) as u64,
         settings.count(&COUNT),
         settings.number(&OUTLIERS),
-    )
+    );
+    (truth, points)
 }
 
 fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
@@ -113,6 +114,7 @@ fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
         epsilon_px: settings.number(&EPSILON),
         seed: settings.count(&SEED) as u64,
         max_samples: MAX_SAMPLES,
+        msac: false,
         // The reader sees the plain loop: candidates come straight from two points.
         local_optimization: false,
     };

@@ -1,14 +1,14 @@
 //! The plane with its points and lines, how the vote stands above, and a legend below.
 
-use super::fits::{Consensus, Ending};
+use super::fits::Ending;
 use super::model::RansacRace;
-use super::points::{HEIGHT_PX, WIDTH_PX};
 use crate::canvas::{Canvas, Shape, Stroke};
-use crate::contract::{Axis, Layout, Panel, View};
+use crate::contract::{Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::line_plane::{self, band, draw_line};
+use crate::kit::line_points::{Consensus, HEIGHT_PX, WIDTH_PX};
 use crate::theme::Role;
-use epipole::math::Line2;
 
 /// The plane must not push everything else off the screen.
 const TALLEST: f64 = 460.0;
@@ -61,19 +61,9 @@ impl View for RansacRaceView {
         };
         let [plane] = grid.row([HEIGHT_PX / WIDTH_PX], tallest);
         grid.strip(GAP / 2.0 + legend::height(&legend(), width, 0.0));
-        grid.layout(vec![Panel {
-            id: "plane",
-            rect: plane,
-            x_axis: Axis {
-                start: 0.0,
-                end: WIDTH_PX,
-            },
-            y_axis: Axis {
-                start: 0.0,
-                end: HEIGHT_PX,
-            },
-            clickable: true,
-        }])
+        let mut plane = line_plane::panel("plane", plane);
+        plane.clickable = true;
+        grid.layout(vec![plane])
     }
 
     fn draw(&mut self, model: &RansacRace, layout: &Layout, canvas: &mut Canvas) {
@@ -103,32 +93,6 @@ impl View for RansacRaceView {
         }
         let top = plane.rect.bottom() + GAP / 2.0;
         legend::draw(canvas, &legend(), layout.width, 0.0, top);
-    }
-}
-
-/// Both ends of a line, beyond the panel.
-fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
-    let foot = (
-        -(line.c - offset_px) * line.a,
-        -(line.c - offset_px) * line.b,
-    );
-    let reach = 4.0 * WIDTH_PX;
-    [-reach, reach]
-        .map(|along| plane.canvas_from_world((foot.0 - along * line.b, foot.1 + along * line.a)))
-}
-
-fn draw_line(canvas: &mut Canvas, plane: &Panel, line: &Line2, stroke: Stroke) {
-    let [from, to] = ends(plane, line, 0.0);
-    canvas.line(from, to, stroke);
-}
-
-/// The strip of places within the threshold of the sample's line.
-fn band(canvas: &mut Canvas, plane: &Panel, line: &Line2, epsilon_px: f64) {
-    let [a, b] = ends(plane, line, -epsilon_px);
-    let [d, c] = ends(plane, line, epsilon_px);
-    canvas.polygon(&[a, b, c, d], Role::Candidate, 0.13);
-    for (from, to) in [(a, b), (d, c)] {
-        canvas.line(from, to, Stroke::solid(Role::Candidate, 1.0).dotted());
     }
 }
 

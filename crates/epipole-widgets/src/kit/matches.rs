@@ -9,7 +9,7 @@ use epipole::synthetic::Transfer;
 use nalgebra::Point2;
 
 /// The most matches that F can be estimated from.
-pub(super) const MAX_USED: usize = 60;
+pub(crate) const MAX_USED: usize = 60;
 /// Exact matches that F is judged by; it never sees them.
 const NUM_HELD_OUT: usize = 100;
 /// Places in photograph 1 that are tried in all.
@@ -23,16 +23,16 @@ const MARGIN_PX: f64 = 8.0;
 const MOTION: (f64, f64, f64) = (0.5, -0.6, 24.0);
 
 /// A pixel of photograph 1 and its match in photograph 2.
-pub(super) type Match = (Point2<f64>, Point2<f64>);
+pub(crate) type Match = (Point2<f64>, Point2<f64>);
 
 /// Both cameras.
-pub(super) fn cameras() -> [Camera; 2] {
+pub(crate) fn cameras() -> [Camera; 2] {
     let (right_m, forward_m, left_deg) = MOTION;
     still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
 }
 
 /// The exact match of a pixel of photograph 1, if photograph 2 shows it.
-pub(super) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
+pub(crate) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
     let [first, second] = cameras();
     match still_life().transfer(&first, &second, pixel1) {
         Transfer::Visible { pixel2, .. } if in_picture(&pixel2) => Some(pixel2),
@@ -41,16 +41,16 @@ pub(super) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
 }
 
 /// Matches to estimate F from, and matches to judge it by.
-pub(super) struct Matches {
+pub(crate) struct Matches {
     exact: Vec<Match>,
     /// A draw from the standard normal distribution for each coordinate of each match.
     disturbances: Vec<[f64; 4]>,
-    pub(super) held_out: Vec<Match>,
+    pub(crate) held_out: Vec<Match>,
 }
 
 impl Matches {
     /// Draws places of photograph 1 and follows them to photograph 2.
-    pub(super) fn draw(seed: u64) -> Self {
+    pub(crate) fn draw(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let (mut exact, mut held_out): (Vec<Match>, Vec<Match>) = (Vec::new(), Vec::new());
         for _ in 0..MAX_TRIED {
@@ -81,7 +81,7 @@ impl Matches {
     }
 
     /// The first `count` matches, their coordinates off by normal noise.
-    pub(super) fn noisy(&self, count: usize, noise_px: f64) -> Vec<Match> {
+    pub(crate) fn noisy(&self, count: usize, noise_px: f64) -> Vec<Match> {
         let disturbed = self.exact.iter().zip(&self.disturbances).take(count);
         let moved = |p: &Point2<f64>, by: &[f64]| {
             Point2::new(p.x + noise_px * by[0], p.y + noise_px * by[1])

@@ -1,0 +1,256 @@
+//! Photographs seen from the side: each pixel of the page asks the photograph for its color.
+
+use super::{Canvas, Place};
+use image::RgbImage;
+use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
+
+/// A photograph is halved until this many of its pixels, or fewer, lie along a device pixel.
+const FINE: f64 = 1.6;
+
+impl Canvas {
+    /// A photograph on a plane in space, seen in perspective.
+    ///
+    /// * `corners`: where its corners are, in turn; none lies behind the reader
+    /// * `photo_from_page`: the homography from CSS pixels to pixels of the photograph, centers at
+    ///   whole numbers
+    ///
+    /// Interpolation is bilinear, of the photograph halved so often that nothing flickers.
+    pub fn warped_photograph(
+        &mut self,
+        corners: &[Place; 4],
+        photo_from_page: &Matrix3<f64>,
+        photograph: &RgbImage,
+    ) {
+        let finite = corners.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+        let finite = finite && photo_from_page.iter().all(|entry| entry.is_finite());
+        let (width, height) = photograph.dimensions();
+        if !finite || width == 0 || height == 0 {
+            return;
+        }
+        let area = area(corners) * self.scale * self.scale;
+        let (mut photograph, mut halvings) = (Cow::Borrowed(photograph), 0);
+        while f64::from(photograph.width()) * f64::from(photograph.height()) > FINE * FINE * area
+            && photograph.width() >= 8
+            && photograph.height() >= 8
+        {
+            photograph = Cow::Owned(halved(&photograph));
+            halvings += 1;
+        }
+        let source = Source::new(&photograph);
+        let shrink = libm::exp2(-f64::from(halvings));
+        let shift = 0.5 * shrink - 0.5;
+        // From device pixels to the halved photograph, from its corner.
+        let smaller = Matrix3::new(shrink, 0.0, shift, 0.0, shrink, shift, 0.0, 0.0, 1.0);
+        let page = Matrix3::new(
+            1.0 / self.scale,
+            0.0,
+            0.5 / self.scale,
+            0.0,
+            1.0 / self.scale,
+            0.5 / self.scale,
+            0.0,
+            0.0,
+            1.0,
+        );
+        let from_device = smaller * photo_from_page * page;
+        let clip = self.clip;
+        let stride = self.pixmap.width() as usize * 4;
+        let device = |value: f64| value * self.scale;
+        let places = corners.map(|(x, y)| (device(x), device(y)));
+        let (top, bottom) = bounds(places.iter().map(|place| place.1));
+        let within = |value: f64, low: f64, high: f64, most: u32| {
+            let value = value.clamp(device(low), device(high).max(device(low)));
+            value.clamp(0.0, f64::from(most))
+        };
+        let rows = [top, bottom]
+            .map(|v| within(v, clip.y, clip.bottom(), self.pixmap.height()).round() as usize);
+        let columns = [clip.x, clip.right()]
+            .map(|u| within(device(u), clip.x, clip.right(), self.pixmap.width()));
+        let data = self.pixmap.data_mut();
+        for row in rows[0]..rows[1] {
+            let Some((left, right)) = span(&places, row as f64 + 0.5) else {
+                continue;
+            };
+            let left = left.clamp(columns[0], columns[1]).round() as usize;
+            let right = right.clamp(columns[0], columns[1]).round() as usize;
+            if left >= right {
+                continue;
+            }
+            let mut at = from_device * Vector3::new(left as f64, row as f64, 1.0);
+            let step = from_device.column(0);
+            let pixels = &mut data[row * stride + 4 * left..row * stride + 4 * right];
+            for pixel in pixels.chunks_exact_mut(4) {
+                let inverse = 1.0 / at.z;
+                pixel[..3].copy_from_slice(&source.color(at.x * inverse, at.y * inverse));
+                pixel[3] = 255;
+                at += step;
+            }
+        }
+    }
+}
+
+/// A photograph that answers for every place.
+struct Source<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+    last: (f32, f32),
+}
+
+impl<'a> Source<'a> {
+    fn new(photograph: &'a RgbImage) -> Self {
+        let (width, height) = photograph.dimensions();
+        Self {
+            bytes: photograph.as_raw(),
+            stride: width as usize * 3,
+            last: (width as f32 - 1.0, height as f32 - 1.0),
+        }
+    }
+
+    /// The color at a place, that of the edge beyond it.
+    #[inline]
+    fn color(&self, u: f64, v: f64) -> [u8; 3] {
+        // A cast takes what is no number for 0.
+        let (u, v) = (
+            (u as f32).max(0.0).min(self.last.0),
+            (v as f32).max(0.0).min(self.last.1),
+        );
+        let (column, row) = (u as usize, v as usize);
+        let weights = [
+            ((u - column as f32) * 256.0) as u32,
+            ((v - row as f32) * 256.0) as u32,
+        ];
+        let first = row * self.stride + column * 3;
+        let right = if u < self.last.0 { 3 } else { 0 };
+        let below = if v < self.last.1 { self.stride } else { 0 };
+        let at = |offset: usize| &self.bytes[offset..offset + 3];
+        let (a, b) = (at(first), at(first + right));
+        let (c, d) = (at(first + below), at(first + below + right));
+        std::array::from_fn(|channel| {
+            let mix = |a: u32, b: u32, weight: u32| a * (256 - weight) + b * weight;
+            let [a, b, c, d] = [a, b, c, d].map(|pixel| u32::from(pixel[channel]));
+            let (upper, lower) = (mix(a, b, weights[0]), mix(c, d, weights[0]));
+            ((mix(upper, lower, weights[1]) + 0x8000) >> 16) as u8
+        })
+    }
+}
+
+/// The photograph at half its size, four pixels in one.
+fn halved(photograph: &RgbImage) -> RgbImage {
+    let (width, height) = (photograph.width() / 2, photograph.height() / 2);
+    let stride = photograph.width() as usize * 3;
+    let mut small = RgbImage::new(width, height);
+    let rows = photograph.as_raw().chunks_exact(2 * stride);
+    for (target, pair) in small.chunks_exact_mut(width as usize * 3).zip(rows) {
+        let (upper, lower) = pair.split_at(stride);
+        let fours = upper.chunks_exact(6).zip(lower.chunks_exact(6));
+        for (pixel, (upper, lower)) in target.chunks_exact_mut(3).zip(fours) {
+            for channel in 0..3 {
+                let four = [
+                    upper[channel],
+                    upper[channel + 3],
+                    lower[channel],
+                    lower[channel + 3],
+                ];
+                let sum: u16 = four.into_iter().map(u16::from).sum();
+                pixel[channel] = ((sum + 2) / 4) as u8;
+            }
+        }
+    }
+    small
+}
+
+fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
+}
+
+/// From where to where a line of the page is inside a convex quadrilateral.
+fn span(corners: &[Place; 4], y: f64) -> Option<(f64, f64)> {
+    let crossings = (0..4).filter_map(|index| {
+        let (from, to) = (corners[index], corners[(index + 1) % 4]);
+        let crosses = (from.1 <= y) != (to.1 <= y);
+        crosses.then(|| from.0 + (to.0 - from.0) * (y - from.1) / (to.1 - from.1))
+    });
+    let (low, high) = bounds(crossings);
+    (low < high).then_some((low, high))
+}
+
+fn area(corners: &[Place; 4]) -> f64 {
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let twice: f64 = pairs.map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum();
+    0.5 * twice.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canvas::Picture;
+    use crate::contract::Rect;
+    use crate::theme::{Role, Theme};
+    use image::Rgb;
+
+    fn colorful(width: u32, height: u32) -> RgbImage {
+        RgbImage::from_fn(width, height, |u, v| Rgb([u as u8 * 5, v as u8 * 6, 40]))
+    }
+
+    fn canvas() -> Canvas {
+        Canvas::new(60.0, 40.0, 1.0, Theme::Light, Picture::default()).unwrap()
+    }
+
+    #[test]
+    fn straight_on_it_is_the_photograph_itself() {
+        let photograph = colorful(40, 30);
+        let corners = [(10.0, 5.0), (50.0, 5.0), (50.0, 35.0), (10.0, 35.0)];
+        let shift = Matrix3::new(1.0, 0.0, -10.5, 0.0, 1.0, -5.5, 0.0, 0.0, 1.0);
+        let mut warped = canvas();
+        warped.warped_photograph(&corners, &shift, &photograph);
+        let mut plain = canvas();
+        plain.photograph(Rect::new(10.0, 5.0, 40.0, 30.0), &photograph);
+        assert_eq!(warped.finish().rgba(), plain.finish().rgba());
+    }
+
+    #[test]
+    fn it_stays_within_its_corners_and_the_clip() {
+        let photograph = RgbImage::from_pixel(64, 48, Rgb([1, 2, 3]));
+        let corners = [(10.0, 5.0), (50.0, 12.0), (50.0, 30.0), (10.0, 35.0)];
+        let mut canvas = canvas();
+        canvas.clipped(Rect::new(0.0, 0.0, 40.0, 40.0), |canvas| {
+            canvas.warped_photograph(&corners, &Matrix3::identity(), &photograph);
+        });
+        let picture = canvas.finish();
+        let background = Theme::Light.color(Role::Background);
+        let at = |u: usize, v: usize| &picture.rgba()[4 * (60 * v + u)..][..3];
+        assert_eq!([at(11, 6), at(39, 20), at(20, 20)], [&[1, 2, 3]; 3]);
+        assert_eq!(
+            [at(9, 20), at(41, 20), at(45, 5), at(20, 36)],
+            [&background; 4]
+        );
+    }
+
+    #[test]
+    fn a_small_one_is_the_mean_and_a_bad_one_is_nothing() {
+        let checks = RgbImage::from_fn(64, 64, |u, v| {
+            Rgb([if (u + v) % 2 == 0 { 200 } else { 100 }; 3])
+        });
+        let corners = [(10.0, 5.0), (18.0, 5.0), (18.0, 13.0), (10.0, 13.0)];
+        let scale = Matrix3::new(8.0, 0.0, -80.5, 0.0, 8.0, -40.5, 0.0, 0.0, 1.0);
+        let mut small = canvas();
+        small.warped_photograph(&corners, &scale, &checks);
+        let picture = small.finish();
+        assert_eq!(picture.rgba()[4 * (60 * 9 + 14)], 150);
+        let mut bad = canvas();
+        let empty = canvas().finish().hash();
+        bad.warped_photograph(&[(f64::NAN, 0.0); 4], &scale, &checks);
+        bad.warped_photograph(&corners, &(scale * f64::INFINITY), &checks);
+        bad.warped_photograph(&corners, &scale, &RgbImage::new(0, 0));
+        assert_eq!(bad.finish().hash(), empty);
+        let mut odd = canvas();
+        let far = [(1e30, -1e30), (2e30, 0.0), (1e30, 1e30), (0.0, 0.0)];
+        odd.warped_photograph(&far, &scale, &checks);
+        let dot = RgbImage::from_pixel(1, 1, Rgb([255; 3]));
+        odd.warped_photograph(&corners, &Matrix3::zeros(), &dot);
+        assert_eq!(odd.finish().rgba()[4 * (60 * 9 + 14)], 255);
+    }
+}

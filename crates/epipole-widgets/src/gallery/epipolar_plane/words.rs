@@ -1,0 +1,149 @@
+//! What `epipolar-plane` says.
+
+use super::model::{EpipolarPlane, Lit};
+use super::scenery::Scenery;
+use crate::contract::{Readout, Words, format_number};
+use crate::kit::words;
+use epipole::epipolar::Epipole;
+use nalgebra::Point2;
+
+/// What the figure says without a baseline.
+pub(super) const NO_BASELINE: &str =
+    "Both cameras stand at the same place: no baseline, and so no plane. Move one.";
+/// What it says where P spans no plane.
+pub(super) const ON_BASELINE: &str =
+    "P lies on the baseline, so it spans no plane with it: its image is the epipole. Move P.";
+
+impl Words for EpipolarPlane {
+    fn readouts(&self) -> Vec<Readout> {
+        let scenery = self.scenery();
+        let number = |id, label, value: Option<f64>, digits, unit| match value {
+            Some(value) => Readout::number(id, label, value, digits, unit),
+            None => Readout::words(id, label, "none"),
+        };
+        let pixel = |id, label, index: usize| {
+            let place = scenery.and_then(|scenery| scenery.pixels[index]);
+            Readout::words(
+                id,
+                label,
+                place.map_or_else(|| "behind it".to_owned(), |p| short(&p)),
+            )
+        };
+        let of = |get: fn(&Scenery) -> Option<f64>| scenery.and_then(get);
+        let epipole = |id, label, index: usize| {
+            let text = scenery
+                .and_then(|scenery| scenery.geometry)
+                .map(|geometry| epipole(&[geometry.epipole1, geometry.epipole2][index]));
+            Readout::words(id, label, text.unwrap_or_else(|| "none".to_owned()))
+        };
+        let from = format!(
+            "{}, {} ×",
+            self.orbit().words(),
+            format_number(self.zoom(), 1)
+        );
+        vec![
+            number("tilt", "Plane tilted by", self.tilt_deg(), 1, "°").main(),
+            pixel("p2", "p′ in photograph 2", 1).main(),
+            number(
+                "residual",
+                "p′ to its line",
+                of(Scenery::residual_px),
+                3,
+                "px",
+            )
+            .main(),
+            pixel("p1", "p in photograph 1", 0),
+            Readout::words("lit", "Lit up", self.meaning()),
+            number(
+                "before",
+                "P before the surface",
+                of(Scenery::before_surface_m),
+                2,
+                "m",
+            ),
+            number(
+                "baseline",
+                "Baseline",
+                of(|scenery| Some(scenery.baseline_m())),
+                2,
+                "m",
+            ),
+            epipole("e1", "Epipole e", 0),
+            epipole("e2", "Epipole e′", 1),
+            Readout::words("seen", "Seen from", from),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        let Some(scenery) = self.scenery() else {
+            return "A camera cannot stand there.".to_owned();
+        };
+        let Some(geometry) = &scenery.geometry else {
+            return NO_BASELINE.to_owned();
+        };
+        let Some(plane) = &scenery.plane else {
+            return ON_BASELINE.to_owned();
+        };
+        let tilt = plane.tilt_deg();
+        let image = match scenery.pixels[1] {
+            Some(pixel) => format!("p′ is at {} on its line there", short(&pixel)),
+            None => "P is behind camera 2".to_owned(),
+        };
+        format!(
+            "Two cameras {} m apart, their photographs before them, and P {} m along its ray from camera 1. \
+             The plane through both centers and P is tilted {}° {}; {image}. The epipole e′ is {}. {}",
+            format_number(scenery.baseline_m(), 2),
+            format_number(scenery.depth_m(), 2),
+            format_number(tilt.abs(), 1),
+            if tilt < 0.0 { "up" } else { "down" },
+            words::epipole(&geometry.epipole2),
+            match self.lit() {
+                Lit::Point => "P and its images are lit up.",
+                Lit::Baseline => "The baseline is lit up.",
+                Lit::Plane => "The plane is lit up.",
+                Lit::Line => "The epipolar lines are lit up.",
+                Lit::Epipole => "The epipoles are lit up.",
+            }
+        )
+    }
+}
+
+impl EpipolarPlane {
+    /// What is lit up, in numbers.
+    pub(super) fn meaning(&self) -> String {
+        let none = || "none".to_owned();
+        let Some(scenery) = self.scenery() else {
+            return none();
+        };
+        let pixel = |index: usize| scenery.pixels[index].map_or_else(none, |pixel| short(&pixel));
+        match self.lit() {
+            Lit::Point => format!("p = {}, p′ = {}", pixel(0), pixel(1)),
+            Lit::Baseline => format!("t is {} m long", format_number(scenery.baseline_m(), 2)),
+            Lit::Plane => self.tilt_deg().map_or_else(none, |tilt| {
+                let way = if tilt < 0.0 { "up" } else { "down" };
+                format!("tilted {}° {way}", format_number(tilt.abs(), 1))
+            }),
+            Lit::Line => scenery.lines()[1].map_or_else(none, |line| words::line(&line)),
+            Lit::Epipole => scenery.geometry.map_or_else(none, |geometry| {
+                let [e1, e2] = [&geometry.epipole1, &geometry.epipole2].map(epipole);
+                format!("e = {e1}, e′ = {e2}")
+            }),
+        }
+    }
+}
+
+/// A pixel, whole.
+pub(super) fn short(pixel: &Point2<f64>) -> String {
+    format!(
+        "({}, {})",
+        format_number(pixel.x, 0),
+        format_number(pixel.y, 0)
+    )
+}
+
+fn epipole(epipole: &Epipole) -> String {
+    match epipole {
+        Epipole::Finite(place) => short(place),
+        Epipole::AtInfinity(_) => "at infinity".to_owned(),
+    }
+}

@@ -1,0 +1,113 @@
+//! F by the core's eight-point algorithm from matches of which one is wrong, and what that does to the
+//! others.
+
+use crate::kit::matches::Match;
+use epipole::Error;
+use epipole::epipolar::{epipolar_line2, fundamental_8point_explained};
+use epipole::math::Line2;
+use nalgebra::{Matrix3, Point2, Vector2};
+
+/// F, and how it treats the matches.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fit {
+    pub(super) fundamental: Matrix3<f64>,
+    /// Of the stacked normalized rows, largest first.
+    pub(super) singular_values: [f64; 9],
+    /// Distance of the true matches from their lines in photograph 2, pixels: mean and largest.
+    pub(super) mean_px: f64,
+    pub(super) worst_px: f64,
+    /// Distance of the wrong match from its line, pixels.
+    pub(super) wrong_px: f64,
+    /// True matches that are farther from their lines than the wrong one.
+    pub(super) num_farther: usize,
+}
+
+impl Fit {
+    /// F from the true matches and, if it is to be heard, the wrong one.
+    ///
+    /// # Errors
+    /// As [`fundamental_8point_explained`].
+    pub(super) fn new(truth: &[Match], wrong: &Match, is_heard: bool) -> Result<Self, Error> {
+        let used = truth.iter().chain(is_heard.then_some(wrong));
+        let (pixels1, pixels2): (Vec<_>, Vec<_>) = used.copied().unzip();
+        let found = fundamental_8point_explained(&pixels1, &pixels2)?;
+        let fundamental = found.fundamental;
+        let distances: Vec<f64> = truth
+            .iter()
+            .map(|pair| distance_px(&fundamental, pair))
+            .collect();
+        let wrong_px = distance_px(&fundamental, wrong);
+        Ok(Self {
+            fundamental,
+            singular_values: found.singular_values,
+            mean_px: distances.iter().sum::<f64>() / distances.len().max(1) as f64,
+            worst_px: distances.iter().copied().fold(0.0, f64::max),
+            num_farther: distances.iter().filter(|other| **other > wrong_px).count(),
+            wrong_px,
+        })
+    }
+}
+
+/// The line of a pixel of photograph 1; `None` for the epipole itself.
+pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
+    epipolar_line2(fundamental, pixel1).ok()
+}
+
+fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> f64 {
+    line2(fundamental, pixel1).map_or(0.0, |line| line.signed_distance(pixel2).abs())
+}
+
+/// Mean and largest distance of the true matches, the wrong one led away step by step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Led {
+    pub(super) away_px: f64,
+    pub(super) mean_px: f64,
+    pub(super) worst_px: f64,
+}
+
+/// How far the curve leads the wrong match away, pixels, and in how many steps.
+pub(super) const REACH_PX: f64 = 300.0;
+const NUM_STEPS: usize = 30;
+
+/// What becomes of the true matches on the way from the right place towards where the wrong match is,
+/// and on.
+pub(super) fn led_away(truth: &[Match], right: &Match, wrong: &Point2<f64>) -> Vec<Led> {
+    let direction = (wrong - right.1)
+        .try_normalize(1e-9)
+        .unwrap_or(Vector2::y());
+    let step = |index: usize| {
+        let away_px = REACH_PX * index as f64 / NUM_STEPS as f64;
+        let fit = Fit::new(truth, &(right.0, right.1 + direction * away_px), true).ok()?;
+        Some(Led {
+            away_px,
+            mean_px: fit.mean_px,
+            worst_px: fit.worst_px,
+        })
+    };
+    (0..=NUM_STEPS).filter_map(step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::matches::Matches;
+
+    #[test]
+    fn one_wrong_match_among_exact_ones_moves_all_lines() {
+        let mut exact = Matches::draw(1).noisy(16, 0.0);
+        let right = exact.remove(0);
+        let good = Fit::new(&exact, &right, true).unwrap();
+        assert!(good.worst_px < 1e-6 && good.wrong_px < 1e-6);
+        let wrong = (right.0, right.1 + Vector2::new(0.0, 120.0));
+        let bad = Fit::new(&exact, &wrong, true).unwrap();
+        assert!(bad.mean_px > 1.0 && bad.worst_px > bad.mean_px);
+        // Not heard, it does nothing to the others, and stands out at once.
+        let without = Fit::new(&exact, &wrong, false).unwrap();
+        assert!(without.worst_px < 1e-6 && without.wrong_px > 20.0);
+        assert_eq!(without.num_farther, 0);
+        let led = led_away(&exact, &right, &wrong.1);
+        assert_eq!(led.len(), NUM_STEPS + 1);
+        assert!((led[12].away_px - 120.0).abs() < 1e-9);
+        assert!((led[12].mean_px - bad.mean_px).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,8 @@
+//! `outlier-drag`: one match is dragged away, and F follows it with all of its lines.
+
+mod fit;
+mod model;
+mod view;
+mod words;
+
+pub(super) use view::OutlierDragView as View;

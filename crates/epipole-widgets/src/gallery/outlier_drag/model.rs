@@ -1,0 +1,257 @@
+//! Matches of the still life, the first of them dragged to a wrong place.
+
+use super::fit::{Fit, Led, led_away};
+use crate::contract::{
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
+    format_number, round_to_digits,
+};
+use crate::kit::matches::{Match, Matches, cameras};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
+use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
+use nalgebra::{Point2, Vector2};
+
+/// True matches; the wrong one comes on top.
+const COUNT: Slider = Slider::new("count", "True matches")
+    .range(8.0, 59.0, 1.0)
+    .at(19.0);
+const HEARD: Toggle = Toggle::new("heard", "Use the wrong match").on();
+const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
+    .range(0.0, 3.0, 0.1)
+    .at(0.5)
+    .digits(1)
+    .unit("px")
+    .more();
+const SEED: Slider = Slider::seed(1.0);
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&COUNT),
+    Knob::Toggle(&HEARD),
+    Knob::Slider(&NOISE),
+    Knob::Slider(&SEED),
+];
+
+const WRONG: &str = "wrong";
+/// Where the wrong match is at first, seen from where it belongs, pixels.
+const AWAY_PX: Vector2<f64> = Vector2::new(30.0, 130.0);
+const DIGITS: usize = 1;
+
+/// Matches with the wrong one, and F from them.
+pub(super) struct State {
+    pub(super) truth: Vec<Match>,
+    /// The match before it was dragged.
+    pub(super) right: Match,
+    pub(super) wrong: Match,
+    /// As the toggle wants it, and from the true matches alone.
+    pub(super) fit: Fit,
+    pub(super) without: Fit,
+    pub(super) led: Vec<Led>,
+}
+
+/// The model of `outlier-drag`.
+pub(crate) struct OutlierDrag {
+    settings: Settings,
+    matches: Matches,
+    /// Where the reader has put it.
+    put: Option<Point2<f64>>,
+    state: Result<State, String>,
+}
+
+impl OutlierDrag {
+    /// The matches and F, or why there is none.
+    pub(super) fn state(&self) -> Result<&State, &str> {
+        self.state.as_ref().map_err(String::as_str)
+    }
+
+    pub(super) fn is_heard(&self) -> bool {
+        self.settings.flag(&HEARD)
+    }
+
+    /// How far the wrong match is from where it belongs, pixels.
+    pub(super) fn away_px(&self) -> f64 {
+        let state = self.state.as_ref();
+        state.map_or(0.0, |state| (state.wrong.1 - state.right.1).norm())
+    }
+
+    fn compute(&mut self) {
+        let state = self.solve();
+        self.state = state.map_err(|error| format!("There is no F: {error}."));
+    }
+
+    fn solve(&self) -> Result<State, epipole::Error> {
+        let count = self.settings.count(&COUNT) + 1;
+        let mut truth = self.matches.noisy(count, self.settings.number(&NOISE));
+        let right = truth.remove(0);
+        let wrong = (
+            right.0,
+            self.put.unwrap_or_else(|| inside(right.1 + AWAY_PX)),
+        );
+        Ok(State {
+            fit: Fit::new(&truth, &wrong, self.is_heard())?,
+            without: Fit::new(&truth, &wrong, false)?,
+            led: led_away(&truth, &right, &wrong.1),
+            truth,
+            right,
+            wrong,
+        })
+    }
+}
+
+/// The place within the photograph, with the handle's digits.
+fn inside(place: Point2<f64>) -> Point2<f64> {
+    let keep =
+        |value: f64, side: u32| round_to_digits(value.clamp(0.0, f64::from(side) - 1.0), DIGITS);
+    Point2::new(keep(place.x, PHOTO_WIDTH), keep(place.y, PHOTO_HEIGHT))
+}
+
+impl Declared for OutlierDrag {
+    const NAME: &'static str = "outlier-drag";
+    const TITLE: &'static str = "One wrong match";
+    const HELP: &'static str = "Drag the ringed match in photograph 2, or move it with the arrow keys: F is \
+        fitted to all matches, the wrong one among them, and the lines of the others leave them. Leave it \
+        out, and they come back.";
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            matches: Matches::draw(SEED.default as u64),
+            put: None,
+            state: Err(String::new()),
+        };
+        model.compute();
+        model
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for OutlierDrag {
+    fn controls(&self) -> Vec<Control> {
+        self.settings.controls()
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        let Ok(state) = &self.state else {
+            return Vec::new();
+        };
+        let place = state.wrong.1;
+        vec![Handle {
+            id: WRONG.to_owned(),
+            panel: "second",
+            label: "The wrong match in photograph 2".to_owned(),
+            value_text: format!(
+                "column {}, row {}, {} px from where it belongs",
+                format_number(place.x, 0),
+                format_number(place.y, 0),
+                format_number(self.away_px(), 0)
+            ),
+            x: place.x,
+            y: place.y,
+            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
+            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
+            step: [5.0, 5.0],
+            digits: DIGITS,
+            removable: false,
+        }]
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        match event {
+            Event::Set { id, value } => {
+                if self.settings.set(id, value)? != Some(true) {
+                    return Ok(());
+                }
+                if id == SEED.id {
+                    self.matches = Matches::draw(self.settings.count(&SEED) as u64);
+                    self.put = None;
+                }
+            }
+            Event::HandleMoved { id, x, y } if id == WRONG => self.put = Some(Point2::new(*x, *y)),
+            _ => return Ok(()),
+        }
+        self.compute();
+        Ok(())
+    }
+}
+
+/// Where the true line of the dragged match leads to, so far from where the match belongs.
+fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
+    let model = OutlierDrag::new();
+    let (pixel1, pixel2) = model.state.ok()?.right;
+    let [first, second] = cameras();
+    let fundamental = fundamental_from_cameras(&first, &second).ok()?;
+    let line = epipolar_line2(&fundamental, &pixel1).ok()?;
+    let on = line.nearest(&pixel2);
+    let along = Vector2::new(-line.b, line.a) * away_px;
+    let ends = [on + along, on - along];
+    ends.into_iter()
+        .find(|place| inside(*place) == place.map(|x| round_to_digits(x, DIGITS)))
+}
+
+const CHALLENGES: &[Challenge<OutlierDrag>] = &[
+    Challenge {
+        id: "more",
+        goal: "With the wrong match in use, take the worst true match 40 px off its line.",
+        hint: "Do more true matches help?",
+        why: "Least squares listens to every match alike, so more true ones do not outvote the wrong one; \
+              they only add matches that can suffer.",
+        check: |model| {
+            let worst = model.state().map_or(0.0, |state| state.fit.worst_px);
+            model.is_heard() && worst >= 40.0
+        },
+        solution: || vec![Event::set(&COUNT, 59.0)],
+    },
+    Challenge {
+        id: "harmless",
+        goal: "Put the match 80 px from where it belongs, in use, and keep the others within 1.5 px on \
+               average.",
+        hint: "F asks only whether a match is on its line.",
+        why: "Along its own epipolar line a match can be as wrong as it likes: no F can tell, and so no \
+              vote will either.",
+        check: |model| {
+            let mean = model
+                .state()
+                .map_or(f64::INFINITY, |state| state.fit.mean_px);
+            model.is_heard() && model.away_px() >= 80.0 && mean <= 1.5
+        },
+        solution: || {
+            let place = along_its_line(90.0);
+            place.map_or_else(Vec::new, |place| {
+                vec![Event::moved(WRONG, place.x, place.y)]
+            })
+        },
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn at_first_one_match_has_taken_the_others_off_their_lines() {
+        let model = OutlierDrag::new();
+        let state = model.state().unwrap();
+        assert!(
+            state.fit.mean_px > 10.0 * state.without.mean_px,
+            "{:?}",
+            state.fit
+        );
+        assert!(model.away_px() > 100.0 && state.without.mean_px < 1.0);
+    }
+
+    #[test]
+    fn another_seed_has_another_match_to_drag() {
+        let mut model = OutlierDrag::new();
+        model.update(&Event::moved(WRONG, 100.0, 100.0)).unwrap();
+        assert_eq!(model.state().unwrap().wrong.1, Point2::new(100.0, 100.0));
+        for seed in [2.0, 50.0, 99.0] {
+            model.update(&Event::set(&SEED, seed)).unwrap();
+            assert!(
+                model.away_px() > 20.0 && model.away_px() < 200.0,
+                "{}",
+                model.away_px()
+            );
+            assert!(model.state().is_ok());
+        }
+    }
+}

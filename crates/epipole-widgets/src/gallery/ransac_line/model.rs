@@ -1,0 +1,340 @@
+//! Points near a hidden line among outliers, and the RANSAC loop one sample at a time.
+
+use super::question::{MAX_SAMPLES, Question, Runs, kind};
+use super::tally::Tally;
+use crate::contract::{
+    Challenge, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Progress, Settings,
+    Slider, Toggle, Value,
+};
+use crate::kit::line_points::{Scatter, angle_between_deg, scatter};
+use crate::kit::question::{Asked, carry_out};
+use crate::kit::running::Running;
+use crate::kit::samples::Rules;
+use nalgebra::Point2;
+
+const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
+    .range(0.0, 0.8, 0.05)
+    .at(0.5)
+    .digits(2);
+const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
+    .range(2.0, 40.0, 1.0)
+    .at(10.0)
+    .unit("px");
+const MSAC: Toggle = Toggle::new("msac", "MSAC");
+const LOCAL: Toggle = Toggle::new("local", "Local optimization");
+const COUNT: Slider = Slider::new("points", "Number of points")
+    .range(8.0, 120.0, 2.0)
+    .at(60.0)
+    .more();
+const SEED: Slider = Slider::seed(9.0);
+const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
+    .range(0.0, MAX_SAMPLES as f64, 1.0)
+    .at(7.0)
+    .hidden();
+/// How much of the last sample has happened: drawn, banded, its votes cast.
+const PHASE: Slider = Slider::new("phase", "Votes cast")
+    .range(0.0, 1.0, 0.005)
+    .at(1.0)
+    .digits(3)
+    .hidden();
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&OUTLIERS),
+    Knob::Slider(&EPSILON),
+    Knob::Toggle(&MSAC),
+    Knob::Toggle(&LOCAL),
+    Knob::Slider(&COUNT),
+    Knob::Slider(&SEED),
+    Knob::Slider(&ITERATIONS),
+    Knob::Slider(&PHASE),
+];
+
+/// Slow enough to see the votes fly.
+const SAMPLES_PER_SECOND: f64 = 0.7;
+
+/// The model of `ransac-line`.
+pub(crate) struct RansacLine {
+    settings: Settings,
+    scattered: Scatter,
+    tally: Result<Tally, String>,
+    asked: Asked<Question>,
+    running: Running,
+}
+
+impl RansacLine {
+    pub(super) fn scattered(&self) -> &Scatter {
+        &self.scattered
+    }
+
+    /// The samples so far, or why there are none.
+    pub(super) fn tally(&self) -> Result<&Tally, &str> {
+        self.tally.as_ref().map_err(String::as_str)
+    }
+
+    /// The hundred runs of each kind, perhaps of the settings before.
+    pub(super) fn runs(&self) -> Option<&Runs> {
+        self.asked.answer()
+    }
+
+    pub(super) fn runs_problem(&self) -> Option<&str> {
+        self.asked.problem()
+    }
+
+    pub(super) fn epsilon_px(&self) -> f64 {
+        self.settings.number(&EPSILON)
+    }
+
+    pub(super) fn phase(&self) -> f64 {
+        self.settings.number(&PHASE)
+    }
+
+    /// The kind of run that the toggles ask for.
+    pub(super) fn kind(&self) -> usize {
+        kind(self.settings.flag(&MSAC), self.settings.flag(&LOCAL))
+    }
+
+    /// How far the best line is from the hidden one, degrees.
+    pub(super) fn error_deg(&self) -> Option<f64> {
+        let best = self.tally.as_ref().ok()?.best.as_ref()?;
+        Some(angle_between_deg(&best.line, &self.scattered.truth))
+    }
+
+    fn drawn(&self) -> (usize, bool) {
+        let tally = self.tally.as_ref();
+        tally.map_or((0, true), |tally| {
+            (tally.samples.count(), tally.samples.is_finished())
+        })
+    }
+
+    fn compute(&mut self) {
+        let places: Vec<Point2<f64>> = (self.scattered.points.iter())
+            .map(|point| point.place)
+            .collect();
+        let rules = Rules {
+            epsilon_px: self.epsilon_px(),
+            seed: self.settings.count(&SEED) as u64,
+            max_samples: MAX_SAMPLES,
+            msac: self.settings.flag(&MSAC),
+            local_optimization: self.settings.flag(&LOCAL),
+        };
+        let count = self.settings.count(&ITERATIONS);
+        let tally = Tally::new(&places, self.scattered.truth, rules, count);
+        self.tally = tally.map_err(|error| format!("There are no samples: {error}."));
+        self.asked.ask(Question {
+            outlier_ratio: self.settings.number(&OUTLIERS),
+            epsilon_px: self.epsilon_px(),
+            count: self.settings.count(&COUNT),
+        });
+    }
+
+    /// Draws to so many samples, of the last of which this much has happened.
+    fn run_to(&mut self, count: usize, phase: f64) -> Result<(), Problem> {
+        let count = Value::Number(count.min(MAX_SAMPLES) as f64);
+        self.settings.set(ITERATIONS.id, &count)?;
+        self.settings.set(PHASE.id, &Value::Number(phase))?;
+        self.compute();
+        self.running.stop_if(self.drawn().1);
+        Ok(())
+    }
+}
+
+fn scatter_as(settings: &Settings) -> Scatter {
+    scatter(
+        settings.count(&SEED) as u64,
+        settings.count(&COUNT),
+        settings.number(&OUTLIERS),
+    )
+}
+
+impl Declared for RansacLine {
+    const NAME: &'static str = "ransac-line";
+    const TITLE: &'static str = "Sample, band, votes";
+    const HELP: &'static str = "Step draws two points, lays a band around their line, and counts the points \
+        in it; Run does so again and again. Switch MSAC and local optimization on to see what they change \
+        over a hundred runs.";
+
+    fn new() -> Self {
+        let settings = Settings::new(KNOBS);
+        let mut model = Self {
+            scattered: scatter_as(&settings),
+            settings,
+            tally: Err(String::new()),
+            asked: Asked::default(),
+            running: Running::at(SAMPLES_PER_SECOND),
+        };
+        model.compute();
+        model
+    }
+
+    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
+        carry_out::<Question>(request, progress)
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for RansacLine {
+    fn controls(&self) -> Vec<Control> {
+        let (drawn, is_finished) = self.drawn();
+        let mut controls = self.settings.controls();
+        controls.extend(
+            self.running
+                .controls(self.tally.is_ok(), drawn, is_finished),
+        );
+        controls
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        let (drawn, is_finished) = self.drawn();
+        match event {
+            Event::Tick { dt_s } => {
+                let phase = (self.phase() + dt_s * SAMPLES_PER_SECOND).min(1.0);
+                if phase < 1.0 {
+                    self.settings.set(PHASE.id, &Value::Number(phase))?;
+                    return Ok(());
+                }
+                if self.running.is_running() && !is_finished {
+                    return self.run_to(drawn + 1, 0.0);
+                }
+                self.settings.set(PHASE.id, &Value::Number(1.0))?;
+            }
+            Event::Press { .. } => {
+                let was_running = self.running.is_running();
+                let next = self.running.update(event, drawn, is_finished);
+                if self.running.is_running() && !was_running {
+                    // The first sample does not wait.
+                    let from = next.unwrap_or(drawn);
+                    return self.run_to(from + 1, 0.0);
+                }
+                // What a reader steps to is there at once, and what is stopped is complete.
+                return self.run_to(next.unwrap_or(drawn), 1.0);
+            }
+            Event::Set { id, value } => {
+                if self.settings.set(id, value)? != Some(true) || id == PHASE.id {
+                    return Ok(());
+                }
+                if [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
+                    self.scattered = scatter_as(&self.settings);
+                }
+                self.compute();
+                self.running.stop_if(self.drawn().1);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn is_running(&self) -> bool {
+        self.running.is_running() || self.phase() < 1.0
+    }
+
+    fn job(&self) -> Option<&dyn Job> {
+        self.asked.job()
+    }
+
+    fn job_done(&mut self, result: JobResult) {
+        self.asked.take(result);
+    }
+}
+
+const CHALLENGES: &[Challenge<RansacLine>] = &[
+    Challenge {
+        id: "narrow",
+        goal: "With half of the points outliers, make the loop need more than 60 samples.",
+        hint: "Good points are lost, too, if the band is too narrow for their noise.",
+        why: "The points scatter by 4 px, so a band of 2 px to each side loses more than half of the good \
+              ones, and the loop takes them for outliers.",
+        check: |model| {
+            let budget = model.tally().ok().and_then(|tally| tally.samples.budget());
+            let half = (model.settings.number(&OUTLIERS) - 0.5).abs() < 1e-9;
+            half && model.drawn().1 && budget.is_some_and(|budget| budget > 60)
+        },
+        solution: || {
+            vec![
+                Event::set(&EPSILON, 2.0),
+                Event::set(&ITERATIONS, MAX_SAMPLES as f64),
+            ]
+        },
+    },
+    Challenge {
+        id: "outvoted",
+        goal: "Let a wrong line, more than 10° off, win with more votes than the hidden one.",
+        hint: "Half of the outliers lie in one region. When do they agree?",
+        why: "A wide band and many outliers: a line through the crowded region gathers more points than \
+              the hidden one, and RANSAC returns what has most votes.",
+        check: |model| {
+            let Ok(tally) = model.tally() else {
+                return false;
+            };
+            let votes = tally.best.as_ref().map_or(0, |best| best.num_votes());
+            model.drawn().1
+                && model.error_deg().is_some_and(|error| error > 10.0)
+                && votes >= tally.truth.num_votes()
+        },
+        solution: || {
+            vec![
+                Event::set(&OUTLIERS, 0.8),
+                Event::set(&EPSILON, 30.0),
+                Event::set(&ITERATIONS, MAX_SAMPLES as f64),
+            ]
+        },
+    },
+    Challenge {
+        id: "wide",
+        goal: "Keep ε at 30 px or more with half of the points outliers, and get 99 of 100 runs within 1°.",
+        hint: "Two switches, and one of them alone does harm.",
+        why: "In a wide band the most votes go to a line that leans toward the outliers; MSAC lets far voters \
+              count less, and only then is it safe to refine.",
+        check: |model| {
+            let half = (model.settings.number(&OUTLIERS) - 0.5).abs() < 1e-9;
+            let near = model.runs().map_or(0, |runs| runs.num_near(model.kind()));
+            half && model.epsilon_px() >= 30.0 && !model.asked.is_waiting() && near >= 99
+        },
+        solution: || {
+            vec![
+                Event::set(&EPSILON, 30.0),
+                Event::set(&MSAC, true),
+                Event::set(&LOCAL, true),
+            ]
+        },
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_start_has_improved_at_least_twice_and_goes_on_to_the_truth() {
+        let mut model = RansacLine::new();
+        let tally = model.tally().unwrap();
+        assert!(tally.votes.iter().filter(|vote| vote.is_best).count() >= 3);
+        assert!(!tally.samples.is_finished());
+        while !model.drawn().1 {
+            model.update(&Event::press("step")).unwrap();
+        }
+        assert!(model.error_deg().unwrap() < 2.0);
+    }
+
+    #[test]
+    fn running_casts_the_votes_little_by_little_and_stepping_at_once() {
+        let mut model = RansacLine::new();
+        let (drawn, _) = model.drawn();
+        model.update(&Event::press("run")).unwrap();
+        assert_eq!((model.drawn().0, model.phase()), (drawn + 1, 0.0));
+        let tick = Event::Tick { dt_s: 0.1 };
+        model.update(&tick).unwrap();
+        assert!(model.is_running() && model.phase() > 0.05 && model.phase() < 0.1);
+        for _ in 0..15 {
+            model.update(&tick).unwrap();
+        }
+        assert_eq!(model.drawn().0, drawn + 2);
+        model.update(&Event::press("run")).unwrap();
+        assert_eq!((model.phase(), model.is_running()), (1.0, false));
+        model.update(&Event::press("step")).unwrap();
+        assert_eq!((model.drawn().0, model.phase()), (drawn + 3, 1.0));
+        model.update(&Event::press("restart")).unwrap();
+        assert_eq!((model.drawn().0, model.is_running()), (0, false));
+    }
+}

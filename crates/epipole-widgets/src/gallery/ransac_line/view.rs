@@ -1,0 +1,341 @@
+//! The plane with the last sample, its band and its voters; beside it the tally, one column a sample, into
+//! which the votes fly; and the errors of a hundred runs of each kind.
+
+use super::model::RansacLine;
+use super::question::NUM_KINDS;
+use super::tally::Tally;
+use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::grid::{self, Grid, SMALL};
+use crate::kit::labels::Labels;
+use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::line_plane::{self, band, draw_line};
+use crate::kit::line_points::{Consensus, HEIGHT_PX, WIDTH_PX};
+use crate::kit::plot::{self, Ruler};
+use crate::theme::Role;
+
+/// The tally shows so many samples, the last ones.
+const SHOWN: usize = 40;
+/// When the band is there, and when the first vote and the last one leave, as shares of a sample's time.
+const BANDED: f64 = 0.3;
+const FIRST: f64 = 0.35;
+const LAST: f64 = 0.72;
+/// How long a vote flies.
+const FLIGHT: f64 = 0.26;
+const DECADES: [f64; 2] = [-1.7, 1.95];
+
+fn legend_entries() -> [Entry; 5] {
+    [
+        (Swatch::Line(candidate_stroke()), "this sample"),
+        (Swatch::Line(best_stroke()), "best so far"),
+        (Swatch::Line(truth_stroke()), "hidden line"),
+        (Swatch::Marker(Shape::Disk, Role::Inlier), "votes"),
+        (Swatch::Marker(Shape::Cross, Role::Outlier), "does not"),
+    ]
+}
+
+fn candidate_stroke() -> Stroke {
+    Stroke::solid(Role::Candidate, 2.0)
+}
+
+fn best_stroke() -> Stroke {
+    Stroke::solid(Role::Best, 3.0)
+}
+
+fn truth_stroke() -> Stroke {
+    Stroke::solid(Role::Truth, 2.0).dotted()
+}
+
+/// Draws [`RansacLine`].
+#[derive(Default)]
+pub(crate) struct RansacLineView;
+
+fn tally_rulers(model: &RansacLine) -> [Ruler; 2] {
+    let drawn = model.tally().map_or(0, |tally| tally.votes.len());
+    let last = drawn.max(SHOWN) as f64;
+    let first = last - SHOWN as f64;
+    [
+        Ruler::linear(first + 0.5, last + 0.5),
+        Ruler::linear(0.0, model.scattered().points.len() as f64),
+    ]
+}
+
+fn run_rulers() -> [Ruler; 2] {
+    [
+        Ruler::decades(DECADES[0], DECADES[1]),
+        Ruler::things(&["count", "MSAC", "local", "both"]),
+    ]
+}
+
+/// The plane, the tally and the runs.
+fn cells(grid: &mut Grid, width: f64) -> [Rect; 3] {
+    const ASPECT: f64 = HEIGHT_PX / WIDTH_PX;
+    if grid::is_narrow(width) {
+        let [plane] = grid.row([ASPECT], 144.0);
+        let [tally, runs] = grid.shares([1.0, 1.0], 106.0);
+        return [plane, tally, runs];
+    }
+    let [plane, side] = grid.row([ASPECT, 0.82], 400.0);
+    let [tally, runs] = grid::stack(side, [1.0, 1.1]);
+    [plane, tally, runs]
+}
+
+fn legend_height(width: f64) -> f64 {
+    legend::height(&legend_entries(), width, 0.0) + 4.0
+}
+
+impl View for RansacLineView {
+    type Model = RansacLine;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, model: &RansacLine, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let [plane, tally, runs] = cells(&mut grid, width);
+        grid.strip(legend_height(width));
+        let ([x, y], [error, kinds]) = (tally_rulers(model), run_rulers());
+        grid.layout(vec![
+            line_plane::panel("plane", plane),
+            plot::panel("tally", tally, &x, &y),
+            plot::panel("runs", runs, &error, &kinds),
+        ])
+    }
+
+    fn draw(&mut self, model: &RansacLine, layout: &Layout, canvas: &mut Canvas) {
+        let [plane, tally, runs] = ["plane", "tally", "runs"].map(|id| layout.panel(id));
+        let titles: [(&Panel, &[&str]); 3] = [
+            (
+                plane,
+                &[
+                    "Two points, the band around their line, and who is in it",
+                    "Two points, a band, votes",
+                ],
+            ),
+            (tally, &["Votes for each sample", "Votes"]),
+            (runs, &["100 runs each: degrees off", "100 runs: ° off"]),
+        ];
+        for (panel, wordings) in titles {
+            grid::fitting_title(canvas, panel.rect, wordings);
+        }
+        canvas.panel(plane.rect);
+        let ([x, y], [error, kinds]) = (tally_rulers(model), run_rulers());
+        plot::draw_axes(canvas, tally, &x, &y);
+        plot::draw_axes(canvas, runs, &error, &kinds);
+        draw_runs(model, runs, canvas);
+        let top = layout.height - legend_height(layout.width);
+        legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
+        match model.tally() {
+            Ok(counted) => {
+                canvas.clipped(plane.rect.inset(1.0), |canvas| {
+                    draw_plane(model, counted, plane, canvas);
+                });
+                draw_tally(model, counted, tally, canvas);
+                draw_flight(model, counted, [plane, tally], canvas);
+            }
+            Err(sentence) => grid::notice(canvas, plane.rect, sentence),
+        }
+    }
+}
+
+/// How far something has come that takes from `start` to `end`, slow at both ends.
+fn eased(phase: f64, start: f64, end: f64) -> f64 {
+    let share = ((phase - start) / (end - start)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Canvas) {
+    let (phase, scattered) = (model.phase(), model.scattered());
+    let region = scattered.region;
+    let at = |x: f64, y: f64| panel.canvas_from_world((x, y));
+    let (upper, lower) = (at(region.x, region.y), at(region.right(), region.bottom()));
+    let good = scattered.points.len() - scattered.num_outliers.min(scattered.points.len());
+    let outliers = scattered.points.iter().skip(good);
+    let in_region = outliers.filter(|point| region.contains((point.place.x, point.place.y)));
+    let num_in_region = in_region.count();
+    if num_in_region > 0 {
+        let corners = [upper, (lower.0, upper.1), lower, (upper.0, lower.1)];
+        canvas.polygon_outline(&corners, Stroke::solid(Role::Outlier, 1.25).dashed());
+        let style = TextStyle::new(Role::Outlier, SMALL).cased();
+        let above = upper.1 - 9.0;
+        let row = if above > panel.rect.y + 8.0 {
+            above
+        } else {
+            lower.1 + 9.0
+        };
+        let text = format!("{num_in_region} of {} outliers", scattered.num_outliers);
+        canvas.label((upper.0, row), &text, style);
+    }
+    let candidate = tally.candidate.as_ref();
+    if let Some(candidate) = candidate {
+        let width_px = model.epsilon_px() * eased(phase, 0.1, BANDED);
+        if width_px > 0.0 {
+            band(canvas, panel, &candidate.line, width_px);
+        }
+    }
+    draw_line(canvas, panel, &scattered.truth, truth_stroke());
+    if let Some(candidate) = candidate {
+        draw_line(canvas, panel, &candidate.line, candidate_stroke());
+    }
+    // The best so far is known once the votes are counted.
+    if let Some(best) = tally.best.as_ref().filter(|_| phase >= 1.0) {
+        draw_line(canvas, panel, &best.line, best_stroke());
+    }
+    let radius = (panel.scale_x() * 4.5).clamp(2.5, 4.5);
+    for (index, point) in scattered.points.iter().enumerate() {
+        let place = at(point.place.x, point.place.y);
+        let votes = candidate
+            .filter(|_| phase >= BANDED)
+            .map(|line| line.is_inlier[index]);
+        let (shape, role) = match votes {
+            Some(true) => (Shape::Disk, Role::Inlier),
+            Some(false) => (Shape::Cross, Role::Outlier),
+            None => (Shape::Disk, Role::Muted),
+        };
+        canvas.marker(place, radius, shape, role, false);
+        if tally.sample().contains(&index) {
+            canvas.circle(place, radius + 5.0, Stroke::solid(Role::Candidate, 3.0));
+        }
+    }
+}
+
+/// How many votes of the last sample have landed.
+fn num_landed(phase: f64, num_votes: usize) -> usize {
+    (0..num_votes)
+        .filter(|index| flown(phase, *index, num_votes) >= 1.0)
+        .count()
+}
+
+/// How far a vote has come on its way to the tally.
+fn flown(phase: f64, index: usize, num_votes: usize) -> f64 {
+    if phase >= 1.0 {
+        return 1.0;
+    }
+    let start = FIRST + (LAST - FIRST) * index as f64 / num_votes.max(1) as f64;
+    eased(phase, start, start + FLIGHT)
+}
+
+fn draw_tally(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Canvas) {
+    let (phase, drawn) = (model.phase(), tally.votes.len());
+    let first = drawn.saturating_sub(SHOWN);
+    let mut best: usize = tally.votes[..first]
+        .iter()
+        .filter(|vote| vote.is_best)
+        .map(|vote| vote.num_votes)
+        .max()
+        .unwrap_or(0);
+    let mut steps: Vec<(f64, f64)> = Vec::new();
+    for (index, vote) in tally.votes.iter().enumerate().skip(first) {
+        let is_last = index + 1 == drawn;
+        let height = if is_last {
+            num_landed(phase, vote.num_votes)
+        } else {
+            vote.num_votes
+        };
+        let number = index as f64 + 1.0;
+        let (left, top) = panel.canvas_from_world((number - 0.36, height as f64));
+        let (right, bottom) = panel.canvas_from_world((number + 0.36, 0.0));
+        let counts = vote.is_best && (!is_last || phase >= 1.0);
+        let role = if counts { Role::Best } else { Role::Candidate };
+        let column = Rect::new(left, top, (right - left).max(1.0), bottom - top);
+        canvas.fill_rect(column, role, if counts { 1.0 } else { 0.55 });
+        if counts {
+            best = best.max(vote.num_votes);
+        }
+        steps.push((number - 0.5, best as f64));
+        steps.push((number + 0.5, best as f64));
+    }
+    if best > 0 {
+        plot::draw_curve(canvas, panel, steps, Stroke::solid(Role::Best, 1.5));
+    }
+    let truth = tally.truth.num_votes() as f64;
+    let ends = [panel.x_axis.start, panel.x_axis.end].map(|x| (x, truth));
+    plot::draw_curve(canvas, panel, ends, truth_stroke());
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    let (x, y) = panel.canvas_from_world((panel.x_axis.end, truth));
+    let style = TextStyle::new(Role::Truth, SMALL).cased();
+    let places = [
+        ((x - 4.0, y - 10.0), crate::canvas::Align::End),
+        ((x - 4.0, y + 10.0), crate::canvas::Align::End),
+    ];
+    labels.draw(canvas, &places, "hidden line", style);
+}
+
+/// The votes of the last sample on their way from the plane to its column.
+fn draw_flight(
+    model: &RansacLine,
+    tally: &Tally,
+    [plane, panel]: [&Panel; 2],
+    canvas: &mut Canvas,
+) {
+    let (phase, drawn) = (model.phase(), tally.votes.len());
+    let Some(candidate) = tally.candidate.as_ref().filter(|_| phase < 1.0) else {
+        return;
+    };
+    let num_votes = Consensus::num_votes(candidate);
+    let points = model.scattered().points.iter().zip(&candidate.is_inlier);
+    let voters = points
+        .filter(|(_, votes)| **votes)
+        .map(|(point, _)| point.place);
+    for (index, place) in voters.enumerate() {
+        let share = flown(phase, index, num_votes);
+        if share <= 0.0 || share >= 1.0 {
+            continue;
+        }
+        let from = plane.canvas_from_world((place.x, place.y));
+        let to = panel.canvas_from_world((drawn as f64, index as f64 + 0.5));
+        canvas.disk(between(from, to, share), 3.5, Role::Inlier, 1.0);
+    }
+}
+
+/// A place on the way, which rises a little.
+fn between(from: Place, to: Place, share: f64) -> Place {
+    let mix = |a: f64, b: f64| a + (b - a) * share;
+    let rise = 26.0 * 4.0 * share * (1.0 - share);
+    (mix(from.0, to.0), mix(from.1, to.1) - rise)
+}
+
+fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
+    let Some(runs) = model.runs() else {
+        let text = model.runs_problem().unwrap_or("Running a hundred times …");
+        return grid::notice(canvas, panel.rect, text);
+    };
+    let at = |error_deg: f64, row: f64| {
+        let decade = plot::decade(error_deg).clamp(DECADES[0], DECADES[1]);
+        panel.canvas_from_world((decade, row))
+    };
+    canvas.clipped(panel.rect.inset(1.0), |canvas| {
+        for kind in 0..NUM_KINDS {
+            let row = kind as f64 + 1.0;
+            let is_chosen = kind == model.kind();
+            let role = if is_chosen {
+                Role::Best
+            } else {
+                Role::Reference
+            };
+            for (index, run) in runs.0[kind].iter().enumerate() {
+                // Spread over the row, so that they do not hide each other.
+                let aside = 0.6 * ((index * 37 % 100) as f64 / 100.0 - 0.5);
+                canvas.disk(at(run.error_deg, row + aside), 1.7, role, 0.8);
+            }
+            if let Some(median) = runs.median_deg(kind) {
+                let ends = [-0.42, 0.42].map(|aside| at(median, row + aside));
+                canvas.line(ends[0], ends[1], Stroke::solid(Role::Grip, 3.0).cased());
+            }
+        }
+    });
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    for kind in 0..NUM_KINDS {
+        let place = (panel.rect.right() - 4.0, at(1.0, kind as f64 + 1.0).1);
+        let near = format_number(runs.num_near(kind) as f64, 0);
+        let text = match panel.rect.width {
+            width if width > 200.0 => format!("{near} within 1°"),
+            _ => near,
+        };
+        let role = if kind == model.kind() {
+            Role::Best
+        } else {
+            Role::Muted
+        };
+        let style = TextStyle::new(role, SMALL).cased();
+        labels.draw(canvas, &[(place, crate::canvas::Align::End)], &text, style);
+    }
+}

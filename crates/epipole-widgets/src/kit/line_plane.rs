@@ -1,0 +1,45 @@
+//! The plane of points near a line: its panel, lines in it, and the band around one.
+
+use crate::canvas::{Canvas, Stroke};
+use crate::contract::{Axis, Panel, Rect};
+use crate::kit::line_points::{HEIGHT_PX, WIDTH_PX};
+use crate::theme::Role;
+use epipole::math::Line2;
+
+/// The panel of the plane.
+pub(crate) fn panel(id: &'static str, rect: Rect) -> Panel {
+    let axis = |end: f64| Axis { start: 0.0, end };
+    Panel {
+        id,
+        rect,
+        x_axis: axis(WIDTH_PX),
+        y_axis: axis(HEIGHT_PX),
+        clickable: false,
+    }
+}
+
+/// Both ends of a line, beyond the panel.
+fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
+    let foot = (
+        -(line.c - offset_px) * line.a,
+        -(line.c - offset_px) * line.b,
+    );
+    let reach = 4.0 * WIDTH_PX;
+    [-reach, reach]
+        .map(|along| plane.canvas_from_world((foot.0 - along * line.b, foot.1 + along * line.a)))
+}
+
+pub(crate) fn draw_line(canvas: &mut Canvas, plane: &Panel, line: &Line2, stroke: Stroke) {
+    let [from, to] = ends(plane, line, 0.0);
+    canvas.line(from, to, stroke);
+}
+
+/// The strip of places within the threshold of the sample's line.
+pub(crate) fn band(canvas: &mut Canvas, plane: &Panel, line: &Line2, epsilon_px: f64) {
+    let [a, b] = ends(plane, line, -epsilon_px);
+    let [d, c] = ends(plane, line, epsilon_px);
+    canvas.polygon(&[a, b, c, d], Role::Candidate, 0.13);
+    for (from, to) in [(a, b), (d, c)] {
+        canvas.line(from, to, Stroke::solid(Role::Candidate, 1.0).dotted());
+    }
+}

@@ -1,0 +1,212 @@
+//! Photographs that stand in a scene, each on the picture of its camera. They hide what is behind them,
+//! so what crosses their planes is cut there.
+
+use crate::canvas::Place;
+use crate::kit::lens::Lens;
+use epipole::camera::Camera;
+use epipole::homography::homography_from_motion;
+use image::RgbImage;
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
+
+/// Seen at a smaller angle than this, a photograph is a line. The sine of the angle.
+const EDGE_ON: f64 = 0.01;
+
+/// A photograph in the frame of the reader's eye.
+pub(crate) struct Standing<'a> {
+    pub(crate) image: &'a RgbImage,
+    pub(crate) corners: [Place; 4],
+    /// From CSS pixels of the page to pixels of the photograph.
+    pub(crate) photo_from_page: Matrix3<f64>,
+    plane: Plane,
+    /// How far from the eye its middle is.
+    pub(crate) depth: f64,
+}
+
+/// The plane `normal · x + distance = 0` of the eye's frame; the eye is on its positive side.
+#[derive(Clone, Copy)]
+struct Plane {
+    normal: Vector3<f64>,
+    distance: f64,
+}
+
+impl Plane {
+    fn side(&self, in_eye: &Point3<f64>) -> f64 {
+        self.normal.dot(&in_eye.coords) + self.distance
+    }
+}
+
+impl<'a> Standing<'a> {
+    /// The photograph of a camera, `depth` in front of its center. `None` where it cannot be seen:
+    /// edge-on, or partly behind the eye.
+    pub(crate) fn new(
+        lens: &Lens,
+        camera: &Camera,
+        image: &'a RgbImage,
+        depth: f64,
+    ) -> Option<Self> {
+        let (right, bottom) = (
+            f64::from(image.width()) - 0.5,
+            f64::from(image.height()) - 0.5,
+        );
+        let in_eye = |u: f64, v: f64| {
+            let ray = camera.ray_in_world(&Point2::new(u, v));
+            lens.eye.cam_from_world * (camera.center_in_world() + ray * depth)
+        };
+        let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)]
+            .map(|(u, v)| in_eye(u, v));
+        let places = corners.map(|corner| lens.shown(&corner));
+        let [Some(a), Some(b), Some(c), Some(d)] = places else {
+            return None;
+        };
+        let middle = in_eye(right / 2.0, bottom / 2.0);
+        let across = (corners[1] - corners[0]).cross(&(corners[3] - corners[0]));
+        let normal = across.try_normalize(1e-12)?;
+        let towards = -normal.dot(&middle.coords);
+        let plane = Plane {
+            normal: normal * towards.signum(),
+            distance: towards.abs(),
+        };
+        if plane.distance < EDGE_ON * middle.coords.norm() {
+            return None;
+        }
+        let cam_from_eye = camera.cam_from_world * lens.eye.cam_from_world.inverse();
+        Some(Self {
+            image,
+            corners: [a.0, b.0, c.0, d.0],
+            photo_from_page: homography_from_motion(
+                &cam_from_eye,
+                &plane.normal,
+                plane.distance,
+                &lens.eye.intrinsics,
+                &camera.intrinsics,
+            ),
+            plane,
+            depth: middle.z,
+        })
+    }
+
+    /// Whether a mark may be hidden: it is on the other side of the plane, and overlaps the photograph on
+    /// the page. Marks on the plane are not.
+    ///
+    /// * `in_eye`: the middle of the mark
+    /// * `places`: its corners on the page, in turn; it is convex
+    pub(crate) fn hides(&self, in_eye: &Point3<f64>, places: &[Place]) -> bool {
+        self.plane.side(in_eye) < -1e-9 * self.depth
+            && !are_apart(&self.corners, places)
+            && !are_apart(places, &self.corners)
+    }
+
+    /// Where a segment crosses the plane, as a share of the way.
+    pub(crate) fn crossing(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<f64> {
+        let (a, b) = (self.plane.side(from), self.plane.side(to));
+        let tiny = 1e-9 * self.depth;
+        (a.abs() > tiny && b.abs() > tiny && a * b < 0.0).then(|| a / (a - b))
+    }
+
+    /// A convex polygon in what is before the plane and what is behind it.
+    pub(crate) fn halves(&self, corners: &[Point3<f64>]) -> [Vec<Point3<f64>>; 2] {
+        [1.0, -1.0].map(|sign| half(corners, |corner| sign * self.plane.side(corner)))
+    }
+}
+
+/// Whether a side of the first convex polygon has the second one beyond it.
+fn are_apart(one: &[Place], other: &[Place]) -> bool {
+    let turn = |(x, y): Place, (u, v): Place| x * v - y * u;
+    let minus = |a: Place, b: Place| (a.0 - b.0, a.1 - b.1);
+    let edges = one.iter().zip(one.iter().cycle().skip(1));
+    let mut edges = edges.map(|(&from, &to)| (from, minus(to, from)));
+    edges.any(|(from, along)| {
+        let side = |place: &Place| turn(along, minus(*place, from));
+        let own = one.iter().map(side).fold(
+            0.0,
+            |most: f64, side| {
+                if side.abs() > most.abs() { side } else { most }
+            },
+        );
+        let beyond = |place: &Place| side(place) * own < -1e-9 * own * own;
+        !other.is_empty() && other.iter().all(beyond)
+    })
+}
+
+/// The part of a convex polygon where `side` is not negative; a function that is linear in space.
+pub(crate) fn half(
+    corners: &[Point3<f64>],
+    side: impl Fn(&Point3<f64>) -> f64,
+) -> Vec<Point3<f64>> {
+    let mut inside = Vec::with_capacity(corners.len() + 1);
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    for (from, to) in edges {
+        let (a, b) = (side(from), side(to));
+        if a >= 0.0 {
+            inside.push(*from);
+        }
+        if a * b < 0.0 {
+            inside.push(from + (to - from) * (a / (a - b)));
+        }
+    }
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::lens::Subject;
+    use crate::kit::orbit::Orbit;
+    use epipole::camera::Intrinsics;
+    use epipole::homography::transfer;
+    use nalgebra::Isometry3;
+
+    #[test]
+    fn pixels_are_where_the_scene_shows_them_and_hide_what_is_behind() {
+        let camera = Camera {
+            intrinsics: Intrinsics::centered(50.0, 40, 30).unwrap(),
+            cam_from_world: Isometry3::translation(0.3, 0.1, 0.0),
+        };
+        let image = RgbImage::new(40, 30);
+        let subject = Subject {
+            middle: Point3::new(0.0, 0.0, 1.0),
+            radius: 1.5,
+        };
+        for (turn, eye_is_behind) in [(20.0, true), (200.0, false)] {
+            let orbit = Orbit::new(turn, 25.0);
+            let size = (300.0, 200.0);
+            let lens = Lens::new(size, (1.0, 1.0), (150.0, 100.0), (&orbit, 1.0), &subject);
+            let lens = lens.unwrap();
+            let standing = Standing::new(&lens, &camera, &image, 0.8).unwrap();
+            for (u, v) in [(3.0, 4.0), (39.5, -0.5), (20.0, 29.0)] {
+                let ray = camera.ray_in_world(&Point2::new(u, v));
+                let (x, y) = lens.place(&(camera.center_in_world() + ray * 0.8)).unwrap();
+                let pixel = transfer(&standing.photo_from_page, &Point2::new(x, y)).unwrap();
+                assert!((pixel - Point2::new(u, v)).norm() < 1e-6, "{pixel}");
+            }
+            let at = |z: f64| lens.eye.cam_from_world * Point3::new(-0.3, -0.1, z);
+            let hides =
+                |point: &Point3<f64>| standing.hides(point, &[lens.shown(point).unwrap().0]);
+            assert_eq!(hides(&at(1.2)), eye_is_behind);
+            assert_eq!(hides(&at(0.6)), !eye_is_behind);
+            // Far aside nothing is hidden, on whichever side of the plane it is.
+            for z in [0.6, 1.2] {
+                assert!(!hides(&(at(z) + Vector3::new(1.5, 0.0, 0.0))));
+            }
+            let share = standing.crossing(&at(0.0), &at(2.0)).unwrap();
+            assert!((share - 0.4).abs() < 1e-9);
+            assert!(standing.crossing(&at(0.0), &at(0.7)).is_none());
+            let sheet = [at(0.0), at(2.0), at(2.0) + Vector3::new(0.0, 0.5, 0.0)];
+            let [before, behind] = standing.halves(&sheet);
+            assert!(before.len() >= 3 && behind.len() >= 3);
+            assert!(behind.iter().all(|p| standing.plane.side(p) < 1e-9));
+        }
+        // Exactly from the side it is a line.
+        let lens = Lens::new(
+            (300.0, 200.0),
+            (1.0, 1.0),
+            (150.0, 100.0),
+            (&Orbit::new(90.0, 0.0), 1.0),
+            &Subject {
+                middle: Point3::new(0.0, 0.0, 0.8),
+                radius: 1.0,
+            },
+        );
+        assert!(Standing::new(&lens.unwrap(), &camera, &image, 0.8).is_none());
+    }
+}
