@@ -186,6 +186,11 @@ impl<'a> Shared<'a> {
         path
     }
 
+    /// Adds a file to the site at this path, which is its address for good.
+    pub(crate) fn add_file(&self, path: &str, bytes: Vec<u8>) {
+        self.with(|all| all.files.insert(path.to_owned(), bytes));
+    }
+
     /// Copies a file of the content folder to the same place of the site, if there is one.
     pub(crate) fn copy_file(&self, file: &str) -> bool {
         let path = self.content.join(file);
