@@ -3,7 +3,8 @@
     python tests/listings/run.py [--bless] [CHAPTER.md ...]
 
 What a tab of a `{{#listing}}` prints is compared with content/listings/<chapter>.<name>.<tab>.txt;
---bless writes these files instead. A `{{#task}}` must refuse what it starts from and accept its solution.
+a picture that it writes as result.png with
+<chapter>.<name>.png; --bless writes these files instead. A `{{#task}}` must refuse what it starts from and accept its solution.
 """
 
 import contextlib
@@ -11,9 +12,14 @@ import io
 import os
 import pathlib
 import re
+import shutil
 import sys
 import textwrap
+import tempfile
 import traceback
+
+import cv2
+import numpy as np
 
 CONTENT = pathlib.Path(__file__).resolve().parents[2] / "content"
 RECORDED = CONTENT / "listings"
@@ -61,8 +67,22 @@ def run(block, chapter, namespace):
     return said.getvalue()
 
 
+def compare_picture(block, chapter, bless):
+    """Raises if the block has made a picture, and that is not the recorded one, pixel by pixel."""
+    made, recorded = pathlib.Path("result.png"), RECORDED / f"{chapter.stem}.{block.name}.png"
+    if not made.exists():
+        return
+    pixels = cv2.imread(str(made))
+    if bless and not np.array_equal(pixels, cv2.imread(str(recorded)) if recorded.exists() else None):
+        shutil.copy(made, recorded)
+    made.unlink()
+    if not recorded.exists() or not np.array_equal(pixels, cv2.imread(str(recorded))):
+        raise AssertionError(f"{chapter}:{block.line}: it makes another picture than {recorded.name}")
+
+
 def compare(block, chapter, printed, bless):
     """Raises if what was printed is not what is recorded."""
+    compare_picture(block, chapter, bless)
     file = RECORDED / f"{chapter.stem}.{block.name}.{block.word}.txt"
     if bless:
         RECORDED.mkdir(exist_ok=True)
@@ -111,9 +131,13 @@ def main(arguments):
     bless = "--bless" in arguments
     names = [argument for argument in arguments if argument != "--bless"]
     chapters = [pathlib.Path(name).resolve() for name in names] or sorted(CONTENT.rglob("*.md"))
-    if DATA.is_dir():
-        os.chdir(DATA)
-    results = [run_chapter(chapter, bless) for chapter in chapters]
+    # Where they run there are their data, and room for what they write.
+    with tempfile.TemporaryDirectory() as folder:
+        if DATA.is_dir():
+            shutil.copytree(DATA, folder, dirs_exist_ok=True)
+        os.chdir(folder)
+        results = [run_chapter(chapter, bless) for chapter in chapters]
+        os.chdir(CONTENT)
     passed, failed = (sum(column) for column in zip(*results))
     print(f"listings: {passed} passed, {failed} failed")
     return 1 if failed or not passed else 0

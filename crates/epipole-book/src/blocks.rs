@@ -3,6 +3,7 @@
 //!
 //! A listing has a tab for each fence: `python numpy`, `python opencv` and `rust`, in this order, those that
 //! there are. What a tab prints is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run it.
+//! A listing with `picture="what it shows"` makes `result.png`, which is recorded as `<chapter>.<name>.png`.
 //! A task has the fences `python start`, `python check` and `python solution`.
 
 use crate::html::{escape, path_to_root};
@@ -49,6 +50,8 @@ pub(crate) struct Opening {
     pub(crate) title: String,
     /// The title as HTML.
     pub(crate) html: String,
+    /// What the picture of the result shows, if the listing makes one.
+    pub(crate) picture: Option<String>,
 }
 
 /// A fence inside a block.
@@ -161,12 +164,7 @@ fn tabs<'a>(renderer: &Renderer, name: &str, fences: &'a [Fence]) -> Result<Vec<
 
 /// What the tests have seen this tab print.
 fn recorded(renderer: &Renderer, name: &str, key: &str) -> Result<String, String> {
-    let chapter = renderer
-        .page
-        .path
-        .trim_end_matches(".html")
-        .replace('/', "-");
-    let file = format!("listings/{chapter}.{name}.{key}.txt");
+    let file = format!("listings/{}.{name}.{key}.txt", chapter(renderer));
     let Some(text) = renderer.shared.read(&file) else {
         return Err(format!(
             "there is no {file}, which says what it prints: run `make bless-listings`"
@@ -229,6 +227,10 @@ fn listing(
             printed(&tab.prints)
         ));
     }
+    let result = match &opening.picture {
+        Some(alternative) => picture(renderer, name, alternative)?,
+        None => String::new(),
+    };
     let choices: String = tabs
         .iter()
         .enumerate()
@@ -270,9 +272,38 @@ fn listing(
     Ok(format!(
         "{words}<div class=\"listing\" id=\"listing-{name}\" role=\"group\" aria-labelledby=\"listing-{name}-title\">\n\
          <div class=\"listing-bar\"><p class=\"listing-title\" id=\"listing-{name}-title\">{title}</p>{chooser}{COPY}</div>\n\
-         {parts}</div>\n",
+         {parts}{result}</div>\n",
         title = opening.html,
     ))
+}
+
+/// The picture that the tests have seen the listing make.
+fn picture(renderer: &Renderer, name: &str, alternative: &str) -> Result<String, String> {
+    let file = format!("listings/{}.{name}.png", chapter(renderer));
+    let bytes = std::fs::read(renderer.shared.path(&file))
+        .map_err(|_| format!("there is no {file}, the picture it makes: run `make bless-listings`"))?;
+    let (width, height) = png_size(&bytes).ok_or_else(|| format!("{file} is no PNG"))?;
+    let path = renderer.shared.add_asset(&format!("listing-{name}"), "png", bytes);
+    Ok(format!(
+        "<div class=\"listing-picture\"><img src=\"{root}{path}\" alt=\"{alternative}\" \
+         width=\"{width}\" height=\"{height}\" loading=\"lazy\" decoding=\"async\"></div>\n",
+        root = path_to_root(&renderer.page.path),
+        alternative = escape(alternative),
+    ))
+}
+
+/// Width and height as the head of a PNG has them.
+fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    let head = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(8..16)?;
+    let (width, height) = head.split_at(4);
+    let number = |four: &[u8]| four.try_into().ok().map(u32::from_be_bytes);
+    Some((number(width)?, number(height)?))
+}
+
+/// The chapter as the names of its recorded files have it.
+fn chapter(renderer: &Renderer) -> String {
+    let path = renderer.page.path.trim_end_matches(".html");
+    path.replace('/', "-")
 }
 
 /// The button that copies what is in sight; a script brings it to life.
@@ -330,7 +361,7 @@ fn task(
          <div class=\"listing-bar\"><p class=\"listing-title\" id=\"task-{name}-title\">{title}</p>\
          <p class=\"listing-only\">Python</p>{COPY}</div>\n\
          <div class=\"listing-part\">\n{shown}</div>\n</div>\n\
-         <p>Fill it in in <a href=\"{root}{file}\" download>the notebook</a>: the cell below it says what is wrong.</p>\n\
+         <p>Write it in <a href=\"{root}{file}\" download>the notebook</a>. The cell below it says what is wrong.</p>\n\
          <details><summary>Solution</summary>\n{solved}</details>\n",
         title = opening.html,
     ))

@@ -194,6 +194,7 @@ pub(crate) fn expand(
                 name,
                 html: renderer.inline(&title),
                 title: title.text().to_owned(),
+                picture: setting(directive, "picture").map(str::to_owned),
             }))
         }
         "symbols" => symbols::list(words).map(|html| Insert::Block { html }),

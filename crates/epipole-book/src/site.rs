@@ -268,6 +268,11 @@ impl Site<'_> {
         let title = page.headings.first().map_or("", |heading| &heading.title);
         self.shared
             .add_file(&path, notebook::notebook(title, &page.cells).into_bytes());
+        for data in self.shared.files_in("listings/data") {
+            if let Ok(bytes) = std::fs::read(self.shared.path(&format!("listings/data/{data}"))) {
+                self.shared.add_file(&format!("notebooks/{data}"), bytes);
+            }
+        }
         let name = path.rsplit('/').next().unwrap_or(&path);
         format!(
             "<p class=\"notebook\"><a href=\"{root}{path}\" download>Open the notebook of this chapter</a> \

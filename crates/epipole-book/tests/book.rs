@@ -593,7 +593,7 @@ fn a_listing_has_tabs_and_says_what_it_prints() {
     book.must_build();
     let article = book.article("one.html");
     for part in [
-        "<p>It is <math",
+        "<p>It is <span class=\"bound\"><math",
         "<div class=\"listing\" id=\"listing-depth\" role=\"group\" aria-labelledby=\"listing-depth-title\">",
         "id=\"listing-depth-title\">How <em>far</em></p>",
         "aria-controls=\"listing-depth-rust\" aria-selected=\"false\" tabindex=\"-1\">Rust</button>",
@@ -652,7 +652,7 @@ fn what_is_wrong_with_a_listing_is_told() {
         ),
         (
             "How *far*}}\n",
-            "How *far*}}\n\n## No\n",
+            "How *far*}}\n\n### No\n",
             "words come first and fences after them",
         ),
         (
