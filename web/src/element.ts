@@ -223,7 +223,7 @@ export class EpipoleFigure extends HTMLElement {
   }
 
   /**
-   * Lights up what the book has this letter for: a ring or a line in the color `--lit`. Nothing else stays
+   * Lights up what the book has this letter for: a ring or a line in the color `--epipole-lit`. Nothing else stays
    * lit. Says whether the figure shows it.
    */
   light(symbol: string | undefined): boolean {

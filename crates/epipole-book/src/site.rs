@@ -275,7 +275,7 @@ impl Site<'_> {
         }
         let name = path.rsplit('/').next().unwrap_or(&path);
         format!(
-            "<p class=\"notebook\"><a href=\"{root}{path}\" download>Open the notebook of this chapter</a> \
+            "<p class=\"notebook\"><a href=\"{root}{path}\" download>Download the notebook of this chapter</a> \
              <span>{name}: all of its Python, to run and to change in Jupyter, VS Code or Colab</span></p>\n",
             root = path_to_root(&page.path),
         )
