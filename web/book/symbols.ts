@@ -56,6 +56,8 @@ export function startSymbols(): void {
   for (const letter of document.querySelectorAll<HTMLElement>(".symbols [data-symbol]")) {
     letter.tabIndex = 0;
     letter.setAttribute("role", "button");
+    const spoken = (letter.dataset.symbol ?? "").replace("ℓ", "l").replace("'", " prime");
+    letter.setAttribute("aria-label", `${spoken}, ${letter.nextElementSibling?.textContent ?? ""}`);
     letter.addEventListener("focus", () => light(letter));
     letter.addEventListener("blur", end);
     letter.addEventListener("keydown", ({ key }) => {

@@ -280,10 +280,13 @@ fn listing(
 /// The picture that the tests have seen the listing make.
 fn picture(renderer: &Renderer, name: &str, alternative: &str) -> Result<String, String> {
     let file = format!("listings/{}.{name}.png", chapter(renderer));
-    let bytes = std::fs::read(renderer.shared.path(&file))
-        .map_err(|_| format!("there is no {file}, the picture it makes: run `make bless-listings`"))?;
+    let bytes = std::fs::read(renderer.shared.path(&file)).map_err(|_| {
+        format!("there is no {file}, the picture it makes: run `make bless-listings`")
+    })?;
     let (width, height) = png_size(&bytes).ok_or_else(|| format!("{file} is no PNG"))?;
-    let path = renderer.shared.add_asset(&format!("listing-{name}"), "png", bytes);
+    let path = renderer
+        .shared
+        .add_asset(&format!("listing-{name}"), "png", bytes);
     Ok(format!(
         "<div class=\"listing-picture\"><img src=\"{root}{path}\" alt=\"{alternative}\" \
          width=\"{width}\" height=\"{height}\" loading=\"lazy\" decoding=\"async\"></div>\n",

@@ -94,7 +94,7 @@ pub(crate) fn list(names: &[String]) -> Result<String, String> {
             ));
         };
         rows.push_str(&format!(
-            "<li><span data-symbol=\"{name}\" data-role=\"{role}\"><svg viewBox=\"0 0 16 16\" aria-hidden=\"true\">{mark}</svg>{math}</span> {meaning}</li>\n",
+            "<li><span data-symbol=\"{name}\" data-role=\"{role}\"><svg viewBox=\"0 0 16 16\" aria-hidden=\"true\">{mark}</svg>{math}</span> <span class=\"meaning\">{meaning}</span></li>\n",
             name = escape(symbol.name),
             role = symbol.role,
             mark = symbol.mark,
@@ -112,6 +112,7 @@ pub(crate) fn list(names: &[String]) -> Result<String, String> {
 /// with a prime that is not in the list, is another letter.
 pub(crate) fn mark(html: &str, names: &[String]) -> String {
     const LEAF: &str = "<mi>";
+    const PRIME: &str = "<mi>′</mi>";
     let mut marked = String::with_capacity(html.len());
     let mut rest = html;
     while let Some(at) = rest.find(LEAF) {
@@ -119,33 +120,37 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
             break;
         };
         let letter = &rest[at + LEAF.len()..at + LEAF.len() + length];
-        let end = at + LEAF.len() + length + "</mi>".len();
-        let (before, after) = (&rest[..at], &rest[end..]);
-        let primed = before.ends_with("<msup>") && after.starts_with("<mo>′</mo>");
-        let indexed = ["<msub>", "<msubsup>"]
-            .iter()
-            .any(|tag| before.ends_with(tag));
-        let name = match primed {
+        let mut end = at + LEAF.len() + length + "</mi>".len();
+        let is_primed = rest[end..].starts_with(PRIME);
+        let name = match is_primed {
             true => format!("{letter}'"),
             false => letter.to_owned(),
         };
-        let symbol = find(&name).filter(|_| !indexed && names.contains(&name));
+        if is_primed {
+            end += PRIME.len();
+        }
+        let (before, after) = (&rest[..at], &rest[end..]);
+        // With an index, or with a prime that carries an exponent, it is a letter of another kind.
+        let is_other = ["<msub>", "<msubsup>"]
+            .iter()
+            .any(|tag| before.ends_with(tag))
+            || ["<msup>", "<msub>"].iter().any(|tag| {
+                after
+                    .strip_prefix(tag)
+                    .is_some_and(|rest| rest.starts_with(PRIME))
+            });
+        let symbol = find(&name).filter(|_| !is_other && names.contains(&name));
+        marked.push_str(before);
+        let whole = &rest[at..end];
         match symbol {
-            Some(symbol) => {
-                let attributes = format!(
-                    " data-symbol=\"{}\" data-role=\"{}\"",
-                    escape(symbol.name),
-                    symbol.role
-                );
-                // Of a letter with a prime the whole.
-                let tag = if primed { "<msup" } else { "<mi" };
-                let start = if primed { at - "<msup>".len() } else { at };
-                marked.push_str(&rest[..start]);
-                marked.push_str(tag);
-                marked.push_str(&attributes);
-                marked.push_str(&rest[start + tag.len()..end]);
+            Some(Symbol { name, role, .. }) => {
+                let attributes = format!("data-symbol=\"{}\" data-role=\"{role}\"", escape(name));
+                marked.push_str(&match is_primed {
+                    true => format!("<mrow {attributes}>{whole}</mrow>"),
+                    false => whole.replacen(LEAF, &format!("<mi {attributes}>"), 1),
+                });
             }
-            None => marked.push_str(&rest[..end]),
+            None => marked.push_str(whole),
         }
         rest = after;
     }

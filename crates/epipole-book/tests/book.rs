@@ -688,13 +688,33 @@ fn what_is_wrong_with_a_listing_is_told() {
 
 #[test]
 fn letters_of_the_list_have_their_role_everywhere_in_the_chapter() {
-    let book = Book::of_chapter("# One\n\nFirst $p$.\n\n{{#symbols P p'}}\n\n$$p' = K P$$\n\n> Of $P$.\n");
+    let book =
+        Book::of_chapter("# One\n\nFirst $p$.\n\n{{#symbols P p'}}\n\n$$p' = K P$$\n\n> Of $P$.\n");
     book.must_build();
     let article = book.article("one.html");
-    assert!(article.contains("<p>First <span class=\"bound\"><math display=\"inline\"><semantics><mi>p</mi>"), "{article}");
-    assert!(article.contains("<msup data-symbol=\"p'\" data-role=\"match\"><mi>p</mi>"), "{article}");
-    assert_eq!(article.matches("<mi data-symbol=\"P\" data-role=\"point\">P</mi>").count(), 2, "{article}");
-    assert_eq!(article.matches("<li><span data-symbol=").count(), 2, "{article}");
+    assert!(
+        article.contains(
+            "<p>First <span class=\"bound\"><math display=\"inline\"><semantics><mi>p</mi>"
+        ),
+        "{article}"
+    );
+    assert!(
+        article
+            .contains("<mrow data-symbol=\"p'\" data-role=\"match\"><mi>p</mi><mi>′</mi></mrow>"),
+        "{article}"
+    );
+    assert_eq!(
+        article
+            .matches("<mi data-symbol=\"P\" data-role=\"point\">P</mi>")
+            .count(),
+        2,
+        "{article}"
+    );
+    assert_eq!(
+        article.matches("<li><span data-symbol=").count(),
+        2,
+        "{article}"
+    );
     let problems = Book::of_chapter("# One\n\n{{#symbols Q}}\n").problems();
     assert!(problems[0].starts_with("content/one.md:3: unknown symbol \"Q\"; known: P, X"));
 }
