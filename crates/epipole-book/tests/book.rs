@@ -694,7 +694,7 @@ fn letters_of_the_list_have_their_role_everywhere_in_the_chapter() {
     let article = book.article("one.html");
     assert!(
         article.contains(
-            "<p>First <span class=\"bound\"><math display=\"inline\"><semantics><mi>p</mi>"
+            "<p>First <span class=\"bound\"><math display=\"inline\"><semantics><mrow><mi>p</mi>"
         ),
         "{article}"
     );
