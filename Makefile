@@ -6,7 +6,7 @@ PYTHON := $(VENV)/bin/python
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless new-figure clean
+.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -27,11 +27,13 @@ check: setup-build ## format, lints and types, without running anything
 	cd web && npm run --silent check
 	@command -v cargo-deny >/dev/null && cargo deny --log-level error check licenses bans sources || echo "skipped: cargo deny is not installed"
 
-test-rust: setup-build ## unit tests, documentation tests, figures, layers
+test-rust: setup-build ## unit tests, documentation tests, Rust listings, figures, layers
 	cargo test --workspace
 
-test-listings: setup-test ## the Python listings of the chapters
+test-listings: setup-test ## the Python listings and the notebooks of the chapters
 	$(PYTHON) tests/listings/run.py
+	$(BOOK) notebooks target/book-work/notebooks
+	$(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
 test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
@@ -42,6 +44,10 @@ bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us a
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
+
+bless-listings: setup-test ## records anew what the listings print; read the difference before you commit it
+	$(PYTHON) tests/listings/run.py --bless
+	EPIPOLE_BLESS=1 cargo test --quiet --test rust_listings
 
 new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 	@crates/epipole-widgets/scaffold/new-figure.sh "$(NAME)"

@@ -34,38 +34,3 @@ pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     found.sort();
     found
 }
-
-/// The Rust listings of the chapters, run as documentation tests.
-#[cfg(doctest)]
-pub mod listings {
-    /// Chapter "One photo gives directions, not distances".
-    #[doc = include_str!("../content/rays.md")]
-    pub struct Rays;
-    /// Chapter "An image is a function".
-    #[doc = include_str!("../content/gradients.md")]
-    pub struct Gradients;
-    /// Chapter "Points you can find again".
-    #[doc = include_str!("../content/corners.md")]
-    pub struct Corners;
-    /// Chapter "One point, one line".
-    #[doc = include_str!("../content/epipolar.md")]
-    pub struct Epipolar;
-    /// Chapter "F from matches".
-    #[doc = include_str!("../content/eight-point.md")]
-    pub struct EightPoint;
-    /// Chapter "Let the data vote".
-    #[doc = include_str!("../content/ransac.md")]
-    pub struct Ransac;
-    /// Chapter "Cash in".
-    #[doc = include_str!("../content/triangulation.md")]
-    pub struct Triangulation;
-    /// Chapter "Where this leads".
-    #[doc = include_str!("../content/connections.md")]
-    pub struct Connections;
-    /// Chapter "Structure from motion".
-    #[doc = include_str!("../content/sfm.md")]
-    pub struct Sfm;
-    /// Chapter "Two eyes in a row".
-    #[doc = include_str!("../content/stereo.md")]
-    pub struct Stereo;
-}

@@ -1,8 +1,10 @@
 // What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
+import { startListings } from "./listings";
 import { startOperating } from "./operate";
 import { makeScrollersReachable } from "./scrollers";
 import { settleSections } from "./sections";
+import { startSymbols } from "./symbols";
 import { startTheme } from "./theme";
 
 startTheme();
@@ -12,6 +14,8 @@ revealCurrentChapter();
 followSections();
 makeScrollersReachable();
 startOperating();
+startListings();
+startSymbols();
 
 if (document.querySelector(".quiz, .progress")) {
   void import("./quiz").then((quiz) => quiz.start());

@@ -113,6 +113,13 @@ export interface Space {
   zoom: string;
 }
 
+/** A letter of the book that the picture shows: a point, or a line between two. CSS pixels of the layout. */
+export interface PlacedSymbol {
+  name: string;
+  from: [number, number];
+  to: [number, number] | null;
+}
+
 /** Everything that a page shows, for one width of the picture. */
 export interface Snapshot {
   /** The picture's: broad ones take the whole width, beside tall ones stands what the reader moves. */
@@ -121,6 +128,7 @@ export interface Snapshot {
   controls: Control[];
   handles: Handle[];
   spaces: Space[];
+  symbols: PlacedSymbol[];
   readouts: Readout[];
   challenges: Challenge[];
   description: string;

@@ -227,6 +227,14 @@ export class EpipoleFigure extends Base {
     this.#warn(problems);
   }
 
+  /**
+   * Lights up what the book has this letter for: a ring or a line in the color `--epipole-lit`. Nothing else stays
+   * lit. Says whether the figure shows it.
+   */
+  light(symbol: string | undefined): boolean {
+    return this.#shell.picture.light(symbol);
+  }
+
   /** Presses a button of the figure. */
   press(id: string): void {
     this.#touched = true;

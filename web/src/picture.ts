@@ -2,6 +2,7 @@
 
 import type { Direction, Handle, Panel, Snapshot, Space } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
+import { Lit } from "./lit.js";
 import { Pinch } from "./pinch.js";
 
 /** What a reader can do in the picture. Places are CSS pixels of the layout. */
@@ -47,6 +48,7 @@ export class Picture {
   readonly overlay = make("div", { class: "overlay" });
   readonly canvas = make("canvas", { role: "img", hidden: true });
   readonly #hand: Hand;
+  readonly #lit = new Lit();
   readonly #marks = make("div", { class: "marks" });
   readonly #chooser = make("select");
   readonly #chooserBox = make(
@@ -76,7 +78,7 @@ export class Picture {
 
   constructor(hand: Hand) {
     this.#hand = hand;
-    this.sheet.append(make("slot"), this.canvas, this.#chooserBox, this.#marks);
+    this.sheet.append(make("slot"), this.canvas, this.#chooserBox, this.#lit.element, this.#marks);
     this.element.append(this.sheet, this.overlay);
     this.#chooser.addEventListener("change", () => {
       this.#chosen = this.#chooser.value;
@@ -92,7 +94,13 @@ export class Picture {
     const { width, height } = snapshot.layout;
     this.sheet.style.setProperty("--ratio", String(width / height));
     setAttribute(this.canvas, "aria-label", snapshot.description);
+    this.#lit.update(snapshot);
     this.#refresh();
+  }
+
+  /** Lights up what the book has this letter for, and nothing else; says whether the picture has it. */
+  light(symbol: string | undefined): boolean {
+    return this.#lit.show(symbol, this.#snapshot);
   }
 
   /** What stands for a handle on the page. */

@@ -9,6 +9,7 @@ use std::io::Write;
 const TEXTUAL: &[&str] = &[
     "css",
     "html",
+    "ipynb",
     "js",
     "json",
     "svg",

@@ -7,8 +7,11 @@
 //! | `{{#live figure.readout}}` | a number of a figure, which follows it |
 //! | `{{#claim figure key=value … \| readout > 3}}` | nothing; the build fails if the figure shows otherwise |
 //! | `{{#small figure key=value … page=sfm.md \| words}}` | a small picture of a figure with words, linked to the page; without a link while there is no such page |
+//! | `{{#listing name \| Title}}` … `{{/listing}}` | a listing with a tab for each of its fences, see `blocks.rs`; what it prints; cells of the notebook |
+//! | `{{#task name \| Title}}` … `{{/task}}` | a programming task for the notebook: fences to start from, to check and to solve it |
 //! | `{{#ref fig-name}}` | a link "Figure 4.1" |
 //! | `{{#value name key=value … digits=2}}` | a number computed by the core; also in formulas |
+//! | `{{#symbols P p p' e'}}` | a list of letters that the figures draw; in the chapter's formulas they have their colors |
 //! | `{{#cite key other \| §3}}` | a citation, linked to the list of references |
 //! | `{{#note text}}` or `{{#note \| text}}` | a numbered note in the margin (as a footnote `[^x]`) |
 //! | `{{#quiz name}}` | the quiz `quizzes/name.toml` |
@@ -16,6 +19,7 @@
 //! | `{{#progress}}` | the reader's quiz results, kept in their own browser |
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
+use crate::blocks::{Kind, Opening};
 use crate::claims;
 use crate::directives::Directive;
 use crate::facts::Facts;
@@ -29,14 +33,15 @@ use crate::problems::{Place, name_list};
 use crate::references::cite;
 use crate::shared::{PAGE_OF_REFERENCES, PanelRequest, QuizEntry, token};
 use crate::source::Source;
-use crate::{numbers, operate, quiz, small};
+use crate::{numbers, operate, quiz, small, symbols};
 
-const KNOWN: [&str; 13] = [
+const KNOWN: [&str; 16] = [
     "cite",
     "claim",
     "do",
     "figure",
     "include",
+    "listing",
     "live",
     "note",
     "progress",
@@ -44,6 +49,8 @@ const KNOWN: [&str; 13] = [
     "ref",
     "references",
     "small",
+    "symbols",
+    "task",
     "value",
 ];
 
@@ -55,6 +62,8 @@ pub(crate) enum Insert {
     Inline { html: String, text: String },
     /// Something that is a paragraph of its own.
     Block { html: String },
+    /// The beginning of a block that goes on to its end, likewise a paragraph of its own.
+    Opening(Opening),
 }
 
 impl Insert {
@@ -62,7 +71,7 @@ impl Insert {
     pub(crate) fn text(&self) -> String {
         match self {
             Insert::Value(text) | Insert::Inline { text, .. } => text.clone(),
-            Insert::Block { .. } => String::new(),
+            Insert::Block { .. } | Insert::Opening(_) => String::new(),
         }
     }
 
@@ -76,6 +85,7 @@ impl Insert {
                 format!("<span class=\"value\">{}</span>", escape(&shown))
             }
             Insert::Inline { html, .. } | Insert::Block { html } => html.clone(),
+            Insert::Opening(_) => String::new(),
         }
     }
 }
@@ -170,6 +180,24 @@ pub(crate) fn expand(
         "do" => operate::set(renderer, directive, body, place),
         "live" => operate::quote(renderer, directive, place),
         "claim" => operate::claim(renderer, directive, body, place),
+        "listing" | "task" => {
+            let name = one_word("name | Title")?;
+            let Some(title) = body else {
+                return Err(format!("write {{{{#{} name | Title}}}}", directive.name));
+            };
+            let kind = match directive.name.as_str() {
+                "task" => Kind::Task,
+                _ => Kind::Listing,
+            };
+            Ok(Insert::Opening(Opening {
+                kind,
+                name,
+                html: renderer.inline(&title),
+                title: title.text().to_owned(),
+                picture: setting(directive, "picture").map(str::to_owned),
+            }))
+        }
+        "symbols" => symbols::list(words).map(|html| Insert::Block { html }),
         "include" => Err("{{#include}} could not be read".to_owned()),
         other => Err(format!(
             "unknown directive \"{other}\"; known: {}",

@@ -10,6 +10,7 @@
 //! build fails.
 
 pub mod assets;
+mod blocks;
 pub mod claims;
 pub mod compress;
 pub mod directives;
@@ -25,6 +26,7 @@ mod links;
 mod listing;
 mod markdown;
 pub mod math;
+pub mod notebook;
 pub mod numbers;
 mod operate;
 pub mod page;
@@ -40,4 +42,5 @@ pub mod site;
 mod small;
 pub mod source;
 mod stand_ins;
+mod symbols;
 pub mod template;

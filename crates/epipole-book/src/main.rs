@@ -42,6 +42,11 @@ enum Command {
     },
     /// Look for mistakes in the content only: no scripts, no fonts, nothing written.
     Check,
+    /// Write the notebooks of the chapters only.
+    Notebooks {
+        /// Where they go.
+        folder: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
@@ -68,6 +73,7 @@ fn run(cli: &Cli) -> Result<bool> {
                 assets: true,
                 live: *live,
                 check: false,
+                notebooks: None,
             })
         }
         Command::Check => once(&Options {
@@ -76,6 +82,15 @@ fn run(cli: &Cli) -> Result<bool> {
             assets: false,
             live: true,
             check: true,
+            notebooks: None,
+        }),
+        Command::Notebooks { folder } => once(&Options {
+            project,
+            out,
+            assets: false,
+            live: true,
+            check: true,
+            notebooks: Some(folder.clone()),
         }),
         Command::Serve { port, no_watch } => {
             let options = Options {
@@ -84,6 +99,7 @@ fn run(cli: &Cli) -> Result<bool> {
                 assets: true,
                 live: true,
                 check: false,
+                notebooks: None,
             };
             serve::serve(&options, *port, !no_watch)?;
             Ok(true)

@@ -1,19 +1,21 @@
 //! A chapter's Markdown to HTML. Directives become stand-ins before Markdown is parsed, and their
 //! HTML takes the stand-ins' place afterwards.
 
+use crate::blocks::{self, Fence, Opening};
 use crate::directives::{Directive, Piece, markdown_options, split};
 use crate::events::{Located, end_of, section_starts, take_footnotes};
 use crate::expand::Insert;
 use crate::html::{escape, forbidden_inline, slug};
 use crate::instances::Instance;
 use crate::links;
-use crate::listing::listing;
+use crate::listing::{info, listing};
 use crate::math::{Layout, mathml};
 use crate::page::{Heading, Page};
 use crate::problems::Place;
 use crate::shared::Shared;
 use crate::source::Source;
 use crate::stand_ins::{self, Part, parts, substitute};
+use crate::symbols;
 use pulldown_cmark::{Alignment, BlockQuoteKind, CowStr, Event, Parser, Tag, TagEnd};
 use std::collections::HashMap;
 /// Renders one chapter; its page grows as it goes.
@@ -130,7 +132,11 @@ impl<'a> Renderer<'a> {
                 Event::Start(Tag::Paragraph) => {
                     next = end_of(events, at);
                     let inner = &events[at + 1..next - 1];
-                    if let Some((block, words)) = lone_block(inner, text) {
+                    if let Some(opening) = lone_opening(inner, text) {
+                        let (html, end) = self.code_block(opening, events, next, text, place());
+                        next = end;
+                        out.push(Event::Html(html.into()));
+                    } else if let Some((block, words)) = lone_block(inner, text) {
                         self.page.words.push_str(&format!(" {words} "));
                         out.push(Event::Html(block.to_owned().into()));
                     } else {
@@ -153,14 +159,9 @@ impl<'a> Renderer<'a> {
                 }
                 Event::Start(Tag::CodeBlock(kind)) => {
                     next = end_of(events, at);
-                    let code: String = events[at + 1..next - 1]
-                        .iter()
-                        .map(|(event, _)| match event {
-                            Event::Text(code) => code.as_ref(),
-                            _ => "",
-                        })
-                        .collect();
-                    out.push(Event::Html(listing(&code, kind).into()));
+                    out.push(Event::Html(
+                        listing(&code_of(&events[at..next]), kind).into(),
+                    ));
                 }
                 Event::Start(Tag::BlockQuote(Some(kind))) => {
                     next = end_of(events, at);
@@ -253,6 +254,62 @@ impl<'a> Renderer<'a> {
         let mut html = String::new();
         pulldown_cmark::html::push_html(&mut html, out.into_iter());
         html
+    }
+
+    /// A listing or a task: the HTML, and the index after its end. It begins before `from`.
+    fn code_block(
+        &mut self,
+        opening: &Opening,
+        events: &[Located],
+        from: usize,
+        text: &Text,
+        place: Place,
+    ) -> (String, usize) {
+        let (mut words, mut markdown) = (String::new(), String::new());
+        let mut fences: Vec<Fence> = Vec::new();
+        let mut at = from;
+        while at < events.len() {
+            let (event, range) = &events[at];
+            let next = match event {
+                Event::Start(_) => end_of(events, at),
+                _ => at + 1,
+            };
+            let inner = &events[at..next];
+            match event {
+                Event::Start(Tag::Paragraph) if plain(inner, text) == opening.kind.end() => {
+                    let words = (words, markdown);
+                    let html = blocks::block(self, opening, words, &fences, &place);
+                    return (html, next);
+                }
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    let (language, word) = info(kind);
+                    fences.push(Fence {
+                        language: language.to_owned(),
+                        word: word.to_owned(),
+                        code: code_of(inner),
+                        place: text.source.place(range.start),
+                    });
+                }
+                Event::Start(Tag::Paragraph | Tag::List(_) | Tag::HtmlBlock)
+                    if fences.is_empty() =>
+                {
+                    let source = &text.source.text()[range.clone()];
+                    words.push_str(&self.events(inner, text, false));
+                    markdown.push_str(&substitute(source, text.inserts, Insert::text));
+                    markdown.push_str("\n\n");
+                }
+                Event::Start(_) => {
+                    let message = "in a listing or a task words come first and fences after them";
+                    self.report(text.source.place(range.start), message);
+                }
+                // The element around the block ends before the block does.
+                Event::End(_) => break,
+                _ => {}
+            }
+            at = next;
+        }
+        self.report(place, format!("this has no {}", opening.kind.end()));
+        (String::new(), at)
     }
 
     /// A note in the margin (below its line on a narrow screen).
@@ -366,7 +423,7 @@ impl<'a> Renderer<'a> {
             false => self.page.words.push_str(latex.trim()),
         }
         match mathml(&latex, layout) {
-            Ok(html) => html,
+            Ok(html) => symbols::mark(&html, &self.page.symbols),
             Err(message) => {
                 self.report(place, format!("formula `{}`: {message}", latex.trim()));
                 String::new()
@@ -386,7 +443,7 @@ impl<'a> Renderer<'a> {
                     let Some(insert) = text.inserts.get(index) else {
                         continue;
                     };
-                    if let Insert::Block { .. } = insert {
+                    if let Insert::Block { .. } | Insert::Opening(_) = insert {
                         let at = text.source.text().find(&stand_ins::of(index));
                         let place = text.source.place(at.unwrap_or(0));
                         self.report(place, "this must stand in a paragraph of its own");
@@ -429,8 +486,34 @@ fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t str) {
     (before, after)
 }
 
+/// The text of a fence.
+fn code_of(fence: &[Located]) -> String {
+    let texts = fence.iter().map(|(event, _)| match event {
+        Event::Text(code) => code.as_ref(),
+        _ => "",
+    });
+    texts.collect()
+}
+
+/// The beginning of a listing or a task, if a paragraph holds nothing else.
+fn lone_opening<'t>(inner: &[Located], text: &'t Text) -> Option<&'t Opening> {
+    match text.inserts.get(lone_index(inner)?)? {
+        Insert::Opening(opening) => Some(opening),
+        _ => None,
+    }
+}
+
 /// The HTML of a paragraph that holds nothing but one block, and what the search finds in it.
 fn lone_block<'t>(inner: &[Located], text: &'t Text) -> Option<(&'t str, &'t str)> {
+    let index = lone_index(inner)?;
+    match text.inserts.get(index)? {
+        Insert::Block { html } => Some((html, text.found.get(index)?)),
+        _ => None,
+    }
+}
+
+/// The index of the insert that a paragraph holds, if it holds nothing else.
+fn lone_index(inner: &[Located]) -> Option<usize> {
     let mut words = String::new();
     for (event, _) in inner {
         match event {
@@ -439,11 +522,7 @@ fn lone_block<'t>(inner: &[Located], text: &'t Text) -> Option<(&'t str, &'t str
             _ => return None,
         }
     }
-    let index = stand_ins::index_of(words.trim())?;
-    match text.inserts.get(index)? {
-        Insert::Block { html } => Some((html, text.found.get(index)?)),
-        _ => None,
-    }
+    stand_ins::index_of(words.trim())
 }
 
 /// The words of a run of events, without marks.

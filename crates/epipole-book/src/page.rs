@@ -1,5 +1,6 @@
 //! A finished page and what other pages need to know of it.
 
+use crate::notebook::Cell;
 use crate::problems::Place;
 use serde::Serialize;
 
@@ -78,6 +79,12 @@ pub struct Page {
     pub links: Vec<Link>,
     /// What the search finds.
     pub sections: Vec<Section>,
+    /// Names of listings and tasks.
+    pub listings: Vec<String>,
+    /// Cells of the chapter's notebook.
+    pub cells: Vec<Cell>,
+    /// Letters that the chapter's figures draw as well.
+    pub symbols: Vec<String>,
     /// Whether the list of references is here.
     pub has_references: bool,
     /// Words of the section that is being rendered.

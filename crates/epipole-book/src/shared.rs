@@ -186,6 +186,21 @@ impl<'a> Shared<'a> {
         path
     }
 
+    /// Names of the files in a folder of the content folder; none if there is no such folder.
+    pub(crate) fn files_in(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.content.join(folder)).into_iter();
+        let entries = entries.flatten().flatten();
+        entries
+            .filter(|entry| entry.path().is_file())
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect()
+    }
+
+    /// Adds a file to the site at this path, which is its address for good.
+    pub(crate) fn add_file(&self, path: &str, bytes: Vec<u8>) {
+        self.with(|all| all.files.insert(path.to_owned(), bytes));
+    }
+
     /// Copies a file of the content folder to the same place of the site, if there is one.
     pub(crate) fn copy_file(&self, file: &str) -> bool {
         let path = self.content.join(file);

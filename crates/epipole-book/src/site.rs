@@ -8,11 +8,13 @@ use crate::include::include;
 use crate::instances::instances;
 use crate::links;
 use crate::markdown::Renderer;
+use crate::notebook;
 use crate::page::Page;
 use crate::panels;
 use crate::problems::{Problem, Problems, name_list};
 use crate::shared::{PAGE_OF_REFERENCES, Shared, resolve};
 use crate::source::Source;
+use crate::symbols;
 use crate::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
 use mdbook_driver::MDBook;
@@ -34,8 +36,10 @@ pub struct Options {
     /// Whether to make what the browser downloads beside the pages: styles, fonts, scripts,
     /// WebAssembly. A check of the content needs none of it.
     pub assets: bool,
-    /// Look for problems only: write nothing.
+    /// Look for problems only: write nothing but `notebooks`.
     pub check: bool,
+    /// Where the notebooks of the chapters go as well.
+    pub notebooks: Option<PathBuf>,
     /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
     pub live: bool,
 }
@@ -129,6 +133,14 @@ fn build_pages(
         return Ok(Outcome::Problems(problems.sorted()));
     }
 
+    let mut files = shared.take_files();
+    if let Some(folder) = &options.notebooks {
+        let notebooks = files
+            .iter()
+            .filter_map(|(path, bytes)| Some((path.strip_prefix("notebooks/")?, bytes)));
+        let notebooks = notebooks.map(|(path, bytes)| (path.to_owned(), bytes.clone()));
+        write(&notebooks.collect(), folder)?;
+    }
     if options.check {
         return Ok(Outcome::Built {
             pages: pages.len(),
@@ -136,7 +148,6 @@ fn build_pages(
         });
     }
 
-    let mut files = shared.take_files();
     let assets = if options.assets {
         let used = assets::used_letters(&pages);
         assets::make(options, &used, modules()?.as_ref())?
@@ -225,12 +236,13 @@ impl Site<'_> {
             path: html_path(&file),
             title: chapter.name.clone(),
             number: number(chapter, first),
+            symbols: symbols::wanted(&source),
             ..Page::default()
         };
         let mut renderer = Renderer::new(self.shared, page, instances(&source));
         let html = renderer.block(&source);
         let mut page = renderer.page;
-        page.html = html;
+        page.html = html + &self.notebook(&page);
         page.end_section();
         if page
             .headings
@@ -243,6 +255,30 @@ impl Site<'_> {
             self.shared.problems.report(source.place(0), message);
         }
         page
+    }
+}
+
+impl Site<'_> {
+    /// Makes the notebook of a page that has Python, and says where it is.
+    fn notebook(&self, page: &Page) -> String {
+        if page.cells.is_empty() {
+            return String::new();
+        }
+        let path = notebook::path(&page.path);
+        let title = page.headings.first().map_or("", |heading| &heading.title);
+        self.shared
+            .add_file(&path, notebook::notebook(title, &page.cells).into_bytes());
+        for data in self.shared.files_in("listings/data") {
+            if let Ok(bytes) = std::fs::read(self.shared.path(&format!("listings/data/{data}"))) {
+                self.shared.add_file(&format!("notebooks/{data}"), bytes);
+            }
+        }
+        let name = path.rsplit('/').next().unwrap_or(&path);
+        format!(
+            "<p class=\"notebook\"><a href=\"{root}{path}\" download>Download the notebook of this chapter</a> \
+             <span>{name}: all of its Python, to run and to change in Jupyter, VS Code or Colab</span></p>\n",
+            root = path_to_root(&page.path),
+        )
     }
 }
 

@@ -1,7 +1,7 @@
 //! Everything that a page shows beside the picture, as one piece of plain data: the page in a browser
 //! and the builder of pages, which writes it without one, take it from here.
 
-use crate::contract::{Aspect, Control, Handle, Layout, PhotoSlot, Readout, Space};
+use crate::contract::{Aspect, Control, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space};
 use crate::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
 
@@ -13,6 +13,7 @@ pub struct Snapshot {
     controls: Vec<Control>,
     handles: Vec<PlacedHandle>,
     spaces: &'static [Space],
+    symbols: Vec<PlacedSymbol>,
     readouts: Vec<Readout>,
     challenges: Vec<ChallengeStatus>,
     description: String,
@@ -43,6 +44,11 @@ impl Snapshot {
             controls: figure.controls(),
             handles: figure.handles().into_iter().map(place).collect(),
             spaces: figure.spaces(),
+            symbols: figure
+                .symbols()
+                .iter()
+                .filter_map(|symbol| symbol.placed(&layout))
+                .collect(),
             readouts: figure.readouts(),
             challenges: figure.challenges(),
             description: figure.describe(),

@@ -12,6 +12,7 @@ mod problem;
 mod readout;
 mod settings;
 mod space;
+mod symbol;
 mod view;
 mod words;
 
@@ -27,5 +28,6 @@ pub use problem::Problem;
 pub use readout::{Readout, ReadoutValue, format_number};
 pub use settings::{Knob, Settings};
 pub use space::Space;
+pub use symbol::{Mark, PlacedSymbol, Symbol};
 pub use view::{Aspect, View};
 pub use words::Words;

@@ -1,7 +1,8 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Space, Words,
+    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Space, Symbol,
+    Words,
 };
 use image::RgbImage;
 
@@ -20,6 +21,11 @@ pub trait Model {
     /// The panels that show things in three dimensions.
     fn spaces(&self) -> &'static [Space] {
         &[]
+    }
+
+    /// What of the book's letters the picture shows: a letter of the prose lights it up.
+    fn symbols(&self) -> Vec<Symbol> {
+        Vec::new()
     }
 
     /// The only way that state changes. Values of controls arrive unchecked, places of handles

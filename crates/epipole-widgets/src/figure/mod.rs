@@ -8,7 +8,9 @@ mod drawing;
 mod permalink;
 
 use crate::canvas::Picture;
-use crate::contract::{Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Readout, Space};
+use crate::contract::{
+    Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Readout, Space, Symbol,
+};
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
 use image::RgbImage;
@@ -95,6 +97,11 @@ impl Figure {
     /// The panels that show things in three dimensions.
     pub fn spaces(&self) -> &'static [Space] {
         self.stage.model().spaces()
+    }
+
+    /// What of the book's letters the picture shows.
+    pub fn symbols(&self) -> Vec<Symbol> {
+        self.stage.model().symbols()
     }
 
     /// The numbers beside the picture.

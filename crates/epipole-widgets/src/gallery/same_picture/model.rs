@@ -2,7 +2,7 @@
 //! the side that can.
 
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Symbol,
     format_number,
 };
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
@@ -137,6 +137,20 @@ impl Model for SamePicture {
             digits: 3,
             removable: false,
         }]
+    }
+
+    fn symbols(&self) -> Vec<Symbol> {
+        let middle = self.on_axis(0.5);
+        let mut symbols = vec![Symbol::point("P", "top", middle.x, middle.z)];
+        if let Ok(cameras) = self.cameras() {
+            let images = [("p", "first"), ("p'", "second")];
+            for ((name, panel), camera) in images.into_iter().zip(cameras) {
+                if let Ok(pixel) = camera.project(&middle) {
+                    symbols.push(Symbol::point(name, panel, pixel.x, pixel.y));
+                }
+            }
+        }
+        symbols
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

@@ -1,7 +1,8 @@
 //! Two equal cameras side by side, two balls that look alike, and the place where two rays meet.
 
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
+    Toggle,
 };
 use crate::kit::pin::Pin;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -123,6 +124,21 @@ impl Model for TwoCameras {
 
     fn handles(&self) -> Vec<Handle> {
         self.balls.map(|ball| ball.handle()).into()
+    }
+
+    fn symbols(&self) -> Vec<Symbol> {
+        let (x, z) = self.balls[0].place();
+        let mut symbols = vec![Symbol::point("P", "top", x, z)];
+        let images = [
+            ("p", "left", 0),
+            ("p'", "right", usize::from(self.is_wrong())),
+        ];
+        for (camera, (name, panel, ball)) in images.into_iter().enumerate() {
+            if let Ok(pixel) = self.pixel(camera, ball) {
+                symbols.push(Symbol::point(name, panel, pixel.x, pixel.y));
+            }
+        }
+        symbols
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

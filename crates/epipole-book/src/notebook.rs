@@ -1,0 +1,113 @@
+//! A chapter's Python as a notebook: to open, run and change.
+
+use serde_json::{Value, json};
+
+/// A cell of a notebook.
+#[derive(Debug, Clone)]
+pub enum Cell {
+    /// Words, in Markdown.
+    Text(String),
+    /// Python, with what the tests have seen it print.
+    Code {
+        /// Unique in the notebook.
+        id: String,
+        /// As it runs.
+        source: String,
+        /// Empty if nothing, or nothing that is always the same.
+        prints: String,
+    },
+}
+
+impl Cell {
+    /// Words, without empty lines around them.
+    pub(crate) fn text(words: String) -> Cell {
+        Cell::Text(words.trim().to_owned())
+    }
+}
+
+/// Where the notebook of a page is, from the root of the site.
+pub(crate) fn path(page: &str) -> String {
+    let name = page.trim_end_matches(".html").replace('/', "-");
+    format!("notebooks/{name}.ipynb")
+}
+
+/// The notebook of a chapter, in the format 4.5.
+pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
+    let uses_opencv = cells
+        .iter()
+        .any(|cell| matches!(cell, Cell::Code { source, .. } if source.contains("import cv2")));
+    let (names, packages) = match uses_opencv {
+        true => ("NumPy and OpenCV", "numpy opencv-python"),
+        false => ("NumPy", "numpy"),
+    };
+    let head = format!(
+        "# {title}\n\nThe code of this chapter of *Epipole*, to run and to change. It needs {names}: \
+         `pip install {packages}`. Run the cells from the top, because later ones use what earlier ones define."
+    );
+    let mut all = vec![text_cell("title", &head)];
+    for (number, cell) in cells.iter().enumerate() {
+        all.push(match cell {
+            Cell::Text(words) => text_cell(&format!("text-{number}"), words),
+            Cell::Code { id, source, prints } => json!({
+                "cell_type": "code",
+                "id": id,
+                "metadata": {},
+                "execution_count": Value::Null,
+                "source": lines(source.trim_end()),
+                "outputs": match prints.as_str() {
+                    "" => json!([]),
+                    prints => json!([{
+                        "output_type": "stream",
+                        "name": "stdout",
+                        "text": lines(&format!("{prints}\n")),
+                    }]),
+                },
+            }),
+        });
+    }
+    let notebook = json!({
+        "nbformat": 4,
+        "nbformat_minor": 5,
+        "metadata": {
+            "kernelspec": { "name": "python3", "display_name": "Python 3", "language": "python" },
+            "language_info": { "name": "python" },
+        },
+        "cells": all,
+    });
+    format!("{notebook:#}\n")
+}
+
+fn text_cell(id: &str, words: &str) -> Value {
+    json!({ "cell_type": "markdown", "id": id, "metadata": {}, "source": lines(words) })
+}
+
+/// Text as notebooks keep it: a list of lines, each with its end.
+fn lines(text: &str) -> Vec<&str> {
+    text.split_inclusive('\n').collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_keep_their_lines_and_their_output() {
+        let cells = [
+            Cell::text("## Rays\n".to_owned()),
+            Cell::Code {
+                id: "rays-numpy".to_owned(),
+                source: "import numpy\nprint(1)\n".to_owned(),
+                prints: "1".to_owned(),
+            },
+        ];
+        let made: Value = serde_json::from_str(&notebook("A title", &cells)).unwrap();
+        let all = made["cells"].as_array().unwrap();
+        assert_eq!(all.len(), 3);
+        let head = all[0]["source"][0].as_str().unwrap();
+        assert_eq!(head, "# A title\n");
+        assert_eq!(all[1]["source"], json!(["## Rays"]));
+        assert_eq!(all[2]["source"], json!(["import numpy\n", "print(1)"]));
+        assert_eq!(all[2]["outputs"][0]["text"], json!(["1\n"]));
+        assert_eq!(path("part/one.html"), "notebooks/part-one.ipynb");
+    }
+}

@@ -1,0 +1,90 @@
+// Letters of the prose that figures draw: one color, and a light in the nearest figure that has them.
+
+import { expect, ready, test as base } from "./fixtures.mjs";
+import { book } from "./places.mjs";
+import { serve } from "./server.mjs";
+
+const test = base.extend({
+  library: [
+    async ({}, use) => {
+      const server = await serve({ mounts: { course: book } });
+      await use(`${server.origin}/course`);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+});
+
+test.skip(!book, "the book is not what is tested");
+
+/** What is lit in a figure: kinds of shapes, where they are in shares of the picture, and their color. */
+function light(figure) {
+  return figure.evaluate((element) => {
+    const svg = element.shadowRoot.querySelector(".lit");
+    const { width } = svg.viewBox.baseVal;
+    return [...svg.querySelectorAll(".color")].map((shape) => ({
+      kind: shape.localName,
+      x: Number(shape.getAttribute(shape.localName === "line" ? "x1" : "cx")) / width,
+      color: getComputedStyle(shape).stroke,
+    }));
+  });
+}
+
+test("pointing at a letter lights up what the figure has for it, in its color", async ({ page, library }) => {
+  await page.goto(`${library}/epipolar.html`);
+  const figure = page.locator("#fig-one-ray epipole-figure");
+  await ready(figure);
+  const place = {};
+  for (const [name, kind] of [["p", "circle"], ["p'", "circle"]]) {
+    const near = page.locator(`section:has(#fig-one-ray) p [data-symbol="${name}"]`).first();
+    await near.hover();
+    await expect.poll(() => light(figure)).toHaveLength(1);
+    const [lit] = await light(figure);
+    expect(lit.kind).toBe(kind);
+    expect(lit.color).toBe(await near.evaluate((element) => getComputedStyle(element).color));
+    place[name] = lit.x;
+  }
+  // Photograph 1 is on the left, photograph 2 on the right.
+  expect(place.p).toBeLessThan(0.5);
+  expect(place["p'"]).toBeGreaterThan(0.5);
+  await page.locator("h1").hover();
+  await expect.poll(() => light(figure)).toHaveLength(0);
+});
+
+test("the list of letters takes the keys, and its light follows the figure", async ({ page, library }) => {
+  await page.goto(`${library}/epipolar.html`);
+  const figure = page.locator("#fig-one-ray epipole-figure");
+  await ready(figure);
+  const line = page.locator('.symbols [data-symbol="ℓ\'"]');
+  await line.focus();
+  const lit = page.locator("epipole-figure[data-lit]");
+  await expect(lit).toHaveCount(1);
+  const [before] = await light(lit);
+  expect(before.kind).toBe("line");
+  const ends = () =>
+    lit.evaluate((element) => {
+      const shape = element.shadowRoot.querySelector(".lit .color");
+      return ["x1", "y1", "x2", "y2"].map((key) => shape.getAttribute(key)).join(" ");
+    });
+  const first = await ends();
+  await lit.evaluate((element) => {
+    element.forward = 0.5;
+    element.flush();
+  });
+  await expect.poll(ends).not.toBe(first);
+  await page.keyboard.press("Escape");
+  await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
+});
+
+test("what no figure draws lights nothing, and without a script letters are plain", async ({ browser, page, library }) => {
+  await page.goto(`${library}/epipolar.html`);
+  await ready(page.locator("#fig-one-ray epipole-figure"));
+  await page.locator('.symbols [data-symbol="P"]').focus();
+  await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const plain = await context.newPage();
+  await plain.goto(`${library}/epipolar.html`);
+  await expect(plain.locator('.symbols [data-symbol="p"]')).toBeVisible();
+  await expect(plain.locator(".symbols [role=button]")).toHaveCount(0);
+  await context.close();
+});

@@ -1,0 +1,100 @@
+// Listings with tabs, and the button that copies. Which language is in sight is an attribute of the page, so
+// that it is set before anything is drawn, and the same everywhere in the book.
+
+const CHOSEN = "epipole-listing";
+const root = document.documentElement;
+
+/** The key of the tab that a listing shows: the reader's, or its first. */
+function shown(tabs: HTMLElement[]): HTMLElement | undefined {
+  return tabs.find((tab) => tab.dataset.tab === root.dataset.listing) ?? tabs[0];
+}
+
+const lists: HTMLElement[][] = [];
+
+/** Tells everybody which tabs are in sight. */
+function update(): void {
+  for (const tabs of lists) {
+    const chosen = shown(tabs);
+    for (const tab of tabs) {
+      tab.setAttribute("aria-selected", String(tab === chosen));
+      tab.tabIndex = tab === chosen ? 0 : -1;
+    }
+  }
+}
+
+/** Shows a language in all listings; this one stays where it is on the screen. */
+function choose(tab: HTMLElement): void {
+  const before = tab.getBoundingClientRect().top;
+  root.dataset.listing = tab.dataset.tab ?? "";
+  update();
+  scrollBy({ top: tab.getBoundingClientRect().top - before, behavior: "instant" });
+  try {
+    localStorage.setItem(CHOSEN, root.dataset.listing);
+  } catch {
+    // Not remembered, but done.
+  }
+}
+
+function startTabs(list: HTMLElement): void {
+  const tabs = [...list.querySelectorAll<HTMLElement>("[role=tab]")];
+  lists.push(tabs);
+  for (const tab of tabs) {
+    const part = document.getElementById(tab.getAttribute("aria-controls") ?? "");
+    part?.setAttribute("role", "tabpanel");
+    part?.setAttribute("aria-labelledby", tab.id);
+  }
+  list.addEventListener("click", ({ target }) => {
+    const tab = (target as Element).closest<HTMLElement>("[role=tab]");
+    if (tab) choose(tab);
+  });
+  list.addEventListener("keydown", (event) => {
+    const at = tabs.indexOf(event.target as HTMLElement);
+    const last = tabs.length - 1;
+    const keys: Record<string, number> = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: last };
+    const to = keys[event.key];
+    const next = to === undefined ? undefined : tabs[(to + tabs.length) % tabs.length];
+    if (!next || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    choose(next);
+    next.focus({ preventScroll: true });
+  });
+}
+
+/** Copies by way of the selection, where a page may not write to the clipboard. */
+function copySelected(code: Element): boolean {
+  const selection = getSelection();
+  selection?.selectAllChildren(code);
+  const done = document.execCommand("copy");
+  if (done) selection?.removeAllRanges();
+  return done;
+}
+
+function startCopying(button: HTMLButtonElement): void {
+  const parts = [...(button.closest(".listing")?.querySelectorAll<HTMLElement>(".listing-part") ?? [])];
+  const status = document.createElement("span");
+  status.className = "visually-hidden";
+  status.setAttribute("role", "status");
+  button.after(status);
+  button.hidden = false;
+  let timer = 0;
+  button.addEventListener("click", async () => {
+    const code = parts.find((part) => part.checkVisibility())?.querySelector("code");
+    if (!code) return;
+    const write = navigator.clipboard?.writeText(code.textContent ?? "");
+    const done = await (write?.then(() => true, () => false) ?? false) || copySelected(code);
+    // What could not be copied is selected: the reader's own keys copy it.
+    button.textContent = done ? "Copied" : "Selected";
+    status.textContent = done ? "Code copied" : "Code selected";
+    clearTimeout(timer);
+    timer = window.setTimeout(() => {
+      button.textContent = "Copy";
+      status.textContent = "";
+    }, 2000);
+  });
+}
+
+export function startListings(): void {
+  document.querySelectorAll<HTMLElement>(".listing-tabs").forEach(startTabs);
+  document.querySelectorAll<HTMLButtonElement>(".listing .copy").forEach(startCopying);
+  update();
+}
