@@ -208,7 +208,7 @@ impl EpipolarPlane {
                 let value = value.clamp(slider.min, slider.max);
                 self.settings.set(slider.id, &Value::Number(value))?;
             }
-            return self.compute();
+            return self.put(&self.point());
         }
         let found = self.scenery.as_ref().and_then(|scenery| {
             let center = scenery.cameras[0].center_in_world();
@@ -332,15 +332,13 @@ impl Model for EpipolarPlane {
                 if id == DEPTH.id {
                     return self.slide(self.settings.number(&DEPTH));
                 }
-                if COORDINATES.iter().any(|slider| slider.id == id) {
-                    // All three are said from now on, so that a permalink restores all three.
-                    let has_moved =
-                        (COORDINATES.iter()).any(|slider| self.settings.number(slider) > -REACH_M);
-                    return if has_moved {
-                        self.put(&self.point())
-                    } else {
-                        self.compute()
-                    };
+                // Once P, or a camera that tells its depth, has moved, all three coordinates are said, so
+                // that a permalink restores exactly this.
+                let moves_camera = CAMERAS.as_flattened().iter().any(|slider| slider.id == id);
+                let is_put =
+                    (COORDINATES.iter()).any(|slider| self.settings.number(slider) > -REACH_M);
+                if moves_camera || is_put {
+                    return self.put(&self.point());
                 }
                 self.compute()
             }
