@@ -76,7 +76,10 @@ impl View for GradientFieldView {
         legend::draw(canvas, &entries, layout.width, 0.0, top);
         let field = model.field();
         if let Ok(field) = field {
-            canvas.photograph(image.rect, field.picture());
+            match model.edge() {
+                Some(_) => draw_pixels(field, image, canvas),
+                None => canvas.photograph(image.rect, field.picture()),
+            }
             canvas.clipped(image.rect, |canvas| {
                 draw_arrows(model, field, image, canvas)
             });
@@ -120,6 +123,19 @@ fn entries() -> [legend::Entry; 2] {
         (Swatch::Line(Stroke::solid(ARROW, 2.0)), "gradient"),
         (Swatch::Line(edge), "edge through the probe"),
     ]
+}
+
+/// Each pixel of the edge as a square.
+fn draw_pixels(field: &Field, panel: &Panel, canvas: &mut Canvas) {
+    let side = panel.scale_x();
+    canvas.clipped(panel.rect, |canvas| {
+        for (u, v, color) in field.picture().enumerate_pixels() {
+            let (x, y) = panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5));
+            // Over the next ones by a hair, so that no line is left between them.
+            let square = Rect::new(x, y, side + 0.5, side + 0.5);
+            canvas.fill_color(square, color.0);
+        }
+    });
 }
 
 /// An arrow from the middle of each pixel or patch, and the probe's own, with the edge across it.
