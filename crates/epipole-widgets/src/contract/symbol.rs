@@ -76,6 +76,9 @@ fn across(
     (x, y): (f64, f64),
     (dx, dy): (f64, f64),
 ) -> Option<((f64, f64), (f64, f64))> {
+    if ![x, y, dx, dy].iter().all(|value| value.is_finite()) {
+        return None;
+    }
     let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
     for (at, step, low, high) in [
         (x, dx, rect.x, rect.right()),
