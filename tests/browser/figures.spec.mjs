@@ -1,6 +1,6 @@
 // What every figure of the gallery must do in a browser.
 
-import { change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
+import { SLIDER, change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
 
 test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
@@ -33,6 +33,7 @@ for (const { name, title, help } of figures) {
       const figure = await open(page, [name]);
       await hear(figure, "epipole-change", "epipole-readout");
       const at = await gripOf(figure);
+      test.skip(!at, "a figure without handles");
       await page.mouse.move(at.x + 4, at.y + 4);
       await page.mouse.down();
       // Where handles crowd, the nearest is taken.
@@ -62,7 +63,7 @@ for (const { name, title, help } of figures) {
 
     test("the keys alone reach and move everything", async ({ page, open }) => {
       const figure = await open(page, [name]);
-      const { grip } = await gripOf(figure);
+      const grip = (await gripOf(figure))?.grip;
       const focused = () =>
         figure.evaluate((element) => {
           const at = element.shadowRoot.activeElement;
@@ -81,10 +82,14 @@ for (const { name, title, help } of figures) {
         stops.push(kind);
       }
       expect(stops.length).toBeLessThan(80);
-      const native = (await figure.locator("input[type=range]").count()) > 0 ? "range" : "radio";
+      const has = async (native) => (await figure.locator(`${native}:visible`).count()) > 0;
+      const native = (await has(SLIDER)) ? "range" : (await has("input[type=radio]")) ? "radio" : "select-one";
+      // A crosshair stands for the handles of a figure that is only clicked; some have neither.
+      const held = (await figure.locator(".grip, .crosshair").count()) > 0 ? ["slider"] : [];
       expect(stops, "a handle, a native input and a button").toEqual(
-        expect.arrayContaining(["slider", native, "button"]),
+        expect.arrayContaining([...held, native, "button"]),
       );
+      if (!grip) return;
 
       await grip.focus();
       const id = await focused();
@@ -105,7 +110,7 @@ for (const { name, title, help } of figures) {
 
     test("a native slider sets a parameter, with its value in words", async ({ page, open }) => {
       const figure = await open(page, [name]);
-      const slider = figure.locator("input[type=range]").first();
+      const slider = figure.locator(SLIDER).first();
       test.skip((await slider.count()) === 0, "a figure without sliders");
       await hear(figure, "epipole-change");
       await slider.focus();
@@ -137,10 +142,9 @@ for (const { name, title, help } of figures) {
     test("a permalink restores the state", async ({ page, open, context, complaints }) => {
       const figure = await open(page, [name]);
       await change(page, figure, 2);
-      const { grip } = await gripOf(figure);
-      await grip.focus();
-      await page.keyboard.press("ArrowLeft");
-      await page.keyboard.press("ArrowDown");
+      const grip = (await gripOf(figure))?.grip;
+      await grip?.focus();
+      for (const key of grip ? ["ArrowLeft", "ArrowDown"] : []) await page.keyboard.press(key);
       await settled(figure);
       const before = await told(figure);
       expect(Object.keys(before.state).length).toBeGreaterThan(0);
@@ -159,9 +163,10 @@ for (const { name, title, help } of figures) {
     test("Reset returns to what the page asks for", async ({ page, open }) => {
       const figure = await open(page, [name]);
       const before = await told(figure);
-      const { grip } = await gripOf(figure);
-      await grip.focus();
-      await page.keyboard.press("ArrowLeft");
+      const grip = (await gripOf(figure))?.grip;
+      await grip?.focus();
+      if (grip) await page.keyboard.press("ArrowLeft");
+      else await change(page, figure);
       expect(await told(figure)).not.toEqual(before);
       await figure.getByRole("button", { name: "Reset", exact: true }).click();
       await expect.poll(() => told(figure)).toEqual(before);
@@ -205,7 +210,10 @@ for (const { name, title, help } of figures) {
       listen(page, complaints);
       const figure = await open(page, [name]);
       await figure.locator("canvas").scrollIntoViewIfNeeded();
-      const { grip, x, y } = await gripOf(figure);
+      const at = await gripOf(figure);
+      if (!at) await context.close();
+      test.skip(!at, "a figure without handles");
+      const { grip, x, y } = at;
       const id = await grip.getAttribute("data-handle");
       const before = await grip.getAttribute("aria-valuetext");
       const scroll = await page.evaluate(() => scrollY);

@@ -106,33 +106,40 @@ export function told(figure) {
   });
 }
 
-/** Keeps the details of a figure's events in `element.heard`. */
+/** Keeps the details of a figure's events in `element.testHears`. */
 export function hear(figure, ...types) {
   return figure.evaluate((element, names) => {
-    element.heard = [];
+    element.testHears = [];
     for (const name of names) {
-      element.addEventListener(name, (event) => element.heard.push([name, event.detail]));
+      element.addEventListener(name, (event) => element.testHears.push([name, event.detail]));
     }
   }, types);
 }
 
 export function heard(figure) {
-  return figure.evaluate((element) => element.heard);
+  return figure.evaluate((element) => element.testHears);
 }
 
-/** Where a figure's first focusable handle is on the screen. */
+/** Where a figure's first focusable handle is on the screen; nothing for one that has only controls. */
 export async function gripOf(figure) {
   const grip = figure.locator(".grip").first();
-  return { grip, ...(await middle(grip)) };
+  return (await grip.count()) > 0 ? { grip, ...(await middle(grip)) } : undefined;
 }
+
+/** A slider that does something now; the weights of a kernel that is given do not. */
+export const SLIDER = "input[type=range]:not([aria-disabled=true])";
 
 /** Changes a figure by the keys, `times` over: its first slider, away from its end, or its first choice. */
 export async function change(page, figure, times = 1) {
-  const slider = figure.locator("input[type=range]").first();
-  const setting = (await slider.count()) > 0 ? slider : figure.locator("input[type=radio]:checked").first();
+  const settings = [figure.locator(SLIDER), figure.locator("input[type=radio]:checked"), figure.locator("select")];
+  const counts = await Promise.all(settings.map((setting) => setting.count()));
+  const setting = settings[counts.findIndex((count) => count > 0)].first();
   await setting.focus();
-  const atStart = await setting.evaluate(({ type, value, min }) => type === "radio" || value === min);
-  for (let press = 0; press < times; press += 1) await page.keyboard.press(atStart ? "ArrowRight" : "ArrowLeft");
+  const key = await setting.evaluate(({ type, value, min }) => {
+    if (type === "select-one") return "ArrowDown";
+    return type === "radio" || value === min ? "ArrowRight" : "ArrowLeft";
+  });
+  for (let press = 0; press < times; press += 1) await page.keyboard.press(key);
 }
 
 /** The middle of an element on the screen. */
