@@ -131,7 +131,7 @@ export const SLIDER = "input[type=range]:not([aria-disabled=true])";
 
 /** Changes a figure by the keys, `times` over: its first slider, away from its end, or its first choice. */
 export async function change(page, figure, times = 1) {
-  const settings = [figure.locator(SLIDER), figure.locator("input[type=radio]:checked"), figure.locator("select")];
+  const settings = [figure.locator(SLIDER), figure.locator("input[type=radio]:checked"), figure.locator("select:visible")];
   const counts = await Promise.all(settings.map((setting) => setting.count()));
   const setting = settings[counts.findIndex((count) => count > 0)].first();
   await setting.focus();

@@ -27,27 +27,32 @@ async function inSpace(figure, name, space, across, down) {
   ];
 }
 
+/** Handles that stand in a space: where they are seen changes as it turns, so they are told with it. */
+const STANDING = { "epipolar-plane": ["point", "camera1", "camera2"] };
+
 const zoomOf = async (figure, space) => Number((await told(figure)).state[space.zoom] ?? 1);
 
 for (const [name, space] of spaces) {
   test.describe(name, () => {
     test("a drag from anywhere in the panel turns it, with Shift it moves", async ({ page, open }) => {
       const figure = await open(page, [name]);
+      const changed = async () => {
+        const keys = Object.keys((await told(figure)).state);
+        return keys.filter((key) => !STANDING[name]?.includes(key)).sort();
+      };
       const [x, y] = await inSpace(figure, name, space, 0.85, 0.5);
       await page.mouse.move(x, y);
       await page.mouse.down();
       await page.mouse.move(x - 60, y + 20, { steps: 3 });
       await page.mouse.up();
-      await expect.poll(async () => Object.keys((await told(figure)).state)).toEqual([space.orbit]);
+      await expect.poll(changed).toEqual([space.orbit]);
       await page.keyboard.down("Shift");
       await page.mouse.move(x, y);
       await page.mouse.down();
       await page.mouse.move(x - 30, y + 20, { steps: 3 });
       await page.mouse.up();
       await page.keyboard.up("Shift");
-      await expect
-        .poll(async () => Object.keys((await told(figure)).state).sort())
-        .toEqual([space.orbit, space.pan].sort());
+      await expect.poll(changed).toEqual([space.orbit, space.pan].sort());
       await figure.getByText("More settings").click();
       await figure.getByRole("button", { name: "Reset viewpoint" }).click();
       await expect.poll(async () => (await told(figure)).state).toEqual({});
@@ -85,7 +90,12 @@ for (const [name, space] of spaces) {
       await expect.poll(() => zoomOf(figure, space)).toBeLessThan(1);
       await page.keyboard.press("Tab");
       await expect(figure.locator(`[data-handle="${space.pan}"]`)).toBeFocused();
-      await page.keyboard.press("Tab");
+      // Past the handles that come after it, and out.
+      const left = await figure.evaluate((element, pan) => {
+        const grips = [...element.shadowRoot.querySelectorAll(".grip")];
+        return grips.length - grips.findIndex((grip) => grip.dataset.handle === pan);
+      }, space.pan);
+      for (let press = 0; press < left; press += 1) await page.keyboard.press("Tab");
       expect(await figure.locator(".grip:focus").count()).toBe(0);
     });
 

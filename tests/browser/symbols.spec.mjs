@@ -32,12 +32,13 @@ function light(figure) {
 
 test("pointing at a letter lights up what the figure has for it, in its color", async ({ page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  const figure = page.locator("#fig-one-ray epipole-figure");
-  await ready(figure);
+  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
+  const figure = page.locator("epipole-figure[data-lit]");
   const place = {};
   for (const [name, kind] of [["p", "circle"], ["p'", "circle"]]) {
-    const near = page.locator(`section:has(#fig-one-ray) p [data-symbol="${name}"]`).first();
+    const near = page.locator(`p [data-symbol="${name}"]`).first();
     await near.hover();
+    await expect(figure).toHaveCount(1);
     await expect.poll(() => light(figure)).toHaveLength(1);
     const [lit] = await light(figure);
     expect(lit.kind).toBe(kind);
@@ -48,13 +49,12 @@ test("pointing at a letter lights up what the figure has for it, in its color", 
   expect(place.p).toBeLessThan(0.5);
   expect(place["p'"]).toBeGreaterThan(0.5);
   await page.locator("h1").hover();
-  await expect.poll(() => light(figure)).toHaveLength(0);
+  await expect(figure).toHaveCount(0);
 });
 
 test("the list of letters takes the keys, and its light follows the figure", async ({ page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  const figure = page.locator("#fig-one-ray epipole-figure");
-  await ready(figure);
+  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
   const line = page.locator('.symbols [data-symbol="ℓ\'"]');
   await line.focus();
   const lit = page.locator("epipole-figure[data-lit]");
@@ -78,7 +78,7 @@ test("the list of letters takes the keys, and its light follows the figure", asy
 
 test("what no figure draws lights nothing, and without a script letters are plain", async ({ browser, page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  await ready(page.locator("#fig-one-ray epipole-figure"));
+  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
   await page.locator('.symbols [data-symbol="P"]').focus();
   await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
   const context = await browser.newContext({ javaScriptEnabled: false });
