@@ -30,31 +30,37 @@ function light(figure) {
   });
 }
 
+/** The figure beside the prose that the letters stand in. */
+const beside = "epipole-figure[name=epipolar-plane]";
+
 test("pointing at a letter lights up what the figure has for it, in its color", async ({ page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
-  const figure = page.locator("epipole-figure[data-lit]");
+  const figure = page.locator(beside).first();
+  await ready(figure);
+  const grip = await figure.evaluate((element) => {
+    const box = element.shadowRoot.querySelector("[data-handle=p]").getBoundingClientRect();
+    const sheet = element.shadowRoot.querySelector(".lit").getBoundingClientRect();
+    return (box.left + box.width / 2 - sheet.left) / sheet.width;
+  });
   const place = {};
-  for (const [name, kind] of [["p", "circle"], ["p'", "circle"]]) {
-    const near = page.locator(`p [data-symbol="${name}"]`).first();
+  for (const [name, kind] of [["p", "circle"], ["p'", "circle"], ["P", "circle"]]) {
+    const near = page.locator(`section:has(${beside}) p [data-symbol="${name}"]`).first();
     await near.hover();
-    await expect(figure).toHaveCount(1);
     await expect.poll(() => light(figure)).toHaveLength(1);
     const [lit] = await light(figure);
     expect(lit.kind).toBe(kind);
     expect(lit.color).toBe(await near.evaluate((element) => getComputedStyle(element).color));
     place[name] = lit.x;
   }
-  // Photograph 1 is on the left, photograph 2 on the right.
-  expect(place.p).toBeLessThan(0.5);
-  expect(place["p'"]).toBeGreaterThan(0.5);
+  expect(Math.abs(place.p - grip)).toBeLessThan(0.005);
+  expect(new Set(Object.values(place)).size).toBe(3);
   await page.locator("h1").hover();
-  await expect(figure).toHaveCount(0);
+  await expect.poll(() => light(figure)).toHaveLength(0);
 });
 
 test("the list of letters takes the keys, and its light follows the figure", async ({ page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
+  await ready(page.locator(beside).first());
   const line = page.locator('.symbols [data-symbol="ℓ\'"]');
   await line.focus();
   const lit = page.locator("epipole-figure[data-lit]");
@@ -68,7 +74,7 @@ test("the list of letters takes the keys, and its light follows the figure", asy
     });
   const first = await ends();
   await lit.evaluate((element) => {
-    element.forward = 0.5;
+    element.z2 = -1;
     element.flush();
   });
   await expect.poll(ends).not.toBe(first);
@@ -78,9 +84,13 @@ test("the list of letters takes the keys, and its light follows the figure", asy
 
 test("what no figure draws lights nothing, and without a script letters are plain", async ({ browser, page, library }) => {
   await page.goto(`${library}/epipolar.html`);
-  await ready(page.locator("epipole-figure[name=epipolar-click]").first());
-  await page.locator('.symbols [data-symbol="P"]').focus();
-  await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
+  const figure = page.locator(beside).first();
+  await ready(figure);
+  await page.locator('.symbols [data-symbol="p"]').focus();
+  await expect.poll(() => light(figure)).toHaveLength(1);
+  // Both epipoles are far outside of the photographs.
+  await page.locator('.symbols [data-symbol="e\'"]').focus();
+  await expect.poll(() => light(figure)).toHaveLength(0);
   const context = await browser.newContext({ javaScriptEnabled: false });
   const plain = await context.newPage();
   await plain.goto(`${library}/epipolar.html`);

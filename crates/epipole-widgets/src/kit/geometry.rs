@@ -1,5 +1,6 @@
 //! The epipolar geometry of two cameras that take photographs of the book's scenes.
 
+use crate::contract::{Mark, Symbol};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::camera::{Camera, relative_motion};
 use epipole::epipolar::{
@@ -50,5 +51,69 @@ impl Geometry {
             .iter()
             .filter_map(|pixel2| epipolar_line1(&self.fundamental, pixel2).ok())
             .min_by(|a, b| nearness(a).total_cmp(&nearness(b)))
+    }
+}
+
+/// The letters of a pixel, its match, the match's line and the epipoles, in the panels `first` and `second`.
+///
+/// * `pixels`: p and p′, as far as the cameras see them
+/// * `geometry`: `None` while both cameras stand at one place
+pub(crate) fn symbols(
+    pixels: [Option<Point2<f64>>; 2],
+    geometry: Option<&Geometry>,
+) -> Vec<Symbol> {
+    let point = |name, panel, pixel: &Point2<f64>| Symbol::point(name, panel, pixel.x, pixel.y);
+    let finite = |epipole: &Epipole| match epipole {
+        Epipole::Finite(pixel) => Some(*pixel),
+        Epipole::AtInfinity(_) => None,
+    };
+    let [epipole1, epipole2] = geometry.map_or([None; 2], |geometry| {
+        [&geometry.epipole1, &geometry.epipole2].map(finite)
+    });
+    let places = [
+        ("p", "first", pixels[0]),
+        ("p'", "second", pixels[1]),
+        ("e", "first", epipole1),
+        ("e'", "second", epipole2),
+    ];
+    let mut symbols: Vec<Symbol> = places
+        .iter()
+        .filter_map(|(name, panel, pixel)| Some(point(name, panel, pixel.as_ref()?)))
+        .collect();
+    let line2 = geometry.and_then(|geometry| geometry.line2(pixels[0].as_ref()?));
+    if let Some(line) = line2 {
+        let foot = line.nearest(&Point2::origin());
+        symbols.push(Symbol {
+            name: "ℓ'",
+            panel: "second",
+            mark: Mark::Line((foot.x, foot.y), (-line.b, line.a)),
+        });
+    }
+    symbols
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::scenes::still_life_pair;
+
+    #[test]
+    fn a_match_lies_on_the_line_of_its_letter_and_what_is_nowhere_has_none() {
+        let cameras = still_life_pair((PHOTO_WIDTH, PHOTO_HEIGHT), 0.2, 0.3, 4.0);
+        let geometry = Geometry::of(&cameras).unwrap();
+        let pixel1 = Point2::new(200.0, 150.0);
+        let on_line = geometry.line2(&pixel1).unwrap();
+        let pixel2 = on_line.nearest(&Point2::new(300.0, 200.0));
+        let found = symbols([Some(pixel1), Some(pixel2)], Some(&geometry));
+        let names: Vec<_> = found.iter().map(|symbol| symbol.name).collect();
+        assert_eq!(names, ["p", "p'", "e", "e'", "ℓ'"]);
+        let Mark::Line(start, direction) = found[4].mark else {
+            panic!("{:?}", found[4]);
+        };
+        let (dx, dy) = (pixel2.x - start.0, pixel2.y - start.1);
+        assert!((dx * direction.1 - dy * direction.0).abs() < 1e-6);
+        let alone = symbols([Some(pixel1), None], None);
+        assert_eq!(alone, [Symbol::point("p", "first", 200.0, 150.0)]);
+        assert!(symbols([None; 2], None).is_empty());
     }
 }

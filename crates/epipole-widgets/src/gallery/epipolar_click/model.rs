@@ -2,10 +2,10 @@
 
 use super::geometry::{self, Match, find_match};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Mark, Model, Problem,
+    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Symbol, Value,
 };
-use crate::kit::geometry::Geometry;
+use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
@@ -208,34 +208,9 @@ impl Model for EpipolarClick {
 
     /// Those of the selected point.
     fn symbols(&self) -> Vec<Symbol> {
-        let mut symbols = Vec::new();
-        let selected = self.selected();
-        if let Some((_, point)) = selected {
-            symbols.push(Symbol::point("p", "first", point.x, point.y));
-            if let Some(pixel) = self.find_match(&point).pixel() {
-                symbols.push(Symbol::point("p'", "second", pixel.x, pixel.y));
-            }
-        }
-        let Some(geometry) = self.geometry() else {
-            return symbols;
-        };
-        if let Some(line) = selected.and_then(|(_, point)| geometry.line2(&point)) {
-            let foot = line.nearest(&Point2::origin());
-            symbols.push(Symbol {
-                name: "ℓ'",
-                panel: "second",
-                mark: Mark::Line((foot.x, foot.y), (-line.b, line.a)),
-            });
-        }
-        for (name, panel, epipole) in [
-            ("e", "first", &geometry.epipole1),
-            ("e'", "second", &geometry.epipole2),
-        ] {
-            if let Epipole::Finite(pixel) = epipole {
-                symbols.push(Symbol::point(name, panel, pixel.x, pixel.y));
-            }
-        }
-        symbols
+        let pixel1 = self.selected().map(|(_, point)| point);
+        let pixel2 = pixel1.and_then(|point| self.find_match(&point).pixel());
+        symbols([pixel1, pixel2], self.geometry().as_ref())
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

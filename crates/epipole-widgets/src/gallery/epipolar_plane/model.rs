@@ -4,8 +4,9 @@
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    Space, Value, format_number, round_to_digits,
+    Space, Symbol, Value, format_number, round_to_digits,
 };
+use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
@@ -320,6 +321,16 @@ impl Model for EpipolarPlane {
 
     fn spaces(&self) -> &'static [Space] {
         &[SPACE]
+    }
+
+    fn symbols(&self) -> Vec<Symbol> {
+        let Some(scenery) = &self.scenery else {
+            return Vec::new();
+        };
+        let mut symbols = symbols(scenery.pixels, scenery.geometry.as_ref());
+        let place = self.lens().and_then(|lens| lens.place(&scenery.point));
+        symbols.extend(place.map(|(x, y)| Symbol::point("P", SPACE.panel, x, y)));
+        symbols
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
