@@ -37,23 +37,20 @@ impl Declared for NewFigure {
     const NAME: &'static str = "new-figure";
     const TITLE: &'static str = "New figure";
     const HELP: &'static str = "Drag the point, or move it with the arrow keys.";
+    const CHALLENGES: &'static [Challenge<Self>] = &[Challenge {
+        id: "inside",
+        goal: "Bring the point inside the circle.",
+        hint: "The point moves, and so does the circle.",
+        why: "The distance from the middle is now less than the radius.",
+        check: |model| model.distance_m() <= model.radius_m(),
+        solution: || vec![Event::moved("point", 0.1, 0.1)],
+    }];
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
             point: Pin::new("point", "plan", "Point", (0.8, 0.2), [[-1.0, 1.0]; 2]),
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[Challenge {
-            id: "inside",
-            goal: "Bring the point inside the circle.",
-            hint: "The point moves, and so does the circle.",
-            why: "The distance from the middle is now less than the radius.",
-            check: |model| model.distance_m() <= model.radius_m(),
-            solution: || vec![Event::moved("point", 0.1, 0.1)],
-        }]
     }
 }
 

@@ -1,6 +1,6 @@
 //! The list of all figures. A new figure is a folder here and a line in the list.
 
-use crate::contract::{Declared, JobResult, Problem, Progress, View};
+use crate::contract::{Compute, Declared, JobResult, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 mod bundle_adjustment;
@@ -44,7 +44,7 @@ pub struct Entry {
 /// The long computations of a figure.
 struct Worker {
     name: &'static str,
-    compute: fn(&[u8], Progress<'_>) -> JobResult,
+    compute: Compute,
 }
 
 /// Makes two lists of one, so that a module without long computations leaves the code for them
@@ -99,7 +99,7 @@ const fn entry<V: View>() -> Entry {
 const fn worker<V: View>() -> Worker {
     Worker {
         name: V::Model::NAME,
-        compute: V::Model::compute,
+        compute: V::Model::COMPUTE,
     }
 }
 

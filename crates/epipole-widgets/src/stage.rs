@@ -1,7 +1,7 @@
 //! A model together with its view, with the types erased, so that figures can stand in one list.
 
 use crate::canvas::Canvas;
-use crate::contract::{Aspect, Challenge, Declared, Event, Layout, Model, View, Words};
+use crate::contract::{Aspect, Challenge, Declared, Event, Layout, Model, PhotoSlot, View, Words};
 use crate::figure::ChallengeStatus;
 
 /// What [`Figure`](crate::Figure) needs of any model and view.
@@ -11,6 +11,7 @@ pub(crate) trait Stage {
     fn words(&self) -> &dyn Words;
     fn challenges(&self) -> Vec<ChallengeStatus>;
     fn solution(&self, challenge: &str) -> Option<Vec<Event>>;
+    fn photo_slots(&self) -> &'static [PhotoSlot];
     fn aspect(&self) -> Aspect;
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
@@ -51,13 +52,17 @@ impl<V: View> Stage for Pair<V> {
             why: challenge.why,
             solved: (challenge.check)(&self.model),
         };
-        V::Model::challenges().iter().map(status).collect()
+        V::Model::CHALLENGES.iter().map(status).collect()
     }
 
     fn solution(&self, challenge: &str) -> Option<Vec<Event>> {
-        let mut known = V::Model::challenges().iter();
+        let mut known = V::Model::CHALLENGES.iter();
         let found = known.find(|known| known.id == challenge);
         found.map(|known| (known.solution)())
+    }
+
+    fn photo_slots(&self) -> &'static [PhotoSlot] {
+        V::Model::PHOTO_SLOTS
     }
 
     fn aspect(&self) -> Aspect {

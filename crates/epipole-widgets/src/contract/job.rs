@@ -25,6 +25,10 @@ pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 /// What a job gives: bytes that only its model understands.
 pub type JobResult = Result<Vec<u8>, Problem>;
 
+/// Carries out a job: a function of the request alone, so that it can run anywhere. Gives a sentence for the
+/// reader where there is no result, also when `Progress` ended it.
+pub type Compute = fn(&[u8], Progress<'_>) -> JobResult;
+
 /// A place for a photograph of the reader's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct PhotoSlot {

@@ -21,7 +21,7 @@ pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Place, Slider, Toggle};
 pub use event::{Event, Value};
 pub use handle::Handle;
-pub use job::{Job, JobResult, PhotoSlot, Progress};
+pub use job::{Compute, Job, JobResult, PhotoSlot, Progress};
 pub use layout::{Axis, Layout, Panel, Rect, WIDTHS};
 pub use model::{Declared, Model};
 pub use problem::Problem;

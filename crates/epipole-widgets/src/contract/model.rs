@@ -1,7 +1,7 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Progress, Space, Symbol,
+    Challenge, Compute, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Space, Symbol,
     Words,
 };
 use image::RgbImage;
@@ -55,12 +55,7 @@ pub trait Model {
     /// Takes the result of the job that the model waits for; never that of an older one.
     fn job_done(&mut self, _result: JobResult) {}
 
-    /// Places for photographs of the reader's own.
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        &[]
-    }
-
-    /// Takes the reader's own photograph. It is not part of the permalink.
+    /// Takes the reader's own photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of the permalink.
     ///
     /// # Errors
     /// A sentence for the reader if it cannot be used; the state is then as it was.
@@ -82,19 +77,13 @@ pub trait Declared: Model + Words + Sized + 'static {
     /// What a reader can do with it: pointer and keys, one or two sentences.
     const HELP: &'static str;
 
+    /// Carries out a job.
+    const COMPUTE: Compute = |_, _| Ok(Vec::new());
+    /// Goals for the reader.
+    const CHALLENGES: &'static [Challenge<Self>] = &[];
+    /// Places for photographs of the reader's own.
+    const PHOTO_SLOTS: &'static [PhotoSlot] = &[];
+
     /// The default state, which must make the figure's point without being touched.
     fn new() -> Self;
-
-    /// Carries out a job. A function of the request alone, so that it can run anywhere.
-    ///
-    /// # Errors
-    /// A sentence for the reader, also when `progress` ended it.
-    fn compute(_request: &[u8], _progress: Progress<'_>) -> JobResult {
-        Ok(Vec::new())
-    }
-
-    /// Goals for the reader.
-    fn challenges() -> &'static [Challenge<Self>] {
-        &[]
-    }
 }

@@ -151,6 +151,14 @@ impl Settings {
         self.values[index] = new;
         Ok(Some(changed))
     }
+
+    /// Chooses one of the options, by its index.
+    pub fn choose(&mut self, choice: &'static Choice, option: usize) {
+        let index = self.knobs.iter().position(|knob| knob.id() == choice.id);
+        if let Some(index) = index.filter(|_| option < choice.options.len()) {
+            self.values[index] = option as f64;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -158,7 +158,7 @@ impl Figure {
 
     /// Places for photographs of the reader's own.
     pub fn photo_slots(&self) -> &'static [PhotoSlot] {
-        self.stage.model().photo_slots()
+        self.stage.photo_slots()
     }
 
     /// Puts a photograph of the reader's own into a slot.

@@ -4,6 +4,8 @@
 //! speak for it in [`Model::job`](crate::contract::Model::job) and `job_done`. Whatever a worker sends
 //! back is checked before it is believed.
 
+#[cfg(test)]
+use crate::contract::{Declared, Event};
 use crate::contract::{Job, JobResult, Problem, Progress};
 use epipole::Error;
 use serde::Serialize;
@@ -201,6 +203,26 @@ impl postcard::ser_flavors::Flavor for Fnv {
     fn finalize(self) -> postcard::Result<u64> {
         Ok(self.0)
     }
+}
+
+/// Answers all that a model asks, here and now.
+#[cfg(test)]
+pub(crate) fn settle<M: Declared>(model: &mut M) {
+    while let Some(job) = model.job() {
+        let result = (M::COMPUTE)(&job.request(), &mut |_| ControlFlow::Continue(()));
+        model.job_done(result);
+    }
+}
+
+/// A model in its default state, after these events and with all that it asks answered.
+#[cfg(test)]
+pub(crate) fn settled<M: Declared>(events: &[Event]) -> M {
+    let mut model = M::new();
+    for event in events {
+        model.update(event).unwrap();
+    }
+    settle(&mut model);
+    model
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@
 
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
-    Challenge, Choice, Control, ControlKind, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    Problem, Progress, Settings, Slider, Space, Value, format_number, round_to_digits,
+    Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Job, JobResult,
+    Knob, Model, Problem, Settings, Slider, Space, Value, format_number, round_to_digits,
 };
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
@@ -153,6 +153,8 @@ impl Declared for BundleAdjustment {
         that step. Drag the marked feature in the photograph, or move it with the arrow keys. Drag \
         in the view of space to look from elsewhere; with Shift, or the small cross, the scene \
         moves; with Ctrl and the wheel, or + and −, it becomes larger.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         // The house is one of constants, which a test builds.
@@ -167,14 +169,6 @@ impl Declared for BundleAdjustment {
         };
         model.ask();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -332,20 +326,7 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::ControlFlow;
-
-    fn settled(events: &[Event]) -> BundleAdjustment {
-        let mut model = BundleAdjustment::new();
-        for event in events {
-            model.update(event).unwrap();
-        }
-        if let Some(job) = model.job() {
-            let result =
-                BundleAdjustment::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
-            model.job_done(result);
-        }
-        model
-    }
+    use crate::kit::question::settled;
 
     #[test]
     fn one_bad_feature_pulls_on_squares_and_not_on_huber() {
@@ -370,7 +351,8 @@ mod tests {
 
     #[test]
     fn a_tight_brake_is_slow_and_solves_nothing() {
-        let model = settled(&[Event::set(&DAMPING, 3.0), Event::set(&STEPS, 6.0)]);
+        let model: BundleAdjustment =
+            settled(&[Event::set(&DAMPING, 3.0), Event::set(&STEPS, 6.0)]);
         assert!(model.states().unwrap()[1].off > 0.03);
         assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));
     }
@@ -378,7 +360,8 @@ mod tests {
     #[test]
     fn without_noise_every_seed_finds_the_house_exactly() {
         for seed in 1..=20 {
-            let model = settled(&[Event::set(&NOISE, 0.0), Event::set(&SEED, f64::from(seed))]);
+            let model: BundleAdjustment =
+                settled(&[Event::set(&NOISE, 0.0), Event::set(&SEED, f64::from(seed))]);
             let [start, now] = model.states().unwrap();
             assert!(start.rms_px > 10.0 && start.off > 0.03, "seed {seed}");
             // The dragged feature is kept to a tenth of a pixel.
@@ -391,11 +374,12 @@ mod tests {
     fn the_error_that_remains_is_the_noise_that_no_unknown_can_take_up() {
         let mut sum = 0.0;
         for seed in 1..=20 {
-            let model = settled(&[Event::set(&NOISE, 1.0), Event::set(&SEED, f64::from(seed))]);
+            let model: BundleAdjustment =
+                settled(&[Event::set(&NOISE, 1.0), Event::set(&SEED, f64::from(seed))]);
             let rms_px = model.states().unwrap()[1].rms_px;
             sum += rms_px * rms_px;
         }
-        let model = settled(&[]);
+        let model: BundleAdjustment = settled(&[]);
         let answer = model.asked.answer().unwrap();
         let num_points = answer.features.len();
         // One feature has no noise; seven freedoms change nothing.
@@ -411,7 +395,8 @@ mod tests {
 
     #[test]
     fn the_cost_falls_with_every_step_that_is_kept_and_stays_otherwise() {
-        let model = settled(&[Event::set(&DISTURBANCE, 50.0), Event::set(&DAMPING, -6.0)]);
+        let model: BundleAdjustment =
+            settled(&[Event::set(&DISTURBANCE, 50.0), Event::set(&DAMPING, -6.0)]);
         let states = &model.asked.answer().unwrap().states;
         assert!(states.iter().any(|state| !state.accepted));
         for pair in states.windows(2) {

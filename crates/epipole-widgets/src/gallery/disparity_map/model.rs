@@ -2,8 +2,8 @@
 
 use super::question::{Answer, Method, Question, SIZE};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Progress, Settings, Slider, Toggle,
+    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    Problem, Settings, Slider, Toggle,
 };
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
@@ -101,6 +101,8 @@ impl Declared for DisparityMap {
     const TITLE: &'static str = "A disparity for every pixel";
     const HELP: &'static str = "Change how matches are looked for. Drag the probe over the left \
         photograph, or move it with the arrow keys, and compare what was found with what is true.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -110,14 +112,6 @@ impl Declared for DisparityMap {
         };
         model.ask();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

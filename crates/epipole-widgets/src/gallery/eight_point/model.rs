@@ -6,7 +6,7 @@
 use super::estimate::{Estimate, line2};
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
+    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
     Settings, Slider, Toggle,
 };
 use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
@@ -130,6 +130,8 @@ impl Declared for EightPoint {
     const HELP: &'static str = "Drag the probe over photograph 1, or move it with the arrow keys: \
         photograph 2 shows its epipolar line by the F that was found, and its true match. Change the \
         matches and their noise, and switch normalization and rank 2 off and on.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -139,14 +141,6 @@ impl Declared for EightPoint {
             matches: OnceCell::new(),
             estimate: OnceCell::new(),
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -174,6 +174,7 @@ impl Declared for EpipolarClick {
     const HELP: &'static str = "Click in photograph 1 to add a point. Drag points, or move them with \
         the arrow keys: each has its epipolar line in photograph 2. Move and turn the second camera \
         with the sliders.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let place = |index: usize| {
@@ -184,10 +185,6 @@ impl Declared for EpipolarClick {
             settings: Settings::new(KNOBS),
             points: std::array::from_fn(place),
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -270,6 +270,7 @@ impl Declared for EpipolarPlane {
     const HELP: &'static str = "Drag p over photograph 1: P lies where camera 1 looks there, and the plane \
         turns about the baseline. Drag P along its ray, or a camera, in the space; drag elsewhere in it to \
         look from another side.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -283,10 +284,6 @@ impl Declared for EpipolarPlane {
         // The places at the start are within all ranges.
         let _ = model.compute();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

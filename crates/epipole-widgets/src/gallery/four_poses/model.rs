@@ -74,6 +74,7 @@ impl Declared for FourPoses {
     const TITLE: &'static str = "Four poses, one in front";
     const HELP: &'static str = "Drag camera 2 in the first picture, or move it with the arrow keys, \
         and turn it. Each picture is the same pair of photographs, explained by another pose.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -81,10 +82,6 @@ impl Declared for FourPoses {
             place: PLACE,
             found: ambiguity(PLACE, TURN.default),
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

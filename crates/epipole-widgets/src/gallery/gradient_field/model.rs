@@ -4,8 +4,8 @@
 use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot,
-    Problem, Progress, Settings, Slider, Space, Toggle, Value,
+    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    PhotoSlot, Problem, Settings, Slider, Space, Toggle,
 };
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::picture::{Own, Picture};
@@ -218,6 +218,9 @@ impl Declared for GradientField {
     const TITLE: &'static str = "Which way is up?";
     const HELP: &'static str = "Drag the probe over the image, or move it with the arrow keys, and read the \
         gradient under it. Drag the surface to turn it.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
         let mut model = Self {
@@ -231,14 +234,6 @@ impl Declared for GradientField {
         };
         model.begin();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -293,14 +288,9 @@ impl Model for GradientField {
         }
     }
 
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        SLOTS
-    }
-
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
-        let own = Value::from(SOURCE.options[OWN].0);
-        self.settings.set(SOURCE.id, &own)?;
+        self.settings.choose(&SOURCE, OWN);
         self.begin();
         Ok(())
     }
@@ -357,16 +347,13 @@ const CHALLENGES: &[Challenge<GradientField>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::ControlFlow;
+    use crate::kit::question::settle;
 
     fn settled(events: &[Event]) -> GradientField {
         let mut model = GradientField::new();
         for event in events {
             model.update(event).unwrap();
-            if let Some(request) = model.job().map(Job::request) {
-                let go_on = &mut |_| ControlFlow::Continue(());
-                model.job_done(GradientField::compute(&request, go_on));
-            }
+            settle(&mut model);
         }
         model
     }
@@ -397,10 +384,7 @@ mod tests {
         assert_eq!(model.field().err(), Some("Choose a photograph."));
         assert!(model.take_photo("photo", RgbImage::new(10, 400)).is_err());
         model.take_photo("photo", RgbImage::new(24, 24)).unwrap();
-        let request = model.job().unwrap().request();
-        model.job_done(GradientField::compute(&request, &mut |_| {
-            ControlFlow::Continue(())
-        }));
+        settle(&mut model);
         assert_eq!(model.probed().unwrap().magnitude(), 0.0);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::question::{Answer, Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot,
-    Problem, Progress, Settings, Slider, Value,
+    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    PhotoSlot, Problem, Settings, Slider,
 };
 use crate::kit::picture::Own;
 use crate::kit::probe::Probe;
@@ -168,6 +168,9 @@ impl Declared for Harris {
     const TITLE: &'static str = "Where are the corners?";
     const HELP: &'static str = "Drag the probe over the picture, or move it with the arrow keys, \
         and read the structure tensor under it. Click to put it elsewhere.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
         let mut model = Self {
@@ -178,14 +181,6 @@ impl Declared for Harris {
         };
         model.begin();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -221,14 +216,9 @@ impl Model for Harris {
         self.asked.take(result);
     }
 
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        SLOTS
-    }
-
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
-        let own = Value::from(SOURCE.options[OWN].0);
-        self.settings.set(SOURCE.id, &own)?;
+        self.settings.choose(&SOURCE, OWN);
         self.begin();
         Ok(())
     }

@@ -176,6 +176,7 @@ impl Declared for KernelStepper {
     const TITLE: &'static str = "Nine products and a sum";
     const HELP: &'static str = "Drag the window over the pixels, or move it with the arrow keys; a click puts \
         it elsewhere. Nine sliders make a kernel of your own.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -186,10 +187,6 @@ impl Declared for KernelStepper {
         };
         model.filter();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -108,6 +108,7 @@ impl Declared for OutlierDrag {
     const HELP: &'static str = "Drag the ringed match in photograph 2, or move it with the arrow keys: F is \
         fitted to all matches, the wrong one among them, and the lines of the others leave them. Leave it \
         out, and they come back.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -118,10 +119,6 @@ impl Declared for OutlierDrag {
         };
         model.compute();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Progress,
+    Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob, Model, Problem,
     Settings, Value,
 };
 use crate::kit::question::{Asked, carry_out};
@@ -87,20 +87,14 @@ impl Declared for PatchMatch {
     const TITLE: &'static str = "Match them by eye";
     const HELP: &'static str = "For each patch of photograph 1, click the patch of photograph 2 that shows the \
         same place, or choose its letter. When all five are chosen, you see what the descriptors say.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
             settings: Settings::new(&KNOBS),
             asked: Asked::about(Question),
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -168,19 +162,11 @@ const RIGHT: [&str; NUM_ROUNDS] = ["c", "c", "b", "c", "a"];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::ControlFlow;
-
-    fn finished() -> PatchMatch {
-        let mut model = PatchMatch::new();
-        let request = model.job().unwrap().request();
-        let go_on = &mut |_| ControlFlow::Continue(());
-        model.job_done(PatchMatch::compute(&request, go_on));
-        model
-    }
+    use crate::kit::question::settled;
 
     #[test]
     fn the_nearest_descriptor_is_wrong_twice() {
-        let mut model = finished();
+        let mut model: PatchMatch = settled(&[]);
         let rounds = model.rounds().to_vec();
         let letters: Vec<_> = rounds
             .iter()

@@ -66,16 +66,13 @@ impl Declared for RansacBudget {
     const TITLE: &'static str = "How many samples?";
     const HELP: &'static str = "Drag the dashed line to an inlier ratio, or click where it should be, and \
         change the confidence.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
             inlier_ratio: RATIO,
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -6,8 +6,8 @@
 use super::question::{Answer, Match, Question, STILL_LIFE_SIZE};
 use super::votes::Votes;
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, PhotoSlot,
-    Problem, Progress, Settings, Slider, Toggle, Value,
+    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    PhotoSlot, Problem, Settings, Slider, Toggle, Value,
 };
 use crate::kit::picture::{Own, pair_slots};
 use crate::kit::probe::Probe;
@@ -206,6 +206,9 @@ impl Declared for RansacEpipolar {
     const HELP: &'static str = "Run or step through the samples: seven matches give F, and the others \
         vote. Change the threshold, let more wrong matches in with the ratio test, or choose two \
         photographs of your own. Drag the probe in photograph 1: its epipolar line is in photograph 2.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
         let mut model = Self {
@@ -219,14 +222,6 @@ impl Declared for RansacEpipolar {
         };
         model.ask();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -279,14 +274,9 @@ impl Model for RansacEpipolar {
         }
     }
 
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        SLOTS
-    }
-
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
-        let own = Value::from(SOURCE.options[OWN].0);
-        self.settings.set(SOURCE.id, &own)?;
+        self.settings.choose(&SOURCE, OWN);
         self.ask();
         Ok(())
     }
@@ -325,21 +315,14 @@ const CHALLENGES: &[Challenge<RansacEpipolar>] = &[
 mod tests {
     use super::*;
     use crate::contract::Words;
+    use crate::kit::question::settle;
     use crate::kit::scenes::{photograph, still_life_pair};
     use std::ops::ControlFlow;
-
-    fn finish(model: &mut RansacEpipolar) {
-        while let Some(job) = model.job() {
-            let result =
-                RansacEpipolar::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
-            model.job_done(result);
-        }
-    }
 
     #[test]
     fn the_vote_is_right_about_the_still_life() {
         let mut model = RansacEpipolar::new();
-        finish(&mut model);
+        settle(&mut model);
         let votes = model.votes().unwrap();
         let best = votes.best().unwrap();
         assert!(votes.samples().is_confident());
@@ -370,12 +353,12 @@ mod tests {
             model.describe()
         );
         model.take_photo("first", first).unwrap();
-        finish(&mut model);
+        settle(&mut model);
         assert!(model.votes().unwrap().best().unwrap().num_votes > 20);
         assert_eq!(model.num_right(), None, "nobody knows the truth");
         // A gray card has no features, and that is no reason to fail.
         model.take_photo("first", RgbImage::new(64, 64)).unwrap();
-        finish(&mut model);
+        settle(&mut model);
         assert!(model.problem().unwrap().starts_with("There is no F"));
         assert!(model.take_photo("first", RgbImage::new(3, 64)).is_err());
     }

@@ -3,7 +3,7 @@
 use super::question::{MAX_SAMPLES, Question, Runs, kind};
 use super::tally::Tally;
 use crate::contract::{
-    Challenge, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Progress, Settings,
+    Challenge, Compute, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Settings,
     Slider, Toggle, Value,
 };
 use crate::kit::line_points::{Scatter, angle_between_deg, scatter};
@@ -151,6 +151,8 @@ impl Declared for RansacLine {
     const HELP: &'static str = "Step draws two points, lays a band around their line, and counts the points \
         in it; Run does so again and again. Switch MSAC and local optimization on to see what they change \
         over a hundred runs.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -163,14 +165,6 @@ impl Declared for RansacLine {
         };
         model.compute();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -132,6 +132,7 @@ impl Declared for RansacRace {
     const HELP: &'static str = "Run or step through the samples. Half of the outliers lie anywhere, half \
         in one region. Drag a point, or choose one and move it with the arrow keys; click an empty \
         place to add a point, press Delete to remove it.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -143,10 +144,6 @@ impl Declared for RansacRace {
             points,
             running: Running::at(SAMPLES_PER_SECOND),
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

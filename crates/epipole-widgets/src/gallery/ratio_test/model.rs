@@ -3,7 +3,7 @@
 use super::question::{Answer, Candidate, Question};
 use super::tally::{Rules, Tally};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
+    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
     Settings, Slider, Toggle,
 };
 use crate::kit::features::SIZE;
@@ -97,6 +97,8 @@ impl Declared for RatioTest {
     const HELP: &'static str = "Move τ and watch wrong matches, dashed, go before right ones, solid. \
         Click a feature in photograph 1, or drag the probe there, to see the two patches of photograph 2 \
         that look most like it.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -105,14 +107,6 @@ impl Declared for RatioTest {
             probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE.0, PROBE.1),
             curves: Default::default(),
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -191,20 +185,13 @@ const CHALLENGES: &[Challenge<RatioTest>] = &[
 mod tests {
     use super::*;
     use crate::kit::features::Pair;
+    use crate::kit::question::settled;
     use epipole::feature::{MatchOptions, match_descriptors};
     use std::ops::ControlFlow;
 
-    fn finished() -> RatioTest {
-        let mut model = RatioTest::new();
-        let request = model.job().unwrap().request();
-        let go_on = &mut |_| ControlFlow::Continue(());
-        model.job_done(RatioTest::compute(&request, go_on));
-        model
-    }
-
     #[test]
     fn the_core_keeps_the_same_matches() {
-        let model = finished();
+        let model: RatioTest = settled(&[]);
         let answer = model.asked.answer().unwrap();
         let pair = Pair::of_still_life(&mut |_| ControlFlow::Continue(())).unwrap();
         let [first, second] = pair.features.each_ref().map(|found| &found.descriptors);
@@ -238,7 +225,7 @@ mod tests {
     /// NumPy: every distance of two descriptors, sorted; the same photographs, features and truth.
     #[test]
     fn the_curve_is_that_of_numpy() {
-        let mut model = finished();
+        let mut model: RatioTest = settled(&[]);
         assert_eq!(model.asked.answer().unwrap().num_findable, 334);
         for (ratio, is_mutual, num_kept, num_right, precision, recall) in [
             (0.5, false, 104, 98, 0.942308, 0.293413),

@@ -104,16 +104,13 @@ impl Declared for SamePicture {
     const TITLE: &'static str = "A mug that grows along its ray";
     const HELP: &'static str = "Drag the mug along its ray, or move it with the arrow keys, and \
         compare the two photographs.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
             distance_m: START_M,
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -108,6 +108,7 @@ impl Declared for ScaleAmbiguity {
     const TITLE: &'static str = "How large is the house?";
     const HELP: &'static str = "Change the size of the house and the length of the baseline, and watch the \
         two photographs. Drag in the space to turn it.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -116,10 +117,6 @@ impl Declared for ScaleAmbiguity {
             // The house is one of constants, which a test builds.
             house: House::new().ok(),
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

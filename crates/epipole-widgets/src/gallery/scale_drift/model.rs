@@ -3,8 +3,8 @@
 use super::drive::{self, Drive, Errors};
 use super::question::{Answer, Judged, Kind, Question};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Progress, Settings, Slider, Toggle,
+    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
+    Problem, Settings, Slider, Toggle,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -163,6 +163,8 @@ impl Declared for ScaleDrift {
     const TITLE: &'static str = "Coming home with the wrong scale";
     const HELP: &'static str = "Change how much the scale drifts, and how the loop is closed. Drag the \
         handle below the plot back and forth to drive around the block.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -177,14 +179,6 @@ impl Declared for ScaleDrift {
         };
         model.refresh();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -292,19 +286,7 @@ const CHALLENGES: &[Challenge<ScaleDrift>] = &[
 mod tests {
     use super::*;
     use crate::contract::Words;
-    use std::ops::ControlFlow;
-
-    fn after(events: &[Event]) -> ScaleDrift {
-        let mut model = ScaleDrift::new();
-        for event in events {
-            model.update(event).unwrap();
-        }
-        if let Some(job) = model.job() {
-            let result = ScaleDrift::compute(&job.request(), &mut |_| ControlFlow::Continue(()));
-            model.job_done(result);
-        }
-        model
-    }
+    use crate::kit::question::settled;
 
     fn stop_at(x: f64) -> Event {
         Event::moved(TRAVELED, x, 0.0)
@@ -312,7 +294,7 @@ mod tests {
 
     #[test]
     fn the_default_shows_what_closing_the_loop_repairs() {
-        let model = after(&[]);
+        let model: ScaleDrift = settled(&[]);
         let before = model.before();
         assert!((2.0..2.6).contains(&before.scale_at_end()));
         let (before, after) = (before.error.unwrap(), model.error_after().unwrap());
@@ -321,7 +303,7 @@ mod tests {
 
     #[test]
     fn rigid_motions_close_the_gap_and_solve_nothing() {
-        let model = after(&[Event::set(&CLOSURE, "rigid")]);
+        let model: ScaleDrift = settled(&[Event::set(&CLOSURE, "rigid")]);
         let closed = model.after().unwrap();
         assert!(closed.gap() < 0.1 && closed.scale_at_end() > 2.0);
         assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));
@@ -329,24 +311,24 @@ mod tests {
 
     #[test]
     fn an_answer_to_an_older_state_solves_nothing() {
-        let mut model = after(&[]);
+        let mut model: ScaleDrift = settled(&[]);
         let before = model.error_after().unwrap();
         assert!(before < 0.1, "{before}");
         let rigid = Event::set(&CLOSURE, "rigid");
         model.update(&rigid).unwrap();
         assert_eq!(model.error_after(), None);
         assert!(!model.describe().contains("takes the trajectory error"));
-        assert!(after(&[rigid]).error_after().unwrap() > 0.5);
+        assert!(settled::<ScaleDrift>(&[rigid]).error_after().unwrap() > 0.5);
     }
 
     #[test]
     fn whoever_is_home_stays_home_when_the_way_becomes_longer() {
         let longer = Event::set(&STEPS, 120.0);
-        let model = after(&[stop_at(80.0), longer.clone()]);
+        let model: ScaleDrift = settled(&[stop_at(80.0), longer.clone()]);
         assert_eq!((model.traveled(), model.is_home()), (120, true));
-        let model = after(&[stop_at(60.0), longer]);
+        let model: ScaleDrift = settled(&[stop_at(60.0), longer]);
         assert_eq!((model.traveled(), model.is_home()), (60, false));
-        let model = after(&[stop_at(60.0), Event::set(&STEPS, 40.0)]);
+        let model: ScaleDrift = settled(&[stop_at(60.0), Event::set(&STEPS, 40.0)]);
         assert_eq!((model.traveled(), model.is_home()), (40, true));
     }
 
@@ -354,8 +336,8 @@ mod tests {
     fn equal_states_say_the_same_whatever_came_before() {
         let there = [Event::set(&DRIFT, -2.0), stop_at(20.0)];
         let back = [Event::set(&DRIFT, 1.0), stop_at(80.0)];
-        let model = after(&[there, back].concat());
-        let fresh = after(&[]);
+        let model: ScaleDrift = settled(&[there, back].concat());
+        let fresh: ScaleDrift = settled(&[]);
         assert_eq!(model.before(), fresh.before());
         assert_eq!(model.after(), fresh.after());
         assert_eq!(model.readouts(), fresh.readouts());
@@ -365,7 +347,7 @@ mod tests {
     fn the_worst_of_all_drifts_still_gives_numbers() {
         for drift in [DRIFT.min, DRIFT.max] {
             for closure in ["rigid", "similarity"] {
-                let model = after(&[
+                let model: ScaleDrift = settled(&[
                     Event::set(&DRIFT, drift),
                     Event::set(&NOISE, NOISE.max),
                     Event::set(&STEPS, STEPS.max),

@@ -2,7 +2,7 @@
 
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
+    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
     Settings, Slider,
 };
 use crate::kit::features::SIZE;
@@ -100,6 +100,8 @@ impl Declared for ScaleSpace {
     const TITLE: &'static str = "How large is it?";
     const HELP: &'static str = "Move σ through the blurs and watch the point walk along the curve. Drag the \
         probe over the photograph, or click, to ask at another place.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -107,14 +109,6 @@ impl Declared for ScaleSpace {
             asked: Asked::about(Question),
             probe: Probe::new("probe", "photograph", "Probe").at(PROBE.0, PROBE.1),
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -175,15 +169,13 @@ const CHALLENGES: &[Challenge<ScaleSpace>] = &[
 mod tests {
     use super::*;
     use crate::kit::features::Pair;
+    use crate::kit::question::settled;
     use std::ops::ControlFlow;
 
     /// A keypoint of SIFT is where the curve has its extremum.
     #[test]
     fn the_extremum_is_the_scale_of_a_keypoint() {
-        let mut model = ScaleSpace::new();
-        let request = model.job().unwrap().request();
-        let go_on = &mut |_| ControlFlow::Continue(());
-        model.job_done(ScaleSpace::compute(&request, go_on));
+        let mut model: ScaleSpace = settled(&[]);
         let pair = Pair::of_still_life(&mut |_| ControlFlow::Continue(())).unwrap();
         let keypoints = pair.features[0].keypoints.iter();
         let large = keypoints.filter(|one| (3.0..18.0).contains(&one.scale_px));

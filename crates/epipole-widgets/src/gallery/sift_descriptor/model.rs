@@ -4,7 +4,7 @@
 use super::prints::{Change, MIDDLE, Prints, SIGMA_PX};
 use super::question::Question;
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem, Progress,
+    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
     Settings, Slider, Toggle,
 };
 use crate::kit::features::SIZE;
@@ -197,6 +197,8 @@ impl Declared for SiftDescriptor {
     const HELP: &'static str = "Drag the keypoint over the photograph, then turn, scale and brighten the \
         photograph. The bars say how far each fingerprint is from its original, as a share of the distance \
         to the nearest other feature: below 0.8, it would be recognized.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -207,14 +209,6 @@ impl Declared for SiftDescriptor {
             compared: None,
             version: 0,
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -288,19 +282,11 @@ const CHALLENGES: &[Challenge<SiftDescriptor>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::ControlFlow;
-
-    fn finished() -> SiftDescriptor {
-        let mut model = SiftDescriptor::new();
-        let request = model.job().unwrap().request();
-        let go_on = &mut |_| ControlFlow::Continue(());
-        model.job_done(SiftDescriptor::compute(&request, go_on));
-        model
-    }
+    use crate::kit::question::settled;
 
     #[test]
     fn sift_survives_what_patches_do_not() {
-        let mut model = finished();
+        let mut model: SiftDescriptor = settled(&[]);
         let [raw, normalized, sift] = model.compared().unwrap().distances;
         assert!(sift.ratio() < 0.6 && normalized.ratio() > 0.8 && raw.ratio() > 0.8);
         // Nothing changed: nothing differs.

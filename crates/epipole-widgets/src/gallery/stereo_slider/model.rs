@@ -91,6 +91,7 @@ impl Declared for StereoSlider {
     const HELP: &'static str = "Drag the ball in the view from above, or move it with the arrow \
         keys; a click in a photograph moves it sideways. Set the baseline and the focal length \
         with the sliders.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         // With the default rig the ball is seen in columns 410 and 380.
@@ -99,10 +100,6 @@ impl Declared for StereoSlider {
             x_m: 0.362,
             z_m: 2.8,
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -107,6 +107,7 @@ impl Declared for Triangulate {
     const TITLE: &'static str = "Where two noisy rays meet";
     const HELP: &'static str = "Drag the point or the second camera, from above; both cameras look at the \
         point. Photograph again for other noise. Drag in the enlarged picture to turn it.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -124,10 +125,6 @@ impl Declared for Triangulate {
         };
         model.compute();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

@@ -101,6 +101,7 @@ impl Declared for TwoCameras {
     const TITLE: &'static str = "Two photographs, one place";
     const HELP: &'static str = "Drag the balls P and Q, or move them with the arrow keys, and watch \
         their images. Then let the right camera take Q for P.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -110,10 +111,6 @@ impl Declared for TwoCameras {
                 Pin::new("other", "top", "The ball Q", (-0.2, 2.6), RANGES_M),
             ],
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

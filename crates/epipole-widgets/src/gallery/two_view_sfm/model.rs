@@ -2,9 +2,8 @@
 
 use super::question::{Answer, Question, Source};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Control, ControlKind, Declared, Event, Handle, Job,
-    JobResult, Knob, Model, PhotoSlot, Problem, Progress, Settings, Slider, Space, Value,
-    format_number,
+    Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle,
+    Job, JobResult, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Value, format_number,
 };
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::picture::{Own, Picture};
@@ -227,6 +226,9 @@ impl Declared for TwoViewSfm {
         keys on its handle, to look from elsewhere; with Shift, or the small cross, the scene moves; \
         with Ctrl and the wheel, or + and −, it becomes larger. On a touchscreen drag the handle, \
         or use two fingers.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
         let mut model = Self {
@@ -238,14 +240,6 @@ impl Declared for TwoViewSfm {
         };
         model.ask();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -305,18 +299,13 @@ impl Model for TwoViewSfm {
         self.asked.take(result);
     }
 
-    fn photo_slots(&self) -> &'static [PhotoSlot] {
-        SLOTS
-    }
-
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
             self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
             self.focal_from = FocalFrom::Guess;
-            let own = Value::from(PAIR.options[OWN].0);
-            self.settings.set(PAIR.id, &own)?;
+            self.settings.choose(&PAIR, OWN);
         }
         self.begin();
         Ok(())
@@ -377,25 +366,12 @@ const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::ControlFlow;
-
-    fn settled(events: &[Event]) -> TwoViewSfm {
-        let mut model = TwoViewSfm::new();
-        for event in events {
-            model.update(event).unwrap();
-        }
-        if let Some(job) = model.job() {
-            let request = job.request();
-            let result = TwoViewSfm::compute(&request, &mut |_| ControlFlow::Continue(()));
-            model.job_done(result);
-        }
-        model
-    }
+    use crate::kit::question::settled;
 
     #[test]
     fn the_adjustment_undoes_what_knocking_a_camera_did() {
         let errors = [0.0, KNOCK.default, KNOCK.max].map(|knock| {
-            let model = settled(&[Event::set(&KNOCK, knock)]);
+            let model: TwoViewSfm = settled(&[Event::set(&KNOCK, knock)]);
             let motion = model.answer().unwrap().motion.as_ref().unwrap();
             let truth = model.true_turn_deg().unwrap();
             assert!((model.turn_deg().unwrap() - truth).abs() < 0.1, "{knock}");
@@ -409,7 +385,7 @@ mod tests {
 
     #[test]
     fn a_camera_that_only_turned_gives_no_cloud_and_solves_nothing() {
-        let model = settled(&[Event::set(&PAIR, "turn")]);
+        let model: TwoViewSfm = settled(&[Event::set(&PAIR, "turn")]);
         let answer = model.answer().unwrap();
         assert!(answer.num_inliers() > 1000 && answer.motion.is_none());
         assert!(!CHALLENGES.iter().any(|challenge| (challenge.check)(&model)));

@@ -98,6 +98,7 @@ impl Declared for WindowShift {
     const TITLE: &'static str = "What does a shift change?";
     const HELP: &'static str = "Drag the window over the picture, or move it with the arrow keys; \
         click to put it elsewhere. The second handle, in the map, is the shift to try.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -111,10 +112,6 @@ impl Declared for WindowShift {
             gray,
             version: 0,
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
