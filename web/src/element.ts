@@ -91,7 +91,7 @@ export class EpipoleFigure extends Base {
     const interest = () => {
       this.#interested = true;
       this.#begin();
-      this.#session?.release();
+      this.#showLive();
     };
     for (const type of ["pointerenter", "touchstart", "focusin"]) {
       this.addEventListener(type, interest, { passive: true, capture: true });
@@ -458,7 +458,7 @@ export class EpipoleFigure extends Base {
     });
     // The poster is this very picture; photographs are rendered once somebody takes an interest.
     const isShown = withAddress && !linked && problems.length === 0 && this.querySelector("img");
-    if (isShown && !this.#interested) this.#session.hold();
+    if (isShown && (!this.#interested || first.waiting !== null)) this.#session.hold();
     this.#session.recolor(this.#theme);
     this.#shell.speaker.warn([]);
     this.#complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
@@ -478,8 +478,14 @@ export class EpipoleFigure extends Base {
         this.#complain(this.#shell.misnamed(snapshot));
       }
       if (this.#ready) this.#tell(before, snapshot, solved);
+      if (this.#interested) this.#showLive();
     }
     if (!this.#ready) this.#becomeReady(linked);
+  }
+
+  /** Draws in place of the poster; not while the figure waits for what the poster shows already. */
+  #showLive(): void {
+    if (this.#snapshot?.waiting === null) this.#session?.release();
   }
 
   #becomeReady(linked: boolean): void {
