@@ -1,12 +1,14 @@
 # Every command a person types. `make serve` and `make test` install what they need.
 
 PORT ?= 8000
+SEED ?= 1
+MONKEY_SECONDS ?= 20
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser test-engines monkey bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +41,15 @@ test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
 	cd tests/browser && npm test --silent
 
+test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
+	@tests/tools/engines.sh
+	$(BOOK) build
+	cd tests/engines && npm test --silent
+
+monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
+	$(BOOK) build
+	cd tests/browser && SEED=$(SEED) MONKEY_SECONDS=$(MONKEY_SECONDS) npx playwright test monkey
+
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
@@ -54,7 +65,7 @@ new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 
 clean: ## removes everything that was built or installed here
 	cargo clean
-	rm -rf web/node_modules tests/browser/node_modules tests/bench/node_modules $(VENV)
+	rm -rf web/node_modules tests/browser/node_modules tests/engines/node_modules tests/bench/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
 	@tests/tools/need.sh cargo rustup node npm
@@ -70,6 +81,10 @@ web/node_modules/.installed: web/package-lock.json
 
 tests/browser/node_modules/.installed: tests/browser/package-lock.json
 	cd tests/browser && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+tests/engines/node_modules/.installed: tests/engines/package-lock.json
+	cd tests/engines && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 
 # Large and only for `make bench`, so `make setup` leaves them out.

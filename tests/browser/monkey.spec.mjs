@@ -1,0 +1,137 @@
+// Seeded random hands, keys, sizes, attributes and moves, on every figure: whatever somebody does, nothing breaks,
+// and afterwards a fresh figure with the same state says the same.
+//
+// `MONKEY_SECONDS` is how long each figure has to bear it, `SEED` what the hands do: `make monkey SEED=7`.
+
+import { expect, figures, listen, ready, settled, test, told } from "./fixtures.mjs";
+
+const SECONDS = Number(process.env.MONKEY_SECONDS ?? 3);
+const SEED = Number(process.env.SEED ?? 1);
+const KEYS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "PageUp", "PageDown", "Home", "End", "Enter", " ", "Tab", "Delete", "+", "-", "a", "Escape"];
+const ODD = ["NaN", "1e999", "-1e999", "", "true", "ό—", "0.5", "3", "-7", "١٢", "1,2", "null", "1e-320"];
+const SIZES = [[1280, 720], [390, 844], [320, 568], [1920, 1080], [700, 400]];
+
+/** Park and Miller's generator. */
+function generator(seed) {
+  let state = (seed % 2147483646) + 1;
+  return () => (state = (state * 48271) % 2147483647) / 2147483647;
+}
+
+/** What hands can do to a figure, each with how often. */
+function deeds(page, figure, random) {
+  const pick = (list) => list[Math.floor(random() * list.length)];
+  const place = async () => {
+    const box = (await figure.locator(".picture").boundingBox()) ?? { x: 0, y: 0, width: 1, height: 1 };
+    const { width, height } = page.viewportSize();
+    return [Math.min(box.x + random() * box.width, width - 1), Math.min(box.y + random() * box.height, height - 1)];
+  };
+  const control = () =>
+    figure.evaluate((element, share) => {
+      const all = [...element.shadowRoot.querySelectorAll("input, select, button, .grip, .crosshair, summary")];
+      const some = all.filter((one) => one.checkVisibility() && one.type !== "file" && !/save|full screen/i.test(one.textContent));
+      some[Math.floor(share * some.length)]?.focus();
+    }, random());
+  const list = [
+    [6, "click", async () => page.mouse.click(...(await place()))],
+    [
+      6,
+      "drag",
+      async () => {
+        await page.mouse.move(...(await place()));
+        await page.mouse.down();
+        for (let step = 0; step < 3; step += 1) await page.mouse.move(...(await place()), { steps: 2 });
+        // Now and then the button is never let go.
+        if (random() < 0.9) await page.mouse.up();
+      },
+    ],
+    [
+      10,
+      "keys",
+      async () => {
+        await control();
+        for (let press = 0; press < 4; press += 1) await page.keyboard.press(pick(KEYS));
+      },
+    ],
+    [2, "wheel", async () => page.mouse.wheel(random() * 200 - 100, random() * 400 - 200)],
+    [1, "size", async () => page.setViewportSize(Object.fromEntries(["width", "height"].map((key, at) => [key, pick(SIZES)[at]])))],
+    [
+      3,
+      "attribute",
+      () =>
+        figure.evaluate(
+          (element, [share, value]) => {
+            const names = [...element.shadowRoot.querySelectorAll("[name]")].map(({ name }) => name.replace(/^.*[.]/, ""));
+            const known = Object.keys(element.state).concat(names, "nonsense", "theme", "controls", "goals");
+            const name = known[Math.floor(share * known.length)];
+            if (/^[a-z][\w-]*$/.test(name) && name !== "name") element.setAttribute(name, value);
+          },
+          [random(), pick(ODD)],
+        ),
+    ],
+    [1, "theme", () => page.emulateMedia({ colorScheme: pick(["light", "dark"]), reducedMotion: pick(["reduce", "no-preference"]) })],
+    [
+      1,
+      "move",
+      () =>
+        figure.evaluate((element) => {
+          const { parentNode, nextSibling } = element;
+          element.remove();
+          parentNode.insertBefore(element, nextSibling);
+        }),
+    ],
+    [
+      1,
+      "rename",
+      () =>
+        figure.evaluate(async (element, other) => {
+          const name = element.getAttribute("name");
+          element.setAttribute("name", other);
+          element.setAttribute("name", name);
+        }, pick(figures).name),
+    ],
+    [1, "reset", () => figure.evaluate((element) => element.reset())],
+    [1, "glide", () => figure.evaluate((element, state) => void element.glide(state, { duration: 80 }), { nonsense: pick(ODD) })],
+  ];
+  const all = list.reduce((sum, [weight]) => sum + weight, 0);
+  return () => {
+    let at = random() * all;
+    return list.find(([weight]) => (at -= weight) < 0) ?? list[0];
+  };
+}
+
+for (const [index, { name }] of figures.entries()) {
+  test(`${name} bears ${SECONDS} s of anything`, async ({ page, open, context, complaints }) => {
+    test.setTimeout(120_000 + 4000 * SECONDS);
+    const random = generator(1000 * SEED + index);
+    let figure = await open(page, [name], { settle: false });
+    const next = deeds(page, figure, random);
+    const done = [];
+    const end = Date.now() + 1000 * SECONDS;
+    while (Date.now() < end || done.length < 25) {
+      const [, what, act] = next();
+      done.push(what);
+      await act();
+    }
+    await page.mouse.up();
+    test.info().annotations.push({ type: "deeds", description: String(done.length) });
+    await page.setViewportSize({ width: 1000, height: 900 });
+    await expect(figure, done.slice(-12).join(", ")).toHaveAttribute("data-ready", "");
+    await expect(figure.locator(".notice")).not.toContainText("mistake of ours");
+    // Whatever runs is brought to rest before the two are compared.
+    const pause = figure.getByRole("button", { name: "Pause", exact: true });
+    if (await pause.count()) await pause.first().evaluate((button) => button.click());
+    await figure.dispatchEvent("pointerenter");
+    await settled(figure);
+    const known = await told(figure);
+    expect(JSON.stringify(known)).not.toMatch(/NaN|Infinity|undefined/);
+
+    const other = await context.newPage();
+    listen(other, complaints);
+    await other.setViewportSize({ width: 1000, height: 900 });
+    figure = await open(other, [name]);
+    await figure.evaluate((element, state) => element.restore(state), known.state);
+    await ready(figure);
+    await settled(figure);
+    expect(await told(figure)).toEqual(known);
+  });
+}

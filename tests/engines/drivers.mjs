@@ -1,0 +1,111 @@
+// Three engines behind one small interface: `open(url)`, `run(function, argument)`, `press(...keys)`,
+// `complaints` and `close()`.
+//
+// Firefox speaks WebDriver BiDi, so no further program is needed; WebKit has its own driver, which opens a
+// window, so it gets a display that nobody sees.
+
+import puppeteer from "puppeteer-core";
+import { Browser, Builder, Capabilities, Key } from "selenium-webdriver";
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { launchOptions } from "../browser/chromium.mjs";
+
+/** Wide enough for the layout of a laptop. */
+export const WINDOW = { width: 1280, height: 900 };
+
+const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox", "/Applications/Firefox.app/Contents/MacOS/firefox"];
+const MINI_BROWSERS = ["x86_64-linux-gnu", "aarch64-linux-gnu"].flatMap((machine) =>
+  ["4.1", "4.0"].map((version) => `/usr/lib/${machine}/webkit2gtk-${version}/MiniBrowser`),
+);
+
+export const chromium = () => byPuppeteer("Chromium", { ...launchOptions, browser: "chrome", headless: true });
+
+export const firefox = () => {
+  const executablePath = process.env.FIREFOX ?? FIREFOX.find((path) => existsSync(path));
+  if (!executablePath) throw new Error("Firefox is missing: install firefox-esr, or set FIREFOX=path");
+  return byPuppeteer("Firefox", { browser: "firefox", executablePath, headless: true });
+};
+
+async function byPuppeteer(name, options) {
+  const browser = await puppeteer.launch({ ...options, defaultViewport: WINDOW, protocolTimeout: 600_000 });
+  const page = await browser.newPage();
+  const complaints = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  return {
+    name,
+    complaints,
+    open: (url) => page.goto(url, { waitUntil: "load" }),
+    run: (work, argument) => page.evaluate(work, argument),
+    press: async (...keys) => {
+      for (const key of keys) await page.keyboard.press(key);
+    },
+    close: () => browser.close(),
+  };
+}
+
+/** Its driver tells nothing of the console, so pages report their own errors. */
+export async function webkit() {
+  const window = process.env.MINI_BROWSER ?? MINI_BROWSERS.find((path) => existsSync(path));
+  if (!window) throw new Error("WebKit is missing: install webkit2gtk-driver and its MiniBrowser");
+  const [display, port] = [`:${90 + (process.pid % 100)}`, 4400 + (process.pid % 1000)];
+  const size = `${WINDOW.width + 60}x${WINDOW.height + 160}x24`;
+  const screen = spawn("Xvfb", [display, "-screen", "0", size, "-nolisten", "tcp"], { stdio: "ignore" });
+  const env = { ...process.env, DISPLAY: display, GDK_BACKEND: "x11", WEBKIT_DISABLE_DMABUF_RENDERER: "1" };
+  const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
+  const server = `http://127.0.0.1:${port}`;
+  await answers(`${server}/status`);
+  const wanted = new Capabilities({ browserName: Browser.MINIBROWSER ?? "MiniBrowser" });
+  wanted.set("webkitgtk:browserOptions", { binary: window, args: ["--automation"] });
+  const session = await new Builder().usingServer(server).withCapabilities(wanted).build();
+  await session.manage().setTimeouts({ script: 600_000, pageLoad: 120_000 });
+  await session.manage().window().setRect({ x: 0, y: 0, width: WINDOW.width, height: WINDOW.height + 90 });
+  const complaints = [];
+  return {
+    name: "WebKit",
+    complaints,
+    open: async (url) => {
+      await session.get(url);
+      await session.executeScript(
+        "addEventListener('error', (event) => (window.complaints ??= []).push(String(event.message)));" +
+          "addEventListener('unhandledrejection', (event) => (window.complaints ??= []).push(String(event.reason)));",
+      );
+    },
+    run: async (work, argument) => {
+      // As text: its driver stumbles over some values.
+      const said = await session.executeAsyncScript(
+        `const done = arguments[arguments.length - 1];
+         const tell = (said) => done(JSON.stringify({ ...said, heard: (window.complaints ?? []).splice(0) }));
+         Promise.resolve((${work})(arguments[0])).then((value) => tell({ value }), (error) => tell({ problem: String(error) }));`,
+        argument,
+      );
+      const { value, problem, heard } = JSON.parse(said);
+      complaints.push(...heard);
+      if (problem) throw new Error(problem);
+      return value;
+    },
+    press: async (...keys) => {
+      const named = { ArrowLeft: Key.ARROW_LEFT, ArrowRight: Key.ARROW_RIGHT, ArrowDown: Key.ARROW_DOWN };
+      const actions = session.actions();
+      for (const key of keys) actions.sendKeys(named[key]);
+      await actions.perform();
+    },
+    close: async () => {
+      await session.quit().catch(() => {});
+      driver.kill();
+      screen.kill();
+    },
+  };
+}
+
+/** Waits until somebody listens there. */
+async function answers(url) {
+  for (let attempt = 0; attempt < 100; attempt += 1) {
+    const heard = await fetch(url).catch(() => undefined);
+    if (heard?.ok) return;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  throw new Error(`nobody answers at ${url}: is WebKitWebDriver installed?`);
+}

@@ -1,0 +1,110 @@
+// Firefox and WebKit do what Chromium does: every chapter opens, every figure of it answers to keys with the
+// same readouts, permalinks bring states back, and the modules give the bits that they give natively.
+//
+// `ONLY=webkit` runs one engine, `PAGES=stereo` the pages whose name contains it.
+
+import assert from "node:assert/strict";
+import { mkdtemp, writeFile } from "node:fs/promises";
+import { readdirSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { bindings, book, elements, loadBindings } from "../browser/places.mjs";
+import { modulesAt, playInPage, playNatively, write } from "../browser/scripts.mjs";
+import { serve } from "../browser/server.mjs";
+import { chromium, firefox, webkit } from "./drivers.mjs";
+import { figuresOf, look, ready, takeHold } from "./steps.mjs";
+
+const ENGINES = { firefox, webkit };
+const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.ONLY ?? ""));
+const pages = readdirSync(book).filter(
+  (name) => name.endsWith(".html") && name !== "404.html" && name.includes(process.env.PAGES ?? ""),
+);
+
+const { Figure, figures } = await loadBindings();
+const names = JSON.parse(figures()).map(({ name }) => name);
+const LOOK = { width: 760, scale: 1, theme: "light", seed: 5, rounds: 2 };
+
+// What is written into a page must come as a script of its own under the policy of the book.
+const made = await mkdtemp(join(tmpdir(), "epipole-engines-"));
+await writeFile(join(made, "play.js"), `globalThis.play = ${playInPage};\n`);
+const player = () => '<!doctype html><html lang="en"><title>Play</title><script src="/made/play.js"></script></html>';
+
+let server;
+let reference;
+before(async () => {
+  server = await serve({ mounts: { course: book, play: player, made, elements, bindings } });
+  reference = await chromium();
+});
+after(async () => {
+  await reference?.close();
+  await server?.close();
+});
+
+/** What an engine says of a page: each figure at first, after keys on a slider, and on a handle. */
+async function tour(engine, page) {
+  await engine.open(`${server.origin}/course/${page}`);
+  const said = [];
+  const count = await engine.run(figuresOf);
+  for (let index = 0; index < count; index += 1) {
+    await engine.run(ready, index);
+    const steps = [await engine.run(look, index)];
+    for (const what of ["slider", "handle"]) {
+      if (!(await engine.run(takeHold, { index, what }))) continue;
+      await engine.press("ArrowRight", "ArrowRight", "ArrowLeft", "ArrowDown");
+      steps.push(await engine.run(look, index));
+    }
+    said.push(steps);
+  }
+  return said;
+}
+
+/** Without what differs by right: the address, and whether a picture was drawn already. */
+const compared = (tour) =>
+  tour.map((steps) => steps.map(({ name, state, readouts, description }) => ({ name, state, readouts, description })));
+
+const references = new Map();
+function ofReference(page) {
+  if (!references.has(page)) references.set(page, tour(reference, page).then(compared));
+  return references.get(page);
+}
+
+for (const key of chosen) {
+  describe(key, { timeout: 1_800_000 }, () => {
+    let engine;
+    before(async () => (engine = await ENGINES[key]()));
+    after(() => engine?.close());
+
+    for (const name of names) {
+      test(`${name} gives the bits that it gives natively`, async () => {
+        const scripts = [write(Figure, name, LOOK)];
+        const native = playNatively(scripts);
+        await engine.open(`${server.origin}/play`);
+        // In the page, `play` is the same function.
+        const there = await engine.run((given) => globalThis.play(given), { ...modulesAt(server.origin), scripts });
+        for (const [step, words] of scripts[0].calls.entries()) {
+          assert.equal(there[0][step], native[0][step], `call ${step}: ${words.join(" ")}`);
+        }
+      });
+    }
+
+    for (const page of pages) {
+      test(`${page}: its figures answer to keys as in Chromium, and permalinks bring states back`, async () => {
+        engine.complaints.length = 0;
+        const said = await tour(engine, page);
+        assert.deepEqual(compared(said), await ofReference(page));
+        for (const steps of said) assert.ok(steps.at(-1).colors > 3, `${steps[0].name}: the canvas is not empty`);
+        const seen = new Set();
+        for (const { name, state, permalink } of said.map((steps) => steps.at(-1))) {
+          if (seen.has(name)) continue;
+          seen.add(name);
+          await engine.open(permalink);
+          const index = said.findIndex((steps) => steps[0].name === name);
+          await engine.run(ready, index);
+          assert.deepEqual((await engine.run(look, index)).state, state, `${name}: ${permalink}`);
+        }
+        assert.deepEqual(engine.complaints, [], "errors in the console");
+      });
+    }
+  });
+}

@@ -1,0 +1,50 @@
+// What is carried out in a page, in any engine. Each function travels as text, so it names nothing outside itself.
+
+/** How many figures the page has. */
+export async function figuresOf() {
+  return document.querySelectorAll("epipole-figure").length;
+}
+
+/** Brings a figure to life and waits for what it computes. */
+export async function ready(index) {
+  await customElements.whenDefined("epipole-figure");
+  const figure = document.querySelectorAll("epipole-figure")[index];
+  figure.scrollIntoView({ block: "center", behavior: "instant" });
+  await figure.whenReady();
+  figure.dispatchEvent(new PointerEvent("pointerenter"));
+}
+
+/** Puts the focus on the first slider that does something, or on the first handle; says whether there is one. */
+export async function takeHold({ index, what }) {
+  const figure = document.querySelectorAll("epipole-figure")[index];
+  const selector = what === "slider" ? "input[type=range]:not([aria-disabled=true])" : ".grip";
+  const found = [...figure.shadowRoot.querySelectorAll(selector)].find((one) => one.checkVisibility?.() ?? true);
+  found?.focus({ preventScroll: true });
+  return found !== undefined;
+}
+
+/** What a figure says once it has computed what it must. */
+export async function look(index) {
+  const figure = document.querySelectorAll("epipole-figure")[index];
+  const rest = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  await rest(50);
+  figure.flush();
+  // A computation is asked for a moment after the state has changed.
+  for (let calm = 0, tries = 0; calm < 3 && tries < 1200; tries += 1) {
+    calm = figure.shadowRoot.querySelector("[aria-busy]") ? 0 : calm + 1;
+    await rest(50);
+  }
+  figure.flush();
+  const canvas = figure.shadowRoot.querySelector("canvas");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width || 1, canvas.height || 1);
+  const colors = new Set();
+  for (let at = 0; at < data.length && colors.size < 64; at += 4 * 97) colors.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+  return {
+    name: figure.getAttribute("name"),
+    state: figure.state,
+    readouts: figure.readouts,
+    description: figure.description,
+    permalink: figure.permalink,
+    colors: colors.size,
+  };
+}
