@@ -43,6 +43,15 @@ function checkChoices(inputs: HTMLInputElement[]): Verdict | null {
   return { right, say: right ? "Right." : "Not yet. Look again, or open the answer." };
 }
 
+function checkOrder(places: HTMLSelectElement[]): Verdict | null {
+  const chosen = places.map(({ value }) => value);
+  if (chosen.every((place) => place === "")) return null;
+  if (chosen.some((place) => place === "")) return { right: false, say: "Not yet: some have no place." };
+  if (new Set(chosen).size < chosen.length) return { right: false, say: "Not yet: two have the same place." };
+  const wrong = places.filter(({ value, dataset }) => value !== dataset.place).length;
+  return { right: wrong === 0, say: wrong === 0 ? "Right." : `Not yet: ${wrong} stand elsewhere.` };
+}
+
 function showReasons(form: HTMLFormElement): void {
   for (const why of form.querySelectorAll<HTMLElement>(".why")) {
     const input = why.previousElementSibling?.querySelector("input");
@@ -66,7 +75,8 @@ function prepare(form: HTMLFormElement, quiz: string): void {
     event.preventDefault();
     const number = form.querySelector<HTMLInputElement>("input[data-answer]");
     const choices = [...form.querySelectorAll<HTMLInputElement>(".choice input")];
-    const result = number ? checkNumber(number) : checkChoices(choices);
+    const places = [...form.querySelectorAll<HTMLSelectElement>("select[data-place]")];
+    const result = number ? checkNumber(number) : places.length > 0 ? checkOrder(places) : checkChoices(choices);
     if (!result) {
       delete form.dataset.state;
       verdict.textContent = "Choose or type an answer first.";

@@ -38,6 +38,8 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let mut html = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
+    // The renderer names the space of `\ `, which the escaping below would show as letters.
+    let html = html.replace("&nbsp;", "\u{a0}");
     let html = with_accents(&escape_leaves(&html));
     if html.contains("<merror") || html.contains(" style=") {
         return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());
@@ -138,6 +140,13 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_space_is_a_space() {
+        let html = mathml("a\\ b", Layout::Inline).unwrap();
+        let shown = html.split("<annotation").next().unwrap();
+        assert!(!shown.contains("nbsp") && !shown.contains("&amp;"), "{shown}");
+    }
 
     #[test]
     fn formulas_of_the_book() {

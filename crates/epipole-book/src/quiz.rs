@@ -21,9 +21,13 @@ struct Question {
     /// Permanent: the reader's progress is stored under it.
     id: String,
     prompt: String,
-    /// Multiple choice: one right answer makes radio buttons, several make check boxes.
+    /// Multiple choice: one right answer makes radio buttons, several make check boxes. A choice can be a picture:
+    /// `{{#small figure … | words}}`.
     #[serde(default)]
     choices: Vec<Choice>,
+    /// Put in order: what comes first stands first; readers see them shuffled.
+    #[serde(default)]
+    steps: Vec<String>,
     /// A numeric answer that the core computes, written as in `{{#value …}}`.
     value: Option<String>,
     /// A numeric answer that only the question defines.
@@ -111,11 +115,15 @@ fn body(
 ) -> Result<(String, String), String> {
     let kinds = [
         !question.choices.is_empty(),
+        !question.steps.is_empty(),
         question.value.is_some(),
         question.answer.is_some(),
     ];
     if kinds.iter().filter(|&&given| given).count() != 1 {
-        return Err("give exactly one of choices, value and answer".to_owned());
+        return Err("give exactly one of choices, steps, value and answer".to_owned());
+    }
+    if !question.steps.is_empty() {
+        return ordering(name, question, place, inline);
     }
     if question.choices.is_empty() {
         return numeric(name, question);
@@ -148,6 +156,43 @@ fn body(
         }
     }
     Ok((fields, answers.join("; ")))
+}
+
+/// Steps to put in order: a list of places beside each, which needs neither a mouse nor a steady hand.
+fn ordering(
+    name: &str,
+    question: &Question,
+    place: &Place,
+    inline: &mut Inline,
+) -> Result<(String, String), String> {
+    let steps: Vec<String> = (question.steps.iter())
+        .map(|step| inline(step, place.clone()))
+        .collect();
+    if steps.len() < 3 {
+        return Err("two steps have only one other order: give three or more".to_owned());
+    }
+    let places: String = (1..=steps.len())
+        .map(|place| format!("<option>{place}</option>"))
+        .collect();
+    let mut shuffled = order(&format!("{name}/{}", question.id), steps.len());
+    if shuffled.is_sorted() {
+        shuffled.reverse();
+    }
+    let field = |index: usize| {
+        let (place, step) = (index + 1, &steps[index]);
+        format!(
+            "<label class=\"step\"><select data-place=\"{place}\"><option value=\"\">–</option>{places}</select> \
+             <span>{step}</span></label>\n"
+        )
+    };
+    let answers: Vec<String> = (1..)
+        .zip(&steps)
+        .map(|(k, step)| format!("{k}. {step}"))
+        .collect();
+    Ok((
+        shuffled.into_iter().map(field).collect(),
+        answers.join("; "),
+    ))
 }
 
 /// The order in which the choices of a question stand, the same in every build: authors write the right
@@ -246,6 +291,24 @@ mod tests {
         assert!(html.contains("data-answer=\"345\""), "{html}");
         assert!(html.contains("<strong>345.0 px</strong>"), "{html}");
         assert!(html.contains("<details class=\"solution\">"));
+    }
+
+    #[test]
+    fn steps_stand_in_another_order_and_the_answer_tells_the_right_one() {
+        let start = "[[question]]\nid = 'a'\nprompt = 'P?'\nexplanation = 'E.'\n";
+        let (html, problems) = rendered(&format!("{start}steps = ['one', 'two', 'three']"));
+        assert_eq!(problems, Vec::<String>::new());
+        assert!(
+            html.contains("<strong>1. one; 2. two; 3. three</strong>"),
+            "{html}"
+        );
+        let places: Vec<usize> = ["data-place=\"1\"", "data-place=\"2\"", "data-place=\"3\""]
+            .map(|mark| html.find(mark).unwrap())
+            .into();
+        assert!(!places.is_sorted(), "{html}");
+        assert_eq!(html.matches("<option>3</option>").count(), 3);
+        let (_, problems) = rendered(&format!("{start}steps = ['one', 'two']"));
+        assert!(problems[0].contains("three or more"), "{problems:?}");
     }
 
     #[test]
