@@ -17,7 +17,7 @@ startOperating();
 startListings();
 startSymbols();
 
-if (document.querySelector(".quiz, .progress")) {
+if (document.querySelector(".quiz, .progress, .small .solved")) {
   void import("./quiz").then((quiz) => quiz.start());
 }
 

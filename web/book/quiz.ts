@@ -116,9 +116,18 @@ function showProgress(progress: HTMLElement): void {
   });
 }
 
+/** Below the picture of a chapter: what the reader has solved there; nothing, if that is nothing. */
+function showSolved(mark: HTMLElement): void {
+  const solved = Object.keys(load(mark.dataset.quiz ?? "")).length;
+  const questions = Number(mark.dataset.questions);
+  mark.hidden = solved === 0;
+  mark.textContent = solved < questions ? `${solved} of ${questions} questions solved` : "Quiz solved";
+}
+
 export function start(): void {
   for (const quiz of document.querySelectorAll<HTMLElement>(".quiz")) {
     for (const form of quiz.querySelectorAll("form")) prepare(form, quiz.dataset.quiz ?? "");
   }
   for (const progress of document.querySelectorAll<HTMLElement>(".progress")) showProgress(progress);
+  for (const mark of document.querySelectorAll<HTMLElement>(".small .solved")) showSolved(mark);
 }

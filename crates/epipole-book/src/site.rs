@@ -413,6 +413,7 @@ fn resolve_pages(pages: &mut [Page], shared: &Shared, panels: &[String]) {
                 .get(name)
                 .map(|(_, number)| format!("Figure {number}"))
                 .unwrap_or_default(),
+            "solved" => solved_mark(shared, name),
             "progress" => progress.replace("href=\"", &format!("href=\"{root}")),
             "panel" => name
                 .parse()
@@ -425,6 +426,20 @@ fn resolve_pages(pages: &mut [Page], shared: &Shared, panels: &[String]) {
             _ => String::new(),
         });
     }
+}
+
+/// Room below a small picture for how much of its page's quiz is solved; the script of the page fills it in.
+fn solved_mark(shared: &Shared, file: &str) -> String {
+    let path = Path::new(file).with_extension("html");
+    let mut quizzes = shared.quizzes().into_iter();
+    let quiz = quizzes.find(|quiz| Path::new(&quiz.page) == path);
+    quiz.map_or_else(String::new, |quiz| {
+        format!(
+            "<span class=\"solved\" data-quiz=\"{}\" data-questions=\"{}\" hidden></span>",
+            escape(&quiz.name),
+            quiz.questions
+        )
+    })
 }
 
 /// A table of all quizzes; the script of the page fills in the results.

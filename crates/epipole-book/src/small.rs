@@ -9,10 +9,12 @@ use crate::links;
 use crate::markdown::Renderer;
 use crate::posters::{self, Posters};
 use crate::problems::Place;
+use crate::shared::token;
 use crate::source::Source;
 
 /// `{{#small figure key=value … page=sfm.md | words}}`: the figure's picture for a phone, with words below
-/// it. It leads to the page, once there is such a page: chapters can name those that are still to come.
+/// it. It leads to the page, once there is such a page: chapters can name those that are still to come. If the
+/// page has a quiz, the script of the page says how much of it the reader has solved.
 pub(crate) fn picture(
     renderer: &mut Renderer,
     directive: &Directive,
@@ -47,7 +49,10 @@ pub(crate) fn picture(
     let html = match page {
         Some((page, true)) => {
             let href = links::rewrite(renderer, page, place.clone());
-            format!("<a class=\"small\" href=\"{}\">{inside}</a>", escape(&href))
+            // Which quiz the page has is known once it is rendered.
+            let solved = token("solved", page.split('#').next().unwrap_or(page));
+            let href = escape(&href);
+            format!("<a class=\"small\" href=\"{href}\">{inside}{solved}</a>")
         }
         _ => format!("<span class=\"small\">{inside}</span>"),
     };

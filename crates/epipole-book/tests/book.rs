@@ -758,7 +758,10 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
     let book = Book::new(&[
         ("SUMMARY.md", "- [One](one.md)\n\n[Progress](progress.md)\n"),
         ("one.md", "# One\n\n{{#quiz one}}\n"),
-        ("progress.md", "# Progress\n\n{{#progress}}\n"),
+        (
+            "progress.md",
+            "# Progress\n\n{{#progress}}\n\n{{#small dot page=one.md#one | One.}}\n{{#small dot | No page.}}\n",
+        ),
         ("quizzes/one.toml", quiz),
     ]);
     book.must_build();
@@ -774,6 +777,10 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
     assert!(
         progress.contains("<tr data-quiz=\"one\"><td><a href=\"one.html\">One</a></td><td>1</td>")
     );
+    // A picture that leads to a chapter has room for what is solved there.
+    let mark = "<span class=\"solved\" data-quiz=\"one\" data-questions=\"1\" hidden></span></a>";
+    assert_eq!(progress.matches(mark).count(), 1, "{progress}");
+    assert_eq!(progress.matches("class=\"solved\" data-quiz").count(), 1);
 
     book.write(
         "content/quizzes/one.toml",

@@ -4,6 +4,8 @@ use crate::contract::{Compute, Declared, JobResult, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 mod bundle_adjustment;
+mod column_sizes;
+mod cover;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
@@ -19,12 +21,14 @@ pub mod ransac_epipolar;
 mod ransac_line;
 pub mod ransac_race;
 mod ratio_test;
+mod rectify;
 mod same_picture;
 mod scale_ambiguity;
 mod scale_drift;
 mod scale_space;
 mod sift_descriptor;
 mod stereo_slider;
+mod tournament;
 mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
@@ -59,6 +63,7 @@ macro_rules! figures {
 }
 
 figures![
+    cover::View,
     two_cameras::View,
     same_picture::View,
     gradient_field::View,
@@ -72,6 +77,7 @@ figures![
     epipolar_click::View,
     epipolar_plane::View,
     eight_point::View,
+    column_sizes::View,
     outlier_drag::View,
     ransac_line::View,
     ransac_budget::View,
@@ -79,12 +85,14 @@ figures![
     triangulate::View,
     scale_ambiguity::View,
     stereo_slider::View,
+    rectify::View,
     disparity_map::View,
     four_poses::View,
     two_view_sfm::View,
     bundle_adjustment::View,
     scale_drift::View,
     ransac_race::View,
+    tournament::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -5,6 +5,8 @@
 //! many data. Estimators live beside their solvers; the two for the plane, [`LineEstimator`] and
 //! [`SimilarityEstimator`], live here.
 //!
+//! [`least_median`] judges by the middle error instead of votes, and needs no threshold.
+//!
 //! Source: Fischler & Bolles 1981 (the loop); Torr & Zisserman 2000 (the MSAC score); Chum, Matas
 //! & Kittler 2003 (local optimization).
 
@@ -12,7 +14,9 @@ mod budget;
 mod chance;
 mod engine;
 mod estimator;
+mod least_median;
 mod line;
+mod line_huber;
 mod matches;
 mod options;
 mod run;
@@ -26,7 +30,9 @@ pub use chance::log10_false_alarms;
 pub(crate) use chance::{chance_near_line, chance_near_point};
 pub use engine::Ransac;
 pub use estimator::{Estimator, Support};
+pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
+pub use line_huber::fit_line_huber;
 pub(crate) use matches::FARTHEST_PX;
 pub use matches::MatchSet;
 pub use options::{Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason};

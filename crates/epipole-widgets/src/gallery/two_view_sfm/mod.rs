@@ -1,9 +1,9 @@
 //! `two-view-sfm`: from two photographs to a colored cloud, stage by stage.
 
-mod model;
-mod question;
+pub(super) mod model;
+pub(super) mod question;
 mod verdict;
-mod view;
+pub(super) mod view;
 mod words;
 
 pub(crate) use view::TwoViewSfmView as View;

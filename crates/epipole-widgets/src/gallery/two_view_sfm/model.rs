@@ -84,7 +84,7 @@ const MIN_SIDE_PX: u32 = 64;
 
 /// How far the pipeline has come; later stages know what earlier ones do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Stage {
+pub(in crate::gallery) enum Stage {
     Detect,
     Match,
     Ransac,

@@ -27,7 +27,7 @@ const TURN: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.30, -0.20, 0.0]];
 
 /// Where the two photographs come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum Source {
+pub(in crate::gallery) enum Source {
     /// The rendered still life, from two places.
     Step,
     /// The rendered still life, from one place in two directions.
@@ -38,56 +38,56 @@ pub(super) enum Source {
 
 /// Everything that the answer depends on.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Question {
-    pub(super) source: Source,
+pub(in crate::gallery) struct Question {
+    pub(in crate::gallery) source: Source,
     /// Focal length, in units of a photograph's longer side.
-    pub(super) focal: f64,
+    pub(in crate::gallery) focal: f64,
     /// Of Lowe's test.
-    pub(super) max_ratio: f32,
+    pub(in crate::gallery) max_ratio: f32,
     /// Largest distance of an inlier from its epipolar line, pixels.
-    pub(super) max_error_px: f64,
+    pub(in crate::gallery) max_error_px: f64,
     /// How far camera 2 is turned away from its pose before points are triangulated, degrees.
-    pub(super) knock_deg: f64,
+    pub(in crate::gallery) knock_deg: f64,
 }
 
 /// A point of the cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct CloudPoint {
+pub(in crate::gallery) struct CloudPoint {
     /// Where it is in the frame of camera 1; the baseline has length 1.
-    pub(super) place: Point3<f64>,
+    pub(in crate::gallery) place: Point3<f64>,
     /// Where it was before the adjustment.
     pub(super) triangulated: Point3<f64>,
-    pub(super) color: [u8; 3],
+    pub(in crate::gallery) color: [u8; 3],
 }
 
 /// A motion and what follows from it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Motion {
+pub(in crate::gallery) struct Motion {
     /// Camera 2 in the frame of camera 1, as RANSAC found it.
     pub(super) found: RigidTransform,
     /// The same, adjusted.
-    pub(super) cam2_from_cam1: RigidTransform,
+    pub(in crate::gallery) cam2_from_cam1: RigidTransform,
     /// How many inliers each of the four poses of E puts in front of both cameras, most first.
     pub(super) num_in_front: [usize; 4],
     /// Root mean square of the distances of projections from their features, pixels, before and
     /// after the adjustment of all.
     pub(super) error_px: [f64; 2],
-    pub(super) points: Vec<CloudPoint>,
+    pub(in crate::gallery) points: Vec<CloudPoint>,
 }
 
 /// What the computation finds.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Answer {
-    pub(super) pictures: [Picture; 2],
+pub(in crate::gallery) struct Answer {
+    pub(in crate::gallery) pictures: [Picture; 2],
     /// Places of all features, pixels.
-    pub(super) keypoints: [Vec<Point2<f64>>; 2],
+    pub(in crate::gallery) keypoints: [Vec<Point2<f64>>; 2],
     /// The features of each match.
-    pub(super) matches: Vec<(u32, u32)>,
+    pub(in crate::gallery) matches: Vec<(u32, u32)>,
     /// For each match, whether it agrees with what was found.
     pub(super) inliers: Vec<bool>,
     pub(super) verdict: Verdict,
     /// There for the verdicts that have a cloud.
-    pub(super) motion: Option<Motion>,
+    pub(in crate::gallery) motion: Option<Motion>,
 }
 
 impl Motion {
@@ -110,17 +110,17 @@ impl Motion {
 
 impl Answer {
     /// Where the two features of a match are, pixels.
-    pub(super) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
+    pub(in crate::gallery) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
         [self.keypoints[0][i as usize], self.keypoints[1][j as usize]]
     }
 
     /// The matches that agree with what was found, or those that do not.
-    pub(super) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
+    pub(in crate::gallery) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
         let matches = self.matches.iter().zip(&self.inliers);
         matches.filter_map(move |(pair, is_inlier)| (*is_inlier == agree).then_some(*pair))
     }
 
-    pub(super) fn num_inliers(&self) -> usize {
+    pub(in crate::gallery) fn num_inliers(&self) -> usize {
         self.inliers.iter().filter(|is_inlier| **is_inlier).count()
     }
 }
@@ -142,7 +142,7 @@ impl Question {
     }
 
     /// Camera 1 of the answer, and camera 2 once a stage knows its motion.
-    pub(super) fn cameras(
+    pub(in crate::gallery) fn cameras(
         &self,
         answer: &Answer,
         stage: Stage,

@@ -198,7 +198,7 @@ fn legend(canvas: &mut Canvas, rect: Rect, num_outliers: usize, num_inliers: usi
 }
 
 /// Some of many, evenly.
-fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+pub(in crate::gallery) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let stride = all.len().div_ceil(most).max(1);
     all.iter().step_by(stride)
 }

@@ -1,0 +1,7 @@
+//! `cover`: the whole way of the book in five steps, from two photographs to a cloud of points.
+
+mod model;
+mod view;
+mod words;
+
+pub(super) use view::CoverView as View;

@@ -1,0 +1,301 @@
+//! Two cameras that look the wrong way for stereo, some matches, and how far the pair has been turned.
+
+use super::turned::{Turned, Way};
+use crate::contract::{
+    Challenge, Choice, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, Symbol,
+    Value,
+};
+use crate::kit::geometry::{Geometry, symbols};
+use crate::kit::scenes::{in_picture, still_life};
+use epipole::synthetic::Transfer;
+use nalgebra::{Point2, Point3};
+
+const PARALLEL: Slider = Slider::new("parallel", "Make parallel")
+    .range(0.0, 100.0, 1.0)
+    .unit("%");
+const ALONG: Slider = Slider::new("along", "Follow the baseline")
+    .range(0.0, 100.0, 1.0)
+    .unit("%");
+const TURN: Slider = Slider::new("turn", "Camera 2 turned")
+    .range(0.0, 16.0, 1.0)
+    .at(10.0)
+    .unit("°");
+const FORWARD: Slider = Slider::new("forward", "Camera 2 forward")
+    .range(-0.1, 0.1, 0.01)
+    .at(-0.05)
+    .digits(2)
+    .unit("m");
+const FRAME: Choice = Choice::new(
+    "frame",
+    "Rectified frame",
+    &[("all", "All pixels"), ("valid", "Valid pixels")],
+)
+.more();
+const MATCH: Slider = Slider::new("match", "Match p")
+    .range(1.0, NUM_MATCHES as f64, 1.0)
+    .at(8.0)
+    .more();
+const KNOBS: &[Knob] = &[
+    Knob::Slider(&PARALLEL),
+    Knob::Slider(&ALONG),
+    Knob::Slider(&TURN),
+    Knob::Slider(&FORWARD),
+    Knob::Choice(&FRAME),
+    Knob::Slider(&MATCH),
+];
+
+const NUM_MATCHES: usize = 8;
+/// Pixels of photograph 1 whose matches are followed, spread over the things and the walls.
+const PIXELS: [(f64, f64); NUM_MATCHES] = [
+    (70.0, 70.0),
+    (330.0, 60.0),
+    (560.0, 90.0),
+    (150.0, 230.0),
+    (330.0, 250.0),
+    (500.0, 260.0),
+    (230.0, 420.0),
+    (480.0, 420.0),
+];
+
+/// A match: where both pictures show one point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shown {
+    pub(super) point: Point3<f64>,
+    /// In the pictures as they are turned now.
+    pub(super) pixels: [Point2<f64>; 2],
+    /// Whether photograph 2 shows the point: nothing hides it, and it is inside.
+    pub(super) is_seen: bool,
+}
+
+impl Shown {
+    /// Row in picture 2 minus row in picture 1, pixels.
+    pub(super) fn rows_px(&self) -> f64 {
+        self.pixels[1].y - self.pixels[0].y
+    }
+}
+
+/// Everything that the picture shows.
+pub(super) struct State {
+    pub(super) turned: Turned,
+    pub(super) geometry: Option<Geometry>,
+    pub(super) matches: Vec<Shown>,
+}
+
+impl State {
+    fn new(forward_m: f64, left_deg: f64, way: Way) -> Result<Self, epipole::Error> {
+        let turned = Turned::new(forward_m, left_deg, way)?;
+        let [first, second] = &turned.taken;
+        let scene = still_life();
+        let follow = |(u, v): (f64, f64)| {
+            let (point, is_seen) = match scene.transfer(first, second, &Point2::new(u, v)) {
+                Transfer::Visible { pixel2, x_in_world } => (x_in_world, in_picture(&pixel2)),
+                Transfer::Occluded { x_in_world, .. } => (x_in_world, false),
+                Transfer::BehindCamera { .. } | Transfer::Nothing => return None,
+            };
+            let [one, two] = turned.shown.map(|camera| camera.project(&point).ok());
+            Some(Shown {
+                point,
+                pixels: [one?, two?],
+                is_seen,
+            })
+        };
+        let matches = PIXELS.into_iter().filter_map(follow).collect();
+        Ok(Self {
+            geometry: Geometry::of(&turned.shown),
+            turned,
+            matches,
+        })
+    }
+
+    /// The largest difference of rows among the matches that both photographs show, pixels.
+    pub(super) fn worst_px(&self) -> f64 {
+        let seen = self.matches.iter().filter(|shown| shown.is_seen);
+        seen.map(|shown| shown.rows_px().abs()).fold(0.0, f64::max)
+    }
+}
+
+/// The model of `rectify`.
+pub(crate) struct Rectify {
+    settings: Settings,
+    state: Result<State, String>,
+}
+
+impl Rectify {
+    /// The pair as it is turned now, or why there is none.
+    pub(super) fn state(&self) -> Result<&State, &str> {
+        self.state.as_ref().map_err(String::as_str)
+    }
+
+    /// The match that p and p′ are, if camera 1 sees it.
+    pub(super) fn selected(&self) -> Option<(usize, &Shown)> {
+        let index = self.settings.count(&MATCH) - 1;
+        Some((index, self.state.as_ref().ok()?.matches.get(index)?))
+    }
+
+    pub(super) fn is_rectified(&self) -> bool {
+        let way = self.way();
+        way.parallel >= 1.0 && way.along >= 1.0
+    }
+
+    /// Whether the cameras stand and look as they were placed at the start.
+    fn is_as_placed(&self) -> bool {
+        self.settings.number(&TURN) == TURN.default
+            && self.settings.number(&FORWARD) == FORWARD.default
+    }
+
+    pub(super) fn way(&self) -> Way {
+        Way {
+            parallel: self.settings.number(&PARALLEL) / 100.0,
+            along: self.settings.number(&ALONG) / 100.0,
+            shows_all: self.settings.chosen(&FRAME) == 0,
+        }
+    }
+
+    fn compute(&mut self) {
+        let (forward_m, left_deg) = (self.settings.number(&FORWARD), self.settings.number(&TURN));
+        let state = State::new(forward_m, left_deg, self.way());
+        self.state = state.map_err(|error| format!("The pair cannot be rectified: {error}."));
+    }
+
+    /// The match nearest to a place of a picture.
+    fn nearest(&self, panel: &str, place: Point2<f64>) -> Option<usize> {
+        let side = match panel {
+            "first" => 0,
+            "second" => 1,
+            _ => return None,
+        };
+        let matches = self.state.as_ref().ok()?.matches.iter().enumerate();
+        let away = |shown: &Shown| (shown.pixels[side] - place).norm_squared();
+        let nearest = matches.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)))?;
+        Some(nearest.0)
+    }
+}
+
+impl Declared for Rectify {
+    const NAME: &'static str = "rectify";
+    const TITLE: &'static str = "Until lines are rows";
+    const HELP: &'static str = "Turn the cameras with the first two sliders: toward one heading, then along \
+        the baseline. Click a match in a photograph to follow it, or choose it with the slider.";
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            state: Err(String::new()),
+        };
+        model.compute();
+        model
+    }
+
+    fn challenges() -> &'static [Challenge<Self>] {
+        CHALLENGES
+    }
+}
+
+impl Model for Rectify {
+    fn controls(&self) -> Vec<Control> {
+        self.settings.controls()
+    }
+
+    fn symbols(&self) -> Vec<Symbol> {
+        let (Some((_, shown)), Ok(state)) = (self.selected(), self.state()) else {
+            return Vec::new();
+        };
+        let pixels = [
+            Some(shown.pixels[0]),
+            shown.is_seen.then_some(shown.pixels[1]),
+        ];
+        symbols(pixels, state.geometry.as_ref())
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        match event {
+            Event::Set { id, value } => {
+                if self.settings.set(id, value)? == Some(true) && id != MATCH.id {
+                    self.compute();
+                }
+            }
+            Event::Clicked { panel, x, y } => {
+                if let Some(index) = self.nearest(panel, Point2::new(*x, *y)) {
+                    let number = Value::Number(index as f64 + 1.0);
+                    self.settings.set(MATCH.id, &number)?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+const CHALLENGES: &[Challenge<Rectify>] = &[
+    Challenge {
+        id: "level",
+        goal: "Leave camera 2 where it is, and bring every match into one row, to half a pixel.",
+        hint: "Are the rows of parallel cameras level?",
+        why: "Parallel is not enough: the rows of both pictures must also point along the baseline, and then \
+              every plane through it cuts both pictures in one row.",
+        check: |model| {
+            let worst_px = model.state().map_or(f64::INFINITY, State::worst_px);
+            model.is_as_placed() && worst_px <= 0.5
+        },
+        solution: || vec![Event::set(&PARALLEL, 100.0), Event::set(&ALONG, 100.0)],
+    },
+    Challenge {
+        id: "enough",
+        goal: "Leave camera 2 turned by 6° or more, do not follow the baseline, and place the camera so that \
+               making both parallel brings every match within 1 px of its row.",
+        hint: "Half-way between the two headings must be square to the baseline.",
+        why: "If the mean heading is already square to the baseline, there is nothing left to turn together: \
+              two eyes that converge on a thing straight ahead stand like that.",
+        check: |model| {
+            let worst_px = model.state().map_or(f64::INFINITY, State::worst_px);
+            model.way().along == 0.0 && model.settings.number(&TURN) >= 6.0 && worst_px <= 1.0
+        },
+        solution: || {
+            vec![
+                Event::set(&PARALLEL, 100.0),
+                Event::set(&TURN, 6.0),
+                Event::set(&FORWARD, 0.02),
+            ]
+        },
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parallel_cameras_still_miss_their_rows_and_only_both_turns_level_them() {
+        let mut model = Rectify::new();
+        let worst = |model: &Rectify| model.state().unwrap().worst_px();
+        let raw = worst(&model);
+        model.update(&Event::set(&PARALLEL, 100.0)).unwrap();
+        let parallel = worst(&model);
+        model.update(&Event::set(&ALONG, 100.0)).unwrap();
+        assert!(raw > 15.0 && parallel > 8.0, "{raw} {parallel}");
+        assert!(worst(&model) < 1e-6 && model.is_rectified());
+    }
+
+    #[test]
+    fn matches_are_seen_by_both_and_a_click_takes_the_nearest() {
+        let mut model = Rectify::new();
+        let state = model.state().unwrap();
+        assert_eq!(state.matches.len(), NUM_MATCHES);
+        assert!(state.matches.iter().filter(|shown| shown.is_seen).count() >= 6);
+        let place = state.matches[2].pixels[1];
+        model
+            .update(&Event::clicked("second", place.x + 3.0, place.y))
+            .unwrap();
+        assert_eq!(model.selected().unwrap().0, 2);
+        model.update(&Event::clicked("top", 0.0, 0.5)).unwrap();
+        assert_eq!(model.selected().unwrap().0, 2);
+    }
+
+    #[test]
+    fn the_whole_photographs_leave_margins_and_the_valid_part_does_not() {
+        let mut model = Rectify::new();
+        assert!(model.state().unwrap().turned.valid_share() < 0.8);
+        model.update(&Event::set(&FRAME, "valid")).unwrap();
+        assert!(model.state().unwrap().turned.valid_share() > 0.99);
+    }
+}

@@ -1,0 +1,273 @@
+//! Both photographs as turned cameras would have taken them, and the cameras from above.
+
+use super::model::{Rectify, Shown, State};
+use super::turned::image_ends;
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
+use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::grid::{self, Grid, TEXT};
+use crate::kit::labels::Labels;
+use crate::kit::pair::draw_line;
+use crate::kit::photo::Photo;
+use crate::kit::plan::{self, PlanCamera};
+use crate::kit::scenes::{PHOTO_SIZE, still_life};
+use crate::theme::Role;
+use epipole::homography::transfer;
+use image::RgbImage;
+use nalgebra::{Matrix3, Point2};
+
+const MARKER: f64 = 4.5;
+/// Height over width of the photographs.
+const ASPECT: f64 = 0.75;
+/// The match that the reader follows.
+const LIT: Role = Role::Series(3);
+/// How far in front of the centers the image planes are drawn, meters.
+const IMAGE_M: f64 = 0.42;
+const CAMERAS: [(Role, Shape); 2] = [
+    (Role::Series(0), Shape::Disk),
+    (Role::Series(1), Shape::Square),
+];
+
+/// Draws [`Rectify`].
+#[derive(Default)]
+pub(crate) struct RectifyView {
+    photos: [Photo; 2],
+}
+
+impl View for RectifyView {
+    type Model = Rectify;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, _: &Rectify, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let (pictures, top) = if grid::is_broad(width) {
+            let [first, second, top] = grid.row([ASPECT, ASPECT, 0.9], 404.0);
+            ([first, second], top)
+        } else {
+            let low = if grid::is_narrow(width) { 180.0 } else { 190.0 };
+            let pictures = grid.row([ASPECT; 2], 254.0);
+            let [top] = grid.shares([1.0], low);
+            (pictures, top)
+        };
+        let mut panels = vec![plan::panel("top", top, (0.22, 0.7), 1.06)];
+        for (id, rect) in ["first", "second"].into_iter().zip(pictures) {
+            let mut panel = Panel::photograph(id, rect, PHOTO_SIZE.0, PHOTO_SIZE.1);
+            panel.clickable = true;
+            panels.push(panel);
+        }
+        grid.layout(panels)
+    }
+
+    fn draw(&mut self, model: &Rectify, layout: &Layout, canvas: &mut Canvas) {
+        let panels = [layout.panel("first"), layout.panel("second")];
+        let top = layout.panel("top");
+        grid::fitting_title(
+            canvas,
+            panels[0].rect,
+            &["Picture 1: click a match", "Picture 1"],
+        );
+        grid::title(canvas, panels[1].rect, "Picture 2");
+        grid::fitting_title(canvas, top.rect, &["The cameras from above", "From above"]);
+        canvas.panel(top.rect);
+        for panel in panels {
+            canvas.fill_rect(panel.rect, Role::Edge, 1.0);
+        }
+        let state = match model.state() {
+            Ok(state) => state,
+            Err(sentence) => return grid::notice(canvas, panels[0].rect, sentence),
+        };
+        let scene = still_life();
+        for (index, panel) in panels.into_iter().enumerate() {
+            let camera = &state.turned.taken[index];
+            match self.photos[index].picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+                Ok(picture) => canvas.clipped(panel.rect, |canvas| {
+                    let homography = &state.turned.shown_from_taken[index];
+                    draw_picture(canvas, panel, homography, picture);
+                    draw_marks(model, state, index, panel, canvas);
+                }),
+                Err(error) => grid::notice(canvas, panel.rect, &error.to_string()),
+            }
+        }
+        draw_row(model, panels, canvas);
+        canvas.clipped(top.rect.inset(1.0), |canvas| {
+            draw_top(model, state, top, canvas)
+        });
+    }
+
+    fn refine(&mut self, model: &Rectify) -> bool {
+        let Ok(state) = model.state() else {
+            return false;
+        };
+        let scene = still_life();
+        let mut photos = self.photos.iter_mut().zip(&state.turned.taken);
+        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+    }
+}
+
+/// A photograph as its camera would have taken it, had it been turned.
+fn draw_picture(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    shown_from_taken: &Matrix3<f64>,
+    picture: &RgbImage,
+) {
+    if (shown_from_taken - Matrix3::identity()).amax() < 1e-9 {
+        return canvas.photograph(panel.rect, picture);
+    }
+    let (right, bottom) = (f64::from(PHOTO_SIZE.0) - 0.5, f64::from(PHOTO_SIZE.1) - 0.5);
+    let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)];
+    let places = corners.map(|(u, v)| {
+        let shown = transfer(shown_from_taken, &Point2::new(u, v));
+        shown.map(|shown| panel.canvas_from_world((shown.x, shown.y)))
+    });
+    let ([Some(a), Some(b), Some(c), Some(d)], Some(taken_from_shown)) =
+        (places, shown_from_taken.try_inverse())
+    else {
+        return;
+    };
+    let (step, rect) = (1.0 / panel.scale_x(), panel.rect);
+    #[rustfmt::skip]
+    let shown_from_page = Matrix3::new(
+        step, 0.0,  panel.x_axis.start - rect.x * step,
+        0.0,  step, panel.y_axis.start - rect.y * step,
+        0.0,  0.0,  1.0,
+    );
+    canvas.warped_photograph(
+        &[a, b, c, d],
+        &(taken_from_shown * shown_from_page),
+        picture,
+    );
+}
+
+/// The epipolar lines with the matches on them, and in the end what the photograph fills.
+fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canvas: &mut Canvas) {
+    let at = |pixel: &Point2<f64>| panel.canvas_from_world((pixel.x, pixel.y));
+    let chosen = model.selected().map(|(chosen, _)| chosen);
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    if model.is_rectified() {
+        let valid = &state.turned.valid[index];
+        let corners = [
+            (valid.u_min, valid.v_min),
+            (valid.u_max, valid.v_min),
+            (valid.u_max, valid.v_max),
+            (valid.u_min, valid.v_max),
+        ];
+        let outline = corners.map(|corner| panel.canvas_from_world(corner));
+        let stroke = Stroke::solid(Role::Ink, 1.5).dashed().cased();
+        canvas.polygon_outline(&outline, stroke);
+        let place = (outline[0].0 + 6.0, outline[0].1 + 11.0);
+        let style = TextStyle::new(Role::Ink, TEXT).cased();
+        labels.draw(canvas, &[(place, Align::Start)], "valid", style);
+    }
+    for (number, shown) in state.matches.iter().enumerate() {
+        let line = state.geometry.as_ref().and_then(|geometry| match index {
+            0 => geometry.line1(&shown.pixels[0]),
+            _ => geometry.line2(&shown.pixels[0]),
+        });
+        let Some(line) = line else { continue };
+        let stroke = match chosen == Some(number) {
+            true => Stroke::solid(LIT, 2.5).cased(),
+            false => Stroke::solid(CAMERAS[index].0, 1.25).cased(),
+        };
+        draw_line(canvas, panel, &line, stroke);
+    }
+    for (number, shown) in state.matches.iter().enumerate() {
+        let (place, is_chosen) = (at(&shown.pixels[index]), chosen == Some(number));
+        let role = if is_chosen { LIT } else { CAMERAS[index].0 };
+        let size = if is_chosen { MARKER + 1.5 } else { MARKER };
+        match index == 0 || shown.is_seen {
+            true => canvas.marker(place, size, CAMERAS[index].1, role, true),
+            false => canvas.hollow_marker(place, size, CAMERAS[index].1, role, true),
+        }
+        labels.keep_free(place, size + 2.0);
+    }
+    if let Some((_, shown)) = model.selected() {
+        let style = TextStyle::new(Role::Ink, TEXT).cased();
+        let around = Labels::around(at(&shown.pixels[index]), 9.0);
+        labels.draw(canvas, &around, ["p", "p′"][index], style);
+    }
+}
+
+/// The row of p through both pictures, and how far p′ is from it.
+fn draw_row(model: &Rectify, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
+    let Some((_, shown)) = model.selected() else {
+        return;
+    };
+    let row = first.canvas_from_world((0.0, shown.pixels[0].y)).1;
+    if row < first.rect.y || row > first.rect.bottom() {
+        return;
+    }
+    let stroke = Stroke::solid(Role::Ink, 1.25).dashed().cased();
+    canvas.line((first.rect.x, row), (second.rect.right(), row), stroke);
+    let place = second.canvas_from_world((shown.pixels[1].x, shown.pixels[1].y));
+    if shown.is_seen && (place.1 - row).abs() > 3.0 {
+        let off = Stroke::solid(Role::Outlier, 2.5).cased();
+        canvas.clipped(second.rect, |canvas| {
+            canvas.line(place, (place.0, row), off)
+        });
+    }
+}
+
+fn draw_top(model: &Rectify, state: &State, panel: &Panel, canvas: &mut Canvas) {
+    plan::draw_distances(canvas, panel, "m");
+    let mut labels = Labels::new(panel.rect.inset(3.0));
+    let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let cameras = [0, 1].map(|index| state.turned.from_above(index));
+    let along = cameras[1].0 - cameras[0].0;
+    let dashed = Stroke::solid(Role::Muted, 1.25).dashed();
+    plan::draw_ray(canvas, panel, &cameras[0].0, &along, dashed);
+    plan::draw_ray(canvas, panel, &cameras[1].0, &-along, dashed);
+    let from_above = |shown: &Shown| {
+        let place = state.turned.taken[0].cam_from_world * shown.point;
+        Point2::new(place.x, place.z)
+    };
+    let chosen = model.selected().map(|(_, shown)| from_above(shown));
+    for (index, (center, heading_rad)) in cameras.into_iter().enumerate() {
+        let (role, shape) = CAMERAS[index];
+        let camera = PlanCamera {
+            center,
+            heading_rad,
+            half_width: 1.0,
+            mark: (role, shape),
+        };
+        let ends = image_ends(&state.turned.shown[index]).map(|x| camera.on_image(x, IMAGE_M));
+        let axis = camera.on_image(0.0, 1.0) - center;
+        plan::draw_ray(
+            canvas,
+            panel,
+            &center,
+            &axis,
+            Stroke::solid(role, 1.0).dotted(),
+        );
+        if let Some(point) = chosen {
+            canvas.line(at(center), at(point), Stroke::solid(LIT, 1.75));
+        }
+        for end in ends {
+            canvas.line(at(center), at(end), Stroke::solid(role, 1.25));
+        }
+        canvas.line(at(ends[0]), at(ends[1]), Stroke::solid(role, 3.0));
+        canvas.marker(at(center), 5.5, shape, role, true);
+        let (x, y) = at(center);
+        labels.keep_free((x, y), 8.0);
+        let name = [
+            ((x - 12.0, y + 9.0), Align::End),
+            ((x + 12.0, y + 9.0), Align::Start),
+        ];
+        let style = TextStyle::new(role, TEXT).cased();
+        labels.draw(canvas, &name[index..=index], ["O", "O′"][index], style);
+    }
+    for shown in &state.matches {
+        canvas.disk(at(from_above(shown)), 2.5, Role::Muted, 1.0);
+    }
+    if let Some(place) = chosen.map(at) {
+        canvas.marker(place, MARKER, Shape::Diamond, LIT, true);
+        let style = TextStyle::new(Role::Ink, TEXT).cased();
+        labels.draw(canvas, &Labels::around(place, 8.0), "P", style);
+    }
+    let (from, to) = (at(cameras[0].0), at(cameras[1].0));
+    let beyond = to.0 + 40.0;
+    let slope = (to.1 - from.1) / (to.0 - from.0);
+    let place: Place = (beyond, from.1 + slope * (beyond - from.0));
+    let style = TextStyle::new(Role::Muted, TEXT).cased();
+    let beside = [14.0, -14.0].map(|off| ((place.0, place.1 + off), Align::Start));
+    labels.draw(canvas, &beside, "baseline", style);
+}

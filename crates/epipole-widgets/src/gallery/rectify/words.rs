@@ -1,0 +1,74 @@
+//! What `rectify` says.
+
+use super::model::{Rectify, State};
+use crate::contract::{Readout, Words, format_number};
+
+impl Words for Rectify {
+    fn readouts(&self) -> Vec<Readout> {
+        let state = self.state().ok();
+        let number = |id, label, get: &dyn Fn(&State) -> f64, digits, unit| match state {
+            Some(state) => Readout::number(id, label, get(state), digits, unit),
+            None => Readout::words(id, label, "no pair"),
+        };
+        let own = match self.selected() {
+            Some((_, shown)) if shown.is_seen => {
+                Readout::number("own", "Row p′ − row p", shown.rows_px(), 1, "px")
+            }
+            _ => Readout::words("own", "Row p′ − row p", "not seen"),
+        };
+        let valid = |state: &State| 100.0 * state.turned.valid_share();
+        vec![
+            number("rows", "Rows differ by", &|state| state.worst_px(), 1, "px").main(),
+            number(
+                "apart",
+                "Headings differ by",
+                &|state| state.turned.apart_deg(),
+                1,
+                "°",
+            )
+            .main(),
+            number(
+                "off",
+                "Off the baseline",
+                &|state| state.turned.off_baseline_deg(),
+                1,
+                "°",
+            )
+            .main(),
+            own,
+            number("valid", "Valid region", &valid, 0, "%"),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        let state = match self.state() {
+            Ok(state) => state,
+            Err(sentence) => return sentence.to_owned(),
+        };
+        let number = |value: f64| format_number(value, 1);
+        let (worst, apart) = (state.worst_px(), state.turned.apart_deg());
+        let mut words = match (self.is_rectified(), apart < 0.05) {
+            (true, _) => format!(
+                "The pair is rectified: both cameras look the same way, square to the baseline, and every \
+                 match is in one row. The photographs fill {} % of the smaller frame.",
+                format_number(100.0 * state.turned.valid_share(), 0)
+            ),
+            (false, true) => format!(
+                "The cameras are parallel, but their rows are {}° off the baseline: matches are up to {} px \
+                 from their rows.",
+                number(state.turned.off_baseline_deg()),
+                number(worst)
+            ),
+            (false, false) => format!(
+                "The headings differ by {}°. Epipolar lines are tilted, and matches are up to {} px from \
+                 their rows.",
+                number(apart),
+                number(worst)
+            ),
+        };
+        if self.selected().is_none_or(|(_, shown)| !shown.is_seen) {
+            words.push_str(" Photograph 2 does not show the chosen match.");
+        }
+        words
+    }
+}

@@ -1,0 +1,9 @@
+//! `tournament`: six ways to fit, over many seeded runs at every outlier ratio.
+
+mod model;
+mod question;
+mod rivals;
+mod view;
+mod words;
+
+pub(super) use view::TournamentView as View;

@@ -1,0 +1,96 @@
+//! Some runs of all rivals at every outlier ratio.
+
+use super::rivals::{NUM_RIVALS, Pair, Successes, fit_lines};
+use crate::contract::{Problem, Progress};
+use crate::kit::question::{self, tell};
+use serde::{Deserialize, Serialize};
+
+/// Outlier ratios, in tenths: from none on.
+pub(super) const NUM_RATIOS: usize = 9;
+/// Runs that are answered at once, so that curves grow and a reader who stops keeps what there is.
+pub(super) const RUNS_AT_ONCE: usize = 20;
+/// So many times.
+pub(super) const NUM_BATCHES: usize = 10;
+/// No two seeds of the reader share a run.
+const APART: u64 = 10_000;
+
+/// What is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Subject {
+    /// A line to points.
+    Line,
+    /// F to matches.
+    Fundamental,
+}
+
+/// How often does each rival succeed in the next few runs?
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Question {
+    pub(super) subject: Subject,
+    /// Of those that vote, in standard deviations of the noise.
+    pub(super) threshold: f64,
+    pub(super) seed: u64,
+    /// Which runs, from 0.
+    pub(super) batch: usize,
+}
+
+/// Successes of each rival at each outlier ratio.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Wins(pub(super) Vec<[usize; NUM_RIVALS]>);
+
+impl Wins {
+    /// None yet.
+    pub(super) fn none() -> Self {
+        Self(vec![[0; NUM_RIVALS]; NUM_RATIOS])
+    }
+
+    pub(super) fn add(&mut self, more: &Self) {
+        for (sums, counts) in self.0.iter_mut().zip(&more.0) {
+            for (sum, count) in sums.iter_mut().zip(counts) {
+                *sum += count;
+            }
+        }
+    }
+
+    fn count(&mut self, ratio: usize, successes: Successes) {
+        for (sum, success) in self.0[ratio].iter_mut().zip(successes) {
+            *sum += usize::from(success);
+        }
+    }
+}
+
+/// Outliers among all data, 0 to 1.
+pub(super) fn outlier_ratio(index: usize) -> f64 {
+    index as f64 / 10.0
+}
+
+impl question::Question for Question {
+    type Answer = Wins;
+    const LABEL: &'static str = "Running the tournament";
+    const FAILED: &'static str = "There are no runs";
+
+    fn answer(&self, progress: Progress<'_>) -> Result<Wins, Problem> {
+        let mut wins = Wins::none();
+        let first = (self.seed.wrapping_mul(APART)).wrapping_add((self.batch as u64) << 5);
+        for run in 0..RUNS_AT_ONCE {
+            let seed = first.wrapping_add(run as u64);
+            let pair = (self.subject == Subject::Fundamental).then(|| Pair::new(seed));
+            for ratio in 0..NUM_RATIOS {
+                let share = (run * NUM_RATIOS + ratio) as f64 / (RUNS_AT_ONCE * NUM_RATIOS) as f64;
+                tell(progress, share)?;
+                let outliers = outlier_ratio(ratio);
+                let successes = match &pair {
+                    Some(pair) => pair.fit(outliers, self.threshold),
+                    None => fit_lines(seed, outliers, self.threshold),
+                };
+                wins.count(ratio, successes);
+            }
+        }
+        Ok(wins)
+    }
+
+    fn fits(&self, answer: &Wins) -> bool {
+        let mut counts = answer.0.iter().flatten();
+        answer.0.len() == NUM_RATIOS && counts.all(|count| *count <= RUNS_AT_ONCE)
+    }
+}

@@ -1,0 +1,209 @@
+//! The rivals, on a line and on F: from the same data, how far off is each?
+
+use crate::kit::line_points::{angle_between_deg, scatter};
+use crate::kit::matches::{MAX_USED, Match, Matches};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
+use epipole::Error;
+use epipole::epipolar::{
+    FundamentalEstimator, epipolar_line2, fundamental_8point, refine_fundamental,
+};
+use epipole::math::random::Random;
+use epipole::optim::RobustLoss;
+use epipole::robust::{
+    Budget, LeastMedianOptions, LineEstimator, MatchSet, RansacOptions, ScoreKind, fit_line_huber,
+    fit_line_total_least_squares, least_median, ransac,
+};
+use nalgebra::{Matrix3, Point2};
+
+/// How many rivals there are; [`NAMES`] has them in order.
+pub(super) const NUM_RIVALS: usize = 6;
+/// What the reader reads.
+pub(super) const NAMES: [&str; NUM_RIVALS] = [
+    "Least squares",
+    "Huber",
+    "Least median",
+    "RANSAC",
+    "MSAC",
+    "MSAC + LO",
+];
+/// A line within so many degrees of the hidden one is a success.
+pub(super) const WITHIN_DEG: f64 = 2.0;
+/// An F whose lines are, on average, within so many pixels of matches that it never saw is one, too.
+pub(super) const WITHIN_PX: f64 = 2.0;
+/// Standard deviations of the points' distance from the line, and of a match's coordinates.
+const LINE_SIGMA_PX: f64 = 4.0;
+const MATCH_SIGMA_PX: f64 = 0.5;
+/// Points on the plane.
+const NUM_POINTS: usize = 60;
+/// Samples that a rival draws at most.
+const MAX_SAMPLES: usize = 500;
+/// Where Huber's loss stops being a square: 5 % of the efficiency is lost.
+const HUBER: f64 = 1.345;
+
+/// Which rivals are near enough to the truth.
+pub(super) type Successes = [bool; NUM_RIVALS];
+
+/// How the three that vote are told to do it.
+fn voting(threshold_px: f64, seed: u64) -> [RansacOptions; 3] {
+    let plain = RansacOptions {
+        max_error_px: threshold_px,
+        confidence: 0.99,
+        min_iterations: 1,
+        max_iterations: MAX_SAMPLES,
+        seed,
+        score: ScoreKind::InlierCount,
+        budget: Budget::WithReplacement,
+        local_optimization: false,
+        ..RansacOptions::default()
+    };
+    let msac = RansacOptions {
+        score: ScoreKind::Msac,
+        ..plain
+    };
+    let local = RansacOptions {
+        local_optimization: true,
+        ..msac
+    };
+    [plain, msac, local]
+}
+
+fn medians(seed: u64) -> LeastMedianOptions {
+    LeastMedianOptions {
+        num_samples: MAX_SAMPLES,
+        seed,
+    }
+}
+
+/// A hidden line with points and outliers of this seed, fitted by all.
+///
+/// * `threshold`: of those that vote, in standard deviations of the noise
+pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Successes {
+    let scattered = scatter(seed, NUM_POINTS, outlier_ratio);
+    let points: Vec<Point2<f64>> = scattered.points.iter().map(|point| point.place).collect();
+    let estimator = || LineEstimator::new(&points);
+    let vote = |options: &RansacOptions| -> Result<_, Error> {
+        let report = ransac(estimator()?, options)?;
+        if options.local_optimization {
+            return Ok(report.model);
+        }
+        // The last step of the plain loop: once more, to all inliers.
+        let inliers = points.iter().zip(&report.inliers).filter(|(_, is)| **is);
+        let inliers: Vec<_> = inliers.map(|(place, _)| *place).collect();
+        Ok(fit_line_total_least_squares(&inliers).unwrap_or(report.model))
+    };
+    let [plain, msac, local] = voting(threshold * LINE_SIGMA_PX, seed);
+    let median = estimator().and_then(|estimator| least_median(estimator, &medians(seed)));
+    let lines = [
+        fit_line_total_least_squares(&points),
+        fit_line_huber(&points, HUBER * LINE_SIGMA_PX),
+        median.map(|found| found.model),
+        vote(&plain),
+        vote(&msac),
+        vote(&local),
+    ];
+    lines
+        .map(|line| line.is_ok_and(|line| angle_between_deg(&line, &scattered.truth) <= WITHIN_DEG))
+}
+
+/// Matches of the still life's pair, some of them sent anywhere, and F by all.
+pub(super) struct Pair {
+    matches: Matches,
+    seed: u64,
+}
+
+impl Pair {
+    pub(super) fn new(seed: u64) -> Self {
+        Self {
+            matches: Matches::draw(seed),
+            seed,
+        }
+    }
+
+    fn disturbed(&self, outlier_ratio: f64) -> (Vec<Point2<f64>>, Vec<Point2<f64>>) {
+        let matches = self.matches.noisy(MAX_USED, MATCH_SIGMA_PX);
+        let num_wrong = (outlier_ratio * matches.len() as f64).round() as usize;
+        let mut random = Random::new(self.seed ^ 0x5eed);
+        let placed = |(index, (pixel1, pixel2)): (usize, Match)| {
+            let anywhere = Point2::new(
+                random.uniform(0.0, f64::from(PHOTO_WIDTH)),
+                random.uniform(0.0, f64::from(PHOTO_HEIGHT)),
+            );
+            (pixel1, if index < num_wrong { anywhere } else { pixel2 })
+        };
+        matches.into_iter().enumerate().map(placed).unzip()
+    }
+
+    /// As [`fit_lines`].
+    pub(super) fn fit(&self, outlier_ratio: f64, threshold: f64) -> Successes {
+        let (first, second) = self.disturbed(outlier_ratio);
+        let estimator = || FundamentalEstimator::new(MatchSet::new(&first, &second)?);
+        let vote = |options: &RansacOptions| -> Result<Matrix3<f64>, Error> {
+            let report = ransac(estimator()?, options)?;
+            if options.local_optimization {
+                return Ok(report.model);
+            }
+            let keep = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+                let inliers = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
+                inliers.map(|(pixel, _)| *pixel).collect()
+            };
+            Ok(fundamental_8point(&keep(&first), &keep(&second)).unwrap_or(report.model))
+        };
+        let [plain, msac, local] = voting(threshold * MATCH_SIGMA_PX, self.seed);
+        let squares = fundamental_8point(&first, &second);
+        let huber = RobustLoss::Huber {
+            width: HUBER * MATCH_SIGMA_PX,
+        };
+        let huber = (squares.clone()).and_then(|f| refine_fundamental(&f, &first, &second, huber));
+        let median = estimator().and_then(|estimator| least_median(estimator, &medians(self.seed)));
+        let found = [
+            squares,
+            huber,
+            median.map(|found| found.model),
+            vote(&plain),
+            vote(&msac),
+            vote(&local),
+        ];
+        found.map(|f| f.is_ok_and(|f| self.mean_px(&f) <= WITHIN_PX))
+    }
+
+    /// How far exact matches that no rival saw are from their lines, on average.
+    fn mean_px(&self, fundamental: &Matrix3<f64>) -> f64 {
+        let held_out = &self.matches.held_out;
+        let distance = |(pixel1, pixel2): &Match| {
+            let line = epipolar_line2(fundamental, pixel1);
+            line.map_or(f64::INFINITY, |line| line.signed_distance(pixel2).abs())
+        };
+        held_out.iter().map(distance).sum::<f64>() / held_out.len().max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_outliers_everybody_finds_f_and_with_some_only_the_robust_do() {
+        let pair = Pair::new(3);
+        assert_eq!(pair.fit(0.0, 2.5), [true; NUM_RIVALS]);
+        assert_eq!(pair.fit(0.3, 2.5), [false, false, true, true, true, true]);
+    }
+
+    #[test]
+    fn with_six_of_ten_points_wrong_voting_still_finds_the_line() {
+        let mut wins = [0; NUM_RIVALS];
+        for seed in 0..40 {
+            let successes = fit_lines(seed, 0.6, 2.5);
+            for (count, success) in wins.iter_mut().zip(successes) {
+                *count += usize::from(success);
+            }
+        }
+        // Least squares is lost, the vote is not.
+        assert!(wins[0] < 10 && wins[5] >= 37, "{wins:?}");
+    }
+
+    #[test]
+    fn a_threshold_that_is_no_number_is_no_success() {
+        assert!(!fit_lines(1, 0.2, f64::NAN)[3]);
+        assert!(!Pair::new(1).fit(0.2, -1.0)[5]);
+    }
+}

@@ -1,0 +1,87 @@
+//! The share of successes of each rival over the outlier ratio.
+
+use super::model::Tournament;
+use super::question::{NUM_RATIOS, outlier_ratio};
+use super::rivals::{NAMES, NUM_RIVALS};
+use super::words::success;
+use crate::canvas::{Canvas, Shape, Stroke};
+use crate::contract::{Layout, View};
+use crate::kit::grid::{self, Grid};
+use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::plot::{self, Ruler};
+use crate::theme::Role;
+
+/// Height of the plot with its numbers, CSS pixels.
+const HEIGHT: f64 = 380.0;
+/// Room between the plot and the legend.
+const MARGIN: f64 = 4.0;
+
+/// Draws [`Tournament`].
+#[derive(Default)]
+pub(crate) struct TournamentView;
+
+fn rulers() -> [Ruler; 2] {
+    let ratio = Ruler::linear(-0.02, 0.82).shown(100.0, " %");
+    let share = Ruler::linear(-0.03, 1.03).shown(100.0, " %");
+    [ratio.named("outliers among the data"), share]
+}
+
+/// Rivals differ in hue, in shape and in dash.
+fn look(rival: usize) -> (Role, Shape, Stroke) {
+    let (role, shape) = (Role::Series(rival as u8), Shape::of_series(rival));
+    let stroke = Stroke::solid(role, 2.25);
+    let stroke = match rival % 3 {
+        0 => stroke,
+        1 => stroke.dashed(),
+        _ => stroke.dotted(),
+    };
+    (role, shape, stroke)
+}
+
+fn entries() -> Vec<Entry> {
+    let entry = |rival: usize| {
+        let (role, shape, _) = look(rival);
+        (Swatch::Marker(shape, role), NAMES[rival])
+    };
+    (0..NUM_RIVALS).map(entry).collect()
+}
+
+impl View for TournamentView {
+    type Model = Tournament;
+
+    fn layout(&self, _: &Tournament, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
+        let [x, y] = rulers();
+        let mut plot = plot::panel("plot", cell, &x, &y);
+        plot.clickable = true;
+        grid.strip(MARGIN + legend::height(&entries(), width, plot::LEFT));
+        grid.layout(vec![plot])
+    }
+
+    fn draw(&mut self, model: &Tournament, layout: &Layout, canvas: &mut Canvas) {
+        let plot = layout.panel("plot");
+        let [x, y] = rulers();
+        let runs = format!("{} runs", model.num_runs());
+        let full = format!("{runs}: fits {}", success(model.subject()));
+        grid::fitting_title(canvas, plot.rect, &[&full, &format!("Successes, {runs}")]);
+        plot::draw_axes(canvas, plot, &x, &y);
+        let (_, ratio) = model.ratio();
+        plot::draw_now(canvas, plot, ratio);
+        for rival in 0..NUM_RIVALS {
+            let (role, shape, stroke) = look(rival);
+            let places: Vec<(f64, f64)> = (0..NUM_RATIOS)
+                .filter_map(|index| Some((outlier_ratio(index), model.share(rival, index)?)))
+                .collect();
+            plot::draw_curve(canvas, plot, places.iter().copied(), stroke);
+            for place in places {
+                canvas.marker(plot.canvas_from_world(place), 4.0, shape, role, true);
+            }
+        }
+        let top = layout.height - 1.0 - legend::height(&entries(), layout.width, plot::LEFT);
+        legend::draw(canvas, &entries(), layout.width, plot::LEFT, top);
+        if let Some(problem) = model.problem() {
+            grid::notice(canvas, plot.rect, problem);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! What `tournament` says.
+
+use super::model::Tournament;
+use super::question::Subject;
+use super::rivals::{NAMES, NUM_RIVALS, WITHIN_DEG, WITHIN_PX};
+use crate::contract::{Readout, Words, format_number};
+
+const IDS: [&str; NUM_RIVALS] = [
+    "least-squares",
+    "huber",
+    "least-median",
+    "ransac",
+    "msac",
+    "msac-lo",
+];
+/// Those whose numbers are always there.
+const MAIN: [bool; NUM_RIVALS] = [true, false, true, true, false, true];
+
+/// What counts as a success.
+pub(super) fn success(subject: Subject) -> String {
+    match subject {
+        Subject::Line => format!(
+            "within {}° of the hidden line",
+            format_number(WITHIN_DEG, 0)
+        ),
+        Subject::Fundamental => format!(
+            "within {} px of unseen matches on average",
+            format_number(WITHIN_PX, 0)
+        ),
+    }
+}
+
+impl Words for Tournament {
+    fn readouts(&self) -> Vec<Readout> {
+        let (ratio, _) = self.ratio();
+        let share = |rival: usize| {
+            let (id, name) = (IDS[rival], NAMES[rival]);
+            let readout = match self.share(rival, ratio) {
+                Some(share) => Readout::number(id, name, 100.0 * share, 0, "%"),
+                None => Readout::words(id, name, "no runs yet"),
+            };
+            match MAIN[rival] {
+                true => readout.main(),
+                false => readout,
+            }
+        };
+        let mut readouts: Vec<Readout> = (0..NUM_RIVALS).map(share).collect();
+        readouts.push(Readout::count("runs", "Runs per ratio", self.num_runs()));
+        readouts
+    }
+
+    fn describe(&self) -> String {
+        let (index, ratio) = self.ratio();
+        if self.num_runs() == 0 {
+            let problem = self.problem().unwrap_or("The first runs are on their way.");
+            return problem.to_owned();
+        }
+        let share = |rival: usize| {
+            let share = 100.0 * self.share(rival, index).unwrap_or(0.0);
+            format!("{} {} %", NAMES[rival], format_number(share, 0))
+        };
+        let shares: Vec<String> = (0..NUM_RIVALS).map(share).collect();
+        let thing = match self.subject() {
+            Subject::Line => "Lines",
+            Subject::Fundamental => "Fundamental matrices",
+        };
+        let stopped = match self.problem() {
+            Some(problem) => format!(" {problem}"),
+            None => String::new(),
+        };
+        format!(
+            "{thing} {}, at an outlier ratio of {} over {} runs: {}.{stopped}",
+            success(self.subject()),
+            format_number(ratio, 1),
+            self.num_runs(),
+            shares.join(", ")
+        )
+    }
+}

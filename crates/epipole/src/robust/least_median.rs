@@ -1,0 +1,220 @@
+//! Least median of squares: the model whose middle error is smallest.
+
+use super::sampler::Sampler;
+use super::{Estimator, SamplerKind};
+use crate::math::random::Random;
+use crate::{Error, Result};
+
+/// Rounds of "find the inliers, fit to them" after the samples.
+const ROUNDS: usize = 4;
+/// The median of the absolute value of normal noise, times this, is its standard deviation.
+const SIGMA_PER_MEDIAN: f64 = 1.4826;
+/// Data within so many standard deviations are inliers.
+const REACH: f64 = 2.5;
+/// Exact data have a median of 0; a threshold must be larger.
+const SMALLEST_REACH_PX: f64 = 1e-9;
+
+/// Choices of [`least_median`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LeastMedianOptions {
+    /// Samples drawn, ≥ 1. 500.
+    pub num_samples: usize,
+    /// Equal seeds give equal results. 0.
+    pub seed: u64,
+}
+
+impl Default for LeastMedianOptions {
+    fn default() -> Self {
+        Self {
+            num_samples: 500,
+            seed: 0,
+        }
+    }
+}
+
+/// What [`least_median`] has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeastMedian<M> {
+    /// The model, fitted to its inliers.
+    pub model: M,
+    /// The middle one of the errors of the best sample's model, pixels.
+    pub median_px: f64,
+    /// The standard deviation of the noise that follows from the median, pixels.
+    pub sigma_px: f64,
+    /// Data within 2.5 standard deviations of the model, among those that are different.
+    pub num_inliers: usize,
+}
+
+/// The model with the smallest median error, of those that samples give, then fitted to the data near it.
+///
+/// It needs no threshold: the median itself says how large the noise is, `σ = 1.4826 (1 + 5/(n − s)) median`,
+/// and what is within 2.5 σ is an inlier. In return it breaks down once half of the data are outliers, for
+/// then the middle error belongs to one of them.
+///
+/// * `estimator`: as for [`ransac`](super::ransac)
+///
+/// # Errors
+/// [`Error::TooFew`] unless there are more data than a sample has, [`Error::OutOfRange`] for no samples,
+/// [`Error::Degenerate`] if no sample gave a model.
+///
+/// Source: Rousseeuw 1984, "Least median of squares regression"; Rousseeuw & Leroy 1987, "Robust regression
+/// and outlier detection", ch. 5 (the scale).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::robust::{LeastMedianOptions, LineEstimator, least_median};
+/// use nalgebra::Point2;
+/// // Nine points of the row v = 2, and six that are elsewhere; nobody says how far is far.
+/// let mut points: Vec<_> = (0..9).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
+/// points.extend((0..6).map(|i| Point2::new(f64::from(i) * 3.0, 40.0 + f64::from(i * i))));
+/// let found = least_median(LineEstimator::new(&points)?, &LeastMedianOptions::default())?;
+/// assert!(found.model.signed_distance(&Point2::new(100.0, 2.0)).abs() < 1e-9);
+/// assert_eq!(found.num_inliers, 9);
+/// # Ok(()) }
+/// ```
+pub fn least_median<E: Estimator>(
+    mut estimator: E,
+    options: &LeastMedianOptions,
+) -> Result<LeastMedian<E::Model>> {
+    let (num_data, size) = (estimator.num_data(), estimator.sample_size());
+    if num_data <= size {
+        return Err(Error::TooFew {
+            what: estimator.name(),
+            needed: size + 1,
+            got: num_data,
+        });
+    }
+    if options.num_samples == 0 {
+        return Err(Error::OutOfRange {
+            what: "the number of samples",
+            requirement: "at least 1",
+            value: 0.0,
+        });
+    }
+    let mut random = Random::new(options.seed);
+    let mut sampler = Sampler::new(SamplerKind::Uniform, num_data, size, options.num_samples);
+    let mut sample = Vec::with_capacity(size);
+    let mut models = Vec::with_capacity(estimator.max_models());
+    let mut errors_sq = vec![0.0; num_data];
+    let mut best: Option<(f64, E::Model)> = None;
+    for _ in 0..options.num_samples {
+        sampler.draw(&mut random, &mut sample);
+        models.clear();
+        estimator.fit_sample(&sample, &mut models);
+        for model in models.drain(..) {
+            for (index, error_sq) in errors_sq.iter_mut().enumerate() {
+                *error_sq = estimator.error_sq(&model, index);
+            }
+            let median_sq = middle(&mut errors_sq, size);
+            if best.as_ref().is_none_or(|(least, _)| median_sq < *least) && median_sq.is_finite() {
+                best = Some((median_sq, model));
+            }
+        }
+    }
+    let (median_sq, mut model) = best.ok_or(Error::Degenerate {
+        what: estimator.name(),
+        why: "no sample gives a model",
+    })?;
+    let median_px = median_sq.sqrt();
+    let few_data = 1.0 + 5.0 / (num_data - size) as f64;
+    let sigma_px = SIGMA_PER_MEDIAN * few_data * median_px;
+    let reach_px = (REACH * sigma_px).max(SMALLEST_REACH_PX);
+    let mut inliers = Vec::with_capacity(num_data);
+    let mut before = Vec::new();
+    estimator.inliers(&model, reach_px, &mut inliers);
+    for _ in 0..ROUNDS {
+        if inliers == before {
+            break;
+        }
+        let Some(refined) = estimator.refine(&model, &inliers, reach_px) else {
+            break;
+        };
+        before.clone_from(&inliers);
+        estimator.inliers(&refined, reach_px, &mut inliers);
+        model = refined;
+    }
+    Ok(LeastMedian {
+        model,
+        median_px,
+        sigma_px,
+        num_inliers: inliers.len(),
+    })
+}
+
+/// The error in the middle, a little beyond it so that the data of the sample, whose error is 0, do not count.
+fn middle(errors_sq: &mut [f64], sample_size: usize) -> f64 {
+    let rank = (errors_sq.len() + sample_size)
+        .div_ceil(2)
+        .min(errors_sq.len())
+        - 1;
+    // A NaN is the largest of all.
+    *errors_sq.select_nth_unstable_by(rank, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robust::LineEstimator;
+    use nalgebra::Point2;
+
+    const OPTIONS: LeastMedianOptions = LeastMedianOptions {
+        num_samples: 300,
+        seed: 1,
+    };
+
+    /// Points within noise of v = 0.5 u + 20, the first ones moved anywhere.
+    fn cloud(seed: u64, num_outliers: usize, noise_px: f64) -> Vec<Point2<f64>> {
+        let mut random = Random::new(seed);
+        (0..60)
+            .map(|i| {
+                let u = random.uniform(0.0, 600.0);
+                match i < num_outliers {
+                    true => Point2::new(u, random.uniform(0.0, 400.0)),
+                    false => Point2::new(u, 0.5 * u + 20.0 + noise_px * random.normal()),
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn forty_percent_outliers_do_no_harm_and_the_noise_is_found() {
+        for seed in 0..30 {
+            let points = cloud(seed, 24, 3.0);
+            let found = least_median(LineEstimator::new(&points).unwrap(), &OPTIONS).unwrap();
+            let off = (found.model.angle_rad() - libm::atan(0.5)).to_degrees();
+            assert!(off.abs() < 1.5, "{seed}: {off}");
+            assert!((1.5..7.0).contains(&found.sigma_px), "{}", found.sigma_px);
+            assert!(found.num_inliers >= 30, "{}", found.num_inliers);
+        }
+    }
+
+    #[test]
+    fn three_quarters_of_outliers_break_it() {
+        let off = |seed| {
+            let points = cloud(seed, 45, 3.0);
+            let found = least_median(LineEstimator::new(&points).unwrap(), &OPTIONS).unwrap();
+            (found.model.angle_rad() - libm::atan(0.5))
+                .to_degrees()
+                .abs()
+        };
+        assert!((0..30).filter(|&seed| off(seed) > 2.0).count() > 10);
+    }
+
+    #[test]
+    fn equal_seeds_agree_and_hopeless_data_are_refused() {
+        let points = cloud(4, 20, 3.0);
+        let run = |options: &LeastMedianOptions, count: usize| {
+            least_median(LineEstimator::new(&points[..count]).unwrap(), options)
+        };
+        assert_eq!(run(&OPTIONS, 60), run(&OPTIONS, 60));
+        assert!(matches!(
+            run(&OPTIONS, 2),
+            Err(Error::TooFew { needed: 3, .. })
+        ));
+        let none = LeastMedianOptions {
+            num_samples: 0,
+            ..OPTIONS
+        };
+        assert!(matches!(run(&none, 60), Err(Error::OutOfRange { .. })));
+    }
+}
