@@ -4,6 +4,7 @@ import { EpipoleFigure } from "./element.js";
 import { connect } from "./messages.js";
 
 export { EpipoleFigure } from "./element.js";
+export { setAssets, type AssetAddresses } from "./assets.js";
 export { connect, type Connection } from "./messages.js";
 export { listFigures } from "./module.js";
 export type { Goal } from "./challenges.js";
