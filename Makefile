@@ -3,10 +3,12 @@
 PORT ?= 8000
 VENV := .venv
 PYTHON := $(VENV)/bin/python
+# The tools of other sites, and the packages that they install.
+HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser test-hosts python bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +41,15 @@ test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
 	cd tests/browser && npm test --silent
 
+test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
+	$(BOOK) build
+	tests/browser/hosts/prepare.sh
+	cd tests/browser && npx playwright test --config hosts.config.mjs
+
+python: setup-build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
+	$(BOOK) build
+	tests/browser/hosts/prepare.sh
+
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
@@ -54,7 +65,7 @@ new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 
 clean: ## removes everything that was built or installed here
 	cargo clean
-	rm -rf web/node_modules tests/browser/node_modules tests/bench/node_modules $(VENV)
+	rm -rf web/node_modules tests/browser/node_modules tests/browser/hosts/node_modules tests/bench/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
 	@tests/tools/need.sh cargo rustup node npm
@@ -70,6 +81,17 @@ web/node_modules/.installed: web/package-lock.json
 
 tests/browser/node_modules/.installed: tests/browser/package-lock.json
 	cd tests/browser && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+# Only for `make test-hosts`, so `make setup` leaves them out.
+tests/browser/hosts/node_modules/.installed: tests/browser/hosts/package-lock.json
+	cd tests/browser/hosts && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+$(HOSTS)/python/.installed: tests/browser/hosts/requirements.txt
+	@tests/tools/need.sh python3
+	python3 -m venv $(HOSTS)/python
+	$(HOSTS)/python/bin/python -m pip install --quiet --disable-pip-version-check -r tests/browser/hosts/requirements.txt
 	@touch $@
 
 # Large and only for `make bench`, so `make setup` leaves them out.

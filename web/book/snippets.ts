@@ -50,7 +50,7 @@ function python(value: string): string {
 export const HOSTS: readonly Host[] = [
   { name: "HTML", write: (wish) => `${script(wish)}\n${element(wish)}` },
   { name: "Frame (courses, wikis)", write: frame },
-  { name: "Markdown", write: (wish) => `${script(wish)}\n\n<figure>${element(wish)}</figure>` },
+  { name: "Markdown", write: (wish) => `${script(wish)}\n\n<div>${element(wish)}</div>` },
   { name: "Slides", write: (wish) => `${script(wish)}\n${element(wish, ' compact style="height: 560px"')}` },
   { name: "JavaScript bundle", write: (wish) => `import "@epipole/figures";\n\n${element(wish)}` },
   {
