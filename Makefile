@@ -5,10 +5,12 @@ SEED ?= 1
 MONKEY_SECONDS ?= 20
 VENV := .venv
 PYTHON := $(VENV)/bin/python
+# The tools of other sites, and the packages that they install.
+HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser test-engines monkey bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser test-engines test-hosts monkey python bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -50,6 +52,15 @@ monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS
 	$(BOOK) build
 	cd tests/browser && SEED=$(SEED) MONKEY_SECONDS=$(MONKEY_SECONDS) npx playwright test monkey
 
+test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
+	$(BOOK) build
+	tests/browser/hosts/prepare.sh
+	cd tests/browser && npx playwright test --config hosts.config.mjs
+
+python: setup-build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
+	$(BOOK) build
+	tests/browser/hosts/prepare.sh
+
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
@@ -65,7 +76,7 @@ new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 
 clean: ## removes everything that was built or installed here
 	cargo clean
-	rm -rf web/node_modules tests/browser/node_modules tests/engines/node_modules tests/bench/node_modules $(VENV)
+	rm -rf web/node_modules tests/browser/node_modules tests/browser/hosts/node_modules tests/engines/node_modules tests/bench/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
 	@tests/tools/need.sh cargo rustup node npm
@@ -85,6 +96,17 @@ tests/browser/node_modules/.installed: tests/browser/package-lock.json
 
 tests/engines/node_modules/.installed: tests/engines/package-lock.json
 	cd tests/engines && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+# Only for `make test-hosts`, so `make setup` leaves them out.
+tests/browser/hosts/node_modules/.installed: tests/browser/hosts/package-lock.json
+	cd tests/browser/hosts && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+$(HOSTS)/python/.installed: tests/browser/hosts/requirements.txt
+	@tests/tools/need.sh python3
+	python3 -m venv $(HOSTS)/python
+	$(HOSTS)/python/bin/python -m pip install --quiet --disable-pip-version-check -r tests/browser/hosts/requirements.txt
 	@touch $@
 
 # Large and only for `make bench`, so `make setup` leaves them out.

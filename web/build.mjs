@@ -2,15 +2,16 @@
 //
 // DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
 // makes them for the web. Out come index.js, worker.js, the modules beside them, figure.css and early.js
-// for trees that prerender.mjs writes, and the types. (The book bundles the same sources itself, with names made
+// for trees that prerender.mjs writes, auto.js for pages that load no modules, react.js, custom-elements.json, and the types. (The book bundles the same sources itself, with names made
 // of their content.)
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
+import { manifest } from "./manifest.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
@@ -20,11 +21,20 @@ const { values } = parseArgs({
   },
 });
 
+/** The smaller and faster module that the book ships, unless it is of another build. */
+function moduleOf(stem) {
+  const [optimized, raw] = [`${stem}.wasm`, `${stem}_bg.wasm`];
+  const written = (path) => (existsSync(path) ? statSync(path).mtimeMs : -1);
+  if (written(optimized) >= written(raw)) return optimized;
+  console.warn(`${raw} is not optimized: \`make build\` does that`);
+  return raw;
+}
+
 const [bindings, out] = [resolve(values.bindings), resolve(values.out)];
 const parts = ["figures", "jobs"].map((name) => ({
   name,
   glue: join(bindings, `epipole_${name}.js`),
-  wasm: join(bindings, `epipole_${name}_bg.wasm`),
+  wasm: moduleOf(join(bindings, `epipole_${name}`)),
 }));
 for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
   if (!existsSync(path)) {
@@ -35,11 +45,9 @@ for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
 
 mkdirSync(out, { recursive: true });
 for (const { name, wasm } of parts) copyFileSync(wasm, join(out, `epipole-${name}.wasm`));
-await build({
-  entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
+const elements = {
   outdir: out,
   bundle: true,
-  format: "esm",
   target: "es2022",
   // Not the white space: with it go the comments by which bundlers know an address to leave alone.
   minifySyntax: true,
@@ -51,7 +59,24 @@ await build({
     EPIPOLE_WORKER: '"./worker.js"',
   },
   logLevel: "warning",
+};
+await build({
+  ...elements,
+  entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
+  format: "esm",
 });
+// A script of the old kind knows its address only while it runs.
+await build({
+  ...elements,
+  entryPoints: { auto: join(here, "src/index.ts") },
+  format: "iife",
+  minify: true,
+  define: { ...elements.define, "import.meta.url": "epipoleAddress" },
+  banner: { js: "(() => {\nconst epipoleAddress = document.currentScript.src;" },
+  footer: { js: "})();" },
+});
+writeFileSync(join(out, "react.js"), 'export { EpipoleFigure } from "./index.js";\n');
+writeFileSync(join(out, "custom-elements.json"), `${JSON.stringify(manifest(), null, 2)}\n`);
 await build({
   entryPoints: [join(here, "src/figure.css"), join(here, "src/early.ts")],
   outdir: out,
@@ -65,3 +90,5 @@ execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "type
   cwd: here,
   stdio: "inherit",
 });
+copyFileSync(join(here, "react.d.ts"), join(out, "types/react.d.ts"));
+for (const name of ["auto", "script"]) writeFileSync(join(out, `types/${name}.d.ts`), "export {};\n");

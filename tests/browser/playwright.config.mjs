@@ -4,6 +4,8 @@ import { launchOptions } from "./chromium.mjs";
 export default defineConfig({
   testDir: ".",
   testMatch: "*.spec.mjs",
+  // `make test-hosts` runs those.
+  testIgnore: "hosts/**",
   outputDir: "test-results",
   fullyParallel: true,
   workers: 2,

@@ -21,6 +21,10 @@ if (document.querySelector(".quiz, .progress, .small .solved")) {
   void import("./quiz").then((quiz) => quiz.start());
 }
 
+if (document.querySelector(".gallery")) {
+  void import("./gallery").then((gallery) => gallery.start());
+}
+
 const button = document.querySelector<HTMLButtonElement>(".search-button");
 if (button) {
   button.hidden = false;

@@ -4,12 +4,17 @@ import type { Parameters, Snapshot } from "./contract.js";
 
 /** Attributes that are no parameters: ours, and those that any element may have. */
 const NOT_PARAMETERS =
-  /^(name|theme|controls|readouts|goals|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
+  /^(name|theme|compact|controls|readouts|goals|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
+
+/** Whether an attribute of this name is a parameter of the figure. */
+export function isParameter(name: string): boolean {
+  return !NOT_PARAMETERS.test(name);
+}
 
 /** The parameters that the page's author has set. */
 export function parametersOf(element: Element): Parameters {
   return [...element.attributes]
-    .filter(({ name }) => !NOT_PARAMETERS.test(name))
+    .filter(({ name }) => isParameter(name))
     .map(({ name, value }) => [name, value]);
 }
 
@@ -21,7 +26,7 @@ export function changedParameters(
 ): Record<string, string> {
   const parameters: Record<string, string> = {};
   for (const { attributeName: name } of records) {
-    if (!name || NOT_PARAMETERS.test(name)) continue;
+    if (!name || !isParameter(name)) continue;
     const control = snapshot?.controls.find(({ id }) => id === name);
     const fallback = control && "default" in control ? String(control.default) : undefined;
     const value = element.getAttribute(name) ?? fallback;

@@ -4,6 +4,14 @@ import type { Choice } from "./choice.js";
 import type { Challenge } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";
 
+/** What a page may know of a goal. */
+export interface Goal {
+  id: string;
+  goal: string;
+  /** The reader has reached it, now or before. */
+  solved: boolean;
+}
+
 const CHECK = "M4.5 10.5l3.5 3.5 7.5-8.5";
 
 export class Challenges {
@@ -57,6 +65,17 @@ export class Challenges {
     this.#goals = goals;
     if (!same) this.#refresh();
     return news;
+  }
+
+  /** Every goal, and whether it has been reached. */
+  get goals(): Goal[] {
+    return this.#known.map(({ id, goal }) => ({ id, goal, solved: this.#solved.has(id) }));
+  }
+
+  /** Takes goals for reached: the reader has reached them another time. */
+  recall(ids: string[]): void {
+    for (const { id } of this.#known) if (ids.includes(id)) this.#solved.add(id);
+    this.#refresh();
   }
 
   /** Tells which goal is being shown, so that the button ends it. */

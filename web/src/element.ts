@@ -5,6 +5,7 @@
  */
 
 import { changedParameters, parametersOf, wholeState } from "./attributes.js";
+import type { Goal } from "./challenges.js";
 import { CHOOSING, choiceOf } from "./choice.js";
 import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
 import { capitalize, make, setAttribute } from "./dom.js";
@@ -12,7 +13,8 @@ import { Engine, hurryModule, loadModule } from "./module.js";
 import { Motion } from "./motion.js";
 import { linkTo, parametersIn } from "./permalink.js";
 import { defineProperties } from "./properties.js";
-import { layoutWidth } from "./room.js";
+import { toSaved, type Saved } from "./saved.js";
+import { layoutWidth, WIDTHS } from "./room.js";
 import { Session } from "./session.js";
 import { sheet } from "./sheet.js";
 import { Shell } from "./shell.js";
@@ -29,7 +31,7 @@ const SCROLL_MS = 700;
 const Base: typeof HTMLElement = globalThis.HTMLElement ?? class {};
 
 export class EpipoleFigure extends Base {
-  static readonly observedAttributes = ["name", "theme", ...CHOOSING];
+  static readonly observedAttributes = ["name", "theme", "compact", ...CHOOSING];
 
   readonly #shadow: ShadowRoot;
   #shell: Shell;
@@ -62,6 +64,8 @@ export class EpipoleFigure extends Base {
   /** Room for the picture, and how much of it the picture takes, CSS pixels. */
   #room = 0;
   #shown = 0;
+  /** The width that the picture of a compact figure is laid out for. */
+  #fitted: number | undefined;
   /** Somebody has pointed at the figure or gone into it. */
   #interested = false;
   #opening = 0;
@@ -102,6 +106,12 @@ export class EpipoleFigure extends Base {
     // JupyterLab hears keys before anybody else, and does nothing on them where it finds this.
     setAttribute(this, "data-lm-suppress-shortcuts", true);
     this.#shell.role = this.closest("figure") ? "group" : "figure";
+    // What was set before the script had come hides the property that sets the attribute.
+    if (Object.hasOwn(this, "compact")) {
+      const { compact } = this;
+      Reflect.deleteProperty(this, "compact");
+      this.compact = compact;
+    }
     // What observers tell is remembered: to ask would make the browser lay the page out at once.
     this.#resized = new ResizeObserver((entries) => this.#onResize(entries));
     this.#observeRoom();
@@ -145,6 +155,7 @@ export class EpipoleFigure extends Base {
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
     if (name === "theme") this.#recolor();
+    else if (name === "compact") this.#squeeze();
     else if (name !== "name") this.#choose();
     else if (before !== null && before !== now) this.#rename();
   }
@@ -158,9 +169,36 @@ export class EpipoleFigure extends Base {
     this.apply(parameters);
   }
 
+  /**
+   * Whether the figure fits the height that its page gives: picture, main buttons and numbers, the rest behind a
+   * button. The same as the attribute.
+   */
+  get compact(): boolean {
+    return this.hasAttribute("compact");
+  }
+
+  set compact(compact: boolean) {
+    this.toggleAttribute("compact", Boolean(compact));
+  }
+
   /** The readouts by name. */
   get readouts(): Record<string, number | string> {
     return Object.fromEntries(this.#snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
+  }
+
+  /** The goals, and which of them the reader has reached. */
+  get goals(): Goal[] {
+    return this.#shell.goals;
+  }
+
+  /** The names of the goals that the reader has reached. */
+  get solved(): string[] {
+    return this.goals.filter(({ solved }) => solved).map(({ id }) => id);
+  }
+
+  /** State and reached goals, for a page that keeps them. */
+  get saved(): Saved {
+    return toSaved(this.getAttribute("name") ?? "", this.state, this.solved);
   }
 
   /**
@@ -260,13 +298,18 @@ export class EpipoleFigure extends Base {
     this.#shell.jobs.goOn();
     this.#warn(problems);
     this.#shell.speaker.say("Reset.");
+    this.#emit("epipole-reset", {});
   }
 
   /**
    * Makes the state exactly this one, as a permalink or `state` has told it: what is not named takes the
-   * figure's own default, whatever the attributes say. Opens the figure if that has not been done.
+   * figure's own default, whatever the attributes say. The goals named count as reached. Opens the figure if that
+   * has not been done.
    */
-  async restore(state: Record<string, string | number | boolean>): Promise<void> {
+  async restore(
+    state: Record<string, string | number | boolean>,
+    { solved = [] }: { solved?: string[] } = {},
+  ): Promise<void> {
     this.#stopMotion();
     if (!this.#session) void this.#open(false);
     await this.whenReady();
@@ -275,6 +318,12 @@ export class EpipoleFigure extends Base {
     this.#session?.act((engine) => engine.update({ type: "reset" }));
     this.#shell.jobs.goOn();
     this.#warn(this.#put(textOf(state)));
+    this.#shell.recall(solved);
+  }
+
+  /** Shows a sentence in the figure, and on the console. */
+  warn(sentence: string): void {
+    this.#complain([sentence]);
   }
 
   /** Shows the present state at once, without waiting for the display. */
@@ -326,6 +375,7 @@ export class EpipoleFigure extends Base {
       },
       choiceOf((name) => this.getAttribute(name)),
     );
+    shell.compact = this.compact;
     return shell;
   }
 
@@ -346,6 +396,7 @@ export class EpipoleFigure extends Base {
     this.#shell = this.#makeShell();
     this.#shell.role = this.closest("figure") ? "group" : "figure";
     this.#shell.theme = this.#theme;
+    this.#fitted = undefined;
     this.#shadow.replaceChildren(this.#shell.root);
     this.#observeRoom();
     if (wanted && this.isConnected) void this.#open(false);
@@ -356,12 +407,29 @@ export class EpipoleFigure extends Base {
     this.#shell.choose(choiceOf((name) => this.getAttribute(name)));
     if (!this.#session || !this.#snapshot) return;
     this.#shell.update(this.#snapshot);
+    this.#fit();
     this.#shell.speaker.warn([]);
     this.#complain(this.#shell.misnamed(this.#snapshot));
   }
 
+  /** Compact, or no longer. */
+  #squeeze(): void {
+    this.#shell.compact = this.compact;
+    this.#observeRoom();
+    this.#fit();
+  }
+
+  /** Finds the width to lay out a compact figure for. */
+  #fit(): void {
+    const look = (width: number) => this.#session?.ask((engine) => engine.snapshot(width).layout);
+    const sizes = this.compact ? WIDTHS.map(look).filter((size) => size !== undefined) : [];
+    this.#fitted = sizes.length > 0 && this.clientHeight > 0 ? this.#shell.arrange(sizes) : undefined;
+    this.#session?.resize(this.#room, this.#shown, this.#fitted);
+  }
+
   #observeRoom(): void {
     this.#resized?.disconnect();
+    if (this.compact) this.#resized?.observe(this);
     const standing = this.#standIn?.picture;
     if (standing) this.#resized?.observe(standing);
     else {
@@ -378,10 +446,11 @@ export class EpipoleFigure extends Base {
 
   #onResize(entries: ResizeObserverEntry[]): void {
     for (const { target, contentRect } of entries) {
-      if (target === this.#shell.picture.sheet) this.#shown = contentRect.width;
+      if (target === this) this.#fit();
+      else if (target === this.#shell.picture.sheet) this.#shown = contentRect.width;
       else this.#room = contentRect.width;
     }
-    this.#session?.resize(this.#room, this.#shown);
+    this.#session?.resize(this.#room, this.#shown, this.#fitted);
   }
 
   #recolor(): void {
@@ -463,7 +532,11 @@ export class EpipoleFigure extends Base {
     this.#shell.speaker.warn([]);
     this.#complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
     this.#judged = first.waiting === null;
-    this.#session.resize(this.#room, this.#shown);
+    if (this.compact) {
+      // How much room the bar takes shows once its buttons and numbers are there.
+      this.#shell.update(first, this.#touched);
+      this.#fit();
+    } else this.#session.resize(this.#room, this.#shown);
     this.#session.setInSight(this.#inSight);
   }
 

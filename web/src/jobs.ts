@@ -1,5 +1,6 @@
 /** The long computations of one figure: in a worker, one after the other, only the newest wanted. */
 
+import { movedTo } from "./assets.js";
 import { make, setText } from "./dom.js";
 
 /** What a worker is asked. */
@@ -7,6 +8,8 @@ export interface Request {
   name: string;
   key: string;
   request: Uint8Array;
+  /** Where the module is, if not beside the worker. */
+  module: string | undefined;
 }
 
 /** What it answers: how far it is, and in the end a result or a sentence. */
@@ -129,7 +132,8 @@ export class Jobs {
       return;
     }
     const { name, key } = wanted;
-    this.#worker.postMessage({ name, key, request: wanted.request() } satisfies Request);
+    const module = movedTo("jobs")?.href;
+    this.#worker.postMessage({ name, key, request: wanted.request(), module } satisfies Request);
   }
 
   /** Says so if nobody answers. */
@@ -168,7 +172,8 @@ export class Jobs {
         ({ carryOut }) => {
           // It may have been stopped while the script came.
           if (this.#running?.key !== key) return;
-          void carryOut({ name, key, request: wanted.request() }, (answer) => this.#hear(answer));
+          const module = movedTo("jobs")?.href;
+          void carryOut({ name, key, request: wanted.request(), module }, (answer) => this.#hear(answer));
         },
         () => this.#hear({ key, problem: NOT_LOADED }),
       );
@@ -221,12 +226,13 @@ export class Jobs {
 }
 
 function workerUrl(): URL {
-  return new URL(EPIPOLE_WORKER, import.meta.url);
+  return movedTo("worker") ?? new URL(EPIPOLE_WORKER, import.meta.url);
 }
 
 /** A worker may only be started from the page's own origin; from elsewhere it takes one hop. */
 function hire(): Worker {
   const url = workerUrl();
+  if (url.origin === location.origin && movedTo("worker")) return new Worker(url, { type: "module" });
   if (url.origin === location.origin) {
     // Written out, because this is the form by which bundlers find the worker's file.
     return new Worker(new URL(EPIPOLE_WORKER, import.meta.url), { type: "module" });

@@ -1,6 +1,7 @@
 /** The one WebAssembly module of a page: loaded when the first figure wants it. */
 
 import load, { Figure, figures, take_panic } from "epipole-web";
+import { movedTo } from "./assets.js";
 import type {
   Direction,
   Parameters,
@@ -43,7 +44,7 @@ const loader = {
     const late = setTimeout(() => {
       for (const tell of this.slow) tell();
     }, SLOW_MS);
-    const answer = fetch(new URL(EPIPOLE_WASM, import.meta.url), { signal: this.abort.signal });
+    const answer = fetch(movedTo("figures") ?? new URL(EPIPOLE_WASM, import.meta.url), { signal: this.abort.signal });
     this.ended = load({ module_or_path: answer })
       .then(
         (loaded) => this.settle?.done(loaded),

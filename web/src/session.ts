@@ -115,9 +115,12 @@ export class Session {
     return this.#guard(() => work(this.engine));
   }
 
-  /** Takes the room that there is, and the width that the picture has in it, CSS pixels. */
-  resize(room: number, shown: number): void {
-    const width = room < 1 ? 0 : layoutWidth(room);
+  /**
+   * Takes the room that there is, and the width that the picture has in it, CSS pixels; and the width to lay it
+   * out for, where that is not for the room alone to say.
+   */
+  resize(room: number, shown: number, fitted?: number): void {
+    const width = room < 1 ? 0 : (fitted ?? layoutWidth(room));
     const size = Math.min(shown || room, room);
     const same = width === this.#width && Math.abs(size - this.#shown) < 0.5;
     if (same && this.#density === devicePixelRatio) return;

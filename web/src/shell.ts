@@ -1,6 +1,7 @@
 /** What a figure is made of on the page: its tree, which needs nothing but a snapshot. */
 
-import { Challenges } from "./challenges.js";
+import { Challenges, type Goal } from "./challenges.js";
+import { Compact } from "./compact.js";
 import { misnamed, type Choice } from "./choice.js";
 import { Controls } from "./controls.js";
 import type { Challenge, FigureEvent, Snapshot } from "./contract.js";
@@ -9,6 +10,7 @@ import { Jobs, type JobHooks } from "./jobs.js";
 import { Photos, type Photo } from "./photos.js";
 import { Picture, type Hand } from "./picture.js";
 import { Readouts } from "./readouts.js";
+import type { Size } from "./room.js";
 import { Speaker } from "./speaker.js";
 import type { Theme } from "./theme.js";
 import { Toolbar, type Deeds } from "./toolbar.js";
@@ -42,6 +44,11 @@ export class Shell {
   readonly #readouts = new Readouts();
   readonly #challenges: Challenges;
   readonly #toolbar: Toolbar;
+  #compact: Compact | undefined;
+  readonly #head: HTMLElement;
+  readonly #body: HTMLElement;
+  readonly #folds: HTMLElement;
+  readonly #caption = make("slot", { name: "caption" });
   readonly #help = make("p", { id: "help", class: "help" });
   readonly #title = make("p", { id: "title", class: "title" });
   readonly #description = make("p", { class: "description" });
@@ -67,28 +74,14 @@ export class Shell {
     });
     // Its room is kept from the start, so that nothing moves when the figure is there.
     this.#toolbar.element.classList.add("later");
-    this.#under = make("div", { class: "under", hidden: true }, this.#controls.buttons);
-    this.#panel = make(
-      "div",
-      { class: "panel", hidden: true },
-      this.#readouts.main,
-      this.#controls.inputs,
-      this.#challenges.element,
-      make("div", { class: "folds" }, this.#controls.more, this.#readouts.others),
-    );
+    this.#under = make("div", { class: "under", hidden: true });
+    this.#folds = make("div", { class: "folds" }, this.#controls.more, this.#readouts.others);
+    this.#panel = make("div", { class: "panel", hidden: true });
     this.picture.overlay.append(this.jobs.element);
-    this.root.append(
-      // In this order a page that is still coming moves nothing: the title fills what the row leaves.
-      make("div", { class: "head" }, this.#toolbar.element, this.#title),
-      this.speaker.home,
-      this.#toolbar.link,
-      this.photos.element,
-      make("div", { class: "body" }, this.picture.element, this.#under, this.#panel),
-      this.#description,
-      this.#help,
-      this.speaker.region,
-      make("slot", { name: "caption" }),
-    );
+    this.#head = make("div", { class: "head" });
+    this.#body = make("div", { class: "body" }, this.picture.element);
+    this.root.append(this.#head, this.speaker.home, this.#body, this.#description, this.#help, this.speaker.region);
+    this.#spread();
     this.photos.listen(this.root);
     for (const type of ["keydown", "keypress", "keyup"] as const) {
       this.root.addEventListener(type, (event) => this.#keep(event));
@@ -106,6 +99,43 @@ export class Shell {
 
   set theme(theme: Theme) {
     setAttribute(this.root, "data-theme", theme);
+  }
+
+  /** Puts everything where it is if there is room: one part below the other. */
+  #spread(): void {
+    // In this order a page that is still coming moves nothing: the title fills what the row leaves.
+    this.#head.append(this.#toolbar.element, this.#title);
+    this.#body.before(this.#toolbar.link, this.photos.element);
+    this.#under.append(this.#controls.buttons);
+    this.#panel.append(this.#readouts.main, this.#controls.inputs, this.#challenges.element, this.#folds);
+    this.#body.append(this.#under, this.#panel);
+    this.root.append(this.#caption);
+  }
+
+  /** Whether picture, main buttons and numbers share the height that the host gives, and the rest is in a drawer. */
+  set compact(wanted: boolean) {
+    if (wanted === (this.#compact !== undefined)) return;
+    this.#compact?.drawer.remove();
+    this.#compact?.bar.remove();
+    setAttribute(this.root, "data-compact", wanted ? "below" : undefined);
+    this.#compact = undefined;
+    if (!wanted) {
+      this.#spread();
+      return;
+    }
+    this.#compact = new Compact();
+    this.#compact.take(
+      [this.#controls.buttons, this.#readouts.main],
+      [this.#toolbar.element, this.#toolbar.link, this.photos.element, this.#panel, this.#caption],
+    );
+    this.#compact.bar.classList.toggle("later", this.#panel.hidden);
+    this.#under.remove();
+    this.#body.append(this.#compact.drawer, this.#compact.bar);
+  }
+
+  /** In a compact figure: the width to lay the picture out for, once the bar has found its place. */
+  arrange(sizes: Size[]): number | undefined {
+    return this.#compact?.arrange(this.root, this.picture.element, sizes);
   }
 
   introduce(title: string, help: string): void {
@@ -157,6 +187,7 @@ export class Shell {
   reveal(): void {
     this.#panel.hidden = false;
     this.#toolbar.element.classList.remove("later");
+    this.#compact?.bar.classList.remove("later");
   }
 
   /** Takes back what a stand-in had borrowed. */
@@ -168,6 +199,16 @@ export class Shell {
   /** Tells which goal is being shown. */
   set playing(challenge: string | undefined) {
     this.#challenges.playing = challenge;
+  }
+
+  /** Every goal, and whether the reader has reached it. */
+  get goals(): Goal[] {
+    return this.#challenges.goals;
+  }
+
+  /** Takes goals for reached. */
+  recall(ids: string[]): void {
+    this.#challenges.recall(ids);
   }
 
   /** Marks for a moment what has changed between two snapshots. */
@@ -221,6 +262,7 @@ export class Shell {
     if (event.key !== "Escape" || event.type !== "keydown") return;
     const tree = this.root.getRootNode();
     const focused = tree instanceof ShadowRoot ? tree.activeElement : null;
-    if (focused instanceof HTMLElement) focused.blur();
+    if (!(focused instanceof HTMLElement) || this.#compact?.leave(focused)) return;
+    focused.blur();
   }
 }

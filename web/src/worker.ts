@@ -10,7 +10,7 @@ const TELL_MS = 50;
 
 /** Carries out a request. A page calls this itself only where it may have no workers. */
 export async function carryOut(
-  { name, key, request }: Request,
+  { name, key, request, module }: Request,
   tell: (answer: Answer, transfer?: Transferable[]) => void,
 ): Promise<void> {
   let told = 0;
@@ -21,7 +21,7 @@ export async function carryOut(
     tell({ key, share });
   };
   try {
-    loading ??= load({ module_or_path: new URL(EPIPOLE_JOBS_WASM, import.meta.url) });
+    loading ??= load({ module_or_path: module ? new URL(module) : new URL(EPIPOLE_JOBS_WASM, import.meta.url) });
     await loading;
   } catch {
     // The next request may have more luck.

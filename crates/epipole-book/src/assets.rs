@@ -28,6 +28,10 @@ pub struct Assets {
     pub elements: Option<String>,
     /// The style sheet inside the figures.
     pub figure_css: Option<String>,
+    /// The script of the pages with one figure, for frames.
+    pub frame: Option<String>,
+    /// Their style sheet.
+    pub frame_css: String,
     /// Fonts that every page needs at once.
     pub preload: Vec<String>,
     /// The icon.

@@ -16,6 +16,7 @@
 //! | `{{#note text}}` or `{{#note \| text}}` | a numbered note in the margin (as a footnote `[^x]`) |
 //! | `{{#quiz name}}` | the quiz `quizzes/name.toml` |
 //! | `{{#references}}` | the list of all cited works |
+//! | `{{#gallery}}` | every figure, with what can be set and read, and words to copy for other pages |
 //! | `{{#progress}}` | the reader's quiz results, kept in their own browser |
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
@@ -33,13 +34,14 @@ use crate::problems::{Place, name_list};
 use crate::references::cite;
 use crate::shared::{PAGE_OF_REFERENCES, PanelRequest, QuizEntry, token};
 use crate::source::Source;
-use crate::{numbers, operate, quiz, small, symbols};
+use crate::{gallery, numbers, operate, quiz, small, symbols};
 
-const KNOWN: [&str; 16] = [
+const KNOWN: [&str; 17] = [
     "cite",
     "claim",
     "do",
     "figure",
+    "gallery",
     "include",
     "listing",
     "live",
@@ -173,6 +175,7 @@ pub(crate) fn expand(
                 html: renderer.shared.references.list(),
             })
         }
+        "gallery" => gallery::list(renderer, place).map(|html| Insert::Block { html }),
         "progress" => Ok(Insert::Block {
             html: token("progress", ""),
         }),

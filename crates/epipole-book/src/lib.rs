@@ -18,6 +18,8 @@ mod events;
 mod expand;
 pub mod facts;
 pub mod figures;
+mod frames;
+mod gallery;
 pub mod highlight;
 pub mod html;
 mod include;

@@ -6,7 +6,7 @@ use crate::figures::Widgets;
 use crate::html::escape;
 use crate::problems::Problem;
 use crate::site::{Options, Outcome, build};
-use crate::template::CONTENT_SECURITY_POLICY;
+use crate::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;
@@ -105,6 +105,11 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
 
 async fn headers(request: Request, next: Next) -> Response {
     let hashed = request.uri().path().contains("/assets/");
+    // The pages of single figures are there for the frames of others.
+    let policy = match request.uri().path().contains("/embed/") {
+        true => FRAME_POLICY,
+        false => CONTENT_SECURITY_POLICY,
+    };
     let mut response = next.run(request).await.into_response();
     let caching = if hashed {
         "public, max-age=31536000, immutable"
@@ -117,7 +122,7 @@ async fn headers(request: Request, next: Next) -> Response {
         "no-cache"
     };
     let fixed = [
-        (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY),
+        (header::CONTENT_SECURITY_POLICY, policy),
         (header::ACCESS_CONTROL_ALLOW_ORIGIN, "*"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),

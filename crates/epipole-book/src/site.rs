@@ -3,6 +3,7 @@
 use crate::assets::{self, Assets};
 use crate::compress;
 use crate::figures::Gallery;
+use crate::frames;
 use crate::html::{escape, forbidden_inline, path_to_root};
 use crate::include::include;
 use crate::instances::instances;
@@ -133,6 +134,7 @@ fn build_pages(
         return Ok(Outcome::Problems(problems.sorted()));
     }
 
+    let frames = frames::draw(&shared)?;
     let mut files = shared.take_files();
     if let Some(folder) = &options.notebooks {
         let notebooks = files
@@ -174,6 +176,7 @@ fn build_pages(
         let nav = Nav::new(&summary.entries, &pages, index);
         files.insert(page.path.clone(), template.page(page, &nav)?.into_bytes());
     }
+    frames::add(&mut files, &options.project, &book.config, &assets, &frames)?;
     if !files.contains_key("index.html")
         && let Some(first) = pages.first()
         && let Some(html) = files.get(&first.path).cloned()

@@ -16,6 +16,12 @@ pub const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'
     connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; \
     form-action 'none'";
 
+/// The same for pages that stand in frames of other pages. In a page itself browsers would ignore the last part.
+pub const FRAME_POLICY: &str = "default-src 'none'; script-src 'self' \
+    'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; \
+    connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; \
+    form-action 'none'; frame-ancestors *";
+
 /// The template and what is the same on all pages.
 pub(crate) struct Template<'a> {
     handlebars: Handlebars<'static>,

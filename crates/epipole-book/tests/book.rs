@@ -77,11 +77,12 @@ impl Book {
     fn new(files: &[(&str, &str)]) -> Book {
         let folder = tempfile::tempdir().unwrap();
         let book = Book { folder };
-        let template = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/theme/index.hbs");
-        book.write(
-            "web/theme/index.hbs",
-            &fs::read_to_string(template).unwrap(),
-        );
+        for template in ["web/theme/index.hbs", "web/theme/frame.hbs"] {
+            let own = Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("../..")
+                .join(template);
+            book.write(template, &fs::read_to_string(own).unwrap());
+        }
         book.write(
             "content/book.toml",
             "[book]\ntitle = \"Tiny\"\nlanguage = \"en\"\nsrc = \".\"\n[output.epipole]\nfirst-chapter = 0\n",
@@ -899,6 +900,67 @@ fn a_second_build_replaces_the_first() {
     assert!(!book.out().join("stale.html").exists());
     assert!(book.article("one.html").contains("New."));
     assert!(!book.out().with_extension("next").exists());
+}
+
+#[test]
+fn every_figure_has_a_page_for_frames() {
+    let book = Book::of_chapter("# One\n\nOld.\n");
+    book.must_build();
+    let frame = book.page("embed/dot.html");
+    for part in [
+        "<title>A dot · Tiny</title>",
+        "<epipole-figure name=\"dot\"><picture><source srcset=\"../assets/figures/dot-360-dark-",
+        "alt=\"A &quot;dot&quot; of size 3.\"",
+        "<noscript><p>A &quot;dot&quot; of size 3. It moves",
+    ] {
+        assert!(frame.contains(part), "{part}: {frame}");
+    }
+    // Where the book is published nobody has said.
+    assert!(!frame.contains("oembed"), "{frame}");
+    assert!(!book.out().join("embed/dot.json").exists());
+}
+
+#[test]
+fn with_an_address_frames_tell_oembed_of_themselves() {
+    let book = Book::of_chapter("# One\n\nOld.\n");
+    let toml = "[book]\ntitle = \"Tiny\"\nsrc = \".\"\n[output.epipole]\naddress = \"https://a.example/book\"\n";
+    book.write("content/book.toml", toml);
+    book.must_build();
+    let link = "type=\"application/json+oembed\" href=\"https://a.example/book/embed/dot.json\"";
+    assert!(book.page("embed/dot.html").contains(link));
+    let facts: serde_json::Value = serde_json::from_str(&book.page("embed/dot.json")).unwrap();
+    assert_eq!(
+        (&facts["version"], &facts["type"]),
+        (&"1.0".into(), &"rich".into())
+    );
+    assert_eq!(facts["width"], 720);
+    let html = facts["html"].as_str().unwrap();
+    assert!(
+        html.starts_with(
+            "<iframe src=\"https://a.example/book/embed/dot.html\" title=\"A dot\" width=\"100%\""
+        ),
+        "{html}"
+    );
+}
+
+#[test]
+fn the_gallery_shows_what_can_be_set_and_read() {
+    let book = Book::of_chapter("# All\n\n{{#gallery}}\n");
+    book.must_build();
+    let page = book.article("one.html");
+    for part in [
+        "<section class=\"gallery\" data-name=\"dot\">",
+        "<h2 id=\"dot\"><a href=\"#dot\">A dot</a></h2>",
+        "<figure class=\"epipole\" id=\"figure-dot\">",
+        "href=\"embed/dot.html\"",
+        "&lt;epipole-figure name=&quot;dot&quot;&gt;&lt;/epipole-figure&gt;",
+        "<code>size</code></th>",
+        "<code>area</code></th><td>",
+        "9 px²",
+    ] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    assert!(!page.contains("What can be pressed"), "{page}");
 }
 
 /// The chapters of the book itself: file and text.

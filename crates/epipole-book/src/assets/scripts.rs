@@ -88,6 +88,10 @@ pub(super) fn add_elements(
         .files
         .insert("embed/epipole.js".to_owned(), embed.into_bytes());
     assets.elements = Some(elements.clone());
+    let frame = bundle(tools, "web/book/frame.ts", &["--format=esm"], fast, assets)?;
+    assets.frame = frame.get("frame").cloned();
+    let styles = bundle(tools, "web/theme/frame.css", &[], fast, assets)?;
+    assets.frame_css = styles.get("frame").cloned().unwrap_or_default();
     Ok(())
 }
 

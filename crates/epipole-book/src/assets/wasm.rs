@@ -124,8 +124,11 @@ fn optimize(tools: &Tools, bound: Bound, fast: bool) -> Result<Module> {
         )?;
         std::fs::rename(&part, &optimized)?;
     }
+    let optimized = read(&optimized)?;
+    // For `web/build.mjs`, under the name of its script.
+    std::fs::write(glue.with_extension("wasm"), &optimized)?;
     Ok(Module {
-        wasm: read(&optimized)?,
+        wasm: optimized,
         glue,
     })
 }

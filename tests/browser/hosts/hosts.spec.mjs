@@ -1,0 +1,265 @@
+// Figures in the pages of others: built by each host's own tool from the recipe that we give, and dragged.
+
+import { execFile, spawn } from "node:child_process";
+import { cpSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
+import { elements, here, root } from "../places.mjs";
+import { serve } from "../server.mjs";
+import { expect, test as base } from "../fixtures.mjs";
+import { answers, follows, operate } from "./drive.mjs";
+import { folderOf, work } from "./recipes.mjs";
+import { fileServer, started } from "./serving.mjs";
+
+const run = promisify(execFile);
+const tools = join(here, "hosts/node_modules");
+const python = join(work, "python/bin");
+
+const test = base.extend({
+  /** The book's own server: another origin than that of the course. */
+  book: [
+    async ({}, use) => {
+      const server = await serve({ mounts: { embed: join(elements, "embed"), assets: join(elements, "assets") }, policy: false });
+      await use(server.origin);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+
+  context: async ({ browser }, use) => {
+    const context = await browser.newContext({ viewport: { width: 1200, height: 900 }, hasTouch: true });
+    await use(context);
+    await context.close();
+  },
+
+  /** Requests to other places than those that the test names. */
+  strangers: async ({ page, book }, use) => {
+    const known = [book];
+    const strange = [];
+    page.on("request", (request) => {
+      const { protocol, origin } = new URL(request.url());
+      if (/^(https?|wss?):$/.test(protocol) && !known.includes(origin)) strange.push(request.url());
+    });
+    await use(known);
+    expect(strange, "requests elsewhere").toEqual([]);
+  },
+});
+
+/** Runs a tool in a folder. What it warns of is ours if it names us. */
+async function tool(folder, command, ...args) {
+  const { stdout, stderr } = await run(command, args, { cwd: folder, env: { ...process.env, NO_COLOR: "1" }, maxBuffer: 1 << 26 });
+  const ours = `${stdout}\n${stderr}`.split("\n").filter((line) => /warn/i.test(line) && /epipole/i.test(line));
+  expect(ours, "warnings about the figures").toEqual([]);
+}
+
+const npx = (name) => join(tools, ".bin", name);
+
+const dark = (page) => ({
+  darken: () => page.evaluate(() => (document.body.style.background = "#101014")),
+  lighten: () => page.evaluate(() => (document.body.style.background = "#ffffff")),
+});
+
+async function visit(page, address, strangers) {
+  strangers.push(new URL(address).origin);
+  await page.goto(address);
+}
+
+const race = (page) => page.locator('epipole-figure[name="ransac-race"]');
+const map = (page) => page.locator('epipole-figure[name="disparity-map"]');
+
+/** The package as npm would install it. */
+function withPackage(folder) {
+  const home = join(folder, "node_modules/@epipole");
+  mkdirSync(home, { recursive: true });
+  cpSync(join(work, "package"), join(home, "figures"), { recursive: true });
+  for (const name of ["@rollup"]) symlinkSync(join(tools, name), join(folder, "node_modules", name));
+}
+
+const copyFiles = (folder) =>
+  tool(folder, "sh", "-c", "cp node_modules/@epipole/figures/dist/*.wasm node_modules/@epipole/figures/dist/worker.js dist/");
+
+const bundlers = {
+  vite: async (folder) => (await tool(folder, npx("vite"), "build"), join(folder, "dist")),
+  webpack: async (folder) => (await tool(folder, npx("webpack"), "--mode", "production", "--entry", "./main.js"), folder),
+  rollup: async (folder) => (await tool(folder, npx("rollup"), "-c"), await copyFiles(folder), folder),
+  esbuild: async (folder) => (await tool(folder, npx("esbuild"), "main.js", "--bundle", "--format=esm", "--outdir=dist"), await copyFiles(folder), folder),
+  parcel: async (folder) => (await tool(folder, npx("parcel"), "build", "index.html", "--cache-dir", join(folder, ".cache")), join(folder, "dist")),
+};
+
+for (const [name, build] of Object.entries(bundlers)) {
+  test(name, async ({ page, book, strangers }) => {
+    const folder = folderOf(name, book);
+    withPackage(folder);
+    const server = await fileServer(await build(folder));
+    await visit(page, `${server.origin}/index.html`, strangers);
+    await operate(page, race(page));
+    await answers(map(page));
+    const { darken, lighten } = dark(page);
+    await follows(race(page), darken, lighten);
+    await server.close();
+  });
+}
+
+test("vite, while one writes", async ({ page, book, strangers }) => {
+  const folder = folderOf("vite", book);
+  withPackage(folder);
+  const server = await started(spawn(npx("vite"), ["--port", "0", "--host", "127.0.0.1"], { cwd: folder, env: { ...process.env, NO_COLOR: "1" } }), /(http:\/\/127\.0\.0\.1:\d+)/);
+  strangers.push(server.origin.replace("http", "ws"));
+  await visit(page, server.origin, strangers);
+  await operate(page, race(page));
+  await answers(map(page));
+  await page.goto("about:blank");
+  await server.close();
+});
+
+test("reveal.js", async ({ page, book, strangers }) => {
+  const folder = folderOf("reveal", book);
+  cpSync(join(tools, "reveal.js/dist"), join(folder, "dist"), { recursive: true });
+  const server = await fileServer(folder);
+  await visit(page, `${server.origin}/index.html`, strangers);
+  await operate(page, race(page));
+  const inside = await race(page).evaluate((element) => {
+    const [slide, box] = [document.querySelector(".slides"), element].map((part) => part.getBoundingClientRect());
+    return box.top >= slide.top - 1 && box.bottom <= slide.bottom + 1;
+  });
+  expect(inside, "the figure is on the slide").toBe(true);
+  await page.evaluate(() => window.Reveal.next());
+  await answers(map(page));
+  await page.evaluate(() => window.Reveal.prev());
+  const { darken, lighten } = dark(page);
+  await follows(race(page), darken, lighten);
+  await server.close();
+});
+
+test("MkDocs Material", async ({ page, book, strangers }) => {
+  const folder = folderOf("mkdocs", book);
+  await tool(folder, join(python, "mkdocs"), "build", "--quiet", "--strict");
+  const server = await fileServer(join(folder, "site"));
+  await visit(page, `${server.origin}/`, strangers);
+  await operate(page, race(page));
+  const choose = (scheme) => () => page.evaluate((name) => document.body.setAttribute("data-md-color-scheme", name), scheme);
+  await follows(race(page), choose("slate"), choose("default"));
+  await page.getByRole("link", { name: "stereo", exact: true }).click();
+  await answers(map(page));
+  await page.getByRole("link", { name: "fitting", exact: true }).click();
+  await operate(page, race(page));
+  await server.close();
+});
+
+test("Sphinx with MyST", async ({ page, book, strangers }) => {
+  const folder = folderOf("sphinx", book);
+  await tool(folder, join(python, "sphinx-build"), "-q", "-W", "-b", "html", ".", "_build");
+  const server = await fileServer(join(folder, "_build"));
+  await visit(page, `${server.origin}/index.html`, strangers);
+  await operate(page, race(page));
+  // The attribute by which its themes switch.
+  const choose = (theme) => () => page.evaluate((name) => (document.documentElement.dataset.theme = name), theme);
+  await follows(race(page), choose("dark"), choose("light"));
+  await page.goto(`${server.origin}/stereo.html`);
+  await answers(map(page));
+  await server.close();
+});
+
+test("JupyterLab", async ({ page, book, strangers }) => {
+  const folder = folderOf("jupyter", book);
+  const child = spawn(join(python, "jupyter"), ["lab", "--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0", "--ServerApp.port_retries=0", "--IdentityProvider.token=t", "--LabApp.news_url=", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate", `--ServerApp.root_dir=${folder}`], {
+    cwd: folder,
+    env: { ...process.env, PATH: `${python}:${process.env.PATH}`, JUPYTER_CONFIG_DIR: join(folder, ".config"), JUPYTER_DATA_DIR: join(folder, ".data"), JUPYTER_RUNTIME_DIR: join(folder, ".runtime") },
+  });
+  const server = await started(child, /(http:\/\/127\.0\.0\.1:\d+)\/lab\?token=/);
+  strangers.push(server.origin.replace("http", "ws"));
+  await visit(page, `${server.origin}/lab/tree/figures.ipynb?token=t`, strangers);
+  const cells = page.locator(".jp-Notebook .jp-CodeCell");
+  await cells.first().locator(".cm-content").click();
+  for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
+  await operate(page, race(page));
+  await answers(map(page));
+  await expect(cells).toHaveCount(3);
+  // What the reader has set is in Python, and what Python sets is on the page.
+  const type = async (words) => {
+    await cells.last().locator(".cm-content").click();
+    await page.keyboard.type(words);
+    await page.keyboard.press("Shift+Enter");
+  };
+  const state = () => race(page).evaluate((element) => (element.flush(), element.state));
+  const now = await state();
+  await type("import json; print(json.dumps(race.state, sort_keys=True), len(race.readouts) > 3)");
+  const sorted = JSON.stringify(Object.fromEntries(Object.entries(now).sort())).replaceAll(":", ": ").replaceAll('","', '", "');
+  await expect(page.locator(".jp-OutputArea-output pre").last()).toHaveText(`${sorted} True\n`);
+  await type("race.state = {'outliers': 0.3, 'points': 40}; race.press('step')");
+  await expect.poll(state).toMatchObject({ outliers: "0.30", points: "40" });
+  // A new figure of the same state shows the same bits.
+  await type("Figure('ransac-race', **race.state)");
+  const both = page.locator('epipole-figure[name="ransac-race"]');
+  await expect(both).toHaveCount(2);
+  await expect(both.last()).toHaveAttribute("data-ready", "", { timeout: 60_000 });
+  const told = (index) => both.nth(index).evaluate((element) => (element.flush(), [element.state, element.readouts]));
+  expect(await told(1)).toEqual(await told(0));
+  const modules = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm")).length);
+  expect(modules, "modules come through the kernel").toBe(0);
+  // A page that is left asks nothing of a server that goes.
+  await page.goto("about:blank");
+  await server.close();
+});
+
+test("marimo", async ({ page, book, strangers }) => {
+  const folder = folderOf("marimo", book);
+  const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", "2719"], {
+    cwd: folder,
+    env: { ...process.env, MARIMO_SKIP_UPDATE_CHECK: "1" },
+  });
+  const server = await started(child, /(http:\/\/(?:127\.0\.0\.1|localhost):\d+)/);
+  strangers.push(server.origin.replace("http", "ws"));
+  await visit(page, server.origin, strangers);
+  await operate(page, race(page));
+  await answers(map(page));
+  // A page that is left asks nothing of a server that goes.
+  await page.goto("about:blank");
+  await server.close();
+});
+
+test("SCORM 1.2", async ({ page, strangers }) => {
+  const folder = join(work, "made/scorm");
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(join(folder, "package"), { recursive: true });
+  const zip = join(folder, "race.zip");
+  await tool(folder, "node", join(root, "web/scorm.mjs"), "ransac-race", "seed=3", "--out", zip, "--title", "Who is <right>?");
+  const files = unzipSync(readFileSync(zip));
+  for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, "package", name), bytes);
+  const listed = [...new TextDecoder().decode(files["imsmanifest.xml"]).matchAll(/<file href="([^"]+)"/g)].map(([, name]) => name);
+  expect([...listed, "imsmanifest.xml"].sort()).toEqual(Object.keys(files).sort());
+  cpSync(join(tools, "scorm-again/dist/scorm12.min.js"), join(folder, "scorm12.js"));
+  // The platform: a player that keeps what it is told from one visit to the next.
+  writeFileSync(
+    join(folder, "index.html"),
+    `<!doctype html><html lang="en"><title>A course</title><script src="scorm12.js"></script>
+    <script>
+      window.visit = (kept) => {
+        document.querySelector("iframe")?.remove();
+        window.API = new window.Scorm12API({ autocommit: false, logLevel: 5 });
+        if (kept) window.API.loadFromJSON(kept.cmi ?? kept);
+        const frame = document.createElement("iframe");
+        Object.assign(frame, { src: "package/index.html", width: 1000, height: 800 });
+        document.body.append(frame);
+      };
+      addEventListener("DOMContentLoaded", () => window.visit());
+    </script><body></body>`,
+  );
+  const server = await fileServer(folder);
+  await visit(page, `${server.origin}/`, strangers);
+  const figure = page.frameLocator("iframe").locator("epipole-figure");
+  await expect(figure).toHaveAttribute("data-ready", "");
+  await figure.evaluate((element) => (element.outliers = 0, element.flush()));
+  const kept = (name) => page.evaluate((key) => window.API.lmsGetValue(key), name);
+  await expect.poll(async () => Number(await kept("cmi.core.score.raw"))).toBeGreaterThan(0);
+  expect(await kept("cmi.core.lesson_status")).toBe("incomplete");
+  await figure.evaluate((element) => (element.points = 34, element.flush()));
+  await expect.poll(() => kept("cmi.suspend_data")).toContain('"points":"34"');
+  const before = await figure.evaluate((element) => element.saved);
+  const cmi = await page.evaluate(() => JSON.parse(JSON.stringify(window.API.renderCMIToJSONObject?.() ?? window.API.renderCMIToJSON())));
+  await page.evaluate((data) => window.visit(data), cmi);
+  await expect(figure).toHaveAttribute("data-ready", "");
+  await expect.poll(() => figure.evaluate((element) => element.saved)).toEqual(before);
+  await server.close();
+});

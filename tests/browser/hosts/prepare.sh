@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# What the hosts install: the npm package, packed and unpacked as npm does it, and the Python wheel.
+set -euo pipefail
+cd "$(dirname "$0")/../../.."
+work=${CARGO_TARGET_DIR:-target}/hosts
+mkdir -p "$work"
+rm -rf "$work/package" "$work"/*.tgz "$work/wheel"
+(cd web && node build.mjs)
+npm pack ./web --pack-destination "$work" --loglevel error >/dev/null
+tar -xzf "$work"/*.tgz -C "$work"
+rm -rf python/epipole_figures/static
+mkdir -p python/epipole_figures/static
+cp web/dist/{index.js,worker.js,epipole-figures.wasm,epipole-jobs.wasm} python/epipole_figures/static/
+"$work/python/bin/python" -m build --quiet --wheel --no-isolation --outdir "$work/wheel" python
+"$work/python/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$work"/wheel/*.whl

@@ -1,0 +1,42 @@
+// Recipes as folders: the files that a page of docs/embed/ shows, written as a reader would write them.
+
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { root } from "../places.mjs";
+
+const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
+/** Where hosts are built, and what they are built from. */
+export const work = join(target, "hosts");
+
+/** Every file of a recipe, by name: a line "`name`:" and the fence below it. */
+export function filesOf(recipe) {
+  const text = readFileSync(join(root, "docs/embed", `${recipe}.md`), "utf8");
+  const files = [...text.matchAll(/^`([\w./-]+)`[^\n]*:\n\n((?:```\w*\n[\s\S]*?^```\n+)+)/gm)].map(([, name, fences]) => {
+    const parts = [...fences.matchAll(/^```\w*\n([\s\S]*?)^```/gm)].map(([, part]) => part);
+    return [name, parts];
+  });
+  if (files.length === 0) throw new Error(`docs/embed/${recipe}.md shows no file`);
+  return files;
+}
+
+/** A new folder with the files of a recipe; the book is at `book`. */
+export function folderOf(recipe, book) {
+  const folder = join(work, "made", recipe);
+  rmSync(folder, { recursive: true, force: true });
+  for (const [name, parts] of filesOf(recipe)) {
+    const path = join(folder, name);
+    mkdirSync(dirname(path), { recursive: true });
+    const text = name.endsWith(".ipynb") ? notebook(parts) : parts.join("");
+    writeFileSync(path, text.replaceAll("https://book.example/", `${book}/`));
+  }
+  return folder;
+}
+
+function notebook(cells) {
+  return JSON.stringify({
+    nbformat: 4,
+    nbformat_minor: 5,
+    metadata: { kernelspec: { name: "python3", display_name: "Python 3", language: "python" } },
+    cells: cells.map((source, index) => ({ cell_type: "code", id: `cell-${index}`, metadata: {}, execution_count: null, outputs: [], source })),
+  });
+}

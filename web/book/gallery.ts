@@ -1,0 +1,65 @@
+// The page of all figures: words to copy for other pages, which follow what the reader sets.
+
+import { HOSTS, type Wish } from "./snippets";
+
+interface Living extends HTMLElement {
+  state: Record<string, string>;
+}
+
+/** The kind of page that the reader has chosen, for all figures. */
+const CHOSEN = "epipole-host";
+const lists: HTMLSelectElement[] = [];
+const updates: (() => void)[] = [];
+
+function remembered(): string {
+  try {
+    return localStorage.getItem(CHOSEN) ?? "";
+  } catch {
+    return "";
+  }
+}
+
+function startSection(section: HTMLElement): void {
+  const figure = section.querySelector<Living>("epipole-figure");
+  const code = section.querySelector(".snippet code");
+  const page = section.querySelector<HTMLAnchorElement>(".own-page");
+  if (!figure || !code || !page) return;
+  const frame = new URL(page.href);
+  const list = document.createElement("select");
+  list.ariaLabel = "Kind of page";
+  list.append(...HOSTS.map(({ name }) => new Option(name, name)));
+  const chosen = HOSTS.find(({ name }) => name === remembered());
+  if (chosen) list.value = chosen.name;
+  lists.push(list);
+  section.querySelector(".snippet .listing-title")?.after(list);
+
+  const update = () => {
+    const wish: Wish = {
+      name: section.dataset.name ?? "",
+      title: section.querySelector("h2")?.textContent ?? "",
+      // Before the script of the figures has come, nobody has set anything.
+      state: figure.state ?? {},
+      book: new URL(".", new URL("..", frame)).href,
+      height: Math.ceil(figure.getBoundingClientRect().height),
+    };
+    code.textContent = HOSTS.find(({ name }) => name === list.value)?.write(wish) ?? "";
+    page.search = new URLSearchParams(wish.state).toString();
+  };
+  updates.push(update);
+  figure.addEventListener("epipole-ready", update);
+  figure.addEventListener("epipole-change", update);
+  list.addEventListener("change", () => {
+    for (const other of lists) other.value = list.value;
+    for (const follow of updates) follow();
+    try {
+      localStorage.setItem(CHOSEN, list.value);
+    } catch {
+      // Not remembered, but done.
+    }
+  });
+  update();
+}
+
+export function start(): void {
+  document.querySelectorAll<HTMLElement>(".gallery").forEach(startSection);
+}

@@ -1,0 +1,48 @@
+/** What a page keeps of a figure, to come back to it: its state, and which goals the reader has reached. */
+
+/** The newest form that there is. */
+const VERSION = 1;
+
+export interface Saved {
+  v: number;
+  /** The figure's name. */
+  figure: string;
+  /** What differs from its defaults. */
+  state: Record<string, string>;
+  /** The goals that have been reached. */
+  solved: string[];
+}
+
+export function toSaved(figure: string, state: Record<string, string>, solved: string[]): Saved {
+  return { v: VERSION, figure, state, solved };
+}
+
+/** Reads what was kept, as an object or as its JSON text. Nothing if nothing was kept; a sentence if it is of no use. */
+export function readSaved(kept: unknown, figure: string): Saved | string | undefined {
+  let value = kept;
+  if (typeof kept === "string" && kept.trim() !== "") {
+    try {
+      value = JSON.parse(kept);
+    } catch {
+      return "What the page has kept is no state of a figure";
+    }
+  }
+  if (value === undefined || value === null || value === "") return undefined;
+  if (typeof value !== "object") return "What the page has kept is no state of a figure";
+  const { v, figure: name, state, solved } = value as Record<string, unknown>;
+  if (v === undefined && Object.keys(value).length === 0) return undefined;
+  if (typeof v === "number" && v > VERSION) {
+    return "What the page has kept comes from a newer version of this figure, so it starts anew";
+  }
+  if (v !== VERSION || typeof name !== "string" || typeof state !== "object" || state === null) {
+    return "What the page has kept is no state of a figure";
+  }
+  if (name !== figure) return `What the page has kept belongs to the figure "${name}", so this one starts anew`;
+  const pairs = Object.entries(state).filter(([, value]) => ["string", "number", "boolean"].includes(typeof value));
+  return {
+    v: VERSION,
+    figure,
+    state: Object.fromEntries(pairs.map(([key, value]) => [key, String(value)])),
+    solved: Array.isArray(solved) ? solved.filter((id): id is string => typeof id === "string") : [],
+  };
+}
