@@ -145,7 +145,10 @@ mod tests {
     fn a_space_is_a_space() {
         let html = mathml("a\\ b", Layout::Inline).unwrap();
         let shown = html.split("<annotation").next().unwrap();
-        assert!(!shown.contains("nbsp") && !shown.contains("&amp;"), "{shown}");
+        assert!(
+            !shown.contains("nbsp") && !shown.contains("&amp;"),
+            "{shown}"
+        );
     }
 
     #[test]

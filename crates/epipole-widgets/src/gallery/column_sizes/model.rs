@@ -112,6 +112,7 @@ impl Declared for ColumnSizes {
     const TITLE: &'static str = "Nine columns, nine sizes";
     const HELP: &'static str = "Set how many pixels the images are wide. The matches stay the same; only their \
         unit changes.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -122,10 +123,6 @@ impl Declared for ColumnSizes {
         };
         model.compute();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

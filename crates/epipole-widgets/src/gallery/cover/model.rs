@@ -1,8 +1,8 @@
 //! How far the story has come, and where it is seen from.
 
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Job, JobResult, Knob,
-    Model, Problem, Progress, Settings, Slider, Space, Value,
+    Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Job,
+    JobResult, Knob, Model, Problem, Settings, Slider, Space, Value,
 };
 use crate::gallery::two_view_sfm::question::{Answer, Question, Source};
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
@@ -89,6 +89,8 @@ impl Declared for Cover {
     const HELP: &'static str = "Play the five steps, or jump to one. Drag in the picture, or use the arrow keys on \
         its handle, to look from elsewhere; with Shift, or the small cross, the scene moves; with Ctrl and \
         the wheel, or + and −, it becomes larger. On a touchscreen drag the handle, or use two fingers.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
@@ -103,14 +105,6 @@ impl Declared for Cover {
             }),
             is_playing: false,
         }
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -203,7 +197,7 @@ mod tests {
     fn answered() -> Cover {
         let mut model = Cover::new();
         let request = model.job().unwrap().request();
-        let result = Cover::compute(&request, &mut |_| ControlFlow::Continue(()));
+        let result = (Cover::COMPUTE)(&request, &mut |_| ControlFlow::Continue(()));
         model.job_done(result);
         model
     }

@@ -176,6 +176,7 @@ impl Declared for Rectify {
     const TITLE: &'static str = "Until lines are rows";
     const HELP: &'static str = "Turn the cameras with the first two sliders: toward one heading, then along \
         the baseline. Click a match in a photograph to follow it, or choose it with the slider.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -184,10 +185,6 @@ impl Declared for Rectify {
         };
         model.compute();
         model
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 

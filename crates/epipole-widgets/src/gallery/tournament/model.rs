@@ -2,8 +2,8 @@
 
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Job, JobResult, Knob, Model,
-    Problem, Progress, Settings, Slider, Value,
+    Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob,
+    Model, Problem, Settings, Slider, Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -104,6 +104,8 @@ impl Declared for Tournament {
     const TITLE: &'static str = "Two hundred races";
     const HELP: &'static str = "Choose what is fitted and the threshold of those that vote. Click in the plot, \
         or move the slider, to read the shares at an outlier ratio.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let mut model = Self {
@@ -114,14 +116,6 @@ impl Declared for Tournament {
         };
         model.start();
         model
-    }
-
-    fn compute(request: &[u8], progress: Progress<'_>) -> JobResult {
-        carry_out::<Question>(request, progress)
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
@@ -214,7 +208,7 @@ mod tests {
 
     fn advance(model: &mut Tournament) {
         let request = model.job().unwrap().request();
-        let result = Tournament::compute(&request, &mut |_| ControlFlow::Continue(()));
+        let result = (Tournament::COMPUTE)(&request, &mut |_| ControlFlow::Continue(()));
         model.job_done(result);
     }
 
