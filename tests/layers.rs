@@ -39,6 +39,7 @@ const ROOMS: &[&str] = &[
     "triangulation",
     "two_view",
     "stereo",
+    "calibration",
     "sfm",
     "synthetic",
 ];

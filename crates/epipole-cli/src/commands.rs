@@ -1,9 +1,11 @@
 //! The commands, one a file. A new command is a file here and a line in [`Command`].
 
 mod ba;
+mod calibrate;
 mod detect;
 mod figure;
 mod fit;
+mod manual;
 mod matching;
 mod odometry;
 mod posegraph;
@@ -11,6 +13,7 @@ mod rectify;
 mod sfm;
 mod stereo;
 mod two_view;
+mod undistort;
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -30,7 +33,10 @@ pub(crate) enum Command {
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
+    Calibrate(calibrate::Arguments),
+    Undistort(undistort::Arguments),
     Figure(figure::Arguments),
+    Manual(manual::Arguments),
 }
 
 impl Command {
@@ -46,7 +52,10 @@ impl Command {
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),
+            Self::Calibrate(arguments) => calibrate::run(&arguments, context),
+            Self::Undistort(arguments) => undistort::run(&arguments, context),
             Self::Figure(arguments) => figure::run(&arguments, context),
+            Self::Manual(arguments) => manual::run(&arguments),
         }
     }
 }

@@ -11,6 +11,7 @@ mod failure;
 mod features;
 mod files;
 mod interrupt;
+mod lens;
 mod matrices;
 mod photo;
 mod picture;

@@ -16,6 +16,7 @@
 //! | [`triangulation`] | points from their images in two or more views |
 //! | [`two_view`] | two views, whatever they show: E, F or H |
 //! | [`stereo`] | rectification, dense disparity, depth, point clouds |
+//! | [`calibration`] | boards in photographs, intrinsics and distortion from them, rigs, undistortion |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
 //!
@@ -31,6 +32,7 @@
 mod error;
 
 pub mod absolute_pose;
+pub mod calibration;
 pub mod camera;
 pub mod epipolar;
 pub mod feature;
@@ -38,12 +40,18 @@ pub mod homography;
 pub mod imaging;
 pub mod math;
 pub mod optim;
+pub mod prelude;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
 pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
+
+/// The images that functions take and return.
+pub use image;
+/// The points and matrices that functions take and return.
+pub use nalgebra;
 
 pub use absolute_pose::find_absolute_pose;
 pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};

@@ -11,8 +11,10 @@ use crate::progress::Progress;
 use crate::report::Report;
 use clap::Args;
 use epipole::sfm::{
-    Photo as SfmPhoto, PhotoOptions, Reconstruction, SfmOptions, SfmProgress, reconstruct_photos,
+    Photo as SfmPhoto, PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmProgress, SfmResult,
+    reconstruct_photos, why_unregistered,
 };
+use serde::Serialize;
 use serde_json::json;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -26,8 +28,8 @@ use std::path::{Path, PathBuf};
     begin, and one factor for all focal lengths is refined.\n\n\
     JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px and\n\
     cam_from_world with rotation and translation), all of the largest component; focal_refined (whether\n\
-    the focal lengths were), components (num_registered and num_points of each), complete (false after\n\
-    Ctrl-C)."
+    the focal lengths were), unregistered (name and reason of each photograph that is not in the largest\n\
+    component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
     /// Photographs, or a folder of them.
@@ -121,6 +123,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         files::make_folder(&folder)?;
         written.extend(write(&folder, component, &input.images)?);
     }
+    let unregistered = unregistered(&input, &options, &result)?;
     let errors: f64 = largest
         .points
         .iter()
@@ -160,6 +163,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             ),
         );
     }
+    for left_out in &unregistered {
+        report = report.row(&format!("without {}", left_out.name), &left_out.reason);
+    }
     Ok(report
         .field("focal_refined", refine_focal)
         .field("num_registered", registered_count)
@@ -167,6 +173,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("num_points", largest.points.len())
         .field("mean_reprojection_px", mean_px)
         .field("images", registered(largest))
+        .field("unregistered", &unregistered)
         .field("components", components)
         .field("complete", !result.canceled)
         .row(
@@ -177,6 +184,44 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("mean reprojection error", format!("{mean_px:.3} px"))
         .row("components", result.components.len())
         .row("written", written.join(", ")))
+}
+
+/// A photograph that is not in the largest component.
+#[derive(Debug, Serialize)]
+struct LeftOut {
+    name: String,
+    reason: String,
+}
+
+fn unregistered(
+    input: &SfmInput,
+    options: &SfmOptions,
+    result: &SfmResult,
+) -> Result<Vec<LeftOut>, Failure> {
+    let reasons = why_unregistered(input, options, result)?;
+    let mut left_out: Vec<(usize, String)> = result
+        .unregistered
+        .iter()
+        .zip(reasons)
+        .map(|(image, why)| (*image, why.to_string()))
+        .collect();
+    for (index, component) in result.components.iter().enumerate().skip(1) {
+        for (image, camera) in component.cameras.iter().enumerate() {
+            if camera.is_some() {
+                let number = index + 1;
+                let reason = format!(
+                    "it is in component {number}, which shares too few points with the largest one"
+                );
+                left_out.push((image, reason));
+            }
+        }
+    }
+    left_out.sort_by_key(|(image, _)| *image);
+    let named = left_out.into_iter().map(|(image, reason)| LeftOut {
+        name: input.images[image].name.clone(),
+        reason,
+    });
+    Ok(named.collect())
 }
 
 /// How far the whole is, judged by its longest parts.

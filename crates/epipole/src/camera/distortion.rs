@@ -1,5 +1,6 @@
 //! Lens distortion after Brown and Conrady.
 
+use super::unbend::{RESIDUAL, descend, radial_start};
 use crate::math::polynomial::cubic_roots;
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
@@ -29,11 +30,6 @@ pub struct Distortion {
     /// Of r⁶.
     pub k3: f64,
 }
-
-/// Steps after which undistortion gives up; five are usual.
-const MAX_STEPS: usize = 50;
-/// The residual at which it stops, in units of the focal length: 1e-9 px or better.
-const RESIDUAL: f64 = 1e-13;
 
 impl Distortion {
     /// A lens that bends nothing.
@@ -183,77 +179,21 @@ impl Distortion {
         }
     }
 
-    /// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do not
-    /// help, or lead to the fold, are halved.
     fn descend(&self, seen: &Point2<f64>, start: Point2<f64>, fold_sq: f64) -> (Point2<f64>, f64) {
-        let mut ray = start;
-        let mut error = (self.distort(&ray) - seen).norm();
-        let tolerance = RESIDUAL * (1.0 + seen.coords.norm());
-        for _ in 0..MAX_STEPS {
-            if error <= tolerance {
-                break;
-            }
-            let Some(inverse) = self.jacobian(&ray).try_inverse() else {
-                break;
-            };
-            let step = inverse * (self.distort(&ray) - seen);
-            let mut scale = 1.0;
-            let better = loop {
-                let candidate = ray - step * scale;
-                let candidate_error = (self.distort(&candidate) - seen).norm();
-                if candidate_error < error && candidate.coords.norm_squared() < fold_sq {
-                    break Some((candidate, candidate_error));
-                }
-                scale *= 0.5;
-                if scale < 1e-6 {
-                    break None;
-                }
-            };
-            match better {
-                Some((candidate, candidate_error)) => (ray, error) = (candidate, candidate_error),
-                None => break,
-            }
-        }
-        (ray, error)
+        descend(
+            seen,
+            start,
+            fold_sq,
+            |ray| self.distort(ray),
+            |ray| self.jacobian(ray),
+        )
     }
 
-    /// The ray inside the fold that the radial terms alone would show at a place, or next to the fold.
     fn radial_start(&self, seen: &Point2<f64>, fold_sq: f64) -> Point2<f64> {
-        let radius = seen.coords.norm();
-        let bent = |r: f64| {
+        radial_start(seen, fold_sq, |r| {
             let s = r * r;
             r * (1.0 + s * (self.k1 + s * (self.k2 + s * self.k3)))
-        };
-        // Just inside, so that a step from there is possible.
-        let mut high = if fold_sq.is_finite() {
-            fold_sq.sqrt() * (1.0 - 1e-9)
-        } else {
-            // Without a fold it grows at least as fast as a straight line, in the end.
-            let mut high = radius.max(f64::MIN_POSITIVE);
-            for _ in 0..100 {
-                if bent(high) >= radius {
-                    break;
-                }
-                high *= 2.0;
-            }
-            high
-        };
-        let mut low = 0.0;
-        if bent(high) > radius {
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if bent(middle) < radius {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-        }
-        if radius > 0.0 {
-            Point2::from(seen.coords * (high / radius))
-        } else {
-            *seen
-        }
+        })
     }
 
     /// The squared radius at which the radial part stops growing; infinite if it never does.

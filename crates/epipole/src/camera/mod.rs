@@ -4,13 +4,22 @@
 //! Camera frame: x right, y down, z forward.
 
 mod distortion;
+mod fisheye;
 mod intrinsics;
+mod lens;
+pub(crate) mod moving_pose;
 mod pixel_centers;
+mod rational;
 mod rigid;
+mod unbend;
 mod view;
 
 pub use distortion::Distortion;
+pub use fisheye::Fisheye;
 pub use intrinsics::Intrinsics;
+pub(crate) use lens::MAX_COEFFICIENTS;
+pub use lens::{Lens, LensKind};
 pub use pixel_centers::{pixel_from_colmap, pixel_to_colmap};
+pub use rational::RationalDistortion;
 pub use rigid::{RigidTransform, cross_matrix, look_at, relative_motion};
 pub use view::Camera;

@@ -4,9 +4,8 @@ use super::builder::{Builder, undistorted};
 use super::bundle::RadialDistortion;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
-use super::two_view_start::{VerifiedPair, verify_pair};
+use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
 use crate::camera::Intrinsics;
-use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use nalgebra::Point2;
 use std::ops::ControlFlow;
@@ -243,6 +242,48 @@ pub fn reconstruct(
     };
     let pixels = undistorted(images, &intrinsics, options.distortion);
     let verified = verify(input, options, &intrinsics, &pixels, &mut reporter);
+    grow(images, &intrinsics, pixels, &verified, options, reporter)
+}
+
+/// As [`reconstruct`], from pairs that [`verify_matches`](super::verify_matches) has tested already, wherever and in
+/// whatever order.
+///
+/// * `images`, `intrinsics`: the photographs, and the intrinsics of each, or one for all
+///
+/// # Errors
+/// As [`reconstruct`].
+///
+/// Source: as [`reconstruct`].
+pub fn reconstruct_verified(
+    images: &[SfmImage],
+    intrinsics: &[Intrinsics],
+    verified: &[VerifiedPair],
+    options: &SfmOptions,
+    observer: SfmObserver<'_>,
+) -> Result<SfmResult> {
+    let input = SfmInput {
+        images: images.to_vec(),
+        intrinsics: intrinsics.to_vec(),
+        pairs: Vec::new(),
+    };
+    let intrinsics = check(&input, options)?;
+    let pixels = undistorted(images, &intrinsics, options.distortion);
+    let reporter = Reporter {
+        observer,
+        canceled: false,
+    };
+    grow(images, &intrinsics, pixels, verified, options, reporter)
+}
+
+fn grow(
+    images: &[SfmImage],
+    intrinsics: &[Intrinsics],
+    pixels: Vec<Vec<Point2<f64>>>,
+    verified: &[VerifiedPair],
+    options: &SfmOptions,
+    mut reporter: Reporter<'_>,
+) -> Result<SfmResult> {
+    let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
     let tracks = build_tracks(&counts, &surviving)?;
     let mut track_of: Vec<Vec<u32>> = counts.iter().map(|n| vec![u32::MAX; *n]).collect();
@@ -258,7 +299,7 @@ pub fn reconstruct(
             images,
             options,
             pixels: pixels.clone(),
-            intrinsics: intrinsics.clone(),
+            intrinsics: intrinsics.to_vec(),
             distortion: options.distortion,
             tracks: &tracks,
             track_of: &track_of,
@@ -267,7 +308,7 @@ pub fn reconstruct(
             cameras: vec![None; images.len()],
             points: vec![None; tracks.len()],
         };
-        if !builder.start(&verified, &mut reporter) {
+        if !builder.start(verified, &mut reporter) {
             break;
         }
         builder.grow(&mut reporter);
@@ -300,16 +341,11 @@ pub(super) fn verify(
         crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
             let pair = &pairs[n];
             let (a, b) = (pair.image1, pair.image2);
-            let ransac = RansacOptions {
-                max_error_px: options.max_epipolar_error_px,
-                seed: options.seed,
-                ..RansacOptions::default()
-            };
             found[0] = verify_pair(
                 pair,
                 [&pixels[a], &pixels[b]],
                 [&intrinsics[a], &intrinsics[b]],
-                &ransac,
+                &pair_ransac(options),
                 options.min_num_inliers,
             );
         });

@@ -31,6 +31,7 @@ mod triangulate_track;
 mod two_view_reconstruction;
 mod two_view_start;
 mod union_find;
+mod unregistered;
 
 pub use alignment::{
     AlignmentKind, ErrorStatistics, RelativePoseError, absolute_trajectory_error, align_points,
@@ -41,7 +42,9 @@ pub use bundle::{
     Bundle, BundleOptions, Gauge, Observation, RadialDistortion, Sensor, adjust_bundle,
 };
 pub use export::ColmapModel;
-pub use incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+pub use incremental::{
+    SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct, reconstruct_verified,
+};
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, find_similarity_of_points,
 };
@@ -49,7 +52,7 @@ pub use odometry::{
     OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
 };
 pub use photos::{
-    Photo, PhotoFeatures, PhotoOptions, match_features, match_photos, match_rectified,
+    Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
     photo_features, reconstruct_photos,
 };
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
@@ -58,3 +61,5 @@ pub use tracks::{PairMatches, TrackElement, build_tracks};
 pub use two_view_reconstruction::{
     TwoViewReconstruction, TwoViewReconstructionOptions, two_view_reconstruction,
 };
+pub use two_view_start::{VerifiedPair, verify_matches};
+pub use unregistered::{WhyUnregistered, why_unregistered};

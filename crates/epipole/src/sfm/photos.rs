@@ -121,7 +121,7 @@ pub fn match_features(
             pairs.push(PairMatches {
                 image1,
                 image2,
-                matches: indices(&features[image1], &features[image2], options)?,
+                matches: match_pair(&features[image1], &features[image2], options)?,
             });
             let progress = SfmProgress::Matched {
                 done: pairs.len(),
@@ -147,7 +147,7 @@ pub fn match_rectified(
     right: &PhotoFeatures,
     options: &PhotoOptions,
 ) -> Result<Vec<(u32, u32)>> {
-    let mut matches = indices(left, right, options)?;
+    let mut matches = match_pair(left, right, options)?;
     matches.retain(|&(i, j)| {
         let (a, b) = (
             left.image.keypoints[i as usize],
@@ -161,7 +161,13 @@ pub fn match_rectified(
 /// How far a rectification may be off.
 const MAX_ROW_ERROR_PX: f64 = 2.0;
 
-fn indices(
+/// Matches between two photographs, as indices of their keypoints.
+///
+/// # Errors
+/// As [`match_descriptors`].
+///
+/// Source: Lowe 2004.
+pub fn match_pair(
     first: &PhotoFeatures,
     second: &PhotoFeatures,
     options: &PhotoOptions,

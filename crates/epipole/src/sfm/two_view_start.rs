@@ -1,30 +1,84 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
+use super::builder::undistorted;
+use super::incremental::SfmOptions;
+use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::find_homography;
 use crate::robust::RansacOptions;
+use crate::{Error, Result};
 use nalgebra::Point2;
 
 /// A pair of images whose matches passed the test of epipolar geometry.
-#[derive(Debug, Clone)]
-pub(super) struct VerifiedPair {
+#[derive(Debug, Clone, PartialEq)]
+pub struct VerifiedPair {
     /// The matches that passed.
-    pub(super) pair: PairMatches,
-    pub(super) cam2_from_cam1: RigidTransform,
+    pub pair: PairMatches,
+    /// How the camera moved; |t| = 1.
+    pub cam2_from_cam1: RigidTransform,
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
     /// scenes, where the start of a reconstruction would be ill-conditioned.
-    pub(super) median_angle_rad: f64,
+    pub median_angle_rad: f64,
     /// A homography explains most matches: the scene is flat or the camera only turned. A pair
     /// that shows depth makes the safer start.
-    pub(super) is_flat: bool,
+    pub is_flat: bool,
 }
 
 /// Share of the matches that a homography may explain before a pair counts as flat.
 ///
 /// Source: Schönberger & Frahm 2016, §4.1.
 const MAX_HOMOGRAPHY_SHARE: f64 = 0.8;
+
+/// The matches of two photographs that agree with one motion of the camera; `None` if too few do.
+///
+/// * `pair`: matches of the photographs' keypoints
+/// * `images`, `intrinsics`: of the two photographs that the pair names
+/// * `options`: [`SfmOptions::max_epipolar_error_px`], [`SfmOptions::min_num_inliers`],
+///   [`SfmOptions::distortion`] and the seed
+///
+/// # Errors
+/// [`Error::OutOfRange`] if a match refers to a keypoint that is not there.
+///
+/// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
+pub fn verify_matches(
+    pair: &PairMatches,
+    images: [&SfmImage; 2],
+    intrinsics: [&Intrinsics; 2],
+    options: &SfmOptions,
+) -> Result<Option<VerifiedPair>> {
+    let counts = images.map(|image| image.keypoints.len());
+    if let Some(&(i, j)) =
+        (pair.matches.iter()).find(|(i, j)| *i as usize >= counts[0] || *j as usize >= counts[1])
+    {
+        return Err(Error::OutOfRange {
+            what: "the keypoint of a match",
+            requirement: "the index of one that its image has",
+            value: f64::from(if i as usize >= counts[0] { i } else { j }),
+        });
+    }
+    let pixels = [0, 1].map(|n: usize| {
+        let image = core::slice::from_ref(images[n]);
+        undistorted(image, &[*intrinsics[n]], options.distortion).swap_remove(0)
+    });
+    Ok(verify_pair(
+        pair,
+        [&pixels[0], &pixels[1]],
+        intrinsics,
+        &pair_ransac(options),
+        options.min_num_inliers,
+    ))
+}
+
+/// How pairs are tested.
+pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
+    RansacOptions {
+        max_error_px: options.max_epipolar_error_px,
+        seed: options.seed,
+        ..RansacOptions::default()
+    }
+}
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///

@@ -27,6 +27,7 @@ pub use matching_cost::StereoCost;
 pub use pixel_map::PixelMap;
 pub use point_cloud::{PointCloud, depth_image, point_cloud};
 pub use prefilter::StereoPrefilter;
+pub(crate) use rectify::border_outline;
 pub use rectify::{
     PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,
 };

@@ -1,6 +1,5 @@
 //! Bundle adjustment of pinhole cameras.
 
-mod pose;
 mod problem;
 mod radial;
 
@@ -11,7 +10,7 @@ use nalgebra::{Point2, Point3, Translation3, Vector2};
 use problem::{Problem, State};
 use std::ops::ControlFlow;
 
-pub(super) use pose::{PoseState, move_points, sum_of_squares};
+pub(super) use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
 pub use radial::RadialDistortion;
 pub(super) use radial::radial_terms;
 

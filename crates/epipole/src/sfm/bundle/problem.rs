@@ -1,8 +1,8 @@
 //! What the solver sees of a bundle: residuals, their derivatives, and steps.
 
-use super::pose::{PoseState, move_points, sum_of_squares};
 use super::radial::radial_terms;
 use super::{Bundle, BundleOptions};
+use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, RobustLoss};
 use nalgebra::{Point3, Vector3};
 

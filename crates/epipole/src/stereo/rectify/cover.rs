@@ -5,17 +5,17 @@ use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
 /// What a photograph covers in the rectified frame, in units of the focal length.
-pub(super) struct Outline {
+pub(crate) struct Outline {
     /// The largest rectangle inside, whose corners need not be the photograph's.
-    pub(super) inner: PixelRect,
+    pub(crate) inner: PixelRect,
     /// The smallest rectangle around.
-    pub(super) outer: PixelRect,
+    pub(crate) outer: PixelRect,
     /// The mean of the photograph's corners.
-    pub(super) center: Vector2<f64>,
+    pub(crate) center: Vector2<f64>,
 }
 
 impl PixelRect {
-    pub(super) fn scaled(&self, factor: f64, offset: &Vector2<f64>) -> Self {
+    pub(crate) fn scaled(&self, factor: f64, offset: &Vector2<f64>) -> Self {
         Self {
             u_min: self.u_min * factor + offset.x,
             v_min: self.v_min * factor + offset.y,
@@ -26,27 +26,15 @@ impl PixelRect {
 }
 
 /// Follows the photograph's border.
-pub(super) fn outline(
-    camera: &StereoCamera,
-    rect_from_cam: &Rotation3<f64>,
+///
+/// * `place`: where a pixel of it comes to lie, in units of the focal length
+pub(crate) fn outline(
     width: u32,
     height: u32,
+    place: impl Fn(f64, f64) -> Result<Vector2<f64>>,
 ) -> Result<Outline> {
     const STEPS: u32 = 64;
     let (last_u, last_v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
-    let turned = |u: f64, v: f64| -> Result<Vector2<f64>> {
-        let ray = camera.intrinsics.ray(&Point2::new(u, v));
-        let ray = camera.distortion.undistort(&ray.xy().into())?;
-        let ray = rect_from_cam * Vector3::new(ray.x, ray.y, 1.0);
-        if ray.z < 1e-3 {
-            return Err(Error::Degenerate {
-                what: "a rectification",
-                why: "a part of a photograph looks along the baseline or backwards from it; a narrower part \
-                      of the photographs, or cameras that stand side by side, can be rectified",
-            });
-        }
-        Ok(ray.xy() / ray.z)
-    };
     let around = f64::INFINITY;
     let mut inner = PixelRect {
         u_min: -around,
@@ -63,8 +51,8 @@ pub(super) fn outline(
     for k in 0..=STEPS {
         let share = f64::from(k) / f64::from(STEPS);
         let (u, v) = (share * last_u, share * last_v);
-        let (left, right) = (turned(0.0, v)?, turned(last_u, v)?);
-        let (top, bottom) = (turned(u, 0.0)?, turned(u, last_v)?);
+        let (left, right) = (place(0.0, v)?, place(last_u, v)?);
+        let (top, bottom) = (place(u, 0.0)?, place(u, last_v)?);
         inner.u_min = inner.u_min.max(left.x);
         inner.u_max = inner.u_max.min(right.x);
         inner.v_min = inner.v_min.max(top.y);
@@ -77,16 +65,38 @@ pub(super) fn outline(
         }
     }
     let corners = [
-        turned(0.0, 0.0)?,
-        turned(last_u, 0.0)?,
-        turned(0.0, last_v)?,
-        turned(last_u, last_v)?,
+        place(0.0, 0.0)?,
+        place(last_u, 0.0)?,
+        place(0.0, last_v)?,
+        place(last_u, last_v)?,
     ];
     let center = corners.iter().sum::<Vector2<f64>>() / 4.0;
     Ok(Outline {
         inner,
         outer,
         center,
+    })
+}
+
+/// The outline of a photograph whose rays are turned.
+pub(super) fn turned_outline(
+    camera: &StereoCamera,
+    rect_from_cam: &Rotation3<f64>,
+    width: u32,
+    height: u32,
+) -> Result<Outline> {
+    outline(width, height, |u, v| {
+        let ray = camera.intrinsics.ray(&Point2::new(u, v));
+        let ray = camera.distortion.undistort(&ray.xy().into())?;
+        let ray = rect_from_cam * Vector3::new(ray.x, ray.y, 1.0);
+        if ray.z < 1e-3 {
+            return Err(Error::Degenerate {
+                what: "a rectification",
+                why: "a part of a photograph looks along the baseline or backwards from it; a narrower part \
+                      of the photographs, or cameras that stand side by side, can be rectified",
+            });
+        }
+        Ok(ray.xy() / ray.z)
     })
 }
 

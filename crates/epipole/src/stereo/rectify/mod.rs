@@ -7,7 +7,8 @@ mod turn;
 use super::PixelMap;
 use crate::camera::{Distortion, Intrinsics, RigidTransform};
 use crate::{Error, Result};
-use cover::{around_principal_points, around_what_is_seen, outline};
+pub(crate) use cover::outline as border_outline;
+use cover::{around_principal_points, around_what_is_seen, turned_outline};
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2, Vector3};
 use q_matrix::q_matrix;
 use turn::turn_parallel;
@@ -145,7 +146,7 @@ pub fn rectify_calibrated(
         .iter()
         .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
         .fold(f64::INFINITY, f64::min);
-    let outlines = [0, 1].map(|i| outline(&cameras[i], &rect_from_cam[i], width, height));
+    let outlines = [0, 1].map(|i| turned_outline(&cameras[i], &rect_from_cam[i], width, height));
     let [outline1, outline2] = outlines;
     let outlines = [outline1?, outline2?];
 

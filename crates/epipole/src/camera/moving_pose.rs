@@ -4,14 +4,14 @@ use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
 /// `cam_from_world`, with its rotation as a matrix, too.
 #[derive(Clone)]
-pub(in crate::sfm) struct PoseState {
-    pub(in crate::sfm) rotation: UnitQuaternion<f64>,
+pub(crate) struct PoseState {
+    pub(crate) rotation: UnitQuaternion<f64>,
     matrix: Matrix3<f64>,
-    pub(in crate::sfm) translation: Vector3<f64>,
+    pub(crate) translation: Vector3<f64>,
 }
 
 impl PoseState {
-    pub(in crate::sfm) fn new(rotation: UnitQuaternion<f64>, translation: Vector3<f64>) -> Self {
+    pub(crate) fn new(rotation: UnitQuaternion<f64>, translation: Vector3<f64>) -> Self {
         Self {
             rotation,
             matrix: *rotation.to_rotation_matrix().matrix(),
@@ -21,14 +21,14 @@ impl PoseState {
 
     /// `R X`.
     #[inline]
-    pub(in crate::sfm) fn rotated(&self, point: &Point3<f64>) -> Vector3<f64> {
+    pub(crate) fn rotated(&self, point: &Point3<f64>) -> Vector3<f64> {
         self.matrix * point.coords
     }
 
     /// Derivatives by the six of [`PoseState::moved`] and by the point X, from `by_p`, the one by
     /// `R X + t`.
     #[inline]
-    pub(in crate::sfm) fn derivatives(
+    pub(crate) fn derivatives(
         &self,
         rotated: &Vector3<f64>,
         by_p: &Vector3<f64>,
@@ -41,7 +41,7 @@ impl PoseState {
 
     /// `exp(δ) R` and `t + d` for the step (δ, d); the very same bits for a step of 0, so that a
     /// held camera stays exactly.
-    pub(in crate::sfm) fn moved(&self, step: [f64; 6]) -> Self {
+    pub(crate) fn moved(&self, step: [f64; 6]) -> Self {
         let [a, b, c, x, y, z] = step;
         let rotation = if [a, b, c] == [0.0; 3] {
             self.rotation
@@ -54,17 +54,13 @@ impl PoseState {
 }
 
 /// Writes the points after a step to `into`.
-pub(in crate::sfm) fn move_points(
-    from: &[Point3<f64>],
-    step: &[[f64; 3]],
-    into: &mut [Point3<f64>],
-) {
+pub(crate) fn move_points(from: &[Point3<f64>], step: &[[f64; 3]], into: &mut [Point3<f64>]) {
     for ((old, new), d) in from.iter().zip(into).zip(step) {
         *new = old + Vector3::from(*d);
     }
 }
 
 /// `Σ ‖X‖²`.
-pub(in crate::sfm) fn sum_of_squares(points: &[Point3<f64>]) -> f64 {
+pub(crate) fn sum_of_squares(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.norm_squared()).sum()
 }

@@ -1,0 +1,241 @@
+//! `epipole calibrate`: a camera, or two, from photographs of a board.
+
+mod search;
+
+use self::search::{Photographs, search};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::lens::{self, Model};
+use crate::matrices::{Motion, positive};
+use crate::report::Report;
+use clap::{Args, ValueEnum};
+use epipole::calibration::{
+    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate, calibrate_rig,
+};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Printed {
+    /// Squares; COLUMNSxROWS are inner corners.
+    Chessboard,
+    /// Disks in rows, every second one shifted; COLUMNSxROWS are disks in a row and rows.
+    Circles,
+}
+
+/// Calibrate a camera, or a stereo rig, from photographs of a board.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o camera.json\n\n\
+    Of a chessboard half of the corners must be seen, two at least in each of its outermost rows and columns. Ten to twenty\n\
+    views do, turned by 30° to 45° about several axes, some of them at the edges of the picture. The right\n\
+    photographs are of the same moments, in the same order.\n\n\
+    JSON: image (width and height), k (fx, fy, cx, cy), distortion (model and coefficients, in OpenCV's order),\n\
+    rms_px, std_dev (of k and of the coefficients), coverage (share of the image that boards reach), views\n\
+    (name, found, num_marks, rms_px and cam_from_board with rotation and translation, or the problem),\n\
+    warnings; with --right also right (the same of the right camera) and stereo (right_from_left,\n\
+    std_dev_rotation_rad, std_dev_translation_m, rms_px, baseline_m, pairs_rms_px)."
+)]
+pub(crate) struct Arguments {
+    /// Photographs of the board, all of one size, or a folder of them.
+    #[arg(required = true, value_name = "IMAGES")]
+    photos: Vec<PathBuf>,
+    /// The marks of the board.
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = marks)]
+    board: (usize, usize),
+    /// What is printed on it.
+    #[arg(long, value_enum, default_value = "chessboard")]
+    pattern: Printed,
+    /// The side of a square, or the distance of two rows of disks; the unit of all places.
+    #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = positive)]
+    square_m: f64,
+    /// Photographs by a second camera.
+    #[arg(long, value_name = "IMAGES", num_args = 1..)]
+    right: Vec<PathBuf>,
+    /// The model of the lens.
+    #[arg(long, value_enum, default_value = "brown")]
+    model: Model,
+    /// A file for the result, which `epipole undistort` reads.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let (columns, rows) = arguments.board;
+    let pattern = match arguments.pattern {
+        Printed::Chessboard => Pattern::Chessboard,
+        Printed::Circles => Pattern::AsymmetricCircles,
+    };
+    let board = Board::new(pattern, columns, rows, arguments.square_m)
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let left_paths = super::sfm::photos(&arguments.photos)?;
+    let right_paths = super::sfm::photos(&arguments.right)?;
+    if !right_paths.is_empty() && right_paths.len() != left_paths.len() {
+        return Err(Failure::usage(format!(
+            "--right needs as many photographs as there are left ones, but there are {} and {}",
+            right_paths.len(),
+            left_paths.len()
+        )));
+    }
+    let options = CalibrationOptions {
+        lens: arguments.model.into(),
+        ..CalibrationOptions::default()
+    };
+    let left = Side::new(&left_paths, &board, &options, context)?;
+    let mut fields = left.fields();
+    let mut report = left.rows(Report::default());
+    let mut warnings = left.warnings("");
+    if !right_paths.is_empty() {
+        let right = Side::new(&right_paths, &board, &options, context)?;
+        let cameras = [left.found.camera, right.found.camera];
+        let rig = calibrate_rig(
+            &board,
+            &cameras,
+            &left.photographs.views,
+            &right.photographs.views,
+        )?;
+        warnings.extend(right.warnings("right camera: "));
+        fields.insert("right".to_owned(), Value::Object(right.fields()));
+        fields.insert("stereo".to_owned(), stereo(&rig));
+        report = right.rows(report.row("right camera", ""));
+        report = report
+            .row("baseline", format!("{:.6} m", rig.baseline_m))
+            .row("stereo error", format!("{:.3} px", rig.rms_px));
+    }
+    fields.insert("warnings".to_owned(), json!(warnings));
+    for warning in &warnings {
+        context.warn(warning);
+    }
+    if let Some(path) = &arguments.output {
+        let text = format!("{:#}\n", Value::Object(fields.clone()));
+        files::write(path, text.as_bytes())?;
+        report = report.row("written", path.display());
+    }
+    for (name, value) in fields {
+        report = report.field(&name, value);
+    }
+    Ok(report)
+}
+
+/// One camera with its photographs.
+struct Side {
+    photographs: Photographs,
+    found: Calibration,
+}
+
+impl Side {
+    fn new(
+        paths: &[PathBuf],
+        board: &Board,
+        options: &CalibrationOptions,
+        context: &Context,
+    ) -> Result<Self, Failure> {
+        let photographs = search(paths, board, context)?;
+        let found = calibrate(board, &photographs.views, photographs.size, options);
+        let found = found.map_err(|error| {
+            let failure = Failure::from(error);
+            // Why there are too few views is in those that failed.
+            match photographs.problems.iter().flatten().next() {
+                Some(problem) => {
+                    Failure::new(failure.kind, format!("{}; {problem}", failure.message))
+                }
+                None => failure,
+            }
+        })?;
+        Ok(Self { photographs, found })
+    }
+
+    fn fields(&self) -> Map<String, Value> {
+        let found = &self.found;
+        let mut fields = Map::new();
+        for (name, value) in lens::fields(&found.camera) {
+            fields.insert(name.to_owned(), value);
+        }
+        let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();
+        fields.insert("rms_px".to_owned(), json!(found.rms_px));
+        fields.insert("std_dev".to_owned(), json!(std_dev));
+        fields.insert("coverage".to_owned(), json!(found.coverage));
+        let mut views = Vec::new();
+        for (index, view) in found.views.iter().enumerate() {
+            let name = &self.photographs.names[index];
+            views.push(match view {
+                Some(view) => json!({
+                    "name": name,
+                    "found": true,
+                    "num_marks": view.num_marks,
+                    "rms_px": view.rms_px,
+                    "cam_from_board": Motion::from(&view.cam_from_board),
+                }),
+                None => json!({
+                    "name": name,
+                    "found": false,
+                    "problem": self.photographs.problems[index],
+                }),
+            });
+        }
+        fields.insert("views".to_owned(), json!(views));
+        fields
+    }
+
+    fn rows(&self, report: Report) -> Report {
+        let found = &self.found;
+        let center = found.camera.intrinsics.principal_point();
+        let (fu, fv) = (
+            found.camera.intrinsics.fu_px(),
+            found.camera.intrinsics.fv_px(),
+        );
+        let [su, sv, sx, sy] = found.std_dev_k;
+        let lens: Vec<String> = found
+            .camera
+            .lens
+            .coefficients()
+            .iter()
+            .map(|k| format!("{k:.5}"))
+            .collect();
+        let num_found = found.views.iter().flatten().count();
+        report
+            .row("boards", format!("{num_found} of {}", found.views.len()))
+            .row("error", format!("{:.3} px", found.rms_px))
+            .row(
+                "focal lengths",
+                format!("{fu:.2} ± {su:.2}, {fv:.2} ± {sv:.2} px"),
+            )
+            .row(
+                "principal point",
+                format!("{:.2} ± {sx:.2}, {:.2} ± {sy:.2} px", center.x, center.y),
+            )
+            .row("distortion", lens.join(", "))
+            .row(
+                "reached by boards",
+                format!("{:.0} %", 100.0 * found.coverage),
+            )
+    }
+
+    fn warnings(&self, whose: &str) -> Vec<String> {
+        let problems = self.photographs.problems.iter().flatten().cloned();
+        let told = self.found.warnings.iter().map(ToString::to_string);
+        problems
+            .chain(told)
+            .map(|w| format!("{whose}{w}"))
+            .collect()
+    }
+}
+
+fn stereo(rig: &RigCalibration) -> Value {
+    json!({
+        "right_from_left": Motion::from(&rig.right_from_left),
+        "std_dev_rotation_rad": rig.std_dev_rotation_rad,
+        "std_dev_translation_m": rig.std_dev_translation_m,
+        "rms_px": rig.rms_px,
+        "baseline_m": rig.baseline_m,
+        "pairs_rms_px": rig.pairs_rms_px,
+    })
+}
+
+/// Reads "9x6".
+fn marks(text: &str) -> Result<(usize, usize), String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let parsed = sides.and_then(|(a, b)| Some((a.trim().parse().ok()?, b.trim().parse().ok()?)));
+    parsed.ok_or_else(|| format!("\"{text}\" is not like 9x6"))
+}

@@ -1,0 +1,75 @@
+//! The boards in photographs.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::photo::Photo;
+use crate::progress::Progress;
+use epipole::calibration::{Board, BoardView, find_board};
+use rayon::prelude::*;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What was found in photographs of one camera, in their order.
+pub(super) struct Photographs {
+    pub(super) names: Vec<String>,
+    pub(super) views: Vec<Option<BoardView>>,
+    /// Why there is no view, with the name of the file.
+    pub(super) problems: Vec<Option<String>>,
+    pub(super) size: (u32, u32),
+}
+
+/// Looks for the board in every photograph.
+pub(super) fn search(
+    paths: &[PathBuf],
+    board: &Board,
+    context: &Context,
+) -> Result<Photographs, Failure> {
+    let progress = Progress::new(context, "looking for boards");
+    let num_done = AtomicUsize::new(0);
+    let searched: Result<Vec<_>, Failure> = paths
+        .par_iter()
+        .map(|path| {
+            if interrupt::requested() {
+                return Err(epipole::Error::Canceled.into());
+            }
+            let photo = Photo::read(path)?;
+            let found = find_board(&photo.gray(), board)?;
+            let done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.set(done as f64 / paths.len() as f64);
+            Ok((photo.color.dimensions(), found))
+        })
+        .collect();
+    drop(progress);
+    let names: Vec<String> = paths
+        .iter()
+        .map(|path| crate::commands::sfm::name(path))
+        .collect();
+    let mut photographs = Photographs {
+        names,
+        views: Vec::new(),
+        problems: Vec::new(),
+        size: (0, 0),
+    };
+    for (index, (size, found)) in searched?.into_iter().enumerate() {
+        let name = &photographs.names[index];
+        if index == 0 {
+            photographs.size = size;
+        } else if size != photographs.size {
+            let (width, height) = photographs.size;
+            return Err(Failure::new(
+                "size-mismatch",
+                format!(
+                    "all photographs of a camera must have one size, but {name} is {} × {} and {} {width} × {height}",
+                    size.0, size.1, photographs.names[0]
+                ),
+            ));
+        }
+        let problem = found.problem(board);
+        photographs
+            .problems
+            .push(problem.map(|problem| format!("{name}: {problem}")));
+        photographs.views.push(found.view());
+    }
+    Ok(photographs)
+}

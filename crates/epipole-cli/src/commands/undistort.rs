@@ -1,0 +1,108 @@
+//! `epipole undistort`: photographs as a camera without distortion shows them.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::Photo;
+use crate::report::Report;
+use crate::{files, interrupt, lens, picture};
+use clap::{Args, ValueEnum};
+use epipole::calibration::{Keep, Undistortion};
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kept {
+    /// All that was photographed, with black borders.
+    All,
+    /// Only what was photographed: no black borders, something at the edges is lost.
+    Valid,
+}
+
+/// Remove the distortion of a calibrated lens from photographs.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole undistort photos/*.jpg --camera camera.json -o flat\n\n\
+    Writes a PNG file for each photograph, of the same size.\n\n\
+    JSON: files (those written), k (fx, fy, cx, cy of the new camera), valid (u, v, width and height of the\n\
+    part in which every pixel was photographed)."
+)]
+pub(crate) struct Arguments {
+    /// Photographs of the calibrated camera, or a folder of them.
+    #[arg(required = true, value_name = "IMAGES")]
+    photos: Vec<PathBuf>,
+    /// A file that `epipole calibrate` wrote.
+    #[arg(long, value_name = "FILE")]
+    camera: PathBuf,
+    /// The photographs are by the right camera of the file.
+    #[arg(long)]
+    right: bool,
+    /// What to keep.
+    #[arg(long, value_enum, default_value = "valid")]
+    keep: Kept,
+    /// The folder for the result.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let camera = lens::read(&arguments.camera, arguments.right)?;
+    let keep = match arguments.keep {
+        Kept::All => Keep::All,
+        Kept::Valid => Keep::Valid,
+    };
+    let paths = super::sfm::photos(&arguments.photos)?;
+    let mut targets = Vec::new();
+    for path in &paths {
+        let target = arguments
+            .output
+            .join(path.with_extension("png").file_name().unwrap_or_default());
+        if targets.contains(&target) {
+            return Err(Failure::usage(format!(
+                "two photographs would be written to {}",
+                target.display()
+            )));
+        }
+        targets.push(target);
+    }
+    let flat = Undistortion::new(&camera, keep)?;
+    let mut written = Vec::new();
+    for (path, target) in paths.iter().zip(&targets) {
+        if interrupt::requested() {
+            context.warn(interrupt::ENDED_EARLY);
+            break;
+        }
+        let photo = Photo::read(path)?;
+        let (width, height) = photo.color.dimensions();
+        if (width, height) != (camera.width, camera.height) {
+            let message = format!(
+                "the photograph is {width} × {height}, but the camera was calibrated for {} × {}",
+                camera.width, camera.height
+            );
+            return Err(Failure::new("size-mismatch", message).about(path));
+        }
+        files::make_folder(&arguments.output)?;
+        files::write(target, &picture::png(&flat.map.warp_rgb(&photo.color))?)?;
+        written.push(target.display().to_string());
+    }
+    let k = &flat.intrinsics;
+    let center = k.principal_point();
+    let valid = &flat.valid;
+    let (width, height) = (valid.u_max - valid.u_min, valid.v_max - valid.v_min);
+    Ok(Report::default()
+        .row("written", written.join(", "))
+        .row("focal length", format!("{:.2} px", k.fu_px()))
+        .row(
+            "principal point",
+            format!("{:.2}, {:.2} px", center.x, center.y),
+        )
+        .row(
+            "all photographed in",
+            format!("{width:.0} × {height:.0} px"),
+        )
+        .field("files", written)
+        .field("k", [k.fu_px(), k.fv_px(), center.x, center.y])
+        .field(
+            "valid",
+            json!({ "u": valid.u_min, "v": valid.v_min, "width": width, "height": height }),
+        ))
+}

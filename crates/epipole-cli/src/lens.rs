@@ -1,0 +1,104 @@
+//! Files of calibrated cameras.
+
+use crate::failure::Failure;
+use crate::files;
+use clap::ValueEnum;
+use epipole::calibration::CalibratedCamera;
+use epipole::camera::{Intrinsics, Lens, LensKind};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// The model of a lens, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Model {
+    /// Five numbers (Brown and Conrady), for usual lenses.
+    Brown,
+    /// Eight numbers, for wide angles.
+    Rational,
+    /// Four numbers (Kannala and Brandt), for views of 120° and more.
+    Fisheye,
+}
+
+impl From<Model> for LensKind {
+    fn from(model: Model) -> Self {
+        match model {
+            Model::Brown => Self::Brown,
+            Model::Rational => Self::Rational,
+            Model::Fisheye => Self::Fisheye,
+        }
+    }
+}
+
+fn word(kind: LensKind) -> &'static str {
+    match kind {
+        LensKind::Brown => "brown",
+        LensKind::Rational => "rational",
+        LensKind::Fisheye => "fisheye",
+    }
+}
+
+/// `image`, `k` and `distortion`, as they stand in results and in files.
+pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
+    let k = &camera.intrinsics;
+    let center = k.principal_point();
+    [
+        (
+            "image",
+            json!({ "width": camera.width, "height": camera.height }),
+        ),
+        ("k", json!([k.fu_px(), k.fv_px(), center.x, center.y])),
+        (
+            "distortion",
+            json!({ "model": word(camera.lens.kind()), "coefficients": camera.lens.coefficients() }),
+        ),
+    ]
+}
+
+/// Reads a camera from a file that `epipole calibrate` wrote.
+///
+/// # Errors
+/// A sentence that names the file and what is wrong in it.
+pub(crate) fn read(path: &Path, is_right: bool) -> Result<CalibratedCamera, Failure> {
+    let text = files::read_text(path)?;
+    let malformed = |why: String| Failure::new("malformed", why).about(path);
+    let whole: Value = serde_json::from_str(&text)
+        .map_err(|error| malformed(format!("this is not JSON: {error}")))?;
+    let camera = if is_right { &whole["right"] } else { &whole };
+    if camera.is_null() {
+        return Err(malformed(
+            "there is no right camera in it; calibrate with --right".to_owned(),
+        ));
+    }
+    let side = |name: &str| {
+        let side = camera["image"][name].as_u64();
+        side.and_then(|side| u32::try_from(side).ok())
+            .ok_or_else(|| malformed(format!("image.{name} is not a whole number")))
+    };
+    let numbers = |list: &Value, name: &str| -> Result<Vec<f64>, Failure> {
+        let list = list.as_array().map(|l| l.iter().map(Value::as_f64));
+        list.and_then(Iterator::collect)
+            .ok_or_else(|| malformed(format!("{name} is not a list of numbers")))
+    };
+    let k = numbers(&camera["k"], "k")?;
+    let [fx, fy, cx, cy] = k[..] else {
+        return Err(malformed("k is not [fx, fy, cx, cy]".to_owned()));
+    };
+    let model = camera["distortion"]["model"].as_str().unwrap_or_default();
+    let kind = [LensKind::Brown, LensKind::Rational, LensKind::Fisheye]
+        .into_iter()
+        .find(|kind| word(*kind) == model)
+        .ok_or_else(|| {
+            malformed("distortion.model is none of brown, rational and fisheye".to_owned())
+        })?;
+    let coefficients = numbers(
+        &camera["distortion"]["coefficients"],
+        "distortion.coefficients",
+    )?;
+    let about = |error: epipole::Error| Failure::from(error).about(path);
+    Ok(CalibratedCamera {
+        intrinsics: Intrinsics::new(fx, fy, cx, cy).map_err(about)?,
+        lens: Lens::from_coefficients(kind, &coefficients).map_err(about)?,
+        width: side("width")?,
+        height: side("height")?,
+    })
+}

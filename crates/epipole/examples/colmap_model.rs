@@ -1,0 +1,48 @@
+//! Photographs to a model that COLMAP and its friends read.
+//!
+//! `cargo run --release --example colmap_model -- out/ 1200 photos/*.jpg`, with the focal length in pixels.
+
+mod common;
+
+use common::{Outcome, photos};
+use epipole::prelude::*;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
+    let photos = photos(arguments.get(2..).unwrap_or_default())?;
+    let focal_px = arguments.get(1).map_or(Ok(400.0), |text| text.parse())?;
+    let first = photos.first().ok_or("which photographs?")?;
+    let (width, height) = first.image.dimensions();
+    let k = Intrinsics::centered(focal_px, width, height)?;
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    let (features, options) = (PhotoOptions::default(), SfmOptions::default());
+    let (input, result) = reconstruct_photos(&photos, &[k], &features, &options, &mut go_on)?;
+    let model = result
+        .components
+        .first()
+        .ok_or("the photographs do not overlap")?;
+    println!(
+        "mean error {:.2} px",
+        model.mean_reprojection_px(&input.images)
+    );
+    if let Some(folder) = arguments.first() {
+        std::fs::create_dir_all(folder)?;
+        let files = model.to_colmap(&input.images);
+        for (name, text) in [
+            ("cameras.txt", files.cameras),
+            ("images.txt", files.images),
+            ("points3D.txt", files.points),
+        ] {
+            std::fs::write(Path::new(folder).join(name), text)?;
+        }
+    } else {
+        assert_eq!(model.num_registered(), 3);
+    }
+    Ok(())
+}
+
+#[allow(dead_code, reason = "the tests call run")]
+fn main() -> Outcome<()> {
+    run(&common::arguments())
+}

@@ -1,0 +1,75 @@
+//! What examples share: photographs from files, or rendered ones.
+
+#![allow(dead_code, reason = "every example uses a part of this")]
+
+use epipole::prelude::*;
+use epipole::sfm::Photo;
+use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+
+pub(crate) type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+
+/// Size of rendered photographs.
+pub(crate) const SIZE: (u32, u32) = (320, 240);
+
+pub(crate) fn arguments() -> Vec<String> {
+    std::env::args().skip(1).collect()
+}
+
+/// Gray values in [0, 1] of a PNG, JPEG or WebP file.
+pub(crate) fn read_gray(path: &str) -> Outcome<GrayImage32> {
+    Ok(decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image)
+}
+
+/// A table with things on it, photographed by a camera that moved: its place, the picture and the depth of each
+/// pixel.
+pub(crate) fn photograph(moved_from_start: &RigidTransform) -> Result<(Camera, Photograph), Error> {
+    let start = still_life_camera(SIZE.0, SIZE.1);
+    let camera = Camera {
+        cam_from_world: moved_from_start * start.cam_from_world,
+        ..start
+    };
+    let photograph = Scene::still_life().render(&camera, SIZE.0, SIZE.1, Sampling::Full)?;
+    Ok((camera, photograph))
+}
+
+/// The same as gray values.
+pub(crate) fn gray(photograph: &Photograph) -> GrayImage32 {
+    gray_to_f32(&rgb_to_gray(&photograph.image))
+}
+
+/// Matching pixels of two images, wrong matches among them.
+pub(crate) fn matches(
+    first: &GrayImage32,
+    second: &GrayImage32,
+) -> Result<(Vec<Point2<f64>>, Vec<Point2<f64>>), Error> {
+    let options = SiftOptions::default();
+    let [a, b] = [
+        detect_sift(first, &options)?,
+        detect_sift(second, &options)?,
+    ];
+    let matches = match_descriptors(&a.descriptors, &b.descriptors, &MatchOptions::default())?;
+    let place = |m: &epipole::feature::Match| {
+        (a.keypoints[m.index1].point(), b.keypoints[m.index2].point())
+    };
+    Ok(matches.iter().map(place).unzip())
+}
+
+/// Photographs from files; without any, three of the table from left to right.
+pub(crate) fn photos(paths: &[String]) -> Outcome<Vec<Photo>> {
+    let mut photos = Vec::new();
+    for path in paths {
+        let image = decode_rgb(&std::fs::read(path)?, &DecodeOptions::default())?.image;
+        let name = path.clone();
+        photos.push(Photo { name, image });
+    }
+    if paths.is_empty() {
+        for x in [0.0, -0.15, -0.3] {
+            let turn = Vector3::new(0.0, -0.6 * x, 0.0);
+            let step = RigidTransform::new(Vector3::new(x, 0.0, 0.0), turn);
+            let image = photograph(&step)?.1.image;
+            let name = format!("{x}.png");
+            photos.push(Photo { name, image });
+        }
+    }
+    Ok(photos)
+}

@@ -1,0 +1,51 @@
+//! Corners of one frame found again in the next.
+//!
+//! `cargo run --release --example follow_points`
+
+mod common;
+
+use common::{gray, photograph};
+use epipole::feature::{GoodFeaturesOptions, TrackOptions};
+use epipole::feature::{good_features_to_track, track_lucas_kanade};
+use epipole::prelude::*;
+
+pub(crate) fn run() -> Result<(), Error> {
+    let step = RigidTransform::translation(-0.01, 0.0, 0.0);
+    let (camera, truth) = photograph(&RigidTransform::identity())?;
+    let (first, second) = (gray(&truth), gray(&photograph(&step)?.1));
+    let options = GoodFeaturesOptions {
+        max_corners: 200,
+        ..GoodFeaturesOptions::default()
+    };
+    let corners: Vec<_> = good_features_to_track(&first, &options)?
+        .iter()
+        .map(Keypoint::point)
+        .collect();
+    let tracks = track_lucas_kanade(&first, &second, &corners, &TrackOptions::default())?;
+    let mut errors = Vec::new();
+    for (corner, track) in corners.iter().zip(&tracks) {
+        let Some(track) = track else { continue };
+        // Where the point really is, by the depth of its pixel.
+        let depth_m = truth
+            .depth_m
+            .get_pixel(corner.x.round() as u32, corner.y.round() as u32)
+            .0[0];
+        let x_in_cam = Point3::from(camera.intrinsics.ray(corner) * f64::from(depth_m));
+        let seen = camera.intrinsics.project(&(step * x_in_cam))?;
+        errors.push((track.point - seen).norm());
+    }
+    errors.sort_by(f64::total_cmp);
+    let median_px = errors[errors.len() / 2];
+    println!(
+        "{} of {} corners followed, median error {median_px:.2} px",
+        errors.len(),
+        corners.len()
+    );
+    assert!(errors.len() * 2 > corners.len() && median_px < 0.3);
+    Ok(())
+}
+
+#[allow(dead_code, reason = "the tests call run")]
+fn main() -> Result<(), Error> {
+    run()
+}

@@ -1,0 +1,111 @@
+//! What is wrong with a set of views, though a camera came out of it.
+
+use super::calibrate::CalibratedView;
+use nalgebra::Vector3;
+
+/// Something about the views that makes a calibration less sure than its errors say.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CalibrationWarning {
+    /// All boards have nearly one orientation: focal length and distance can hardly be told apart.
+    #[error(
+        "the boards are nearly parallel: no two differ by more than {angle_deg:.0}°. Turn the board by 30° to \
+         45° about several axes"
+    )]
+    Parallel {
+        /// The largest angle between two boards, degrees.
+        angle_deg: f64,
+    },
+    /// The focal length is uncertain.
+    #[error(
+        "the focal length is sure to {percent:.1} % only. More views help, turned in other directions and larger in the \
+         picture"
+    )]
+    UncertainFocal {
+        /// One standard deviation in percent of the focal length.
+        percent: f64,
+    },
+    /// Much of the image has no mark, and the lens is extrapolated there.
+    #[error(
+        "the boards reach {percent:.0} % of the picture, and elsewhere the distortion is a guess. Move the board to \
+         the edges and corners, too"
+    )]
+    LowCoverage {
+        /// Share of the image's area in percent.
+        percent: f64,
+    },
+    /// One view fits far worse than the others.
+    #[error(
+        "view {number} fits with {rms_px:.2} px, the others with {median_px:.2} px: blurred, bent, or of another board"
+    )]
+    BadView {
+        /// Counted from 1.
+        number: usize,
+        /// Its error, pixels.
+        rms_px: f64,
+        /// The median of all, pixels.
+        median_px: f64,
+    },
+}
+
+const LEAST_ANGLE_DEG: f64 = 15.0;
+const LARGEST_DEVIATION: f64 = 0.01;
+const LEAST_COVERAGE: f64 = 0.4;
+/// A view that fits so many times as badly as the median, and by more than this, is told of.
+const BAD_VIEW: (f64, f64) = (3.0, 0.3);
+
+pub(super) fn warnings(
+    views: &[Option<CalibratedView>],
+    focal_deviation: f64,
+    coverage: f64,
+) -> Vec<CalibrationWarning> {
+    let mut warnings = Vec::new();
+    let used: Vec<&CalibratedView> = views.iter().flatten().collect();
+    let angle_deg = largest_angle_deg(&used);
+    if angle_deg < LEAST_ANGLE_DEG {
+        warnings.push(CalibrationWarning::Parallel { angle_deg });
+    }
+    if focal_deviation > LARGEST_DEVIATION {
+        warnings.push(CalibrationWarning::UncertainFocal {
+            percent: 100.0 * focal_deviation,
+        });
+    }
+    if coverage < LEAST_COVERAGE {
+        warnings.push(CalibrationWarning::LowCoverage {
+            percent: 100.0 * coverage,
+        });
+    }
+    let mut errors: Vec<f64> = used.iter().map(|view| view.rms_px).collect();
+    errors.sort_by(f64::total_cmp);
+    if let Some(&median_px) = errors.get(errors.len() / 2) {
+        let (times, by) = BAD_VIEW;
+        for (index, view) in views.iter().enumerate() {
+            if let Some(view) = view
+                && view.rms_px > times * median_px
+                && view.rms_px > median_px + by
+            {
+                warnings.push(CalibrationWarning::BadView {
+                    number: index + 1,
+                    rms_px: view.rms_px,
+                    median_px,
+                });
+            }
+        }
+    }
+    warnings
+}
+
+/// Between the normals of two boards.
+fn largest_angle_deg(views: &[&CalibratedView]) -> f64 {
+    let normals: Vec<Vector3<f64>> = views
+        .iter()
+        .map(|view| view.cam_from_board.rotation * Vector3::z())
+        .collect();
+    let mut largest: f64 = 0.0;
+    for (i, a) in normals.iter().enumerate() {
+        for b in &normals[..i] {
+            largest = largest.max(libm::atan2(a.cross(b).norm(), a.dot(b)));
+        }
+    }
+    largest.to_degrees()
+}

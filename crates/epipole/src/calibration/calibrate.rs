@@ -1,0 +1,458 @@
+//! One camera from several views of a board.
+
+use super::advice::{CalibrationWarning, warnings};
+use super::camera::CalibratedCamera;
+use super::coverage::coverage;
+use super::problem::{
+    OF_CAMERA, Observation, Problem, SHARED, State, camera_numbers, intrinsics_of, lens_of,
+    pose_state, strict,
+};
+use super::start::{board_pose, plain, starts};
+use super::uncertainty::standard_deviations;
+use super::{Board, BoardView};
+use crate::camera::{Intrinsics, LensKind, RigidTransform};
+use crate::{Error, Result};
+use nalgebra::Point3;
+use std::ops::ControlFlow;
+
+pub(super) const WHAT: &str = "a calibration";
+
+/// Choices of [`calibrate`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CalibrationOptions {
+    /// The model of the lens.
+    pub lens: LensKind,
+    /// At most so many steps of refinement.
+    pub max_iterations: usize,
+}
+
+impl Default for CalibrationOptions {
+    /// Five numbers of distortion, at most 200 steps.
+    fn default() -> Self {
+        Self {
+            lens: LensKind::Brown,
+            max_iterations: 200,
+        }
+    }
+}
+
+/// What was found out about one view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CalibratedView {
+    /// Where the board was, meters.
+    pub cam_from_board: RigidTransform,
+    /// Root mean square of its reprojection errors, pixels.
+    pub rms_px: f64,
+    /// Marks seen.
+    pub num_marks: usize,
+}
+
+/// A calibrated camera and how sure it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// The camera.
+    pub camera: CalibratedCamera,
+    /// Root mean square of all reprojection errors: distances, not coordinates, in pixels.
+    pub rms_px: f64,
+    /// One standard deviation of fu, fv, cu, cv, pixels.
+    pub std_dev_k: [f64; 4],
+    /// One standard deviation of each coefficient of the lens.
+    pub std_dev_lens: Vec<f64>,
+    /// The share of the image's area, 0 to 1, that is inside the marks of some view.
+    pub coverage: f64,
+    /// For each view given, what was found; `None` where none was given.
+    pub views: Vec<Option<CalibratedView>>,
+    /// What makes the result less sure than the errors say.
+    pub warnings: Vec<CalibrationWarning>,
+}
+
+/// Intrinsics, distortion and the board's poses that minimize the sum of squared reprojection errors.
+///
+/// * `views`: where the marks are seen, from [`find_board`](super::find_board) for instance; `None` for a
+///   photograph without a board, so that results keep the order of the photographs
+/// * `width`, `height`: of all photographs, pixels
+///
+/// The start is Zhang's closed form, or one with the principal point in the middle, whichever leads to smaller
+/// errors; for a fisheye, equidistant lenses of several focal lengths.
+///
+/// # Errors
+/// [`Error::TooFew`] for fewer than two views, and for a view with fewer than four marks; [`Error::Degenerate`] if a
+/// view's marks are on one line, and if all boards are parallel or fit no camera; [`Error::SizeMismatch`] for views of another board,
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for an image without pixels.
+///
+/// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::calibration::{Board, BoardView, CalibrationOptions, Pattern, calibrate};
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use nalgebra::{Point3, Vector3};
+/// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
+/// let k = Intrinsics::new(600.0, 605.0, 322.0, 238.0)?;
+/// let mut views = Vec::new();
+/// for turn in [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.0], [0.1, -0.5, 0.2]] {
+///     let pose = RigidTransform::new(Vector3::new(-0.09, -0.06, 0.4), Vector3::from(turn));
+///     let pixel = |mark| {
+///         let p = board.mark(mark);
+///         k.project(&(pose * Point3::new(p.x, p.y, 0.0))).ok()
+///     };
+///     views.push(Some(BoardView { pixels: (0..board.num_marks()).map(pixel).collect() }));
+/// }
+/// let found = calibrate(&board, &views, (640, 480), &CalibrationOptions::default())?;
+/// assert!(found.rms_px < 1e-6);
+/// assert!((found.camera.intrinsics.fv_px() - 605.0).abs() < 1e-3);
+/// # Ok(()) }
+/// ```
+#[doc(alias = "calibrateCamera")]
+pub fn calibrate(
+    board: &Board,
+    views: &[Option<BoardView>],
+    (width, height): (u32, u32),
+    options: &CalibrationOptions,
+) -> Result<Calibration> {
+    let size = (width, height);
+    check(board, views, size)?;
+    let given: Vec<&BoardView> = views.iter().flatten().collect();
+    if given.len() < 2 {
+        return Err(Error::TooFew {
+            what: "a calibration from views of a board",
+            needed: 2,
+            got: given.len(),
+        });
+    }
+    let kind = options.lens;
+    let problem = Problem::new(
+        marks(board),
+        observations(&given, 0),
+        given.len(),
+        [kind; 2],
+        held(kind),
+    );
+    let mut best: Option<(f64, State)> = None;
+    let mut failure = None;
+    for start in starts(board, &given, size, kind)? {
+        match refine_from(board, &given, start, size, options, &problem) {
+            Ok((cost, state)) => {
+                if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                    best = Some((cost, state));
+                }
+            }
+            Err(error) => failure = Some(error),
+        }
+    }
+    let Some((_, state)) = best else {
+        return Err(failure.unwrap_or(Error::Degenerate {
+            what: WHAT,
+            why: "the views of the board fit no camera",
+        }));
+    };
+    let numbers = state.cameras[0];
+    let camera = CalibratedCamera {
+        intrinsics: intrinsics_of(&numbers)?,
+        lens: lens_of(kind, &numbers),
+        width,
+        height,
+    };
+    let open = Error::Degenerate {
+        what: WHAT,
+        why: "the boards are parallel, or so small in the picture that any focal length fits them",
+    };
+    let deviations = standard_deviations(&problem, &state).ok_or(open.clone())?;
+    let of_camera: [f64; OF_CAMERA] = core::array::from_fn(|i| deviations[6 + i]);
+    let std_dev_k: [f64; 4] = core::array::from_fn(|i| of_camera[i]);
+    let focal_deviation = (std_dev_k[0] / numbers[0]).max(std_dev_k[1] / numbers[1]);
+    if focal_deviation > MOST_UNCERTAIN {
+        return Err(open);
+    }
+    let mut used = 0..;
+    let calibrated: Vec<Option<CalibratedView>> = views
+        .iter()
+        .map(|view| {
+            let view = view.as_ref()?;
+            let place = used.next()?;
+            Some(CalibratedView {
+                cam_from_board: State::pose(&state.views[place]),
+                rms_px: problem.rms_px(&state, |o| o.view == place),
+                num_marks: view.num_seen(),
+            })
+        })
+        .collect();
+    let coverage = coverage(&given, size);
+    Ok(Calibration {
+        camera,
+        rms_px: problem.rms_px(&state, |_| true),
+        std_dev_k,
+        std_dev_lens: of_camera[4..4 + kind.num_coefficients()].to_vec(),
+        coverage,
+        warnings: warnings(&calibrated, focal_deviation, coverage),
+        views: calibrated,
+    })
+}
+
+/// With a focal length less sure than this, the boards might as well be anywhere.
+const MOST_UNCERTAIN: f64 = 0.2;
+
+/// The marks in the frame of the board.
+pub(super) fn marks(board: &Board) -> Vec<Point3<f64>> {
+    let mark = |index| {
+        let on_board = board.mark(index);
+        Point3::new(on_board.x, on_board.y, 0.0)
+    };
+    (0..board.num_marks()).map(mark).collect()
+}
+
+pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<Observation> {
+    let of_view = |(view, seen): (usize, &&BoardView)| {
+        let of_mark = move |(mark, pixel)| Observation {
+            view,
+            mark,
+            eye,
+            pixel,
+        };
+        seen.seen().map(of_mark).collect::<Vec<_>>()
+    };
+    views.iter().enumerate().flat_map(of_view).collect()
+}
+
+/// One camera alone: all but its numbers is held.
+fn held(kind: LensKind) -> [bool; SHARED] {
+    let mut held = [true; SHARED];
+    held[6..6 + 4 + kind.num_coefficients()].fill(false);
+    held
+}
+
+pub(super) fn check(
+    board: &Board,
+    views: &[Option<BoardView>],
+    (width, height): (u32, u32),
+) -> Result<()> {
+    if width == 0 || height == 0 {
+        return Err(Error::OutOfRange {
+            what: "the photographs' size in pixels",
+            requirement: "at least 1 × 1",
+            value: 0.0,
+        });
+    }
+    for view in views.iter().flatten() {
+        view.check(board)?;
+        if view.num_seen() < 4 {
+            return Err(Error::TooFew {
+                what: "a view of a board, for a calibration from its marks,",
+                needed: 4,
+                got: view.num_seen(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn refine_from(
+    board: &Board,
+    views: &[&BoardView],
+    start: Intrinsics,
+    size: (u32, u32),
+    options: &CalibrationOptions,
+    problem: &Problem,
+) -> Result<(f64, State)> {
+    let camera = plain(start, options.lens, size);
+    let mut poses = Vec::new();
+    for view in views {
+        poses.push(pose_state(&board_pose(board, view, &camera)?));
+    }
+    let numbers = camera_numbers(&camera.intrinsics, &camera.lens);
+    let mut state = State {
+        views: poses,
+        rig: pose_state(&RigidTransform::identity()),
+        cameras: [numbers; 2],
+    };
+    // The lens by and by: with all its numbers at once a poor start may end in another valley.
+    let mut few = problem.held;
+    few[6 + 4 + 1..6 + OF_CAMERA].fill(true);
+    let first = Problem::new(
+        problem.marks.clone(),
+        problem.observations.clone(),
+        problem.num_views,
+        problem.kinds,
+        few,
+    );
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    first.minimize(&mut state, &strict(30), &mut go_on)?;
+    let report = problem.minimize(&mut state, &strict(options.max_iterations), &mut go_on)?;
+    Ok((report.final_cost, state))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{poses, true_view};
+    use super::super::{CalibrationWarning, Pattern};
+    use super::*;
+    use crate::camera::Lens;
+    use crate::math::random::Random;
+    use nalgebra::{Point2, Vector3};
+
+    fn board() -> Board {
+        Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap()
+    }
+
+    fn truth(kind: LensKind) -> CalibratedCamera {
+        let (focal, coefficients): (f64, &[f64]) = match kind {
+            LensKind::Brown => (540.0, &[-0.27, 0.05, 0.001, -0.0005, 0.02]),
+            LensKind::Rational => (400.0, &[0.5, 0.05, 0.001, 0.0, 0.0, 0.8, 0.15, 0.01]),
+            LensKind::Fisheye => (260.0, &[-0.02, 0.004, -0.001, 0.0002]),
+        };
+        CalibratedCamera {
+            intrinsics: Intrinsics::new(focal, focal + 3.0, 342.0, 235.0).unwrap(),
+            lens: Lens::from_coefficients(kind, coefficients).unwrap(),
+            width: 640,
+            height: 480,
+        }
+    }
+
+    fn views(
+        camera: &CalibratedCamera,
+        poses: &[RigidTransform],
+        noise: f64,
+    ) -> Vec<Option<BoardView>> {
+        let mut random = Random::new(9);
+        let view = |pose: &RigidTransform| {
+            let mut view = true_view(&board(), camera, pose);
+            for pixel in view.pixels.iter_mut().flatten() {
+                *pixel += Vector3::from_fn(|_, _| noise * random.normal()).xy();
+            }
+            Some(view)
+        };
+        poses.iter().map(view).collect()
+    }
+
+    #[test]
+    fn exact_views_give_the_exact_camera() {
+        for kind in [LensKind::Brown, LensKind::Rational, LensKind::Fisheye] {
+            let camera = truth(kind);
+            let distance = camera.intrinsics.fu_px() / 35.0;
+            let views = views(&camera, &poses(&board(), 12, distance, 5), 0.0);
+            let options = CalibrationOptions {
+                lens: kind,
+                ..CalibrationOptions::default()
+            };
+            let found = calibrate(&board(), &views, (640, 480), &options).unwrap();
+            assert!(found.rms_px < 1e-4, "{kind:?} {}", found.rms_px);
+            // Coefficients of a quotient trade with each other; what they do to pixels does not.
+            for (u, v) in [(100.0, 100.0), (320.0, 240.0), (560.0, 380.0)] {
+                let pixel = Point2::new(u, v);
+                let (a, b) = (
+                    camera.ray(&pixel).unwrap(),
+                    found.camera.ray(&pixel).unwrap(),
+                );
+                assert!(
+                    a.normalize().cross(&b.normalize()).norm() < 1e-5,
+                    "{kind:?}"
+                );
+            }
+        }
+    }
+
+    /// A hundred sets with noise: the numbers spread as much as they are said to.
+    #[test]
+    fn deviations_are_what_repetition_shows() {
+        let camera = truth(LensKind::Brown);
+        let exact = views(&camera, &poses(&board(), 10, 15.0, 6), 0.0);
+        let mut random = Random::new(1);
+        let (mut focals, mut said) = (Vec::new(), 0.0);
+        for _ in 0..100 {
+            let mut noisy = exact.clone();
+            for pixel in noisy
+                .iter_mut()
+                .flatten()
+                .flat_map(|v| v.pixels.iter_mut().flatten())
+            {
+                *pixel += Vector3::from_fn(|_, _| 0.3 * random.normal()).xy();
+            }
+            let found =
+                calibrate(&board(), &noisy, (640, 480), &CalibrationOptions::default()).unwrap();
+            // Two coordinates, less what the parameters absorb.
+            assert!((found.rms_px / (0.3 * 2.0_f64.sqrt()) - 1.0).abs() < 0.15);
+            focals.push(found.camera.intrinsics.fu_px());
+            said += found.std_dev_k[0] / 100.0;
+        }
+        let mean = focals.iter().sum::<f64>() / 100.0;
+        let spread = (focals.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / 99.0).sqrt();
+        assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
+        assert!((mean - 540.0).abs() < 0.4 * spread, "{mean} {spread}");
+    }
+
+    #[test]
+    fn bad_sets_get_a_sentence() {
+        let camera = truth(LensKind::Brown);
+        let options = CalibrationOptions::default();
+        let poses = poses(&board(), 6, 15.0, 8);
+        let good = views(&camera, &poses, 0.2);
+        let run = |views: &[Option<BoardView>]| calibrate(&board(), views, (640, 480), &options);
+        assert!(run(&good).unwrap().warnings.iter().all(|w| matches!(
+            w,
+            CalibrationWarning::LowCoverage { .. } | CalibrationWarning::UncertainFocal { .. }
+        )));
+        for few in [&good[..0], &good[..1], &[None, None, good[0].clone()]] {
+            let error = run(few).unwrap_err();
+            assert!(matches!(error, Error::TooFew { needed: 2, .. }), "{error}");
+        }
+        // Parallel to each other, and to the image.
+        for turn in [Vector3::new(0.3, 0.2, 0.0), Vector3::zeros()] {
+            let parallel: Vec<RigidTransform> = (0..6)
+                .map(|i| {
+                    let at = 0.02 * f64::from(i) - 0.15;
+                    RigidTransform::new(
+                        Vector3::new(at, at + 0.08, 0.4 + 0.03 * f64::from(i)),
+                        turn,
+                    )
+                })
+                .collect();
+            match run(&views(&camera, &parallel, 0.3)) {
+                Err(error) => assert!(matches!(error, Error::Degenerate { .. }), "{error}"),
+                Ok(found) => {
+                    println!("{:?}", found.warnings);
+                    let parallel =
+                        |w: &CalibrationWarning| matches!(w, CalibrationWarning::Parallel { .. });
+                    assert!(found.warnings.iter().any(parallel));
+                }
+            }
+        }
+        let mut short = good.clone();
+        short[1].as_mut().unwrap().pixels.pop();
+        assert!(matches!(run(&short), Err(Error::SizeMismatch { .. })));
+        let mut nan = good.clone();
+        nan[1].as_mut().unwrap().pixels[3] = Some(Point2::new(f64::NAN, 0.0));
+        assert!(matches!(run(&nan), Err(Error::NotFinite { .. })));
+        let mut line = good.clone();
+        line[1].as_mut().unwrap().pixels[9..].fill(None);
+        assert!(matches!(run(&line), Err(Error::Degenerate { .. })));
+        line[1].as_mut().unwrap().pixels[3..].fill(None);
+        assert!(matches!(run(&line), Err(Error::TooFew { .. })));
+        assert!(calibrate(&board(), &good, (0, 480), &options).is_err());
+        // Corners of another board: any answer or none, but no panic and no NaN.
+        let mut random = Random::new(3);
+        let anywhere = |_: &Option<BoardView>| {
+            let pixel = |_| {
+                Some(Point2::new(
+                    random.uniform(0.0, 640.0),
+                    random.uniform(0.0, 480.0),
+                ))
+            };
+            Some(BoardView {
+                pixels: (0..54).map(pixel).collect(),
+            })
+        };
+        let scattered: Vec<_> = good.iter().map(anywhere).collect();
+        if let Ok(found) = run(&scattered) {
+            assert!(found.rms_px.is_finite() && found.rms_px > 20.0);
+        }
+        // One view of a bent board is named.
+        let mut bent = good.clone();
+        for pixel in bent[2].as_mut().unwrap().pixels.iter_mut().flatten() {
+            pixel.y += 2.0 * libm::sin(pixel.x / 15.0);
+        }
+        let told = run(&bent).unwrap().warnings;
+        let named =
+            |w: &CalibrationWarning| matches!(w, CalibrationWarning::BadView { number: 3, .. });
+        assert!(told.iter().any(named), "{told:?}");
+    }
+}

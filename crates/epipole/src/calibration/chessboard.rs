@@ -1,0 +1,352 @@
+//! The inner corners of a chessboard.
+
+use super::find_board::BoardSearch;
+use super::lattice::{Cell, Lattice};
+use super::saddles::{Saddle, SaddleImage};
+use super::{Board, BoardView};
+use crate::Result;
+use crate::imaging::GrayImage32;
+use nalgebra::{Point2, Vector2};
+use std::collections::BTreeMap;
+
+/// Of a board's corners so many must be found.
+const LEAST_SHARE: f64 = 0.5;
+/// Corners in each of the outermost rows and columns, so that there is no doubt which they are.
+const LEAST_IN_A_LINE: usize = 2;
+/// How far an edge may turn from one corner to the next: the cosine of some 30°.
+const ALONG: f64 = 0.87;
+/// Within this share of the distance to the next corner there must be nothing but the four squares.
+const CLEAR: f64 = 0.36;
+/// Smaller circles were looked at before.
+const LEAST_RADIUS_PX: f64 = 6.5;
+/// Candidates looked at from each corner.
+const NEAREST: usize = 16;
+
+/// Looks for a chessboard in an image of this very size; corners are as exact as the search needs them.
+pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+    let saddle_image = SaddleImage::new(image)?;
+    let saddles = saddle_image.find()?;
+    let neighbors = neighbors(&saddles);
+    let mut taken = vec![false; saddles.len()];
+    let mut best = BoardSearch::Nothing;
+    let num_links = |i: usize| neighbors[i].iter().flatten().count();
+    // Corners with all four neighbors first: inside of the board.
+    let mut seeds: Vec<usize> = (0..saddles.len()).collect();
+    seeds.sort_by_key(|&i| (4 - num_links(i), i));
+    for seed in seeds {
+        if taken[seed] || num_links(seed) < 2 {
+            continue;
+        }
+        let mut lattice = grow(seed, &saddles, &neighbors, &mut taken);
+        lattice.drop_strays();
+        fill(&mut lattice, &saddle_image, board);
+        lattice.drop_strays();
+        let found = place_on_board(&lattice, board);
+        if let BoardSearch::Found(view) = found {
+            return Ok(BoardSearch::Found(clear_only(view, &saddle_image, board)));
+        }
+        best = best.or_more(found);
+    }
+    Ok(best)
+}
+
+/// Leaves out corners that something in front of the board would draw to itself.
+fn clear_only(view: BoardView, image: &SaddleImage, board: &Board) -> BoardView {
+    let is_clear = |mark: usize, place: &Point2<f64>| {
+        let radius = CLEAR * view.spacing(mark, board.columns()).unwrap_or(0.0);
+        radius < LEAST_RADIUS_PX || image.is_clear(place, radius)
+    };
+    let pixels = view.pixels.iter().enumerate();
+    BoardView {
+        pixels: pixels
+            .map(|(mark, place)| place.filter(|place| is_clear(mark, place)))
+            .collect(),
+    }
+}
+
+/// For each corner, the next ones along +edge 0, −edge 0, +edge 1 and −edge 1, where both agree.
+fn neighbors(saddles: &[Saddle]) -> Vec<[Option<usize>; 4]> {
+    let next: Vec<[Option<usize>; 4]> = (0..saddles.len())
+        .map(|i| {
+            let mut near: Vec<(f64, usize)> = (0..saddles.len())
+                .filter(|&j| j != i)
+                .map(|j| ((saddles[j].place - saddles[i].place).norm_squared(), j))
+                .collect();
+            let count = NEAREST.min(near.len());
+            if count == 0 {
+                return [None; 4];
+            }
+            near.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
+            near.truncate(count);
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            core::array::from_fn(|way| {
+                near.iter()
+                    .map(|(_, j)| *j)
+                    .find(|&j| is_next(&saddles[i], &saddles[j], way))
+            })
+        })
+        .collect();
+    next.iter()
+        .enumerate()
+        .map(|(i, ways)| ways.map(|way| way.filter(|&j| next[j].contains(&Some(i)))))
+        .collect()
+}
+
+fn way_vector(saddle: &Saddle, way: usize) -> Vector2<f64> {
+    saddle.edges[way / 2] * if way.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
+
+/// Whether `to` may be the next corner from `from` along an edge: it lies there, the edge goes on there, and
+/// dark and bright have changed places.
+fn is_next(from: &Saddle, to: &Saddle, way: usize) -> bool {
+    let step = to.place - from.place;
+    let along = step / step.norm();
+    // A step along edge 0 of one corner is along edge 1 of the next.
+    way_vector(from, way).dot(&along) > ALONG && to.edges[1 - way / 2].dot(&along).abs() > ALONG
+}
+
+/// Grows the grid around a corner: i along its edge 0 and j along its edge 1, so that the quadrants towards +i and
+/// +j are dark in cells whose coordinates have an even sum, and j is clockwise from i on the screen.
+fn grow(
+    seed: usize,
+    saddles: &[Saddle],
+    neighbors: &[[Option<usize>; 4]],
+    taken: &mut [bool],
+) -> Lattice {
+    let length = |a: usize, b: usize| (saddles[a].place - saddles[b].place).norm();
+    let shortest = |i: usize| {
+        let links = neighbors[i].iter().flatten();
+        links.fold(f64::INFINITY, |least, &j| least.min(length(i, j)))
+    };
+    let mut cells: BTreeMap<Cell, usize> = BTreeMap::new();
+    let mut frames: BTreeMap<Cell, [Vector2<f64>; 2]> = BTreeMap::new();
+    cells.insert((0, 0), seed);
+    frames.insert((0, 0), saddles[seed].edges);
+    taken[seed] = true;
+    // Short steps first: one over something that hides two corners must not come before the way around it.
+    let mut links: Vec<(f64, Cell, usize)> = Vec::new();
+    let mut arrived = Some((0, 0));
+    loop {
+        if let Some(cell) = arrived.take() {
+            let here: usize = cells[&cell];
+            let usual = shortest(here);
+            let to = neighbors[here].iter().flatten();
+            links.extend(to.map(|&next| {
+                let relative = length(here, next) / usual.min(shortest(next));
+                (relative, cell, next)
+            }));
+        }
+        let Some(place) = (0..links.len()).min_by(|&a, &b| links[a].0.total_cmp(&links[b].0))
+        else {
+            break;
+        };
+        let (_, cell, next) = links.swap_remove(place);
+        if taken[next] {
+            continue;
+        }
+        let (here, frame) = (cells[&cell], frames[&cell]);
+        let step = saddles[next].place - saddles[here].place;
+        let along = step / step.norm();
+        let dots = frame.map(|axis| axis.dot(&along));
+        let axis = usize::from(dots[1].abs() > dots[0].abs());
+        let sign = if dots[axis] > 0.0 { 1 } else { -1 };
+        let target = if axis == 0 {
+            (cell.0 + sign, cell.1)
+        } else {
+            (cell.0, cell.1 + sign)
+        };
+        // The frame is carried on by the edges that are there.
+        let edges = saddles[next].edges;
+        let carried = frame.map(|axis| {
+            let is_first = edges[0].dot(&axis).abs() > edges[1].dot(&axis).abs();
+            let nearest = if is_first { edges[0] } else { edges[1] };
+            nearest * nearest.dot(&axis).signum()
+        });
+        if cells.contains_key(&target) || carried[0].dot(&carried[1]).abs() > 0.95 {
+            continue;
+        }
+        taken[next] = true;
+        cells.insert(target, next);
+        frames.insert(target, carried);
+        arrived = Some(target);
+    }
+    Lattice {
+        points: cells
+            .iter()
+            .map(|(cell, i)| (*cell, saddles[*i].place))
+            .collect(),
+    }
+}
+
+/// Looks again where the grid should have corners.
+fn fill(lattice: &mut Lattice, image: &SaddleImage, board: &Board) {
+    let longest = board.columns().max(board.rows()) as i32;
+    for _ in 0..longest {
+        let mut found = Vec::new();
+        for cell in lattice.open_cells() {
+            // A single neighbor is too little to go by.
+            let Some(place) = lattice.predict(cell) else {
+                continue;
+            };
+            let Some(spacing) = lattice.spacing(cell, &place) else {
+                continue;
+            };
+            let Some(saddle) = image.examine(&place) else {
+                continue;
+            };
+            let is_free = lattice
+                .points
+                .values()
+                .all(|other| (other - saddle.place).norm() > 0.5 * spacing);
+            if (saddle.place - place).norm() < 0.2 * spacing
+                && is_free
+                && has_right_colors(lattice, cell, &saddle)
+            {
+                found.push((cell, saddle.place));
+            }
+        }
+        if found.is_empty() {
+            break;
+        }
+        lattice.points.extend(found);
+    }
+}
+
+/// Whether a corner's dark quadrant is where the grid has it: towards +i and +j in even cells.
+fn has_right_colors(lattice: &Lattice, (i, j): Cell, saddle: &Saddle) -> bool {
+    let toward = |di: i32, dj: i32| -> Option<Vector2<f64>> {
+        let ahead = lattice.points.get(&(i + di, j + dj));
+        let behind = lattice.points.get(&(i - di, j - dj));
+        match (ahead, behind) {
+            (Some(p), _) => Some(p - saddle.place),
+            (None, Some(p)) => Some(saddle.place - p),
+            // From the rows beside it.
+            (None, None) => {
+                let (a, b) = (dj, di);
+                [1, -1].iter().find_map(|s| {
+                    let from = lattice.points.get(&(i + s * a, j + s * b))?;
+                    let to = lattice.points.get(&(i + s * a + di, j + s * b + dj));
+                    let back = lattice.points.get(&(i + s * a - di, j + s * b - dj));
+                    to.map(|to| to - from).or(back.map(|back| from - back))
+                })
+            }
+        }
+    };
+    let (Some(right), Some(down)) = (toward(1, 0), toward(0, 1)) else {
+        return false;
+    };
+    let is_even = (i + j).rem_euclid(2) == 0;
+    let [first, second] = if is_even {
+        [right, down]
+    } else {
+        [down, right]
+    };
+    // The dark quadrant is between edge 0 and edge 1, or between their opposites.
+    let matches = |edge: &Vector2<f64>, axis: &Vector2<f64>| edge.dot(&axis.normalize());
+    let (a, b) = (
+        matches(&saddle.edges[0], &first),
+        matches(&saddle.edges[1], &second),
+    );
+    a.abs() > ALONG && b.abs() > ALONG
+}
+
+/// The grid as the board's corners, or what is wrong with it.
+fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
+    let (columns, rows) = (board.columns(), board.rows());
+    let Some(extent) = grid.extent() else {
+        return BoardSearch::Nothing;
+    };
+    let (a, b) = extent.size();
+    let partial = BoardSearch::Partial {
+        columns: a.max(b),
+        rows: a.min(b),
+        num_seen: grid.points.len(),
+    };
+    // Fewest corners hidden first, then a dark quadrant inside of the first corner, then upright.
+    let mut best: Option<((usize, bool, f64), BoardView)> = None;
+    for quarter in 0..4 {
+        let lattice = grid.mapped(|cell| turned(cell, quarter));
+        let Some(extent) = lattice.extent() else {
+            continue;
+        };
+        let size = extent.size();
+        if size.0 < columns || size.1 < rows {
+            continue;
+        }
+        for (left, top) in
+            (0..=size.0 - columns).flat_map(|l| (0..=size.1 - rows).map(move |t| (l, t)))
+        {
+            let first = (extent.least.0 + left as i32, extent.least.1 + top as i32);
+            let cell = |k: usize| {
+                (
+                    first.0 + (k % columns) as i32,
+                    first.1 + (k / columns) as i32,
+                )
+            };
+            let view = BoardView {
+                pixels: (0..rows * columns)
+                    .map(|k| lattice.points.get(&cell(k)).copied())
+                    .collect(),
+            };
+            let inside = view.num_seen();
+            if goes_on(&lattice, first, columns, rows)
+                || (inside as f64) < LEAST_SHARE * (rows * columns) as f64
+                || !reaches_all_sides(&view, columns, rows)
+            {
+                continue;
+            }
+            let is_bright = (first.0 + first.1 + quarter).rem_euclid(2) != 0;
+            let rank = (rows * columns - inside, is_bright, slope(&view));
+            if best.as_ref().is_none_or(|(least, _)| rank < *least) {
+                best = Some((rank, view));
+            }
+        }
+    }
+    best.map_or(partial, |(_, view)| BoardSearch::Found(view))
+}
+
+/// Whether a row or column beside the window is filled by more than half: the board is larger then. A few corners
+/// beside it are things in the background.
+fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) -> bool {
+    let (right, bottom) = (left + columns as i32, top + rows as i32);
+    let is_filled = |cells: &mut dyn Iterator<Item = Cell>, count: usize| {
+        2 * cells
+            .filter(|cell| lattice.points.contains_key(cell))
+            .count()
+            > count
+    };
+    [top - 1, bottom]
+        .iter()
+        .any(|&j| is_filled(&mut (left..right).map(|i| (i, j)), columns))
+        || [left - 1, right]
+            .iter()
+            .any(|&i| is_filled(&mut (top..bottom).map(|j| (i, j)), rows))
+}
+
+/// A cell in axes that were turned by so many quarters.
+fn turned((i, j): Cell, quarters: i32) -> Cell {
+    match quarters {
+        0 => (i, j),
+        1 => (-j, i),
+        2 => (-i, -j),
+        _ => (j, -i),
+    }
+}
+
+/// How far up and left the first corner is from the last, negative if it is.
+fn slope(view: &BoardView) -> f64 {
+    let mut seen = view.pixels.iter().flatten().map(|p| p.x + p.y);
+    let first = seen.next().unwrap_or(0.0);
+    first - seen.next_back().unwrap_or(first)
+}
+
+/// Whether the outermost rows and columns are seen, so that there is no doubt which corner is which.
+fn reaches_all_sides(view: &BoardView, columns: usize, rows: usize) -> bool {
+    let count = |cells: &mut dyn Iterator<Item = usize>| {
+        cells.filter(|&k| view.pixels[k].is_some()).count() >= LEAST_IN_A_LINE
+    };
+    count(&mut (0..columns))
+        && count(&mut ((rows - 1) * columns..rows * columns))
+        && count(&mut (0..rows).map(|r| r * columns))
+        && count(&mut (0..rows).map(|r| r * columns + columns - 1))
+}

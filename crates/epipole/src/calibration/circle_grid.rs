@@ -1,0 +1,151 @@
+//! The disks of an asymmetric grid.
+
+use super::blobs::{Blob, find_blobs};
+use super::find_board::BoardSearch;
+use super::lattice::{Cell, Lattice};
+use super::{Board, BoardView};
+use crate::Result;
+use crate::imaging::GrayImage32;
+use nalgebra::{Point2, Vector2};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Of a grid's disks so many must be found.
+const LEAST_SHARE: f64 = 0.6;
+/// How far a disk may be from where its neighbors predict it, as a share of a step.
+const NEAR: f64 = 0.3;
+/// Disks next to each other have areas that differ by this factor at most.
+const AREAS: core::ops::Range<f64> = 0.4..2.5;
+
+/// Looks for an asymmetric circle grid in an image of this very size.
+pub(super) fn find_circle_grid(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+    let mut best = BoardSearch::Nothing;
+    for bright in [false, true] {
+        let blobs = find_blobs(image, bright)?;
+        let mut taken = vec![false; blobs.len()];
+        for seed in 0..blobs.len() {
+            let Some(frame) = frame_of(seed, &blobs).filter(|_| !taken[seed]) else {
+                continue;
+            };
+            let mut lattice = grow(seed, frame, &blobs, &mut taken);
+            lattice.drop_strays();
+            let found = place_on_board(&lattice, board);
+            if matches!(found, BoardSearch::Found(_)) {
+                return Ok(found);
+            }
+            best = best.or_more(found);
+        }
+    }
+    Ok(best)
+}
+
+/// The steps to a disk's nearest neighbors, which stand crosswise: two pairs of opposite ones of four. The second is
+/// clockwise from the first.
+fn frame_of(seed: usize, blobs: &[Blob]) -> Option<[Vector2<f64>; 2]> {
+    let here = &blobs[seed];
+    let mut near: Vec<Vector2<f64>> = blobs
+        .iter()
+        .enumerate()
+        .filter(|(i, other)| *i != seed && AREAS.contains(&(other.area / here.area)))
+        .map(|(_, other)| other.center - here.center)
+        .collect();
+    near.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let [a, b, c, d] = *near.get(..4)?.first_chunk::<4>()?;
+    let others = [(b, c, d), (c, b, d), (d, b, c)];
+    others.into_iter().find_map(|(opposite, e, f)| {
+        let is_opposite =
+            |x: &Vector2<f64>, y: &Vector2<f64>| (x + y).norm() < NEAR * x.norm().min(y.norm());
+        if !is_opposite(&a, &opposite) || !is_opposite(&e, &f) {
+            return None;
+        }
+        let (first, second) = ((a - opposite) / 2.0, (e - f) / 2.0);
+        let turn = first.perp(&second);
+        (turn.abs() > 0.2 * first.norm() * second.norm()).then(|| [first, second * turn.signum()])
+    })
+}
+
+fn grow(seed: usize, frame: [Vector2<f64>; 2], blobs: &[Blob], taken: &mut [bool]) -> Lattice {
+    let mut cells: BTreeMap<Cell, usize> = BTreeMap::from([((0, 0), seed)]);
+    let mut frames = BTreeMap::from([((0, 0), frame)]);
+    let mut open = VecDeque::from([(0, 0)]);
+    taken[seed] = true;
+    while let Some(cell) = open.pop_front() {
+        let (here, frame): (&Blob, [Vector2<f64>; 2]) = (&blobs[cells[&cell]], frames[&cell]);
+        for (axis, sign) in [(0, 1), (0, -1), (1, 1), (1, -1)] {
+            let target = if axis == 0 {
+                (cell.0 + sign, cell.1)
+            } else {
+                (cell.0, cell.1 + sign)
+            };
+            if cells.contains_key(&target) {
+                continue;
+            }
+            let step = frame[axis] * f64::from(sign);
+            let expected = here.center + step;
+            let nearest = (0..blobs.len())
+                .filter(|&i| !taken[i] && AREAS.contains(&(blobs[i].area / here.area)))
+                .map(|i| ((blobs[i].center - expected).norm(), i))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, next)) = nearest.filter(|(off, _)| *off < NEAR * step.norm()) else {
+                continue;
+            };
+            let mut carried = frame;
+            carried[axis] = (blobs[next].center - here.center) * f64::from(sign);
+            taken[next] = true;
+            cells.insert(target, next);
+            frames.insert(target, carried);
+            open.push_back(target);
+        }
+    }
+    let points: BTreeMap<Cell, Point2<f64>> = cells
+        .iter()
+        .map(|(cell, i)| (*cell, blobs[*i].center))
+        .collect();
+    Lattice { points }
+}
+
+/// The grid as the board's disks, or what is wrong with it.
+fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
+    let (columns, rows) = (board.columns(), board.rows());
+    let mut partial = BoardSearch::Nothing;
+    // Neighbors are diagonal: a step along the lattice is one along x and one along y.
+    for quarters in 0..4 {
+        let diagonal = grid.mapped(|(a, b)| match quarters {
+            0 => (a - b, a + b),
+            1 => (-a - b, a - b),
+            2 => (b - a, -a - b),
+            _ => (a + b, b - a),
+        });
+        let Some(extent) = diagonal.extent() else {
+            continue;
+        };
+        let (across, down) = extent.size();
+        if quarters < 2 {
+            partial = partial.or_more(BoardSearch::Partial {
+                columns: across.div_ceil(2).max(down),
+                rows: across.div_ceil(2).min(down),
+                num_seen: diagonal.points.len(),
+            });
+        }
+        let first = extent.least;
+        // The first row begins at the very left, every second one a step further.
+        let has_parity = diagonal
+            .points
+            .keys()
+            .all(|(x, y)| (x - first.0 + y - first.1) % 2 == 0);
+        if (across, down) != (2 * columns, rows) || !has_parity {
+            continue;
+        }
+        let pixels: Vec<Option<Point2<f64>>> = (0..board.num_marks())
+            .map(|mark| {
+                let (column, row) = (mark % columns, mark / columns);
+                let x = first.0 + (2 * column + row % 2) as i32;
+                diagonal.points.get(&(x, first.1 + row as i32)).copied()
+            })
+            .collect();
+        let view = BoardView { pixels };
+        if view.num_seen() as f64 >= LEAST_SHARE * board.num_marks() as f64 {
+            return BoardSearch::Found(view);
+        }
+    }
+    partial
+}

@@ -1,0 +1,353 @@
+//! A board in a photograph.
+
+use super::chessboard::find_chessboard;
+use super::circle_grid::find_circle_grid;
+use super::saddles::check_range;
+use super::{Board, BoardView, Pattern};
+use crate::Result;
+use crate::feature::{RefineOptions, refine_corners};
+use crate::imaging::{Border, GrayImage32, pyramid_down};
+
+/// What a search for a board came to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BoardSearch {
+    /// Where its marks are.
+    Found(BoardView),
+    /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is of another size.
+    Partial {
+        /// Marks along the longer side.
+        columns: usize,
+        /// Marks along the shorter side.
+        rows: usize,
+        /// How many marks were seen.
+        num_seen: usize,
+    },
+    /// Nothing like it.
+    Nothing,
+}
+
+impl BoardSearch {
+    /// The view, if the board was found.
+    pub fn view(self) -> Option<BoardView> {
+        match self {
+            Self::Found(view) => Some(view),
+            _ => None,
+        }
+    }
+
+    /// Why there is no view, as a sentence; `None` if there is one.
+    pub fn problem(&self, board: &Board) -> Option<String> {
+        let (columns, rows) = (board.columns(), board.rows());
+        match self {
+            Self::Found(_) => None,
+            Self::Nothing => Some(format!(
+                "no board of {columns} × {rows} marks was found: it must be whole in the picture, sharp, and with a \
+                 margin around it"
+            )),
+            Self::Partial {
+                columns: seen_columns,
+                rows: seen_rows,
+                num_seen,
+            } => {
+                let larger = *seen_columns > columns.max(rows) || *seen_rows > columns.min(rows);
+                let why = if larger {
+                    "the board is of another size, or something beside it looks alike"
+                } else {
+                    "a part is outside of the picture or hidden, or the board is of another size"
+                };
+                Some(format!(
+                    "a grid of {seen_columns} × {seen_rows} with {num_seen} marks was found, not {columns} × {rows}: {why}"
+                ))
+            }
+        }
+    }
+
+    /// The one with more marks.
+    pub(super) fn or_more(self, other: Self) -> Self {
+        let num_seen = |search: &Self| match search {
+            Self::Found(view) => usize::MAX - view.pixels.len() + view.num_seen(),
+            Self::Partial { num_seen, .. } => *num_seen,
+            Self::Nothing => 0,
+        };
+        if num_seen(&other) > num_seen(&self) {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+/// The search begins in an image whose longer side is no more than this, pixels.
+const FIRST_SIDE: u32 = 1300;
+/// The window of the last refinement, as a share of the distance to the nearest mark.
+const WINDOW: f64 = 0.3;
+const WINDOWS: (usize, usize) = (2, 15);
+
+/// Finds a board's marks to a fraction of a pixel.
+///
+/// A chessboard may be hidden in part, as long as half of its corners are seen and two at least in each of its
+/// outermost rows and columns. The first corner is one with a dark square inside, that is between it and the
+/// board's other corners; where two are (both numbers of corners even, or both odd), the one that is up and left.
+/// The disks of a circle grid are darker than the board, or brighter.
+///
+/// * `image`: gray values in [0, 1]
+///
+/// # Errors
+/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
+///
+/// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing using circular
+/// boundaries"; the last refinement is that of [`refine_corners`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::calibration::{Board, Pattern, find_board};
+/// use epipole::imaging::GrayImage32;
+/// // 6 × 5 squares of 20 pixels, with a white margin.
+/// let image = GrayImage32::from_fn(160, 140, |u, v| {
+///     let inside = (20..140).contains(&u) && (20..120).contains(&v);
+///     image::Luma([f32::from(!inside || (u / 20 + v / 20) % 2 == 1)])
+/// });
+/// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
+/// let view = find_board(&image, &board)?.view().expect("a board");
+/// assert_eq!(view.num_seen(), 20);
+/// let first = view.pixels[0].expect("the first corner");
+/// assert!((first - nalgebra::Point2::new(119.5, 99.5)).norm() < 0.01 || (first - nalgebra::Point2::new(39.5, 39.5)).norm() < 0.01);
+/// # Ok(()) }
+/// ```
+#[doc(alias = "findChessboardCorners")]
+#[doc(alias = "findCirclesGrid")]
+pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+    check_range(image)?;
+    let mut levels = vec![image.clone()];
+    while let Some(last) = levels.last()
+        && last.width().max(last.height()) > FIRST_SIDE / 4
+    {
+        levels.push(pyramid_down(last, Border::Reflect101));
+    }
+    let first = levels
+        .iter()
+        .position(|level| level.width().max(level.height()) <= FIRST_SIDE)
+        .unwrap_or(levels.len() - 1);
+    // Finer for small squares, then coarser for blurred ones.
+    let mut order: Vec<usize> = (0..=first).rev().collect();
+    order.extend(first + 1..levels.len());
+    let mut best = BoardSearch::Nothing;
+    for level in order {
+        let found = match board.pattern() {
+            Pattern::Chessboard => find_chessboard(&levels[level], board)?,
+            Pattern::AsymmetricCircles => find_circle_grid(&levels[level], board)?,
+        };
+        if let BoardSearch::Found(coarse) = found {
+            let scale = f64::from(1_u32 << level);
+            let pixels = coarse.pixels.iter();
+            let at_full_size = BoardView {
+                pixels: pixels.map(|p| p.map(|p| p * scale)).collect(),
+            };
+            if board.pattern() == Pattern::AsymmetricCircles {
+                return Ok(BoardSearch::Found(at_full_size));
+            }
+            let refined = refined(image, &at_full_size, board.columns())?;
+            return Ok(BoardSearch::Found(refined));
+        }
+        best = best.or_more(found);
+    }
+    Ok(best)
+}
+
+/// Corners to a fraction of a pixel, by gradients in a window that stays between the neighbors. Those that do not
+/// stay where they are are left out.
+fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
+    let mut pixels = Vec::with_capacity(view.pixels.len());
+    for (mark, pixel) in view.pixels.iter().enumerate() {
+        let Some(pixel) = pixel else {
+            pixels.push(None);
+            continue;
+        };
+        let spacing = view.spacing(mark, columns).unwrap_or(10.0);
+        let half_window = ((WINDOW * spacing) as usize).clamp(WINDOWS.0, WINDOWS.1);
+        let options = RefineOptions {
+            half_window,
+            max_iterations: 60,
+            tolerance_px: 1e-4,
+        };
+        let refined = refine_corners(image, &[*pixel], &options)?[0];
+        pixels.push(refined.filter(|refined| (refined - pixel).norm() < 0.25 * spacing));
+    }
+    Ok(BoardView { pixels })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::CalibratedCamera;
+    use super::super::synthetic::{photograph, poses, true_view};
+    use super::*;
+    use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+    use image::Luma;
+    use nalgebra::Point2;
+
+    fn camera(kind: LensKind, focal_px: f64, coefficients: &[f64]) -> CalibratedCamera {
+        CalibratedCamera {
+            intrinsics: Intrinsics::new(focal_px, focal_px, 322.0, 236.0).unwrap(),
+            lens: Lens::from_coefficients(kind, coefficients).unwrap(),
+            width: 640,
+            height: 480,
+        }
+    }
+
+    fn cameras() -> [CalibratedCamera; 3] {
+        [
+            camera(LensKind::Brown, 550.0, &[0.0; 5]),
+            camera(LensKind::Brown, 450.0, &[-0.28, 0.08, 0.001, 0.0, 0.0]),
+            camera(LensKind::Fisheye, 280.0, &[-0.02, 0.005, 0.0, 0.0]),
+        ]
+    }
+
+    /// Largest and root mean square distance from the truth.
+    fn errors(found: &BoardView, truth: &BoardView) -> (f64, f64) {
+        let errors: Vec<f64> = found
+            .seen()
+            .map(|(mark, pixel)| (pixel - truth.pixels[mark].unwrap()).norm())
+            .collect();
+        let sum: f64 = errors.iter().map(|e| e * e).sum();
+        (
+            errors.iter().copied().fold(0.0, f64::max),
+            (sum / errors.len() as f64).sqrt(),
+        )
+    }
+
+    #[test]
+    fn chessboards_are_found_through_every_lens() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let (mut num_found, mut num_poses) = (0, 0);
+        for (number, camera) in cameras().iter().enumerate() {
+            let distance = [19.0, 15.0, 9.5][number];
+            for (seed, pose) in poses(&board, 5, distance, 7).iter().enumerate() {
+                let truth = true_view(&board, camera, pose);
+                let inside =
+                    |p: &Point2<f64>| (12.0..628.0).contains(&p.x) && (12.0..468.0).contains(&p.y);
+                if !truth.pixels.iter().flatten().all(inside) {
+                    continue;
+                }
+                num_poses += 1;
+                let image = photograph(&board, camera, pose, 0.01, seed as u64);
+                let search = find_board(&image, &board).unwrap();
+                let problem = search.problem(&board);
+                let Some(view) = search.view() else {
+                    println!("{number} {seed}: {problem:?}");
+                    continue;
+                };
+                assert!(problem.is_none() && view.num_seen() >= 50);
+                let (largest, rms) = errors(&view, &truth);
+                assert!(
+                    largest < 0.5 && rms < 0.12,
+                    "{number} {seed}: {largest} {rms}"
+                );
+                num_found += 1;
+            }
+        }
+        println!("{num_found} of {num_poses}");
+        assert!(num_poses >= 8 && num_found == num_poses);
+    }
+
+    #[test]
+    fn a_hand_over_a_part_hides_only_that() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let [camera, ..] = cameras();
+        let pose = poses(&board, 1, 17.0, 3)[0];
+        let truth = true_view(&board, &camera, &pose);
+        let mut image = photograph(&board, &camera, &pose, 0.01, 1);
+        // A hand over some eight corners of the interior.
+        let (a, b) = (truth.pixels[12].unwrap(), truth.pixels[33].unwrap());
+        for (u, v, value) in image.enumerate_pixels_mut() {
+            let p = Point2::new(f64::from(u), f64::from(v));
+            if (p - nalgebra::center(&a, &b)).norm() < 0.6 * (b - a).norm() {
+                *value = Luma([0.55]);
+            }
+        }
+        let view = find_board(&image, &board).unwrap().view().unwrap();
+        assert!((30..=50).contains(&view.num_seen()), "{}", view.num_seen());
+        let (largest, rms) = errors(&view, &truth);
+        assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
+    }
+
+    #[test]
+    fn circle_grids_are_found_dark_and_bright() {
+        let board = Board::new(Pattern::AsymmetricCircles, 4, 11, 0.02).unwrap();
+        let (mut num_found, mut num_poses) = (0, 0);
+        for (number, camera) in cameras()[..2].iter().enumerate() {
+            for (seed, pose) in poses(&board, 3, 21.0, 4).iter().enumerate() {
+                let truth = true_view(&board, camera, pose);
+                let inside =
+                    |p: &Point2<f64>| (20.0..620.0).contains(&p.x) && (20.0..460.0).contains(&p.y);
+                if !truth.pixels.iter().flatten().all(inside) {
+                    continue;
+                }
+                num_poses += 1;
+                let dark = photograph(&board, camera, pose, 0.01, seed as u64);
+                let bright =
+                    GrayImage32::from_fn(640, 480, |u, v| Luma([1.0 - dark.get_pixel(u, v).0[0]]));
+                for image in [dark, bright] {
+                    let search = find_board(&image, &board).unwrap();
+                    let problem = search.problem(&board);
+                    let Some(view) = search.view() else {
+                        println!("{number} {seed}: {problem:?}");
+                        continue;
+                    };
+                    assert_eq!(view.num_seen(), 44);
+                    // The center of an ellipse is not the image of the disk's center, by a tenth of a pixel.
+                    let (largest, rms) = errors(&view, &truth);
+                    assert!(
+                        largest < 0.4 && rms < 0.15,
+                        "{number} {seed}: {largest} {rms}"
+                    );
+                    num_found += 1;
+                }
+            }
+        }
+        println!("{num_found} of {}", 2 * num_poses);
+        assert!(num_poses >= 3 && num_found == 2 * num_poses);
+    }
+
+    #[test]
+    fn a_sentence_says_why_there_is_none() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let [camera, ..] = cameras();
+        let pose = poses(&board, 1, 17.0, 3)[0];
+        let told = |pose: &RigidTransform, columns: usize, rows: usize| {
+            let image = photograph(&board, &camera, pose, 0.01, 2);
+            let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
+            let search = find_board(&image, &wanted).unwrap();
+            assert!(!matches!(search, BoardSearch::Found(_)));
+            search.problem(&wanted).unwrap()
+        };
+        let smaller = told(&pose, 8, 6);
+        assert!(
+            smaller.contains("9 × 6") && smaller.contains("another size"),
+            "{smaller}"
+        );
+        let larger = told(&pose, 10, 7);
+        assert!(
+            larger.contains("9 × 6") && larger.contains("10 × 7"),
+            "{larger}"
+        );
+        let half_out = RigidTransform::translation(0.18, 0.0, 0.0) * pose;
+        assert!(told(&half_out, 9, 6).contains("outside of the picture"));
+        let nothing = GrayImage32::from_pixel(200, 100, Luma([0.5]));
+        let search = find_board(&nothing, &board).unwrap();
+        assert!(
+            search
+                .problem(&board)
+                .unwrap()
+                .contains("no board of 9 × 6")
+        );
+        for (width, height) in [(0, 0), (1, 1), (4, 900)] {
+            let search = find_board(&GrayImage32::new(width, height), &board).unwrap();
+            assert_eq!(search, BoardSearch::Nothing);
+        }
+        let nan = GrayImage32::from_pixel(20, 20, Luma([f32::NAN]));
+        assert!(find_board(&nan, &board).is_err());
+        let bytes = GrayImage32::from_pixel(20, 20, Luma([200.0]));
+        assert!(find_board(&bytes, &board).is_err());
+    }
+}

@@ -1,0 +1,326 @@
+//! What the solver sees of a calibration: one camera or two, the board's pose in every view, the pixels.
+
+use crate::camera::moving_pose::PoseState;
+use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+use crate::optim::{
+    BundleProblem, BundleStep, Iteration, LmOptions, LmReport, ObservationTerms, RobustLoss,
+    SchurSystem, minimize,
+};
+use crate::{Error, Result};
+use nalgebra::{Point2, Point3, Vector3};
+use std::ops::ControlFlow;
+
+/// Numbers of a camera: fu, fv, cu, cv and those of its lens.
+pub(super) const OF_CAMERA: usize = 12;
+/// The motion of a rig, and two cameras.
+pub(super) const SHARED: usize = 6 + 2 * OF_CAMERA;
+
+/// A mark of the board is seen at a pixel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Observation {
+    pub(super) view: usize,
+    pub(super) mark: usize,
+    /// 0, or 1 for the second camera of a rig.
+    pub(super) eye: usize,
+    pub(super) pixel: Point2<f64>,
+}
+
+/// Everything that is estimated.
+#[derive(Clone)]
+pub(super) struct State {
+    /// `cam1_from_board` of each view.
+    pub(super) views: Vec<PoseState>,
+    /// `cam2_from_cam1`.
+    pub(super) rig: PoseState,
+    pub(super) cameras: [[f64; OF_CAMERA]; 2],
+}
+
+impl State {
+    pub(super) fn pose(pose: &PoseState) -> RigidTransform {
+        RigidTransform::from_parts(pose.translation.into(), pose.rotation)
+    }
+}
+
+pub(super) fn pose_state(pose: &RigidTransform) -> PoseState {
+    PoseState::new(pose.rotation, pose.translation.vector)
+}
+
+/// The numbers of a camera, as they are estimated.
+pub(super) fn camera_numbers(k: &Intrinsics, lens: &Lens) -> [f64; OF_CAMERA] {
+    let center = k.principal_point();
+    let mut numbers = [0.0; OF_CAMERA];
+    numbers[..4].copy_from_slice(&[k.fu_px(), k.fv_px(), center.x, center.y]);
+    let coefficients = lens.coefficients();
+    numbers[4..4 + coefficients.len()].copy_from_slice(&coefficients);
+    numbers
+}
+
+/// The lens of such numbers.
+pub(super) fn lens_of(kind: LensKind, numbers: &[f64; OF_CAMERA]) -> Lens {
+    Lens::of(kind, core::array::from_fn(|i| numbers[4 + i]))
+}
+
+pub(super) struct Problem {
+    /// Marks in the board's plane, meters.
+    pub(super) marks: Vec<Point3<f64>>,
+    pub(super) observations: Vec<Observation>,
+    pub(super) num_views: usize,
+    pub(super) kinds: [LensKind; 2],
+    /// Which of the rig's motion and of the two cameras are held.
+    pub(super) held: [bool; SHARED],
+    pairs: Vec<(u32, u32)>,
+}
+
+impl Problem {
+    pub(super) fn new(
+        marks: Vec<Point3<f64>>,
+        observations: Vec<Observation>,
+        num_views: usize,
+        kinds: [LensKind; 2],
+        held: [bool; SHARED],
+    ) -> Self {
+        let pairs = observations
+            .iter()
+            .map(|o| (o.view as u32, o.mark as u32))
+            .collect();
+        Self {
+            marks,
+            observations,
+            num_views,
+            kinds,
+            held,
+            pairs,
+        }
+    }
+
+    /// Moves the state to the least sum of squares near it.
+    pub(super) fn minimize(
+        &self,
+        state: &mut State,
+        options: &LmOptions,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<LmReport> {
+        minimize(&mut SchurSystem::new(self), state, options, observer)
+    }
+
+    /// The point in the frame of the camera that sees it, and before the rig's motion, turned only and whole.
+    fn place(&self, state: &State, o: &Observation) -> Place {
+        let pose = &state.views[o.view];
+        let turned = pose.rotated(&self.marks[o.mark]);
+        let in_first = turned + pose.translation;
+        if o.eye == 0 {
+            return Place {
+                turned,
+                turned_by_rig: in_first,
+                in_cam: in_first,
+            };
+        }
+        let turned_by_rig = state.rig.rotated(&Point3::from(in_first));
+        Place {
+            turned,
+            turned_by_rig,
+            in_cam: turned_by_rig + state.rig.translation,
+        }
+    }
+
+    /// Root mean square of the distances between pixels and where the marks are predicted, of those that count.
+    pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&Observation) -> bool) -> f64 {
+        let (mut sum, mut count) = (0.0, 0);
+        for (index, o) in self.observations.iter().enumerate() {
+            if counts(o) {
+                let [u, v] = self.residual(state, index);
+                sum += u * u + v * v;
+                count += 1;
+            }
+        }
+        (sum / f64::from(count.max(1))).sqrt()
+    }
+}
+
+struct Place {
+    turned: Vector3<f64>,
+    turned_by_rig: Vector3<f64>,
+    in_cam: Vector3<f64>,
+}
+
+impl BundleProblem<6, SHARED> for Problem {
+    type Parameters = State;
+
+    fn num_cameras(&self) -> usize {
+        self.num_views
+    }
+    fn num_points(&self) -> usize {
+        self.marks.len()
+    }
+    fn observations(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+    fn loss(&self) -> RobustLoss {
+        RobustLoss::Trivial
+    }
+    fn held_shared(&self) -> [bool; SHARED] {
+        self.held
+    }
+    // The board is known.
+    fn held_point(&self, _: usize) -> bool {
+        true
+    }
+
+    fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
+        let o = &self.observations[observation];
+        let numbers = &state.cameras[o.eye];
+        let lens = lens_of(self.kinds[o.eye], numbers);
+        // What the lens does not see has no residual, and the loop does not go there.
+        let Some(seen) = lens.project(&self.place(state, o).in_cam) else {
+            return [f64::NAN; 2];
+        };
+        [
+            numbers[0] * seen.x + numbers[2] - o.pixel.x,
+            numbers[1] * seen.y + numbers[3] - o.pixel.y,
+        ]
+    }
+
+    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, SHARED> {
+        let o = &self.observations[observation];
+        let place = self.place(state, o);
+        let numbers = &state.cameras[o.eye];
+        let lens = lens_of(self.kinds[o.eye], numbers);
+        let mut terms = ObservationTerms {
+            residual: self.residual(state, observation),
+            camera: [[0.0; 6]; 2],
+            shared: [[0.0; SHARED]; 2],
+            point: [[0.0; 3]; 2],
+        };
+        let (by_point, by_lens) = lens.derivatives(&place.in_cam);
+        let seen = lens.project(&place.in_cam).unwrap_or_default();
+        let first = 6 + o.eye * OF_CAMERA;
+        for row in 0..2 {
+            let focal = numbers[row];
+            let shared = &mut terms.shared[row];
+            shared[first + row] = seen[row];
+            shared[first + 2 + row] = 1.0;
+            for (k, slope) in by_lens[row].iter().enumerate() {
+                shared[first + 4 + k] = focal * slope;
+            }
+            let mut by_p: Vector3<f64> = by_point.row(row).transpose() * focal;
+            if o.eye == 1 {
+                let (by_rig, by_first) = state.rig.derivatives(&place.turned_by_rig, &by_p);
+                shared[..6].copy_from_slice(&by_rig);
+                by_p = Vector3::from(by_first);
+            }
+            terms.camera[row] = state.views[o.view].derivatives(&place.turned, &by_p).0;
+        }
+        terms
+    }
+
+    fn step(&self, from: &State, step: &BundleStep<6, SHARED>, into: &mut State) {
+        for ((old, new), d) in from.views.iter().zip(&mut into.views).zip(&step.cameras) {
+            *new = old.moved(*d);
+        }
+        into.rig = from.rig.moved(core::array::from_fn(|i| step.shared[i]));
+        for (eye, camera) in into.cameras.iter_mut().enumerate() {
+            for (i, number) in camera.iter_mut().enumerate() {
+                *number = from.cameras[eye][i] + step.shared[6 + eye * OF_CAMERA + i];
+            }
+        }
+    }
+
+    fn parameter_norm(&self, state: &State) -> f64 {
+        let views: f64 = state
+            .views
+            .iter()
+            .map(|v| 1.0 + v.translation.norm_squared())
+            .sum();
+        let numbers: f64 = state.cameras.iter().flatten().map(|x| x * x).sum();
+        (views + numbers).sqrt()
+    }
+}
+
+/// Options of the loop that are strict enough for the last digits of uncertain numbers.
+pub(super) fn strict(max_iterations: usize) -> LmOptions {
+    LmOptions {
+        max_iterations,
+        cost_tolerance: 1e-12,
+        ..LmOptions::default()
+    }
+}
+
+/// An error where the least squares ran off: a focal length that is no longer positive, or no number.
+pub(super) fn intrinsics_of(numbers: &[f64; OF_CAMERA]) -> Result<Intrinsics> {
+    Intrinsics::new(numbers[0], numbers[1], numbers[2], numbers[3]).map_err(|_| Error::Degenerate {
+        what: "a calibration",
+        why: "the views of the board fit no camera; they are too few, too much alike, or not of this board",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    /// Every derivative against central differences, both eyes, every lens.
+    #[test]
+    fn derivatives_are_differences() {
+        let mut random = Random::new(5);
+        for kind in [LensKind::Brown, LensKind::Rational, LensKind::Fisheye] {
+            let marks: Vec<_> = (0..6)
+                .map(|i| Point3::new(f64::from(i % 3) * 0.1, f64::from(i / 3) * 0.1, 0.0))
+                .collect();
+            let observations = (0..12)
+                .map(|i| Observation {
+                    view: 0,
+                    mark: i / 2,
+                    eye: i % 2,
+                    pixel: Point2::new(300.0, 200.0),
+                })
+                .collect();
+            let problem = Problem::new(marks, observations, 1, [kind; 2], [false; SHARED]);
+            let pose = |random: &mut Random| {
+                pose_state(&RigidTransform::new(
+                    Vector3::new(0.1, -0.1, 1.0),
+                    Vector3::from_fn(|_, _| random.uniform(-0.3, 0.3)),
+                ))
+            };
+            let mut numbers = [0.01; OF_CAMERA];
+            numbers[..4].copy_from_slice(&[500.0, 510.0, 320.0, 240.0]);
+            let state = State {
+                views: vec![pose(&mut random)],
+                rig: pose(&mut random),
+                cameras: [numbers; 2],
+            };
+            for index in 0..12 {
+                let terms = problem.linearize(&state, index);
+                let h = 1e-6;
+                for p in 0..6 + SHARED {
+                    let [up, down] = [h, -h].map(|d| {
+                        let mut step = BundleStep {
+                            cameras: vec![[0.0; 6]],
+                            shared: [0.0; SHARED],
+                            points: vec![],
+                        };
+                        if p < 6 {
+                            step.cameras[0][p] = d;
+                        } else {
+                            step.shared[p - 6] = d;
+                        }
+                        let mut moved = state.clone();
+                        problem.step(&state, &step, &mut moved);
+                        problem.residual(&moved, index)
+                    });
+                    for row in 0..2 {
+                        let analytic = if p < 6 {
+                            terms.camera[row][p]
+                        } else {
+                            terms.shared[row][p - 6]
+                        };
+                        let difference = (up[row] - down[row]) / (2.0 * h);
+                        assert!(
+                            (analytic - difference).abs() < 1e-4,
+                            "{kind:?} {index} {p}: {analytic} {difference}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

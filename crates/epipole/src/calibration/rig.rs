@@ -1,0 +1,209 @@
+//! How two calibrated cameras stand beside each other.
+
+use super::calibrate::{WHAT, check, marks, observations};
+use super::problem::{Problem, SHARED, State, camera_numbers, pose_state, strict};
+use super::start::board_pose;
+use super::uncertainty::standard_deviations;
+use super::{Board, BoardView, CalibratedCamera};
+use crate::camera::RigidTransform;
+use crate::{Error, Result};
+use std::ops::ControlFlow;
+
+/// Two cameras that are bolted together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigCalibration {
+    /// `x_in_right = right_from_left * x_in_left`, meters.
+    pub right_from_left: RigidTransform,
+    /// Distance between the cameras, meters.
+    pub baseline_m: f64,
+    /// Root mean square of the reprojection errors in both cameras, pixels.
+    pub rms_px: f64,
+    /// One standard deviation of the rotation about the axes of the right camera, radians.
+    pub std_dev_rotation_rad: [f64; 3],
+    /// One standard deviation of the translation, meters.
+    pub std_dev_translation_m: [f64; 3],
+    /// For each pair given, the root mean square in both cameras, pixels; `None` where a board was not seen by
+    /// both.
+    pub pairs_rms_px: Vec<Option<f64>>,
+}
+
+/// The motion between two calibrated cameras that minimizes the reprojection errors of a board that both saw at
+/// the same time. The cameras stay as they are.
+///
+/// * `cameras`: left and right, from [`calibrate`](super::calibrate)
+/// * `left`, `right`: views of the same moments, in the same order; `None` where no board was found
+///
+/// # Errors
+/// [`Error::TooFew`] if no board was seen by both, [`Error::SizeMismatch`] for lists of different length, and as
+/// [`calibrate`](super::calibrate).
+///
+/// Source: Bradski & Kaehler 2008, "Learning OpenCV", ch. 12; the start is the motion, of those of single pairs,
+/// that agrees with the others best.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::calibration::{Board, BoardView, CalibratedCamera, Pattern, calibrate_rig};
+/// use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+/// use nalgebra::{Point3, Vector3};
+/// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
+/// let camera = CalibratedCamera {
+///     intrinsics: Intrinsics::centered(600.0, 640, 480)?,
+///     lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5])?,
+///     width: 640,
+///     height: 480,
+/// };
+/// let right_from_left = RigidTransform::new(Vector3::new(-0.1, 0.0, 0.01), Vector3::new(0.0, 0.02, 0.0));
+/// let pose = RigidTransform::new(Vector3::new(-0.05, -0.06, 0.5), Vector3::new(0.4, 0.1, 0.0));
+/// let see = |pose: RigidTransform| {
+///     let pixel = |mark| {
+///         let p = board.mark(mark);
+///         camera.project(&(pose * Point3::new(p.x, p.y, 0.0))).ok()
+///     };
+///     vec![Some(BoardView { pixels: (0..board.num_marks()).map(pixel).collect() })]
+/// };
+/// let found = calibrate_rig(&board, &[camera, camera], &see(pose), &see(right_from_left * pose))?;
+/// assert!((found.baseline_m - right_from_left.translation.vector.norm()).abs() < 1e-9);
+/// # Ok(()) }
+/// ```
+#[doc(alias = "stereoCalibrate")]
+pub fn calibrate_rig(
+    board: &Board,
+    cameras: &[CalibratedCamera; 2],
+    left: &[Option<BoardView>],
+    right: &[Option<BoardView>],
+) -> Result<RigCalibration> {
+    if left.len() != right.len() {
+        return Err(Error::SizeMismatch {
+            what: "the lists of left and right views",
+            first: left.len(),
+            second: right.len(),
+        });
+    }
+    for (views, camera) in [(left, &cameras[0]), (right, &cameras[1])] {
+        check(board, views, (camera.width, camera.height))?;
+    }
+    let both: Vec<Option<[&BoardView; 2]>> = left
+        .iter()
+        .zip(right)
+        .map(|(left, right)| Some([left.as_ref()?, right.as_ref()?]))
+        .collect();
+    let pairs: Vec<[&BoardView; 2]> = both.iter().flatten().copied().collect();
+    if pairs.is_empty() {
+        return Err(Error::TooFew {
+            what: "a stereo calibration from pairs in which both cameras see the board",
+            needed: 1,
+            got: 0,
+        });
+    }
+    let mut poses = Vec::new();
+    for [in_left, in_right] in &pairs {
+        poses.push([
+            board_pose(board, in_left, &cameras[0])?,
+            board_pose(board, in_right, &cameras[1])?,
+        ]);
+    }
+    let motions: Vec<RigidTransform> = poses.iter().map(|[l, r]| r * l.inverse()).collect();
+    let disagreement = |a: &RigidTransform| -> f64 {
+        let off = |b: &RigidTransform| {
+            a.rotation.angle_to(&b.rotation)
+                + (a.translation.vector - b.translation.vector).norm()
+                    / b.translation.vector.norm().max(f64::MIN_POSITIVE)
+        };
+        motions.iter().map(off).sum()
+    };
+    let start = motions
+        .iter()
+        .min_by(|a, b| disagreement(a).total_cmp(&disagreement(b)))
+        .copied()
+        .unwrap_or_else(RigidTransform::identity);
+    let eyes = [0, 1].map(|eye| pairs.iter().map(|pair| pair[eye]).collect::<Vec<_>>());
+    let mut seen = observations(&eyes[0], 0);
+    seen.extend(observations(&eyes[1], 1));
+    let mut held = [true; SHARED];
+    held[..6].fill(false);
+    let kinds = cameras.each_ref().map(|camera| camera.lens.kind());
+    let problem = Problem::new(marks(board), seen, pairs.len(), kinds, held);
+    let mut state = State {
+        views: poses.iter().map(|[l, _]| pose_state(l)).collect(),
+        rig: pose_state(&start),
+        cameras: cameras
+            .each_ref()
+            .map(|camera| camera_numbers(&camera.intrinsics, &camera.lens)),
+    };
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    problem.minimize(&mut state, &strict(200), &mut go_on)?;
+    let deviations = standard_deviations(&problem, &state).ok_or(Error::Degenerate {
+        what: WHAT,
+        why: "the pairs leave the motion between the cameras open",
+    })?;
+    let right_from_left = State::pose(&state.rig);
+    let mut used = 0..;
+    let pairs_rms_px = both
+        .iter()
+        .map(|pair| {
+            pair.as_ref()?;
+            let place = used.next()?;
+            Some(problem.rms_px(&state, |o| o.view == place))
+        })
+        .collect();
+    Ok(RigCalibration {
+        baseline_m: right_from_left.translation.vector.norm(),
+        right_from_left,
+        rms_px: problem.rms_px(&state, |_| true),
+        std_dev_rotation_rad: core::array::from_fn(|i| deviations[i]),
+        std_dev_translation_m: core::array::from_fn(|i| deviations[3 + i]),
+        pairs_rms_px,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Pattern;
+    use super::super::synthetic::{poses, true_view};
+    use super::*;
+    use crate::camera::{Intrinsics, Lens, LensKind};
+    use nalgebra::{Point2, Vector3};
+
+    #[test]
+    fn two_different_cameras_find_each_other() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let camera = |kind, focal: f64, k: &[f64]| CalibratedCamera {
+            intrinsics: Intrinsics::new(focal, focal, 320.0, 240.0).unwrap(),
+            lens: Lens::from_coefficients(kind, k).unwrap(),
+            width: 640,
+            height: 480,
+        };
+        let cameras = [
+            camera(LensKind::Brown, 540.0, &[-0.2, 0.02, 0.0, 0.001, 0.0]),
+            camera(LensKind::Fisheye, 300.0, &[-0.02, 0.004, 0.0, 0.0]),
+        ];
+        let truth = RigidTransform::new(
+            Vector3::new(-0.1, 0.02, 0.015),
+            Vector3::new(0.03, -0.1, 0.4),
+        );
+        let see = |camera: &CalibratedCamera, pose: RigidTransform| {
+            Some(true_view(&board, camera, &pose))
+        };
+        let poses = poses(&board, 5, 15.0, 2);
+        let mut left: Vec<_> = poses.iter().map(|p| see(&cameras[0], *p)).collect();
+        let mut right: Vec<_> = poses.iter().map(|p| see(&cameras[1], truth * p)).collect();
+        left[1] = None;
+        // Something hides a part from the right camera.
+        right[3].as_mut().unwrap().pixels[10..30].fill(None);
+        let found = calibrate_rig(&board, &cameras, &left, &right).unwrap();
+        assert!(found.rms_px < 1e-6);
+        let off = found.right_from_left.inverse() * truth;
+        assert!(off.rotation.angle() < 1e-7 && off.translation.vector.norm() < 1e-8);
+        assert_eq!(found.pairs_rms_px.iter().flatten().count(), 4);
+        assert!(found.pairs_rms_px[1].is_none());
+        right[0] = None;
+        right[2..].fill(None);
+        let error = calibrate_rig(&board, &cameras, &left, &right).unwrap_err();
+        assert!(matches!(error, Error::TooFew { .. }));
+        assert!(calibrate_rig(&board, &cameras, &left, &right[..3]).is_err());
+        let bad = BoardView {
+            pixels: vec![Some(Point2::new(f64::INFINITY, 0.0)); 54],
+        };
+        assert!(calibrate_rig(&board, &cameras, &[Some(bad.clone())], &[Some(bad)]).is_err());
+    }
+}

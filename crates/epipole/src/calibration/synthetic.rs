@@ -1,0 +1,116 @@
+//! Photographs of boards, with exact truth, for the tests of this room.
+
+use super::{Board, BoardView, CalibratedCamera, Pattern};
+use crate::camera::RigidTransform;
+use crate::imaging::GrayImage32;
+use crate::math::random::Random;
+use nalgebra::{Point2, Point3, Vector3};
+
+/// Samples along each side of a pixel.
+const SAMPLES: usize = 3;
+const BLACK: f32 = 0.12;
+const WHITE: f32 = 0.85;
+const TABLE: f32 = 0.45;
+
+/// The gray of a place on the board, whose margin is 1.2 squares wide.
+fn gray(board: &Board, x: f64, y: f64) -> f32 {
+    let (x, y) = (x / board.square_m(), y / board.square_m());
+    let across = match board.pattern() {
+        Pattern::Chessboard => board.columns(),
+        Pattern::AsymmetricCircles => 2 * board.columns(),
+    } as f64;
+    let down = board.rows() as f64;
+    if x < -2.2 || y < -2.2 || x > across + 1.2 || y > down + 1.2 {
+        return TABLE;
+    }
+    match board.pattern() {
+        Pattern::Chessboard => {
+            let on_squares = x > -1.0 && y > -1.0 && x < across && y < down;
+            let even = (x.floor() + y.floor()).rem_euclid(2.0) == 0.0;
+            if on_squares && even { BLACK } else { WHITE }
+        }
+        Pattern::AsymmetricCircles => {
+            let (i, j) = (x.round(), y.round());
+            let is_mark = i >= 0.0
+                && j >= 0.0
+                && i < across
+                && j < down
+                && (i + j).rem_euclid(2.0) == 0.0
+                && libm::hypot(x - i, y - j) < 0.45;
+            if is_mark { BLACK } else { WHITE }
+        }
+    }
+}
+
+/// A photograph of the board, each pixel the mean over its area, with noise.
+pub(crate) fn photograph(
+    board: &Board,
+    camera: &CalibratedCamera,
+    cam_from_board: &RigidTransform,
+    noise: f64,
+    seed: u64,
+) -> GrayImage32 {
+    let mut random = Random::new(seed);
+    let board_from_cam = cam_from_board.inverse();
+    let origin = board_from_cam * Point3::origin();
+    GrayImage32::from_fn(camera.width, camera.height, |u, v| {
+        let mut sum = 0.0;
+        for k in 0..SAMPLES * SAMPLES {
+            let offset = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
+            let pixel = Point2::new(
+                f64::from(u) + offset(k % SAMPLES),
+                f64::from(v) + offset(k / SAMPLES),
+            );
+            let value = camera.ray(&pixel).ok().and_then(|ray| {
+                let ray: Vector3<f64> = board_from_cam.rotation * ray;
+                let depth = -origin.z / ray.z;
+                (depth > 0.0)
+                    .then(|| gray(board, origin.x + depth * ray.x, origin.y + depth * ray.y))
+            });
+            sum += value.unwrap_or(TABLE);
+        }
+        let mean = sum / (SAMPLES * SAMPLES) as f32;
+        image::Luma([(mean + (noise * random.normal()) as f32).clamp(0.0, 1.0)])
+    })
+}
+
+/// Where the marks are seen.
+pub(crate) fn true_view(
+    board: &Board,
+    camera: &CalibratedCamera,
+    cam_from_board: &RigidTransform,
+) -> BoardView {
+    let pixel = |mark| {
+        let p = board.mark(mark);
+        camera
+            .project(&(cam_from_board * Point3::new(p.x, p.y, 0.0)))
+            .ok()
+    };
+    BoardView {
+        pixels: (0..board.num_marks()).map(pixel).collect(),
+    }
+}
+
+/// Poses that show the board from all sides, at so many squares' distance.
+pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Vec<RigidTransform> {
+    let mut random = Random::new(seed);
+    let last = board.mark(board.num_marks() - 1);
+    let middle = Vector3::new(last.x / 2.0, last.y / 2.0, 0.0);
+    (0..count)
+        .map(|_| {
+            let turn = Vector3::new(
+                random.uniform(-0.55, 0.55),
+                random.uniform(-0.55, 0.55),
+                random.uniform(-0.4, 0.4),
+            );
+            let rotation = nalgebra::UnitQuaternion::from_scaled_axis(turn);
+            let far = distance * board.square_m();
+            let at = Vector3::new(
+                random.uniform(-0.12, 0.12) * far,
+                random.uniform(-0.08, 0.08) * far,
+                far * random.uniform(0.9, 1.3),
+            );
+            RigidTransform::from_parts((at - rotation * middle).into(), rotation)
+        })
+        .collect()
+}

@@ -1,0 +1,222 @@
+//! Photographs redrawn as a camera without distortion shows them.
+
+use super::CalibratedCamera;
+use crate::camera::Intrinsics;
+use crate::stereo::{PixelMap, PixelRect, border_outline};
+use crate::{Error, Result};
+use nalgebra::{Point2, Vector2, Vector3};
+
+/// What an undistorted photograph keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Keep {
+    /// Only what was photographed: no black borders; something at the edges is lost.
+    #[default]
+    Valid,
+    /// All that was photographed, with black where nothing was.
+    All,
+}
+
+/// The best camera without distortion for the photographs of a camera, and how to get there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Undistortion {
+    /// K of the new camera. Pixels are square, as large as the size of the photograph allows.
+    pub intrinsics: Intrinsics,
+    /// The part of the result in which every pixel was photographed.
+    pub valid: PixelRect,
+    /// For every pixel of the result, where it is read.
+    pub map: PixelMap,
+}
+
+/// Rays farther than this from the axis, in degrees, are left out of a flat picture: at 80° it is 5.7 times as
+/// large as the lens is long, and soon it would be infinite.
+const WIDEST_DEG: f64 = 80.0;
+
+impl Undistortion {
+    /// The camera of the same picture size that shows as much as asked for, as large as possible.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the lens model
+    /// bends no ray to a pixel on the border, so that what is valid cannot be said, or if a fisheye sees too far sideways
+    /// to keep all of it in a flat picture: then keep what is valid.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
+    /// use epipole::camera::{Intrinsics, Lens, LensKind};
+    /// let camera = CalibratedCamera {
+    ///     intrinsics: Intrinsics::centered(500.0, 641, 481)?,
+    ///     lens: Lens::from_coefficients(LensKind::Brown, &[-0.2, 0.0, 0.0, 0.0, 0.0])?,
+    ///     width: 641,
+    ///     height: 481,
+    /// };
+    /// let flat = Undistortion::new(&camera, Keep::Valid)?;
+    /// // The middle stays where it is, and everything else is read further in.
+    /// assert!((flat.map.source(320, 240).unwrap() - nalgebra::Point2::new(320.0, 240.0)).norm() < 1e-3);
+    /// assert!(flat.map.source(0, 0).is_some());
+    /// # Ok(()) }
+    /// ```
+    #[doc(alias = "getOptimalNewCameraMatrix")]
+    #[doc(alias = "initUndistortRectifyMap")]
+    pub fn new(camera: &CalibratedCamera, keep: Keep) -> Result<Self> {
+        let (width, height) = (camera.width, camera.height);
+        if width < 2 || height < 2 {
+            return Err(Error::OutOfRange {
+                what: "the photograph's shorter side in pixels",
+                requirement: "at least 2",
+                value: f64::from(width.min(height)),
+            });
+        }
+        let widest = libm::tan(WIDEST_DEG.to_radians());
+        let covered = border_outline(width, height, |u, v| {
+            let ray = camera.ray(&Point2::new(u, v))?;
+            // As far out as a flat picture goes, in the direction of the ray.
+            let across = ray.xy().norm();
+            if across <= widest * ray.z {
+                return Ok(ray.xy() / ray.z);
+            }
+            match keep {
+                Keep::Valid => Ok(ray.xy() * (widest / across)),
+                Keep::All => Err(Error::Degenerate {
+                    what: "an undistorted photograph",
+                    why: "the lens sees more than 80° to a side, and no flat picture can keep that; keep what is \
+                          valid instead",
+                }),
+            }
+        })?;
+        let shown = match keep {
+            Keep::Valid => &covered.inner,
+            Keep::All => &covered.outer,
+        };
+        let (span_u, span_v) = (shown.u_max - shown.u_min, shown.v_max - shown.v_min);
+        let (last_u, last_v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
+        if !(span_u > 0.0 && span_v > 0.0) {
+            return Err(Error::Degenerate {
+                what: "an undistorted photograph",
+                why: "the lens model folds inside of the picture",
+            });
+        }
+        let zooms = [last_u / span_u, last_v / span_v];
+        let focal_px = match keep {
+            Keep::Valid => zooms[0].max(zooms[1]),
+            Keep::All => zooms[0].min(zooms[1]),
+        };
+        let center = Vector2::new(
+            last_u / 2.0 - focal_px * (shown.u_min + shown.u_max) / 2.0,
+            last_v / 2.0 - focal_px * (shown.v_min + shown.v_max) / 2.0,
+        );
+        let intrinsics = Intrinsics::new(focal_px, focal_px, center.x, center.y)?;
+        let valid = covered.inner.scaled(focal_px, &center);
+        Ok(Self {
+            intrinsics,
+            valid: PixelRect {
+                u_min: valid.u_min.max(0.0),
+                v_min: valid.v_min.max(0.0),
+                u_max: valid.u_max.min(last_u),
+                v_max: valid.v_max.min(last_v),
+            },
+            map: PixelMap::from_fn(width, height, |u, v| {
+                let ray: Vector3<f64> = intrinsics.ray(&Point2::new(f64::from(u), f64::from(v)));
+                let seen = camera
+                    .lens
+                    .is_seen(&ray)
+                    .then(|| camera.project(&ray.into()));
+                seen.and_then(Result::ok)
+            }),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Lens, LensKind};
+
+    fn camera(kind: LensKind, coefficients: &[f64]) -> CalibratedCamera {
+        CalibratedCamera {
+            intrinsics: Intrinsics::new(458.654, 457.296, 367.215, 248.375).unwrap(),
+            lens: Lens::from_coefficients(kind, coefficients).unwrap(),
+            width: 752,
+            height: 480,
+        }
+    }
+
+    fn lenses() -> [CalibratedCamera; 3] {
+        [
+            camera(LensKind::Brown, &[-0.2834, 0.074, 0.0002, 1.8e-5, 0.0]),
+            camera(
+                LensKind::Rational,
+                &[0.3, 0.02, 0.0, 0.001, 0.0, 0.6, 0.1, 0.0],
+            ),
+            camera(LensKind::Fisheye, &[-0.02, 0.008, -0.004, 6e-4]),
+        ]
+    }
+
+    #[test]
+    fn valid_is_full_and_all_keeps_every_corner() {
+        for camera in lenses() {
+            let valid = Undistortion::new(&camera, Keep::Valid).unwrap();
+            let mask = valid.map.mask(752, 480);
+            let black = mask.as_raw().iter().filter(|v| **v == 0).count();
+            assert!(black < 40, "{black}");
+            let all = Undistortion::new(&camera, Keep::All).unwrap();
+            assert!(all.intrinsics.fu_px() < valid.intrinsics.fu_px());
+            for (u, v) in [
+                (0.0, 0.0),
+                (751.0, 0.0),
+                (0.0, 479.0),
+                (751.0, 479.0),
+                (376.0, 0.0),
+            ] {
+                let ray = camera.ray(&Point2::new(u, v)).unwrap();
+                let pixel = all.intrinsics.project(&ray.into()).unwrap();
+                let inside = (-0.5..=751.5).contains(&pixel.x) && (-0.5..=479.5).contains(&pixel.y);
+                assert!(inside, "{pixel}");
+            }
+            let middle = |a: f64, b: f64| (0.5 * (a + b)) as u32;
+            let (u, v) = (
+                middle(all.valid.u_min, all.valid.u_max),
+                middle(all.valid.v_min, all.valid.v_max),
+            );
+            assert!(all.map.source(u, v).is_some());
+            for (u, v) in [
+                (all.valid.u_min.ceil() as u32 + 1, v),
+                (u, all.valid.v_max as u32 - 1),
+            ] {
+                assert!(all.map.source(u, v).is_some());
+            }
+        }
+    }
+
+    /// `cv2.initUndistortRectifyMap` of OpenCV 5.0, for the same new camera.
+    #[test]
+    fn the_map_is_that_of_another_implementation() {
+        let [brown, ..] = lenses();
+        let k = Intrinsics::new(400.0, 400.0, 370.0, 250.0).unwrap();
+        for (u, v, source) in REFERENCE {
+            let ray = k.ray(&Point2::new(u, v));
+            let pixel = brown.project(&ray.into()).unwrap();
+            assert!((pixel - Point2::from(source)).norm() < 1e-3, "{pixel}");
+        }
+    }
+
+    const REFERENCE: [(f64, f64, [f64; 2]); 2] = [
+        (20.0, 30.0, [53.603397, 51.923534]),
+        (700.0, 400.0, [676.4973, 388.61365]),
+    ];
+
+    #[test]
+    fn what_cannot_be_flat_is_refused() {
+        let mut wide = camera(LensKind::Fisheye, &[0.0; 4]);
+        wide.intrinsics = Intrinsics::new(200.0, 200.0, 376.0, 240.0).unwrap();
+        assert!(Undistortion::new(&wide, Keep::All).is_err());
+        assert!(Undistortion::new(&wide, Keep::Valid).is_ok());
+        // Folds at a third of the focal length.
+        let folded = camera(LensKind::Brown, &[-3.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!(matches!(
+            Undistortion::new(&folded, Keep::Valid),
+            Err(Error::Degenerate { .. })
+        ));
+        let tiny = CalibratedCamera { width: 1, ..wide };
+        assert!(Undistortion::new(&tiny, Keep::Valid).is_err());
+    }
+}

@@ -1,0 +1,258 @@
+//! One lens, whichever model describes it.
+
+use super::{Distortion, Fisheye, RationalDistortion};
+use crate::{Error, Result};
+use nalgebra::{Matrix2x3, Point2, Vector3};
+
+/// The models of lenses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LensKind {
+    /// Five numbers, for usual lenses: [`Distortion`].
+    #[default]
+    Brown,
+    /// Eight numbers, for wide angles: [`RationalDistortion`].
+    Rational,
+    /// Four numbers, for views of 120° and more: [`Fisheye`].
+    Fisheye,
+}
+
+impl LensKind {
+    /// How many numbers the model has.
+    pub fn num_coefficients(self) -> usize {
+        match self {
+            Self::Brown => 5,
+            Self::Rational => 8,
+            Self::Fisheye => 4,
+        }
+    }
+}
+
+/// What a lens does to rays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lens {
+    /// Five numbers, for usual lenses.
+    Brown(Distortion),
+    /// Eight numbers, for wide angles.
+    Rational(RationalDistortion),
+    /// Four numbers, for views of 120° and more.
+    Fisheye(Fisheye),
+}
+
+/// As many coefficients as any model has.
+pub(crate) const MAX_COEFFICIENTS: usize = 8;
+
+impl Lens {
+    /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6 (rational); k1 to
+    /// k4 (fisheye).
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for another number of coefficients, [`Error::NotFinite`] for NaN and infinities.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::{Lens, LensKind};
+    /// let lens = Lens::from_coefficients(LensKind::Fisheye, &[0.01, 0.0, 0.0, 0.0])?;
+    /// assert_eq!(lens.coefficients(), [0.01, 0.0, 0.0, 0.0]);
+    /// # Ok(()) }
+    /// ```
+    pub fn from_coefficients(kind: LensKind, coefficients: &[f64]) -> Result<Self> {
+        if coefficients.len() != kind.num_coefficients() {
+            return Err(Error::SizeMismatch {
+                what: "the lens model and its list of coefficients",
+                first: kind.num_coefficients(),
+                second: coefficients.len(),
+            });
+        }
+        if coefficients.iter().any(|k| !k.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "every coefficient of the lens distortion",
+            });
+        }
+        let mut all = [0.0; MAX_COEFFICIENTS];
+        all[..coefficients.len()].copy_from_slice(coefficients);
+        Ok(Self::of(kind, all))
+    }
+
+    /// From the first of these numbers, however many the model has.
+    pub(crate) fn of(kind: LensKind, k: [f64; MAX_COEFFICIENTS]) -> Self {
+        let brown = Distortion {
+            k1: k[0],
+            k2: k[1],
+            p1: k[2],
+            p2: k[3],
+            k3: k[4],
+        };
+        match kind {
+            LensKind::Brown => Self::Brown(brown),
+            LensKind::Rational => Self::Rational(RationalDistortion {
+                numerator: brown,
+                denominator: [k[5], k[6], k[7]],
+            }),
+            LensKind::Fisheye => Self::Fisheye(Fisheye {
+                coefficients: [k[0], k[1], k[2], k[3]],
+            }),
+        }
+    }
+
+    /// Which model it is.
+    pub fn kind(&self) -> LensKind {
+        match self {
+            Self::Brown(_) => LensKind::Brown,
+            Self::Rational(_) => LensKind::Rational,
+            Self::Fisheye(_) => LensKind::Fisheye,
+        }
+    }
+
+    /// Its numbers, in OpenCV's order.
+    pub fn coefficients(&self) -> Vec<f64> {
+        let brown = |d: &Distortion| vec![d.k1, d.k2, d.p1, d.p2, d.k3];
+        match self {
+            Self::Brown(d) => brown(d),
+            Self::Rational(r) => [brown(&r.numerator), r.denominator.to_vec()].concat(),
+            Self::Fisheye(f) => f.coefficients.to_vec(),
+        }
+    }
+
+    /// Where a point of the camera frame is seen, in units of the focal length. `None` for what the lens does
+    /// not see: points behind the camera, except through a fisheye.
+    ///
+    /// ```
+    /// use epipole::camera::{Distortion, Lens};
+    /// use nalgebra::{Point2, Vector3};
+    /// let lens = Lens::Brown(Distortion::NONE);
+    /// assert_eq!(lens.project(&Vector3::new(1.0, 2.0, 4.0)), Some(Point2::new(0.25, 0.5)));
+    /// assert_eq!(lens.project(&Vector3::new(1.0, 2.0, -4.0)), None);
+    /// ```
+    pub fn project(&self, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
+        let flat = || (x_in_cam.z > 0.0).then(|| Point2::from(x_in_cam.xy() / x_in_cam.z));
+        let seen = match self {
+            Self::Brown(d) => d.distort(&flat()?),
+            Self::Rational(r) => r.distort(&flat()?),
+            Self::Fisheye(f) => f.project(x_in_cam)?,
+        };
+        (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
+    }
+
+    /// The ray that is seen at a place, in the camera frame, of any length.
+    ///
+    /// # Errors
+    /// As [`Distortion::undistort`], [`RationalDistortion::undistort`] and [`Fisheye::ray`].
+    pub fn ray(&self, seen: &Point2<f64>) -> Result<Vector3<f64>> {
+        let at_one = |ray: Point2<f64>| Vector3::new(ray.x, ray.y, 1.0);
+        match self {
+            Self::Brown(d) => d.undistort(seen).map(at_one),
+            Self::Rational(r) => r.undistort(seen).map(at_one),
+            Self::Fisheye(f) => f.ray(seen),
+        }
+    }
+
+    /// Whether the lens sees a ray inside of where its model folds.
+    pub fn is_seen(&self, x_in_cam: &Vector3<f64>) -> bool {
+        let flat = Point2::from(x_in_cam.xy() / x_in_cam.z);
+        match self {
+            Self::Brown(d) => x_in_cam.z > 0.0 && d.is_seen(&flat),
+            Self::Rational(r) => x_in_cam.z > 0.0 && flat.coords.norm_squared() < r.fold_sq(),
+            Self::Fisheye(f) => f.sees(x_in_cam),
+        }
+    }
+
+    /// The derivatives of [`project`](Self::project) by the point and by the coefficients, those that the
+    /// model lacks 0.
+    pub(crate) fn derivatives(
+        &self,
+        x_in_cam: &Vector3<f64>,
+    ) -> (Matrix2x3<f64>, [[f64; MAX_COEFFICIENTS]; 2]) {
+        let rational = match self {
+            Self::Brown(numerator) => RationalDistortion {
+                numerator: *numerator,
+                denominator: [0.0; 3],
+            },
+            Self::Rational(rational) => *rational,
+            Self::Fisheye(fisheye) => {
+                let (by_point, by_four) = fisheye.derivatives(x_in_cam);
+                let mut by_all = [[0.0; MAX_COEFFICIENTS]; 2];
+                for (all, four) in by_all.iter_mut().zip(by_four) {
+                    all[..4].copy_from_slice(&four);
+                }
+                return (by_point, by_all);
+            }
+        };
+        let z = x_in_cam.z;
+        let flat = Point2::from(x_in_cam.xy() / z);
+        let bend = rational.jacobian(&flat);
+        let flatten = Matrix2x3::new(1.0, 0.0, -flat.x, 0.0, 1.0, -flat.y) / z;
+        let mut by_coefficients = rational.by_coefficients(&flat);
+        if self.kind() == LensKind::Brown {
+            for row in &mut by_coefficients {
+                row[5..].fill(0.0);
+            }
+        }
+        (bend * flatten, by_coefficients)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    fn lenses() -> [Lens; 3] {
+        [
+            Lens::of(
+                LensKind::Brown,
+                [-0.3, 0.1, 0.002, -0.001, -0.01, 0.0, 0.0, 0.0],
+            ),
+            Lens::of(
+                LensKind::Rational,
+                [0.4, -0.1, 0.002, -0.001, 0.01, 0.6, 0.05, 0.01],
+            ),
+            Lens::of(
+                LensKind::Fisheye,
+                [-0.02, 0.008, -0.004, 6e-4, 0.0, 0.0, 0.0, 0.0],
+            ),
+        ]
+    }
+
+    #[test]
+    fn derivatives_are_differences() {
+        let mut random = Random::new(3);
+        for lens in lenses() {
+            let kind = lens.kind();
+            let numbers = lens.coefficients();
+            assert_eq!(Lens::from_coefficients(kind, &numbers).unwrap(), lens);
+            for _ in 0..30 {
+                let x = Vector3::from_fn(|_, _| random.uniform(-1.0, 1.0)) + 2.0 * Vector3::z();
+                let (by_point, by_k) = lens.derivatives(&x);
+                let h = 1e-6;
+                for axis in 0..3 {
+                    let mut step = Vector3::zeros();
+                    step[axis] = h;
+                    let [up, down] = [x + step, x - step].map(|x| lens.project(&x).unwrap());
+                    assert!((by_point.column(axis) - (up - down) / (2.0 * h)).norm() < 1e-8);
+                }
+                for k in 0..kind.num_coefficients() {
+                    let [up, down] = [h, -h].map(|d| {
+                        let mut moved = numbers.clone();
+                        moved[k] += d;
+                        Lens::from_coefficients(kind, &moved)
+                            .unwrap()
+                            .project(&x)
+                            .unwrap()
+                    });
+                    let slope = (up - down) / (2.0 * h);
+                    assert!((slope.x - by_k[0][k]).abs() + (slope.y - by_k[1][k]).abs() < 1e-8);
+                }
+                let ray = lens.ray(&lens.project(&x).unwrap()).unwrap();
+                assert!(ray.normalize().cross(&x.normalize()).norm() < 1e-9);
+                assert!(lens.is_seen(&x));
+            }
+            assert!(!lens.is_seen(&-Vector3::z()));
+        }
+    }
+
+    #[test]
+    fn bad_numbers_are_refused() {
+        assert!(Lens::from_coefficients(LensKind::Brown, &[0.0; 4]).is_err());
+        assert!(Lens::from_coefficients(LensKind::Fisheye, &[f64::NAN; 4]).is_err());
+    }
+}

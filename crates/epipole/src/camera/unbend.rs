@@ -1,0 +1,92 @@
+//! From the place where a ray is seen back to the ray, for any lens that bends rays smoothly.
+
+use nalgebra::{Matrix2, Point2};
+
+/// Steps after which undistortion gives up; five are usual.
+const MAX_STEPS: usize = 50;
+/// The residual at which it stops, in units of the focal length: 1e-9 px or better.
+pub(super) const RESIDUAL: f64 = 1e-13;
+
+/// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do not
+/// help, or lead to the fold, are halved.
+///
+/// * `fold_sq`: the squared radius that rays stay inside of
+/// * `distort`, `jacobian`: where a ray is seen, and the derivative of that
+pub(super) fn descend(
+    seen: &Point2<f64>,
+    start: Point2<f64>,
+    fold_sq: f64,
+    distort: impl Fn(&Point2<f64>) -> Point2<f64>,
+    jacobian: impl Fn(&Point2<f64>) -> Matrix2<f64>,
+) -> (Point2<f64>, f64) {
+    let mut ray = start;
+    let mut error = (distort(&ray) - seen).norm();
+    let tolerance = RESIDUAL * (1.0 + seen.coords.norm());
+    for _ in 0..MAX_STEPS {
+        if error <= tolerance {
+            break;
+        }
+        let Some(inverse) = jacobian(&ray).try_inverse() else {
+            break;
+        };
+        let step = inverse * (distort(&ray) - seen);
+        let mut scale = 1.0;
+        let better = loop {
+            let candidate = ray - step * scale;
+            let candidate_error = (distort(&candidate) - seen).norm();
+            if candidate_error < error && candidate.coords.norm_squared() < fold_sq {
+                break Some((candidate, candidate_error));
+            }
+            scale *= 0.5;
+            if scale < 1e-6 {
+                break None;
+            }
+        };
+        match better {
+            Some((candidate, candidate_error)) => (ray, error) = (candidate, candidate_error),
+            None => break,
+        }
+    }
+    (ray, error)
+}
+
+/// The ray inside the fold that the radial terms alone would show at a place, or next to the fold.
+///
+/// * `bent`: the radius at which a ray of a given radius is seen
+pub(super) fn radial_start(
+    seen: &Point2<f64>,
+    fold_sq: f64,
+    bent: impl Fn(f64) -> f64,
+) -> Point2<f64> {
+    let radius = seen.coords.norm();
+    // Just inside, so that a step from there is possible.
+    let mut high = if fold_sq.is_finite() {
+        fold_sq.sqrt() * (1.0 - 1e-9)
+    } else {
+        // Without a fold it grows at least as fast as a straight line, in the end.
+        let mut high = radius.max(f64::MIN_POSITIVE);
+        for _ in 0..100 {
+            if bent(high) >= radius {
+                break;
+            }
+            high *= 2.0;
+        }
+        high
+    };
+    let mut low = 0.0;
+    if bent(high) > radius {
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if bent(middle) < radius {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+    if radius > 0.0 {
+        Point2::from(seen.coords * (high / radius))
+    } else {
+        *seen
+    }
+}

@@ -1,0 +1,272 @@
+//! Why photographs are missing from a reconstruction.
+
+use super::builder::undistorted;
+use super::incremental::{SfmInput, SfmOptions, SfmResult, check};
+use super::two_view_start::{pair_ransac, verify_pair};
+use crate::Result;
+
+/// Why a photograph is in no reconstruction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WhyUnregistered {
+    /// The picture is blurred, flat or very small.
+    #[error("it has only {num_keypoints} features, and {needed} are needed")]
+    FewFeatures {
+        /// Features found.
+        num_keypoints: usize,
+        /// The fewest that could do.
+        needed: usize,
+    },
+    /// No other picture looks like it.
+    #[error("no other photograph has more than {most} matches with it, and {needed} are needed")]
+    FewMatches {
+        /// With the photograph that has most.
+        most: usize,
+        /// The fewest that could do.
+        needed: usize,
+    },
+    /// Things look alike, but are not the same, or too few of them are.
+    #[error(
+        "its matches with other photographs agree on no motion of the camera: the pictures may show different things that look alike"
+    )]
+    NoMotion,
+    /// It could have begun a reconstruction, but the cameras stood at one place.
+    #[error(
+        "it was taken from nearly the same place as the photographs that match it, so that nothing can be said about depth"
+    )]
+    NoBaseline,
+    /// It matches photographs that are placed, but hardly where these have points.
+    #[error("it sees {visible} of the reconstructed points, and {needed} are needed")]
+    FewPoints {
+        /// Points that it sees.
+        visible: usize,
+        /// The fewest that could do.
+        needed: usize,
+    },
+    /// It sees points enough, and no pose explains them.
+    #[error(
+        "no place of the camera explains what it sees of the {visible} points: its focal length or the matches may be wrong"
+    )]
+    NoPose {
+        /// Points that it sees.
+        visible: usize,
+    },
+    /// The work was ended before its turn came.
+    #[error("the work was ended before it was tried")]
+    Canceled,
+}
+
+/// Median angle between the rays of a pair below which it cannot begin a reconstruction, radians.
+const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
+
+/// For each of [`SfmResult::unregistered`], in its order, why it is in no reconstruction.
+///
+/// * `input`, `options`: what [`reconstruct`](super::reconstruct) was given
+/// * `result`: what it answered
+///
+/// The pairs of these photographs are tested once more, so this takes a moment for each.
+///
+/// # Errors
+/// As [`reconstruct`](super::reconstruct).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::sfm::{SfmImage, SfmInput, SfmOptions, reconstruct, why_unregistered};
+/// // Two photographs without a feature.
+/// let input = SfmInput {
+///     images: vec![SfmImage::default(); 2],
+///     intrinsics: vec![Intrinsics::centered(500.0, 640, 480)?],
+///     pairs: vec![],
+/// };
+/// let options = SfmOptions::default();
+/// let result = reconstruct(&input, &options, &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// let why = why_unregistered(&input, &options, &result)?;
+/// assert_eq!(why[1].to_string(), "it has only 0 features, and 15 are needed");
+/// # Ok(()) }
+/// ```
+pub fn why_unregistered(
+    input: &SfmInput,
+    options: &SfmOptions,
+    result: &SfmResult,
+) -> Result<Vec<WhyUnregistered>> {
+    let intrinsics = check(input, options)?;
+    let pixels = undistorted(&input.images, &intrinsics, options.distortion);
+    let ransac = pair_ransac(options);
+    let needed = options.min_num_inliers;
+    // Which keypoints of placed photographs belong to points.
+    let mut has_point: Vec<Vec<bool>> = input
+        .images
+        .iter()
+        .map(|image| vec![false; image.keypoints.len()])
+        .collect();
+    for element in result
+        .components
+        .iter()
+        .flat_map(|component| &component.points)
+        .flat_map(|point| &point.track)
+    {
+        has_point[element.image as usize][element.keypoint as usize] = true;
+    }
+    let why = |&image: &usize| {
+        let num_keypoints = input.images[image].keypoints.len();
+        if num_keypoints < needed {
+            return WhyUnregistered::FewFeatures {
+                num_keypoints,
+                needed,
+            };
+        }
+        let with: Vec<_> = input
+            .pairs
+            .iter()
+            .filter(|pair| pair.image1 == image || pair.image2 == image)
+            .collect();
+        if with.is_empty() && result.canceled {
+            return WhyUnregistered::Canceled;
+        }
+        let most = with
+            .iter()
+            .map(|pair| pair.matches.len())
+            .max()
+            .unwrap_or(0);
+        if most < needed {
+            return WhyUnregistered::FewMatches { most, needed };
+        }
+        let verified: Vec<_> = with
+            .iter()
+            .filter_map(|pair| {
+                let (a, b) = (pair.image1, pair.image2);
+                verify_pair(
+                    pair,
+                    [&pixels[a], &pixels[b]],
+                    [&intrinsics[a], &intrinsics[b]],
+                    &ransac,
+                    needed,
+                )
+            })
+            .collect();
+        if verified.is_empty() {
+            return WhyUnregistered::NoMotion;
+        }
+        let mut sees = vec![false; num_keypoints];
+        let mut has_placed_neighbor = false;
+        for pair in verified.iter().map(|verified| &verified.pair) {
+            for &(i, j) in &pair.matches {
+                let (mine, other, there) = if pair.image1 == image {
+                    (i, pair.image2, j)
+                } else {
+                    (j, pair.image1, i)
+                };
+                let is_point = has_point[other][there as usize];
+                sees[mine as usize] |= is_point;
+                has_placed_neighbor |= is_point;
+            }
+        }
+        let visible = sees.iter().filter(|sees| **sees).count();
+        let has_baseline = verified
+            .iter()
+            .any(|verified| verified.median_angle_rad > LEAST_START_ANGLE_RAD);
+        if result.canceled {
+            WhyUnregistered::Canceled
+        } else if !has_placed_neighbor && !has_baseline {
+            WhyUnregistered::NoBaseline
+        } else if visible < needed {
+            WhyUnregistered::FewPoints { visible, needed }
+        } else {
+            WhyUnregistered::NoPose { visible }
+        }
+    };
+    Ok(result.unregistered.iter().map(why).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::incremental::reconstruct;
+    use super::super::reconstruction::SfmImage;
+    use super::super::tracks::PairMatches;
+    use super::*;
+    use crate::camera::{Intrinsics, RigidTransform};
+    use crate::math::random::Random;
+    use nalgebra::{Point2, Point3, Vector3};
+    use std::ops::ControlFlow;
+
+    /// Three cameras in a row that see everything, and others that do not.
+    #[test]
+    fn each_missing_photograph_has_its_reason() {
+        let mut random = Random::new(1);
+        let k = Intrinsics::centered(600.0, 640, 480).unwrap();
+        let points: Vec<Point3<f64>> = (0..80)
+            .map(|_| {
+                Point3::new(
+                    random.uniform(-1.0, 1.0),
+                    random.uniform(-0.8, 0.8),
+                    random.uniform(3.0, 6.0),
+                )
+            })
+            .collect();
+        let see = |pose: &RigidTransform| -> Vec<Point2<f64>> {
+            points
+                .iter()
+                .map(|x| k.project(&(pose * x)).unwrap())
+                .collect()
+        };
+        let at = |x: f64| RigidTransform::new(Vector3::new(x, 0.0, 0.1 * x), Vector3::zeros());
+        let mut keypoints: Vec<Vec<Point2<f64>>> =
+            [0.0, -0.6, -1.2].iter().map(|x| see(&at(*x))).collect();
+        // 3: nothing in it. 4: looks like nothing else. 5: matches at random. 6: sees 10 of the points.
+        keypoints.push(Vec::new());
+        let mut anywhere = |count: usize| -> Vec<Point2<f64>> {
+            (0..count)
+                .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
+                .collect()
+        };
+        keypoints.push(anywhere(80));
+        keypoints.push(anywhere(80));
+        keypoints.push(see(&at(-0.3)));
+        let all: Vec<(u32, u32)> = (0..80).map(|i| (i, i)).collect();
+        let pair = |image1, image2, matches: &[(u32, u32)]| PairMatches {
+            image1,
+            image2,
+            matches: matches.to_vec(),
+        };
+        let input = SfmInput {
+            images: keypoints
+                .into_iter()
+                .map(|keypoints| SfmImage {
+                    keypoints,
+                    width: 640,
+                    height: 480,
+                    ..SfmImage::default()
+                })
+                .collect(),
+            intrinsics: vec![k],
+            pairs: vec![
+                pair(0, 1, &all),
+                pair(0, 2, &all),
+                pair(1, 2, &all),
+                pair(0, 4, &all[..7]),
+                pair(0, 5, &all[..40]),
+                pair(0, 6, &all[..10]),
+                pair(1, 6, &all[..10]),
+            ],
+        };
+        let options = SfmOptions::default();
+        let mut go_on = |_: &_| ControlFlow::Continue(());
+        let result = reconstruct(&input, &options, &mut go_on).unwrap();
+        assert_eq!(result.unregistered, [3, 4, 5, 6]);
+        let why = why_unregistered(&input, &options, &result).unwrap();
+        let needed = 15;
+        assert_eq!(
+            why,
+            [
+                WhyUnregistered::FewFeatures {
+                    num_keypoints: 0,
+                    needed
+                },
+                WhyUnregistered::FewMatches { most: 7, needed },
+                WhyUnregistered::NoMotion,
+                WhyUnregistered::FewMatches { most: 10, needed },
+            ]
+        );
+    }
+}

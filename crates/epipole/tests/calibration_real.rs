@@ -1,0 +1,88 @@
+//! Calibration on photographs of a chessboard by a stereo rig.
+
+#![cfg(feature = "decode")]
+
+use epipole::calibration::{
+    Board, BoardView, CalibrationOptions, Pattern, calibrate, calibrate_rig, find_board,
+};
+use epipole::camera::LensKind;
+use epipole::imaging::{DecodeOptions, decode_gray};
+use std::path::PathBuf;
+
+/// OpenCV 4.14 on the same photographs, corners by its own search: `findChessboardCorners`, `cornerSubPix` 11 × 11,
+/// `calibrateCamera` and `stereoCalibrate` with fixed intrinsics.
+const OPENCV: [f64; 3] = [0.408, 0.458, 0.447];
+
+#[test]
+fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
+    let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
+        PathBuf::from,
+    );
+    let folder = root.join("calib/opencv_chessboard");
+    if !folder.is_dir() {
+        println!("skipped: no data at {}", folder.display());
+        return;
+    }
+    let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).expect("a board");
+    let views = |side: &str| -> Vec<Option<BoardView>> {
+        (1..=14)
+            .filter(|number| *number != 10)
+            .map(|number| {
+                let bytes = std::fs::read(folder.join(format!("{side}{number:02}.jpg")))
+                    .expect("a photograph");
+                let gray = decode_gray(&bytes, &DecodeOptions::default()).expect("an image");
+                let search = find_board(&gray.image, &board).expect("a search");
+                println!("{side}{number}: {:?}", search.problem(&board));
+                search.view()
+            })
+            .collect()
+    };
+    let sides = [views("left"), views("right")];
+    for views in &sides {
+        assert_eq!(views.iter().flatten().count(), 13);
+    }
+    let options = CalibrationOptions::default();
+    let found = sides
+        .each_ref()
+        .map(|views| calibrate(&board, views, (640, 480), &options).expect("a calibration"));
+    let rig = calibrate_rig(
+        &board,
+        &found.each_ref().map(|calibration| calibration.camera),
+        &sides[0],
+        &sides[1],
+    )
+    .expect("a rig");
+    for calibration in &found {
+        println!("{calibration:#?}");
+    }
+    println!("{rig:?}");
+    let marks: usize = sides
+        .iter()
+        .flatten()
+        .flatten()
+        .map(BoardView::num_seen)
+        .sum();
+    println!("{marks} of {} marks", 26 * 54);
+    assert!(marks >= 26 * 54 - 10);
+    for (ours, theirs) in [found[0].rms_px, found[1].rms_px, rig.rms_px]
+        .iter()
+        .zip(OPENCV)
+    {
+        assert!(*ours <= theirs + 0.002, "{ours} {theirs}");
+    }
+    assert!(
+        (rig.baseline_m - 0.0836).abs() < 0.0002,
+        "{}",
+        rig.baseline_m
+    );
+    for kind in [LensKind::Rational, LensKind::Fisheye] {
+        let options = CalibrationOptions {
+            lens: kind,
+            ..options
+        };
+        let other = calibrate(&board, &sides[0], (640, 480), &options).expect("a calibration");
+        println!("{kind:?}: {} px", other.rms_px);
+        assert!(other.rms_px < 1.1 * found[0].rms_px);
+    }
+}
