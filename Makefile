@@ -6,7 +6,7 @@ PYTHON := $(VENV)/bin/python
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -18,6 +18,9 @@ serve: setup-build ## builds the book, serves it at http://localhost:$(PORT), re
 
 build: setup-build ## builds the static site in target/book/
 	$(BOOK) build
+
+lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
+	$(BOOK) lab
 
 test: setup check test-rust test-listings test-browser ## runs every test
 
@@ -37,6 +40,7 @@ test-listings: setup-test ## the Python listings and the notebooks of the chapte
 
 test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
+	$(BOOK) lab
 	cd tests/browser && npm test --silent
 
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
