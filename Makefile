@@ -10,7 +10,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build test check test-rust test-listings test-browser test-engines test-hosts monkey python bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-engines test-hosts monkey python bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -22,6 +22,9 @@ serve: setup-build ## builds the book, serves it at http://localhost:$(PORT), re
 
 build: setup-build ## builds the static site in target/book/
 	$(BOOK) build
+
+lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
+	$(BOOK) lab
 
 test: setup check test-rust test-listings test-browser ## runs every test
 
@@ -41,6 +44,7 @@ test-listings: setup-test ## the Python listings and the notebooks of the chapte
 
 test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
+	$(BOOK) lab
 	cd tests/browser && npm test --silent
 
 test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits

@@ -2,9 +2,12 @@
 //! carries a hash of the content; `embed/epipole.js` is the one stable name, for other sites.
 
 mod fonts;
+mod lab;
 mod scripts;
 mod wasm;
 
+pub(crate) use lab::FOLDER as LAB_FOLDER;
+pub use lab::make as make_lab;
 pub(crate) use wasm::Modules;
 
 use crate::page::Page;

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
+use epipole_book::assets::make_lab;
 use epipole_book::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
@@ -40,6 +41,12 @@ enum Command {
         #[arg(long)]
         no_watch: bool,
     },
+    /// Make the Lab, in the folder lab/ of the site.
+    Lab {
+        /// Where the site is; target/book if not given.
+        #[arg(long)]
+        out: Option<PathBuf>,
+    },
     /// Look for mistakes in the content only: no scripts, no fonts, nothing written.
     Check,
     /// Write the notebooks of the chapters only.
@@ -75,6 +82,17 @@ fn run(cli: &Cli) -> Result<bool> {
                 check: false,
                 notebooks: None,
             })
+        }
+        Command::Lab { out: chosen } => {
+            let start = Instant::now();
+            let out = chosen.clone().unwrap_or(out);
+            let files = make_lab(&project, &out)?;
+            let seconds = start.elapsed().as_secs_f64();
+            println!(
+                "the Lab, {files} files in {}/lab ({seconds:.1} s)",
+                out.display()
+            );
+            Ok(true)
         }
         Command::Check => once(&Options {
             project,

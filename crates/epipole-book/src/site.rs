@@ -1,6 +1,6 @@
 //! The whole site: chapters through mdBook's loader, pages through our renderer, files to disk.
 
-use crate::assets::{self, Assets};
+use crate::assets::{self, Assets, LAB_FOLDER};
 use crate::compress;
 use crate::figures::Gallery;
 use crate::frames;
@@ -479,6 +479,12 @@ fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {
                 .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         }
         std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    // The Lab takes minutes to build, and a chapter's words seconds.
+    let (lab, kept) = (out.join(LAB_FOLDER), next.join(LAB_FOLDER));
+    if lab.is_dir() && !kept.exists() {
+        std::fs::rename(&lab, &kept)
+            .with_context(|| format!("cannot keep the Lab at {}", lab.display()))?;
     }
     remove(out)?;
     std::fs::rename(&next, out).with_context(|| format!("cannot put the site at {}", out.display()))

@@ -174,6 +174,17 @@ fn a_tiny_chapter_as_html() {
 }
 
 #[test]
+fn the_lab_stays_where_it_is_when_the_book_is_built_again() {
+    let book = Book::of_chapter("# A title\n\nWords.\n");
+    book.must_build();
+    book.write("target/book/lab/index.html", "the Lab");
+    book.write("target/book/old.html", "an old page");
+    book.must_build();
+    assert_eq!(book.page("lab/index.html"), "the Lab");
+    assert!(!book.out().join("old.html").exists());
+}
+
+#[test]
 fn a_number_has_a_minus_sign_in_text_and_stands_in_formulas() {
     let value = "{{#value camera.project-u f=500 cu=0 x=-1 z=2 digits=0}}";
     let book = Book::of_chapter(&format!("# One\n\n{value} and $u = {value}$.\n"));

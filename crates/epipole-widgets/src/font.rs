@@ -3,8 +3,6 @@
 use std::sync::OnceLock;
 use ttf_parser::{GlyphId, OutlineBuilder, RawFace, Tag, cmap, glyf, head, hhea, hmtx, loca, maxp};
 
-static FONT: &[u8] = include_bytes!("../assets/EpipoleFigureSans.ttf");
-
 /// Height of a capital letter of size 1.
 pub(crate) const CAP_HEIGHT: f64 = 0.698;
 
@@ -19,7 +17,7 @@ struct Font {
 
 impl Font {
     fn parse() -> Option<Self> {
-        let file = RawFace::parse(FONT, 0).ok()?;
+        let file = RawFace::parse(crate::FONT, 0).ok()?;
         let table = |name| file.table(Tag::from_bytes(name));
         let head = head::Table::parse(table(b"head")?)?;
         let hhea = hhea::Table::parse(table(b"hhea")?)?;

@@ -1,6 +1,6 @@
 //! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
 
-use super::wasm::Modules;
+use super::wasm::{Module, Modules};
 use super::{Assets, Tools, add_hashed, fonts, read};
 use anyhow::{Context, Result};
 use serde::Deserialize;
@@ -93,6 +93,39 @@ pub(super) fn add_elements(
     let styles = bundle(tools, "web/theme/frame.css", &[], fast, assets)?;
     assets.frame_css = styles.get("frame").cloned().unwrap_or_default();
     Ok(())
+}
+
+/// The page of the Lab and its workers: style sheet and script.
+pub(super) fn add_lab(
+    tools: &Tools,
+    (page, worker): (&Module, &Module),
+    assets: &mut Assets,
+) -> Result<(String, String)> {
+    let mut add =
+        |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
+    let page_wasm = add("lab-page", &page.wasm);
+    let worker_wasm = add("lab-worker", &worker.wasm);
+    let define = |name: &str, path: &str| {
+        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
+    };
+    let mut flags = vec![
+        "--format=esm".to_owned(),
+        format!("--alias:epipole-lab-page={}", page.glue.display()),
+        format!("--alias:epipole-lab-worker={}", worker.glue.display()),
+        define("LAB_PAGE_WASM", &page_wasm),
+        define("LAB_WORKER_WASM", &worker_wasm),
+    ];
+    let made = bundle(tools, "web/lab/worker.ts", &borrowed(&flags), false, assets)?;
+    let worker = made.get("worker").context("esbuild made no worker.js")?;
+    flags.push(define("LAB_WORKER", worker));
+    let made = bundle(tools, "web/lab/lab.ts", &borrowed(&flags), false, assets)?;
+    let script = made.get("lab").cloned().context("esbuild made no lab.js")?;
+    let made = bundle(tools, "web/lab/lab.css", &[], false, assets)?;
+    let css = made
+        .get("lab")
+        .cloned()
+        .context("esbuild made no lab.css")?;
+    Ok((css, script))
 }
 
 /// The style sheet that a figure's shadow root names while no script has run.

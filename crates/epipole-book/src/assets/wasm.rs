@@ -37,13 +37,18 @@ pub(crate) struct Modules {
     pub(super) jobs: Module,
 }
 
-/// Builds the modules. `fast` leaves out wasm-opt.
+/// Builds one module: a package with one of its features. `fast` leaves out wasm-opt.
+pub(super) fn one(tools: &Tools, package: &str, feature: &str, fast: bool) -> Result<Module> {
+    optimize(tools, build(tools, package, feature)?, fast)
+}
+
+/// Builds the modules of the book. `fast` leaves out wasm-opt.
 pub(super) fn make(tools: &Tools, fast: bool) -> Result<Modules> {
-    let figures = build(tools, "figures")?;
+    let figures = build(tools, "epipole-web", "figures")?;
     std::thread::scope(|scope| {
         // Binaryen takes as long as cargo, so one works while the other does.
         let figures = scope.spawn(|| optimize(tools, figures, fast));
-        let jobs = optimize(tools, build(tools, "jobs")?, fast)?;
+        let jobs = optimize(tools, build(tools, "epipole-web", "jobs")?, fast)?;
         let figures = figures.join();
         Ok(Modules {
             figures: figures.map_err(|_| anyhow::anyhow!("wasm-opt could not be run"))??,
@@ -60,11 +65,11 @@ struct Bound {
     glue: PathBuf,
 }
 
-/// Builds the crate with one of its features.
-fn build(tools: &Tools, feature: &str) -> Result<Bound> {
+/// Builds a package with one of its features.
+fn build(tools: &Tools, package: &str, feature: &str) -> Result<Bound> {
     let target = super::target_folder(&tools.project);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["build", "--package", "epipole-web", "--lib"])
+        .args(["build", "--package", package, "--lib"])
         .args(["--no-default-features", "--features", feature])
         .args([
             "--target",
@@ -79,14 +84,21 @@ fn build(tools: &Tools, feature: &str) -> Result<Bound> {
         .context("cargo cannot be started")?;
     anyhow::ensure!(
         status.success(),
-        "the figures do not build for the browser (is the target there? \
+        "{package} does not build for the browser (is the target there? \
          `rustup target add wasm32-unknown-unknown`)"
     );
-    let built = target.join("wasm32-unknown-unknown/web/epipole_web.wasm");
+    let file = format!(
+        "wasm32-unknown-unknown/web/{}.wasm",
+        package.replace('-', "_")
+    );
+    let built = target.join(file);
     let raw = read(&built)?;
     let key = fnv(&raw);
     let folder = tools.work.join("bindgen");
-    let name = format!("epipole_{feature}");
+    let name = match package {
+        "epipole-web" => format!("epipole_{feature}"),
+        other => format!("{}_{feature}", other.replace('-', "_")),
+    };
     Bindgen::new()
         .input_path(&built)
         .out_name(&name)

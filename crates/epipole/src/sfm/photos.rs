@@ -5,7 +5,7 @@ use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
-    Descriptors, Match, MatchOptions, SiftNormalization, SiftOptions, detect_sift,
+    Descriptors, Keypoint, Match, MatchOptions, SiftNormalization, SiftOptions, detect_sift,
     match_descriptors,
 };
 use crate::imaging::{gray_to_f32, rgb_to_gray};
@@ -59,6 +59,8 @@ pub struct PhotoFeatures {
     pub image: SfmImage,
     /// What the keypoints look like, in the same order.
     pub descriptors: Descriptors,
+    /// The keypoints once more, with their scales and directions.
+    pub keypoints: Vec<Keypoint>,
 }
 
 /// Keypoints and descriptors of a photograph.
@@ -90,6 +92,7 @@ pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeat
     Ok(PhotoFeatures {
         image,
         descriptors: features.descriptors,
+        keypoints: features.keypoints,
     })
 }
 

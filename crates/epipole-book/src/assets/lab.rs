@@ -1,0 +1,48 @@
+//! The Lab: a folder of the site with a page, its module, and that of its workers.
+
+use super::{Assets, Tools, add_hashed, read, scripts, wasm};
+use crate::compress;
+use crate::template::CONTENT_SECURITY_POLICY;
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// The folder of the Lab below that of the site.
+pub(crate) const FOLDER: &str = "lab";
+
+/// Makes the Lab in the folder of the site. Returns how many files it has.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub fn make(project: &Path, site: &Path) -> Result<usize> {
+    let tools = Tools::find(project)?;
+    let page = wasm::one(&tools, "epipole-lab", "page", false)?;
+    let worker = wasm::one(&tools, "epipole-lab", "worker", false)?;
+    let mut assets = Assets::default();
+    let (css, script) = scripts::add_lab(&tools, (&page, &worker), &mut assets)?;
+    let icon = read(&tools.project.join("web/theme/icon.svg"))?;
+    let icon = add_hashed(&mut assets.files, "icon", "svg", icon);
+    let html = String::from_utf8(read(&tools.project.join("web/lab/index.html"))?)?
+        .replace("{{policy}}", CONTENT_SECURITY_POLICY)
+        .replace("{{icon}}", &icon)
+        .replace("{{css}}", &css)
+        .replace("{{script}}", &script);
+    assets
+        .files
+        .insert("index.html".to_owned(), html.into_bytes());
+    compress::add(&mut assets.files, false)?;
+    let folder = site.join(FOLDER);
+    let next = site.join("lab.next");
+    for old in [&next, &folder] {
+        if old.exists() {
+            std::fs::remove_dir_all(old)?;
+        }
+    }
+    for (path, bytes) in &assets.files {
+        let path = next.join(path);
+        std::fs::create_dir_all(path.parent().unwrap_or(&next))?;
+        std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    std::fs::rename(&next, &folder)
+        .with_context(|| format!("cannot put the Lab at {}", folder.display()))?;
+    Ok(assets.files.len())
+}

@@ -1,0 +1,152 @@
+//! Zip files: how they are written, and projects, which are read again.
+
+use crate::project::{Saved, VERSION};
+use crate::tasks::{Blob, Packed, Source};
+use std::io::{Cursor, Read, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+/// The settings in the archive of a project.
+const PROJECT: &str = "project.json";
+/// The folder of its photographs.
+const PHOTOGRAPHS: &str = "photographs/";
+const DAMAGED: &str = "this file is no project of the Lab, or it is damaged";
+/// What a project may unpack to.
+const MAX_BYTES: u64 = 2_000_000_000;
+
+/// A zip file in memory.
+pub(super) struct Archive(ZipWriter<Cursor<Vec<u8>>>);
+
+impl Archive {
+    pub(super) fn new() -> Self {
+        Self(ZipWriter::new(Cursor::new(Vec::new())))
+    }
+
+    /// Adds a file; photographs are compressed already, so they are stored.
+    pub(super) fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
+        let is_packed = [".jpg", ".jpeg", ".png", ".webp"]
+            .iter()
+            .any(|end| name.to_lowercase().ends_with(end));
+        let method = match is_packed {
+            true => CompressionMethod::Stored,
+            false => CompressionMethod::Deflated,
+        };
+        let options = SimpleFileOptions::default().compression_method(method);
+        let sentence = |why: String| format!("{name} could not be written: {why}");
+        self.0
+            .start_file(name, options)
+            .map_err(|error| sentence(error.to_string()))?;
+        self.0
+            .write_all(bytes)
+            .map_err(|error| sentence(error.to_string()))
+    }
+
+    pub(super) fn finish(self) -> Result<Vec<u8>, String> {
+        let written = self.0.finish().map_err(|error| error.to_string())?;
+        Ok(written.into_inner())
+    }
+}
+
+/// Photographs as they were given, and settings.
+///
+/// # Errors
+/// A sentence, if a file cannot be written.
+pub(crate) fn save(photographs: &[Packed], project: &Saved) -> Result<Vec<u8>, String> {
+    let mut archive = Archive::new();
+    let text = serde_json::to_string_pretty(project).map_err(|error| error.to_string())?;
+    archive.add(PROJECT, text.as_bytes())?;
+    for photograph in photographs {
+        // Samples are rendered again.
+        if let Source::File(bytes) = &photograph.source {
+            archive.add(&format!("{PHOTOGRAPHS}{}", photograph.name), bytes)?;
+        }
+    }
+    archive.finish()
+}
+
+/// The settings and photographs of a project.
+///
+/// # Errors
+/// A sentence, if the file is no project or is damaged.
+pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>), String> {
+    let damaged = DAMAGED;
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged)?;
+    let mut project = None;
+    let mut files = Vec::new();
+    let mut total = 0_u64;
+    for index in 0..archive.len() {
+        let entry = archive.by_index(index).map_err(|_| damaged)?;
+        total = total.saturating_add(entry.size());
+        if total > MAX_BYTES {
+            return Err("this project is too large to open here".to_owned());
+        }
+        let name = entry.name().to_owned();
+        let mut content = Vec::new();
+        // The size in the header is a promise that the file need not keep.
+        entry
+            .take(MAX_BYTES)
+            .read_to_end(&mut content)
+            .map_err(|_| damaged)?;
+        if name == PROJECT {
+            project = Some(read(&content)?);
+        } else if let Some(name) = name.strip_prefix(PHOTOGRAPHS)
+            && !name.is_empty()
+        {
+            files.push((name.to_owned(), content.into()));
+        }
+    }
+    Ok((project.ok_or(damaged)?, files))
+}
+
+/// The settings, if they are of a version that is known here.
+fn read(text: &[u8]) -> Result<Saved, String> {
+    #[derive(serde::Deserialize)]
+    struct Head {
+        version: u32,
+    }
+    let head: Head = serde_json::from_slice(text).map_err(|_| DAMAGED)?;
+    if head.version > VERSION {
+        return Err("this project was saved by a newer Lab: reload the page to get it".to_owned());
+    }
+    serde_json::from_slice(text).map_err(|_| DAMAGED.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    fn project() -> Saved {
+        Saved {
+            version: VERSION,
+            ..Saved::default()
+        }
+    }
+
+    #[test]
+    fn a_project_comes_back() {
+        let photographs = [Packed {
+            name: "a.jpg".to_owned(),
+            source: Source::File(vec![1, 2, 3].into()),
+            used: None,
+        }];
+        let bytes = save(&photographs, &project()).unwrap();
+        let (read, files) = open(&bytes).unwrap();
+        assert_eq!(read, project());
+        assert_eq!(files, [("a.jpg".to_owned(), Blob::from(vec![1, 2, 3]))]);
+        for end in [0, 10, bytes.len() - 5] {
+            assert!(open(&bytes[..end]).is_err());
+        }
+    }
+
+    #[test]
+    fn a_newer_project_is_refused_in_words() {
+        let newer = Saved {
+            version: VERSION + 1,
+            ..Saved::default()
+        };
+        let refused = open(&save(&[], &newer).unwrap()).unwrap_err();
+        assert!(refused.contains("newer"), "{refused}");
+    }
+}

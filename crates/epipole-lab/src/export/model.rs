@@ -1,0 +1,120 @@
+//! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
+
+use super::archive::Archive;
+use super::summary;
+use crate::tasks::{
+    FeatureOptions, ImagePoints, MatchOptions, Packed, Photograph, Reconstructed, SfmOptions,
+    Source, core_reconstruction, sfm_images, to_image,
+};
+use epipole::sfm::Reconstruction;
+use image::codecs::jpeg::JpegEncoder;
+use image::{DynamicImage, ImageFormat};
+use std::collections::BTreeSet;
+use std::io::Cursor;
+
+/// What is to be exported.
+pub(crate) struct Order<'a> {
+    pub(crate) images: &'a [ImagePoints],
+    pub(crate) photographs: &'a [Packed],
+    pub(crate) found: &'a Reconstructed,
+    pub(crate) component: usize,
+    pub(crate) meters_per_unit: Option<f64>,
+    pub(crate) options: SfmOptions,
+    pub(crate) features: FeatureOptions,
+    pub(crate) matching: MatchOptions,
+}
+
+/// The zip file of a reconstruction.
+///
+/// # Errors
+/// A sentence, if there is none, or a file cannot be written.
+pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
+    let found = (order.found.components)
+        .get(order.component)
+        .ok_or("there is no reconstruction to export")?;
+    check_indices(order)?;
+    let mut archive = Archive::new();
+    let mut images = sfm_images(order.images);
+    let mut written = BTreeSet::new();
+    for (photograph, image) in order.photographs.iter().zip(&mut images) {
+        let (name, bytes) = picture(photograph)?;
+        if !written.insert(name.clone()) {
+            return Err(format!("two photographs are called {name}"));
+        }
+        archive.add(&format!("images/{name}"), &bytes)?;
+        image.name = name;
+    }
+    let mut model = core_reconstruction(found)?;
+    if let Some(meters) = order.meters_per_unit {
+        scale(&mut model, meters);
+    }
+    let text = model.to_colmap(&images);
+    archive.add("sparse/0/cameras.txt", text.cameras.as_bytes())?;
+    archive.add("sparse/0/images.txt", text.images.as_bytes())?;
+    archive.add("sparse/0/points3D.txt", text.points.as_bytes())?;
+    archive.add("points.ply", &model.to_ply())?;
+    let json = summary::json(order, &images, &model);
+    archive.add("reconstruction.json", json.as_bytes())?;
+    archive.add("README.txt", summary::readme(order).as_bytes())?;
+    archive.finish()
+}
+
+/// Tracks that refer to nothing would be a fault of whoever asked.
+fn check_indices(order: &Order<'_>) -> Result<(), String> {
+    let is_there = |&(image, keypoint): &(u32, u32)| {
+        (order.images.get(image as usize))
+            .is_some_and(|image| (keypoint as usize) < image.points.len())
+    };
+    let mut components = order.found.components.iter();
+    let whole = components.all(|component| {
+        let mut points = component.points.iter();
+        component.cameras.len() == order.images.len()
+            && points.all(|point| point.track.iter().all(is_there))
+    });
+    match whole && order.photographs.len() == order.images.len() {
+        true => Ok(()),
+        false => Err("the reconstruction and its photographs do not belong together".to_owned()),
+    }
+}
+
+/// Multiplies all lengths.
+fn scale(model: &mut Reconstruction, factor: f64) {
+    for point in &mut model.points {
+        point.position.coords *= factor;
+    }
+    for camera in model.cameras.iter_mut().flatten() {
+        camera.cam_from_world.translation.vector *= factor;
+    }
+}
+
+/// The file of a photograph as it was reconstructed, and its name.
+fn picture(photograph: &Packed) -> Result<(String, Vec<u8>), String> {
+    let used = photograph.used.as_ref();
+    let used = used.ok_or_else(|| format!("{} has no pixels", photograph.name))?;
+    match &photograph.source {
+        Source::File(bytes) if used.as_given => Ok((photograph.name.clone(), bytes.to_vec())),
+        Source::File(_) => Ok((renamed(&photograph.name, "jpg"), jpeg(used)?)),
+        Source::Rendered(..) => Ok((photograph.name.clone(), png(used)?)),
+    }
+}
+
+fn renamed(name: &str, extension: &str) -> String {
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    format!("{stem}.{extension}")
+}
+
+fn jpeg(photograph: &Photograph) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, 95)
+        .encode_image(&to_image(photograph)?)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+fn png(photograph: &Photograph) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    DynamicImage::from(to_image(photograph)?)
+        .write_to(&mut bytes, ImageFormat::Png)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}

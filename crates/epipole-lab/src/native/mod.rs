@@ -1,0 +1,156 @@
+//! A window, and threads that compute. Files are given as arguments or dropped, and written to the
+//! folder where the program was started.
+
+use epipole_lab::panels::{App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::tasks::compute;
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, OnceLock};
+
+/// Opens the window.
+///
+/// # Errors
+/// If there is no display, or no OpenGL.
+pub(crate) fn run(files: Vec<PathBuf>) -> eframe::Result {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Epipole Lab")
+            .with_inner_size([1280.0, 800.0]),
+        ..eframe::NativeOptions::default()
+    };
+    let create = Box::new(move |creation: &eframe::CreationContext<'_>| {
+        prepare(&creation.egui_ctx);
+        let window = Window::new(creation.egui_ctx.clone(), read(&files));
+        Ok(Box::new(Frames(App::new(window))) as Box<dyn eframe::App>)
+    });
+    eframe::run_native("epipole-lab", options, create)
+}
+
+/// What is wrong with a file shows where the photograph would.
+fn read(paths: &[PathBuf]) -> Vec<Arrival> {
+    let mut arrivals = Vec::new();
+    let mut photographs = Vec::new();
+    for path in paths {
+        let bytes = std::fs::read(path).unwrap_or_default();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.to_lowercase().ends_with(".zip") {
+            arrivals.push(Arrival::Project(bytes.into()));
+        } else {
+            photographs.push((name.into_owned(), bytes.into()));
+        }
+    }
+    if !photographs.is_empty() {
+        arrivals.push(Arrival::Photographs(photographs));
+    }
+    arrivals
+}
+
+struct Window {
+    context: egui::Context,
+    sender: Sender<Report>,
+    receiver: Receiver<Report>,
+    canceled: HashMap<WorkId, Arc<AtomicBool>>,
+    arrivals: Vec<Arrival>,
+}
+
+impl Window {
+    fn new(context: egui::Context, arrivals: Vec<Arrival>) -> Self {
+        let (sender, receiver) = channel();
+        Self {
+            context,
+            sender,
+            receiver,
+            canceled: HashMap::new(),
+            arrivals,
+        }
+    }
+}
+
+impl Host for Window {
+    fn capacity(&self) -> usize {
+        static COUNT: OnceLock<usize> = OnceLock::new();
+        *COUNT.get_or_init(|| std::thread::available_parallelism().map_or(2, usize::from))
+    }
+
+    fn start(&mut self, work: WorkId, request: Vec<u8>) {
+        let stop = Arc::new(AtomicBool::new(false));
+        self.canceled.insert(work, Arc::clone(&stop));
+        let (sender, context) = (self.sender.clone(), self.context.clone());
+        std::thread::spawn(move || {
+            // The window may be gone by now.
+            let tell = |report| drop(sender.send(report));
+            let result = compute(&request, &mut |share, words| {
+                tell(Report::Progress(work, share, words.to_owned()));
+                context.request_repaint();
+                match stop.load(Ordering::Relaxed) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            });
+            tell(Report::Done(work, result));
+            context.request_repaint();
+        });
+    }
+
+    fn cancel(&mut self, work: WorkId) {
+        if let Some(stop) = self.canceled.remove(&work) {
+            stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn reports(&mut self) -> Vec<Report> {
+        let reports: Vec<Report> = self.receiver.try_iter().collect();
+        for report in &reports {
+            if let Report::Done(work, _) = report {
+                self.canceled.remove(work);
+            }
+        }
+        reports
+    }
+
+    fn arrivals(&mut self) -> Vec<Arrival> {
+        std::mem::take(&mut self.arrivals)
+    }
+
+    fn ask_for_photographs(&mut self) -> bool {
+        false
+    }
+
+    fn ask_for_project(&mut self) -> bool {
+        false
+    }
+
+    fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
+        let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "zip"));
+        let mut path = PathBuf::from(name);
+        let mut number = 2;
+        // Nothing is written over.
+        while path.exists() {
+            path = PathBuf::from(format!("{stem}-{number}.{ending}"));
+            number += 1;
+        }
+        match std::fs::write(&path, bytes) {
+            Ok(()) => Ok(format!("{} is saved.", path.display())),
+            Err(error) => Err(format!("{} could not be written: {error}", path.display())),
+        }
+    }
+
+    fn say(&mut self, _words: &str) {
+        // The toolkit tells assistive technology itself.
+    }
+}
+
+struct Frames(App<Window>);
+
+impl eframe::App for Frames {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let dropped = ui.input(|input| input.raw.dropped_files.clone());
+        let paths: Vec<PathBuf> = dropped.into_iter().filter_map(|file| file.path).collect();
+        self.0.host().arrivals.extend(read(&paths));
+        self.0.go_on();
+        self.0.ui(ui);
+    }
+}

@@ -1,0 +1,275 @@
+//! Cameras and points in space: turned, moved, enlarged by mouse, fingers and keys.
+
+use super::look;
+use super::marks::{frustum, rays};
+use crate::project::{Key, Project};
+use crate::tasks::Component;
+use egui::{
+    ColorImage, Key as KeyName, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2,
+};
+use epipole_widgets::cloud::{Frame, Look, Orbit, Scene};
+use epipole_widgets::theme::{Role, Theme};
+
+/// What the color of a point says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Coloring {
+    /// The photographs.
+    #[default]
+    Photographs,
+    /// Its reprojection error.
+    Error,
+    /// In how many photographs it is seen.
+    Track,
+}
+
+/// What the scene was made of.
+#[derive(Clone, PartialEq)]
+struct Made {
+    key: Key,
+    component: usize,
+    coloring: Coloring,
+    theme: Theme,
+}
+
+/// The view of a reconstruction, kept between frames.
+#[derive(Default)]
+pub(super) struct CloudView {
+    pub(super) coloring: Coloring,
+    /// The point that was clicked.
+    pub(super) point: Option<usize>,
+    made: Option<Made>,
+    orbit: Option<Orbit>,
+    scene: Scene,
+    num_fixed_lines: usize,
+    frame: Frame,
+    texture: Option<TextureHandle>,
+    drawn: Option<(Orbit, (usize, usize), Option<usize>, bool)>,
+}
+
+/// A frame of so many points is drawn while something moves.
+const MAX_MOVING: usize = 150_000;
+
+impl CloudView {
+    /// Shows the part that is looked at. Returns the point that was clicked, if one was.
+    pub(super) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
+        let (Some(component), Some(key)) = (project.component(), project.key_of_reconstruction())
+        else {
+            return None;
+        };
+        self.make(project, component, key, look::theme(ui));
+        let id = ui.make_persistent_id("space");
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        let words = format!(
+            "Space with {} points and {} cameras. Drag or arrow keys turn it, Shift moves it, \
+             plus and minus enlarge it.",
+            component.points.len(),
+            component.num_registered()
+        );
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+        let pixels = ui.ctx().pixels_per_point();
+        let size = (
+            (rect.width() * pixels).max(1.0) as usize,
+            (rect.height() * pixels).max(1.0) as usize,
+        );
+        let mut orbit = self.orbit?;
+        let moving = steer(&mut orbit, ui, &response, size, pixels);
+        self.orbit = Some(orbit);
+        self.draw(project, ui, orbit, size, moving);
+        if let Some(texture) = &self.texture {
+            let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter_at(rect)
+                .image(texture.id(), rect, whole, egui::Color32::WHITE);
+        }
+        if response.has_focus() {
+            let stroke = egui::Stroke::new(2.0, look::color(ui, Role::Best));
+            let inner = rect.shrink(1.0);
+            ui.painter()
+                .rect_stroke(inner, 0.0, stroke, egui::StrokeKind::Inside);
+        }
+        if !response.clicked() {
+            return None;
+        }
+        let at = (response.interact_pointer_pos()? - rect.min) * pixels;
+        let found = self.frame.pick(f64::from(at.x), f64::from(at.y), 6);
+        self.point = found;
+        found
+    }
+
+    /// Where a point is on the screen.
+    pub(super) fn place_of(&self, point: usize, rect: Rect, ui: &Ui) -> Option<egui::Pos2> {
+        let pixels = ui.ctx().pixels_per_point();
+        let ([u, v], _) = self
+            .orbit?
+            .project(self.scene.points.get(point)?.0, self.frame.size())?;
+        Some(rect.min + Vec2::new(u as f32, v as f32) / pixels)
+    }
+
+    /// Looks at everything again.
+    pub(super) fn look_at_all(&mut self) {
+        self.made = None;
+        self.orbit = None;
+    }
+
+    fn make(&mut self, project: &Project, component: &Component, key: Key, theme: Theme) {
+        let made = Made {
+            key,
+            component: project.view().component,
+            coloring: self.coloring,
+            theme,
+        };
+        if self.made.as_ref() == Some(&made) {
+            return;
+        }
+        let same_place = self
+            .made
+            .as_ref()
+            .is_some_and(|before| before.key == made.key && before.component == made.component);
+        self.scene.points.clear();
+        self.scene
+            .points
+            .extend(component.points.iter().map(|point| {
+                let color = match self.coloring {
+                    Coloring::Photographs => point.color,
+                    Coloring::Error => theme.scale(point.error_px / 2.0),
+                    Coloring::Track => theme.scale(point.track.len() as f64 / 8.0),
+                };
+                (point.position.map(|x| x as f32), color)
+            }));
+        let mut sum = nalgebra::Vector3::zeros();
+        for camera in component.cameras.iter().flatten() {
+            let [_, _, cu, cv] = camera.intrinsics;
+            let down = camera.ray([cu, cv + 1000.0]) - camera.ray([cu, cv]);
+            sum += down.normalize();
+        }
+        if !same_place || self.orbit.is_none() {
+            self.orbit = Some(Orbit::around(&self.scene, sum.into()));
+            self.point = None;
+        }
+        let reach = self.orbit.map_or(1.0, |orbit| orbit.distance) * 0.05;
+        let color = theme.color(Role::Series(1));
+        self.scene.lines.clear();
+        for (photo, camera) in project.taking_part().iter().zip(&component.cameras) {
+            if let (Some(camera), Some(size)) = (camera, project.camera(photo)) {
+                frustum(
+                    &mut self.scene.lines,
+                    camera,
+                    (size.width, size.height),
+                    reach,
+                    color,
+                );
+            }
+        }
+        self.num_fixed_lines = self.scene.lines.len();
+        self.made = Some(made);
+        self.drawn = None;
+    }
+
+    fn draw(
+        &mut self,
+        project: &Project,
+        ui: &Ui,
+        orbit: Orbit,
+        size: (usize, usize),
+        moving: bool,
+    ) {
+        let coarse = moving && self.scene.points.len() > MAX_MOVING;
+        let now = (orbit, size, self.point, coarse);
+        if self.drawn == Some(now) {
+            return;
+        }
+        self.drawn = Some(now);
+        self.scene.lines.truncate(self.num_fixed_lines);
+        if let (Some(component), Some(point)) = (project.component(), self.point) {
+            rays(
+                &mut self.scene.lines,
+                component,
+                point,
+                look::theme(ui).color(Role::Grip),
+            );
+        }
+        let every = match coarse {
+            true => self.scene.points.len().div_ceil(MAX_MOVING),
+            false => 1,
+        };
+        let point_px = 2.0 * f64::from(ui.ctx().pixels_per_point());
+        let look = Look {
+            point_px,
+            every,
+            background: look::theme(ui).color(Role::Surface),
+        };
+        self.frame.draw(&self.scene, &orbit, size, &look);
+        let image = ColorImage::from_rgba_premultiplied([size.0, size.1], self.frame.rgba());
+        match &mut self.texture {
+            Some(texture) => texture.set(image, TextureOptions::NEAREST),
+            None => {
+                let texture = ui
+                    .ctx()
+                    .load_texture("space", image, TextureOptions::NEAREST);
+                self.texture = Some(texture);
+            }
+        }
+        if coarse {
+            ui.ctx().request_repaint();
+        }
+    }
+}
+
+/// Turns, moves and enlarges. True while something moves.
+fn steer(
+    orbit: &mut Orbit,
+    ui: &Ui,
+    response: &Response,
+    size: (usize, usize),
+    pixels: f32,
+) -> bool {
+    let before = *orbit;
+    let drag = response.drag_delta();
+    let (keys, shift) = ui.input(|input| (input.modifiers, input.modifiers.shift));
+    let touches = ui.input(egui::InputState::multi_touch);
+    if let Some(touch) = touches.filter(|_| response.hovered() || response.dragged()) {
+        let moved = touch.translation_delta * pixels;
+        orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
+        orbit.zoom(f64::from(touch.zoom_delta));
+    } else if drag != Vec2::ZERO {
+        let second = response.dragged_by(egui::PointerButton::Secondary)
+            || response.dragged_by(egui::PointerButton::Middle);
+        if shift || second {
+            let moved = drag * pixels;
+            orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
+        } else {
+            orbit.turn(f64::from(drag.x) * -0.008, f64::from(drag.y) * -0.008);
+        }
+    }
+    if response.hovered() && touches.is_none() {
+        let scrolled = ui.input(|input| input.smooth_scroll_delta().y);
+        let pinched = ui.input(egui::InputState::zoom_delta);
+        orbit.zoom(f64::from(pinched) * libm::exp(f64::from(scrolled) * 0.003));
+    }
+    if response.has_focus() {
+        let step = |name: KeyName| ui.input(|input| input.num_presses(name) as f64);
+        let right = step(KeyName::ArrowRight) - step(KeyName::ArrowLeft);
+        let down = step(KeyName::ArrowDown) - step(KeyName::ArrowUp);
+        if keys.shift {
+            orbit.pan(24.0 * right, 24.0 * down, size);
+        } else {
+            orbit.turn(-0.1 * right, -0.1 * down);
+        }
+        let nearer = step(KeyName::Plus) + step(KeyName::Equals) - step(KeyName::Minus);
+        orbit.zoom(libm::exp(0.15 * nearer));
+        // The arrows belong to the space while it has the focus.
+        ui.memory_mut(|memory| {
+            memory.set_focus_lock_filter(
+                response.id,
+                egui::EventFilter {
+                    horizontal_arrows: true,
+                    vertical_arrows: true,
+                    ..egui::EventFilter::default()
+                },
+            );
+        });
+    }
+    if response.clicked() {
+        response.request_focus();
+    }
+    *orbit != before
+}

@@ -1,0 +1,103 @@
+//! What the knobs of all steps share.
+
+use super::app::Memory;
+use crate::project::{Event, Project, Settings};
+use egui::{Slider, Ui};
+
+/// What a reader does with a knob.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Turned {
+    /// Nothing.
+    No,
+    /// It is held and may go on: nothing is computed anew.
+    Held,
+    /// It has a new place.
+    Done,
+}
+
+impl From<bool> for Turned {
+    fn from(changed: bool) -> Self {
+        if changed { Self::Done } else { Self::No }
+    }
+}
+
+/// Lets the reader turn knobs.
+pub(super) fn edit(
+    project: &Project,
+    memory: &mut Memory,
+    events: &mut Vec<Event>,
+    turn: impl FnOnce(&mut Settings) -> Turned,
+) {
+    let now = || project.document().settings.clone();
+    let mut settings = memory.draft.take().unwrap_or_else(now);
+    match turn(&mut settings) {
+        Turned::No => {}
+        Turned::Held => memory.draft = Some(settings),
+        Turned::Done => events.push(Event::Set(settings)),
+    }
+}
+
+/// A slider with its name above it.
+pub(super) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Turned {
+    let label = ui.label(name);
+    let response = ui.add(slider).labelled_by(label.id);
+    if response.drag_stopped() {
+        return Turned::Done;
+    }
+    match response.dragged() {
+        true => Turned::Held,
+        false => response.changed().into(),
+    }
+}
+
+/// A line of a table: a name and a value.
+pub(super) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.weak(format!("{name}:"));
+        ui.label(value.into());
+    });
+}
+
+/// A link to where the book explains the step; a window has no book beside it.
+pub(super) fn book(ui: &mut Ui, words: &str, page: &str) {
+    if cfg!(target_arch = "wasm32") {
+        ui.add_space(8.0);
+        let link = egui::Hyperlink::from_label_and_url(words, format!("../{page}"));
+        ui.add(link.open_in_new_tab(true));
+    }
+}
+
+/// The photographs to choose from. Returns the one that was clicked.
+pub(super) fn choose(
+    project: &Project,
+    ui: &mut Ui,
+    name: &str,
+    current: u32,
+    but: Option<u32>,
+) -> Option<u32> {
+    let text = project
+        .document()
+        .photo(current)
+        .map_or("none", |photo| &photo.name);
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        let label = ui.label(name);
+        let combo = egui::ComboBox::from_id_salt(name)
+            .selected_text(text)
+            .width(190.0);
+        let shown = combo.show_ui(ui, |ui| {
+            for photo in &project.document().photos {
+                let other = Some(photo.id) != but;
+                if other
+                    && ui
+                        .selectable_label(photo.id == current, &photo.name)
+                        .clicked()
+                {
+                    chosen = Some(photo.id);
+                }
+            }
+        });
+        shown.response.labelled_by(label.id);
+    });
+    chosen
+}

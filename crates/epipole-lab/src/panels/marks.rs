@@ -1,0 +1,73 @@
+//! What is drawn beside points: cameras, and the rays of one point; and where that is seen.
+
+use crate::project::Project;
+use crate::tasks::{CameraFound, Component};
+use epipole_widgets::cloud::Line;
+
+/// The edges of a camera's view, so far out.
+pub(super) fn frustum(
+    lines: &mut Vec<Line>,
+    camera: &CameraFound,
+    (width, height): (u32, u32),
+    reach: f64,
+    color: [u8; 3],
+) {
+    let center = camera.center();
+    let (right, bottom) = (f64::from(width) - 0.5, f64::from(height) - 0.5);
+    let corners = [[-0.5, -0.5], [right, -0.5], [right, bottom], [-0.5, bottom]];
+    let corner = |pixel| plain(&(center + camera.ray(pixel) * reach));
+    let corners = corners.map(corner);
+    for n in 0..4 {
+        let to = corners[n];
+        lines.push(Line {
+            from: plain(&center),
+            to,
+            color,
+        });
+        lines.push(Line {
+            from: corners[(n + 1) % 4],
+            to,
+            color,
+        });
+    }
+}
+
+fn plain(place: &nalgebra::Point3<f64>) -> [f32; 3] {
+    [place.x as f32, place.y as f32, place.z as f32]
+}
+
+/// From a point to all cameras that see it.
+pub(super) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, color: [u8; 3]) {
+    let Some(point) = component.points.get(point) else {
+        return;
+    };
+    for (image, _) in &point.track {
+        if let Some(Some(camera)) = component.cameras.get(*image as usize) {
+            lines.push(Line {
+                from: plain(&camera.center()),
+                to: point.position.map(|x| x as f32),
+                color,
+            });
+        }
+    }
+}
+
+/// Where a point is seen: the photograph, the keypoint's place, and how far the point is from it, pixels.
+pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
+    let (Some(component), photos) = (project.component(), project.taking_part()) else {
+        return Vec::new();
+    };
+    let Some(point) = component.points.get(point) else {
+        return Vec::new();
+    };
+    let sight = |&(image, keypoint): &(u32, u32)| {
+        let photo = photos.get(image as usize)?;
+        let features = project.features(photo)?;
+        let seen = features.list.get(keypoint as usize)?;
+        let camera = component.cameras.get(image as usize)?.as_ref()?;
+        let [u, v] = camera.project(point.position, component.distortion)?;
+        let error_px = libm::hypot(u - seen.u, v - seen.v);
+        Some((photo.name.clone(), [seen.u, seen.v], error_px))
+    };
+    point.track.iter().filter_map(sight).collect()
+}

@@ -1,0 +1,164 @@
+//! All pairs: photographs × photographs, with matches and inliers.
+
+use super::app::Memory;
+use super::knobs;
+use super::look;
+use crate::project::{Event, Given, Project, Step};
+use crate::tasks::Shows;
+use egui::{Align2, Color32, FontId, Rect, ScrollArea, Sense, Slider, Ui, pos2, vec2};
+use epipole_widgets::theme::Role;
+
+/// The table of pairs.
+pub(super) fn picture(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
+    let photos = project.taking_part();
+    if photos.len() < 2 {
+        ui.label(project.describe());
+        return;
+    }
+    let room = ui.available_size() - vec2(130.0, 40.0);
+    let side = (room.min_elem() / photos.len() as f32).clamp(34.0, 76.0);
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        let size = vec2(130.0, 34.0) + side * vec2(photos.len() as f32, photos.len() as f32);
+        let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+        let corner = whole.min + vec2(122.0, 30.0);
+        let ink = look::color(ui, Role::Ink);
+        for (n, photo) in photos.iter().enumerate() {
+            let at = pos2(corner.x - 6.0, corner.y + (n as f32 + 0.5) * side);
+            let name = shortened(&photo.name, 15);
+            ui.painter().text(
+                at,
+                Align2::RIGHT_CENTER,
+                name,
+                FontId::proportional(13.0),
+                ink,
+            );
+            let at = pos2(corner.x + (n as f32 + 0.5) * side, corner.y - 6.0);
+            let number = (n + 1).to_string();
+            ui.painter().text(
+                at,
+                Align2::CENTER_BOTTOM,
+                number,
+                FontId::proportional(13.0),
+                ink,
+            );
+        }
+        for (row, first) in photos.iter().enumerate() {
+            for (column, second) in photos.iter().enumerate().skip(row + 1) {
+                let min = corner + side * vec2(column as f32, row as f32);
+                let rect = Rect::from_min_size(min, vec2(side - 2.0, side - 2.0));
+                cell(project, ui, rect, first, second, events);
+            }
+        }
+    });
+}
+
+fn cell(
+    project: &Project,
+    ui: &mut Ui,
+    rect: Rect,
+    first: &Given,
+    second: &Given,
+    events: &mut Vec<Event>,
+) {
+    let response = ui.interact(
+        rect,
+        ui.scope_id().with((first.id, second.id)),
+        Sense::click(),
+    );
+    let pair = project.two_views(first, second);
+    let total = project.matches(first, second).map(|m| m.len());
+    let words = match (pair, total) {
+        (Some(pair), Some(total)) => format!(
+            "{} and {}: {} of {total} matches agree. {}",
+            first.name,
+            second.name,
+            pair.num_inliers,
+            project.pair_words(pair)
+        ),
+        _ => format!("{} and {}: not known yet", first.name, second.name),
+    };
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    let enough = project.document().settings.sfm.min_num_inliers;
+    let (fill, mark) = match pair {
+        None => (look::color(ui, Role::Grid), ""),
+        Some(pair) if pair.num_inliers < enough || pair.shows == Shows::Nothing => {
+            (look::color(ui, Role::Surface), "")
+        }
+        Some(pair) => {
+            let share = (f64::from(pair.num_inliers) / 1000.0).min(1.0).sqrt();
+            let [r, g, b] = look::theme(ui).scale(0.25 + 0.75 * share);
+            let mark = match pair.shows {
+                Shows::Turn => "turn",
+                Shows::Plane => "plane",
+                _ => "",
+            };
+            (Color32::from_rgb(r, g, b), mark)
+        }
+    };
+    ui.painter().rect_filled(rect, 2.0, fill);
+    let light = u32::from(fill.r()) * 3 + u32::from(fill.g()) * 6 + u32::from(fill.b()) > 1250;
+    let ink = if light {
+        Color32::BLACK
+    } else {
+        Color32::WHITE
+    };
+    if let Some(pair) = pair {
+        let font = FontId::proportional(13.0);
+        let text = pair.num_inliers.to_string();
+        ui.painter().text(
+            rect.center(),
+            Align2::CENTER_CENTER,
+            text,
+            font.clone(),
+            ink,
+        );
+        let under = rect.center_bottom() - vec2(0.0, 2.0);
+        ui.painter().text(
+            under,
+            Align2::CENTER_BOTTOM,
+            mark,
+            FontId::proportional(11.0),
+            ink,
+        );
+    }
+    let current = project.view().pair == (first.id, second.id);
+    if current || response.has_focus() || response.hovered() {
+        let stroke = egui::Stroke::new(2.5, look::color(ui, Role::Grip));
+        ui.painter()
+            .rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside);
+    }
+    if response.clicked() {
+        events.push(Event::LookAtPair(first.id, second.id));
+        events.push(Event::Show(Step::TwoViews));
+    }
+    response.on_hover_text(words);
+}
+
+/// The end of a long name tells photographs apart.
+fn shortened(name: &str, most: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    match letters.len() > most {
+        true => format!(
+            "…{}",
+            letters[letters.len() - most + 1..]
+                .iter()
+                .collect::<String>()
+        ),
+        false => name.to_owned(),
+    }
+}
+
+/// How features are matched.
+pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    ui.label(project.describe());
+    ui.weak(
+        "Numbers are matches that agree with one motion of the camera. Click a pair to see it.",
+    );
+    knobs::edit(project, memory, events, |settings| {
+        let ratio = Slider::new(&mut settings.matching.ratio, 0.3..=1.0);
+        let turned = knobs::slider(ui, "Nearest over second nearest, at most", ratio);
+        let mutual = ui.checkbox(&mut settings.matching.mutual, "each the other's nearest");
+        turned.max(mutual.changed().into())
+    });
+    knobs::book(ui, "A fingerprint for each corner", "matching.html");
+}

@@ -1,0 +1,111 @@
+//! Two points and their length set the scale; other lengths follow.
+
+use super::app::Memory;
+use super::knobs;
+use super::look;
+use crate::project::{Event, Measure, Project};
+use egui::{DragValue, Stroke, Ui};
+use epipole_widgets::theme::Role;
+
+/// The space, with what was measured.
+pub(super) fn picture(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) {
+    if project.component().is_none() {
+        ui.label(project.describe());
+        return;
+    }
+    let rect = ui.available_rect_before_wrap();
+    if let Some(point) = memory.cloud.show(project, ui, rect) {
+        match memory.first_end.take() {
+            Some(first) if first != point => {
+                if let (Some(a), Some(b)) = (project.anchor_of(first), project.anchor_of(point)) {
+                    events.push(Event::Measure(Measure {
+                        ends: [a, b],
+                        length_m: None,
+                    }));
+                }
+            }
+            Some(_) => {}
+            None => memory.first_end = Some(point),
+        }
+    }
+    let painter = ui.painter_at(rect);
+    let color = look::color(ui, Role::Grip);
+    let ink = look::color(ui, Role::Ink);
+    let font = egui::FontId::proportional(14.0);
+    for (index, measure) in project.document().measures.iter().enumerate() {
+        let ends = measure.ends.map(|end| {
+            let point = project.anchored(&end)?;
+            memory.cloud.place_of(point, rect, ui)
+        });
+        let [Some(from), Some(to)] = ends else {
+            continue;
+        };
+        painter.line_segment([from, to], Stroke::new(2.0, color));
+        for end in [from, to] {
+            painter.circle_stroke(end, 5.0, Stroke::new(2.0, color));
+        }
+        let words = format!("{}: {}", index + 1, project.length_words(index));
+        let text = painter.layout_no_wrap(words, font.clone(), ink);
+        let at = from.lerp(to, 0.5) + egui::vec2(8.0, -20.0);
+        let behind = egui::Rect::from_min_size(at, text.size()).expand(3.0);
+        painter.rect_filled(behind, 3.0, look::color(ui, Role::Background));
+        painter.galley(at, text, ink);
+    }
+    if let Some(place) = memory
+        .first_end
+        .and_then(|point| memory.cloud.place_of(point, rect, ui))
+    {
+        painter.circle_stroke(place, 7.0, Stroke::new(2.5, color));
+    }
+}
+
+/// The lengths.
+pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    ui.label(match (project.document().measures.is_empty(), memory.first_end) {
+        (_, Some(_)) => "One end is chosen: click the other.",
+        (true, None) => "Click two points of which you know how far apart they are, and type the length: it sets the scale.",
+        (false, None) => "Click two points to measure another length.",
+    });
+    if memory.first_end.is_some() && ui.button("Choose another first end").clicked() {
+        memory.first_end = None;
+    }
+    let sets_scale = project.scale().map(|scale| scale.measure);
+    for (index, measure) in project.document().measures.iter().enumerate() {
+        ui.separator();
+        ui.strong(format!("{}: {}", index + 1, project.length_words(index)));
+        ui.horizontal_wrapped(|ui| {
+            let label = ui.label("known, m");
+            let mut meters = measure.length_m.unwrap_or(0.0);
+            let field = DragValue::new(&mut meters)
+                .range(0.0..=1e6)
+                .speed(0.01)
+                .max_decimals(4);
+            let response = ui
+                .add(field.update_while_editing(false))
+                .labelled_by(label.id);
+            if (response.changed() && !response.dragged()) || response.drag_stopped() {
+                let known = (meters > 0.0).then_some(meters);
+                events.push(Event::Length(index, known));
+            }
+            if ui.button("Remove").clicked() {
+                events.push(Event::Forget(index));
+            }
+        });
+        if sets_scale == Some(index) {
+            ui.weak("sets the scale");
+        } else if let (Some(known), Some(found)) =
+            (measure.length_m, project.length_in_meters(index))
+        {
+            let off = 100.0 * (found.value / known - 1.0);
+            ui.weak(format!("{off:+.2} % off what you typed"));
+        }
+    }
+    ui.add_space(6.0);
+    ui.weak("± is one standard deviation, of the keypoints alone: the cameras are taken as right.");
+    knobs::book(ui, "Why photographs have no scale", "triangulation.html");
+}

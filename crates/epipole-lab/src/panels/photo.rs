@@ -1,0 +1,219 @@
+//! A photograph in a rectangle, enlarged and moved by the reader, with marks on it.
+
+use super::look;
+use crate::project::Key;
+use crate::tasks::Photograph;
+use egui::{
+    Color32, ColorImage, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, TextureHandle,
+    TextureOptions, Ui, Vec2, pos2, vec2,
+};
+use epipole_widgets::theme::Role;
+use std::collections::BTreeMap;
+
+/// The pictures that the screen holds.
+#[derive(Default)]
+pub(super) struct Pictures {
+    full: BTreeMap<Key, TextureHandle>,
+    small: BTreeMap<Key, TextureHandle>,
+}
+
+/// So many photographs are kept for the screen: two are looked at, at most.
+const MAX_FULL: usize = 6;
+/// And so many small ones.
+const MAX_SMALL: usize = 200;
+/// Width of a small one, pixels.
+const SMALL_WIDTH: u32 = 352;
+
+impl Pictures {
+    /// The photograph as a texture.
+    pub(super) fn texture(&mut self, ui: &Ui, key: Key, photograph: &Photograph) -> &TextureHandle {
+        if !self.full.contains_key(&key) && self.full.len() >= MAX_FULL {
+            self.full.clear();
+        }
+        self.full.entry(key).or_insert_with(|| {
+            let size = [photograph.width as usize, photograph.height as usize];
+            let image = ColorImage::from_rgb(size, &photograph.rgb);
+            ui.ctx()
+                .load_texture(key.to_string(), image, TextureOptions::LINEAR)
+        })
+    }
+
+    /// The same, small.
+    pub(super) fn small(&mut self, ui: &Ui, key: Key, photograph: &Photograph) -> &TextureHandle {
+        if !self.small.contains_key(&key) && self.small.len() >= MAX_SMALL {
+            self.small.clear();
+        }
+        self.small.entry(key).or_insert_with(|| {
+            let image = reduced(photograph, photograph.width.div_ceil(SMALL_WIDTH).max(1));
+            let name = format!("small {key}");
+            ui.ctx().load_texture(name, image, TextureOptions::LINEAR)
+        })
+    }
+}
+
+/// Every block of so many pixels a side as their mean.
+fn reduced(photograph: &Photograph, factor: u32) -> ColorImage {
+    let (width, height) = (photograph.width / factor, photograph.height / factor);
+    let mut pixels = Vec::with_capacity((width * height) as usize);
+    for row in 0..height {
+        for column in 0..width {
+            let mut sum = [0_u32; 3];
+            for v in row * factor..(row + 1) * factor {
+                let first = 3 * (v * photograph.width + column * factor) as usize;
+                let run = photograph.rgb.get(first..first + 3 * factor as usize);
+                for rgb in run.unwrap_or_default().chunks_exact(3) {
+                    for (total, value) in sum.iter_mut().zip(rgb) {
+                        *total += u32::from(*value);
+                    }
+                }
+            }
+            let [r, g, b] = sum.map(|total| (total / (factor * factor)) as u8);
+            pixels.push(Color32::from_rgb(r, g, b));
+        }
+    }
+    ColorImage::new([width as usize, height as usize], pixels)
+}
+
+/// How a reader looks at a photograph.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lens {
+    zoom: f32,
+    /// Where the middle of the rectangle is in the photograph, as a share of it.
+    middle: Vec2,
+}
+
+impl Default for Lens {
+    fn default() -> Self {
+        Self {
+            zoom: 1.0,
+            middle: vec2(0.5, 0.5),
+        }
+    }
+}
+
+/// A photograph on the screen.
+pub(super) struct Shown {
+    pub(super) response: Response,
+    painter: Painter,
+    /// Where the whole photograph would be.
+    place: Rect,
+    size: Vec2,
+}
+
+impl Shown {
+    /// Where a pixel is on the screen.
+    pub(super) fn at(&self, u: f64, v: f64) -> Pos2 {
+        let share = vec2(
+            (u as f32 + 0.5) / self.size.x,
+            (v as f32 + 0.5) / self.size.y,
+        );
+        self.place.min + share * self.place.size()
+    }
+
+    /// Which pixel was clicked.
+    pub(super) fn clicked(&self) -> Option<[f64; 2]> {
+        if !self.response.clicked() {
+            return None;
+        }
+        let at = self.response.interact_pointer_pos()? - self.place.min;
+        let share = at / self.place.size();
+        let inside = (0.0..1.0).contains(&share.x) && (0.0..1.0).contains(&share.y);
+        inside.then(|| {
+            [
+                f64::from(share.x * self.size.x) - 0.5,
+                f64::from(share.y * self.size.y) - 0.5,
+            ]
+        })
+    }
+
+    /// Screen points in a pixel.
+    pub(super) fn scale(&self) -> f32 {
+        self.place.width() / self.size.x
+    }
+
+    /// A circle with a casing, so that it is seen on anything.
+    pub(super) fn ring(&self, center: Pos2, radius: f32, color: Color32) {
+        self.painter.circle_stroke(
+            center,
+            radius,
+            Stroke::new(3.0, Color32::from_black_alpha(140)),
+        );
+        self.painter
+            .circle_stroke(center, radius, Stroke::new(1.5, color));
+    }
+
+    /// A line, likewise.
+    pub(super) fn line(&self, from: Pos2, to: Pos2, color: Color32) {
+        let casing = Stroke::new(3.5, Color32::from_black_alpha(120));
+        self.painter.line_segment([from, to], casing);
+        self.painter
+            .line_segment([from, to], Stroke::new(1.6, color));
+    }
+
+    /// Many marks at once.
+    pub(super) fn add(&self, shapes: Vec<Shape>) {
+        self.painter.extend(shapes);
+    }
+
+    /// Whether a place of the screen is within the rectangle.
+    pub(super) fn shows(&self, at: Pos2) -> bool {
+        self.response.rect.expand(20.0).contains(at)
+    }
+}
+
+/// Shows a photograph in a rectangle, with a name for those who do not see it.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    texture: &TextureHandle,
+    lens: &mut Lens,
+    name: &str,
+) -> Shown {
+    let id = ui.make_persistent_id(("photograph", name, rect.min.x as i32, rect.min.y as i32));
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    let label = format!("Photograph {name}");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
+    let size = texture.size_vec2();
+    let fit = (rect.width() / size.x)
+        .min(rect.height() / size.y)
+        .max(1e-3);
+    if response.hovered() {
+        let scrolled = ui.input(|input| input.smooth_scroll_delta().y);
+        let pinched = ui.input(egui::InputState::zoom_delta);
+        let factor = pinched * libm::expf(scrolled * 0.004);
+        if factor != 1.0
+            && let Some(pointer) = response.hover_pos()
+        {
+            let before = fit * lens.zoom;
+            lens.zoom = (lens.zoom * factor).clamp(1.0, 16.0);
+            // What is under the pointer stays there.
+            let from_middle = (pointer - rect.center()) / size;
+            lens.middle += from_middle * (1.0 / before - 1.0 / (fit * lens.zoom));
+        }
+    }
+    lens.middle -= response.drag_delta() / (size * fit * lens.zoom);
+    if response.double_clicked() {
+        *lens = Lens::default();
+    }
+    let shown = size * fit * lens.zoom;
+    for axis in 0..2 {
+        // The photograph stays in sight.
+        let half = (0.5 * rect.size()[axis] / shown[axis]).min(0.5);
+        lens.middle[axis] = lens.middle[axis].clamp(half, 1.0 - half);
+    }
+    let place = Rect::from_min_size(rect.center() - lens.middle * shown, shown);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 0.0, look::color(ui, Role::Surface));
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(texture.id(), place, whole, Color32::WHITE);
+    if response.has_focus() {
+        let stroke = Stroke::new(2.0, look::color(ui, Role::Best));
+        painter.rect_stroke(rect.shrink(1.0), 0.0, stroke, egui::StrokeKind::Inside);
+    }
+    Shown {
+        response,
+        painter,
+        place,
+        size,
+    }
+}

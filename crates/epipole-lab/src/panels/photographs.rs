@@ -1,0 +1,150 @@
+//! The photographs: what they are, what became of them, which take part.
+
+use super::app::Memory;
+use super::knobs;
+use super::look;
+use crate::project::{Event, Fate, FocalOrigin, Given, Project};
+use egui::{DragValue, ScrollArea, Sense, Slider, Ui, vec2};
+use epipole_widgets::theme::Role;
+
+/// Width of a small picture, points.
+const SMALL: f32 = 176.0;
+
+/// All photographs, small.
+pub(super) fn picture(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            for photo in &project.document().photos {
+                card(project, memory, ui, photo, events);
+            }
+        });
+    });
+}
+
+fn card(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    photo: &Given,
+    events: &mut Vec<Event>,
+) {
+    let selected = project.view().photo == photo.id;
+    let height = 0.75 * SMALL + 22.0;
+    ui.allocate_ui(vec2(SMALL, height), |ui| {
+        ui.vertical(|ui| {
+            ui.set_width(SMALL);
+            let (rect, response) =
+                ui.allocate_exact_size(vec2(SMALL, 0.75 * SMALL), Sense::click());
+            let words = format!("{}: {}", photo.name, project.fate_words(photo));
+            response.widget_info(|| {
+                egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words)
+            });
+            ui.painter()
+                .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
+            if let Some(pixels) = project.photograph(photo) {
+                let key = project.key_of_photograph(photo);
+                let texture = memory.pictures.small(ui, key, pixels);
+                let size = texture.size_vec2();
+                let fit = (rect.width() / size.x).min(rect.height() / size.y);
+                let place = egui::Rect::from_center_size(rect.center(), size * fit);
+                let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                let out = !matches!(project.fate(photo), Fate::Registered(_) | Fate::Open);
+                let tint = match out {
+                    true => egui::Color32::from_gray(110),
+                    false => egui::Color32::WHITE,
+                };
+                ui.painter().image(texture.id(), place, whole, tint);
+            }
+            if selected || response.has_focus() {
+                let stroke = egui::Stroke::new(3.0, look::color(ui, Role::Grip));
+                ui.painter()
+                    .rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Outside);
+            }
+            if response.clicked() {
+                events.push(Event::Look(photo.id));
+            }
+            ui.add(egui::Label::new(egui::RichText::new(&photo.name).small()).truncate());
+        });
+    });
+}
+
+/// Size, focal length, fate of the one that is looked at, and of all that are left out.
+pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    if let Some(photo) = project.document().photo(project.view().photo) {
+        one(project, ui, photo, events);
+        ui.separator();
+    }
+    let left_out = project.left_out();
+    if !left_out.is_empty() {
+        ui.strong(format!("Left out: {}", left_out.len()));
+        for (id, _) in left_out {
+            if let Some(photo) = project.document().photo(id) {
+                let words = format!("{}: {}", photo.name, project.fate_words(photo));
+                ui.colored_label(look::color(ui, Role::Outlier), words);
+            }
+        }
+        ui.separator();
+    }
+    knobs::edit(project, memory, events, |settings| {
+        let size = Slider::new(&mut settings.max_megapixels, 0.1..=12.0).logarithmic(true);
+        knobs::slider(ui, "Reduce to at most, megapixels", size.max_decimals(1))
+    });
+    ui.weak("Nothing is uploaded: photographs stay on this machine.");
+    knobs::book(ui, "What a photograph can tell", "rays.html");
+}
+
+fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
+    ui.strong(&photo.name);
+    ui.label(project.fate_words(photo));
+    if let (Some(pixels), Some(camera)) = (project.photograph(photo), project.camera(photo)) {
+        let (width, height) = pixels.full_size;
+        let mut size = format!("{width} × {height}");
+        if (pixels.width, pixels.height) != pixels.full_size {
+            size.push_str(&format!(
+                ", reduced to {} × {}",
+                pixels.width, pixels.height
+            ));
+        }
+        knobs::row(ui, "size", size);
+        let origin = match project.focal_origin(photo) {
+            Some(FocalOrigin::Typed) => "typed",
+            Some(FocalOrigin::File) => "from the file",
+            _ => "guessed: 1.2 times the longer side",
+        };
+        let factor = f64::from(width) / f64::from(pixels.width.max(1));
+        let mut focal_px = camera.focal_px * factor;
+        ui.horizontal_wrapped(|ui| {
+            let label = ui.label("focal length, px");
+            let field = DragValue::new(&mut focal_px)
+                .range(1.0..=1e5)
+                .max_decimals(1);
+            let response = ui
+                .add(field.update_while_editing(false))
+                .labelled_by(label.id);
+            if (response.changed() && !response.dragged()) || response.drag_stopped() {
+                events.push(Event::Focal(photo.id, Some(focal_px)));
+            }
+        });
+        ui.weak(origin);
+        if photo.focal_px.is_some() && ui.button("Forget what I typed").clicked() {
+            events.push(Event::Focal(photo.id, None));
+        }
+    }
+    ui.horizontal_wrapped(|ui| {
+        let mut takes_part = !photo.excluded;
+        if ui.checkbox(&mut takes_part, "takes part").changed() {
+            events.push(Event::Exclude(photo.id, !takes_part));
+        }
+        if ui.button("Earlier").clicked() {
+            events.push(Event::Earlier(photo.id));
+        }
+        if ui.button("Remove").clicked() {
+            events.push(Event::Remove(photo.id));
+        }
+    });
+}

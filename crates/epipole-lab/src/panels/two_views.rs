@@ -1,0 +1,237 @@
+//! One pair: its matches, and the epipolar line of any place.
+
+use super::app::Memory;
+use super::knobs;
+use super::{look, photo};
+use crate::project::{Event, Project};
+use crate::tasks::ViewModel;
+use egui::{Rect, Slider, Ui, vec2};
+use epipole_widgets::theme::{Role, Theme};
+
+/// So many matches are drawn.
+const MAX_DRAWN: usize = 400;
+
+/// Both photographs, beside or above each other.
+pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
+    let (first, second) = project.view().pair;
+    let document = project.document();
+    let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
+        ui.weak("A pair needs two photographs.");
+        return;
+    };
+    let (Some(one), Some(two)) = (project.photograph(first), project.photograph(second)) else {
+        ui.weak("The photographs are being read.");
+        return;
+    };
+    let whole = ui.available_rect_before_wrap();
+    let (left, right) = halves(whole);
+    let [lens1, lens2] = &mut memory.lenses;
+    let texture = memory
+        .pictures
+        .texture(ui, project.key_of_photograph(first), one)
+        .clone();
+    let shown1 = photo::show(ui, left, &texture, lens1, &first.name);
+    let texture = memory
+        .pictures
+        .texture(ui, project.key_of_photograph(second), two)
+        .clone();
+    let shown2 = photo::show(ui, right, &texture, lens2, &second.name);
+    let (Some(places), Some(pair)) = (
+        project.match_places(first, second),
+        project.two_views(first, second),
+    ) else {
+        return;
+    };
+    if let Some([u, v]) = shown1.clicked() {
+        let away = |p: &[f64; 4]| libm::hypot(p[0] - u, p[1] - v);
+        let near = (0..places.len()).min_by(|&a, &b| away(&places[a]).total_cmp(&away(&places[b])));
+        let reach = f64::from(10.0 / shown1.scale());
+        memory.chosen_match = near.filter(|&n| away(&places[n]) <= reach);
+        memory.probe = Some(match memory.chosen_match {
+            Some(n) => [places[n][0], places[n][1]],
+            None => [u, v],
+        });
+    }
+    let (inlier, outlier) = (
+        look::of(Theme::Dark, Role::Inlier),
+        look::of(Theme::Dark, Role::Outlier),
+    );
+    let every = places.len().div_ceil(MAX_DRAWN).max(1);
+    let mut shapes = Vec::new();
+    for (place, is_inlier) in places.iter().zip(&pair.inliers).step_by(every) {
+        let [u1, v1, u2, v2] = *place;
+        for at in [shown1.at(u1, v1), shown2.at(u2, v2)] {
+            if *is_inlier {
+                shapes.push(egui::Shape::circle_stroke(
+                    at,
+                    3.0,
+                    egui::Stroke::new(1.2, inlier),
+                ));
+            } else {
+                // A cross: color is not the only sign.
+                for d in [vec2(3.0, 3.0), vec2(3.0, -3.0)] {
+                    shapes.push(egui::Shape::line_segment(
+                        [at - d, at + d],
+                        egui::Stroke::new(1.2, outlier),
+                    ));
+                }
+            }
+        }
+    }
+    let (of_first, of_second): (Vec<_>, Vec<_>) = shapes
+        .into_iter()
+        .partition(|shape| left.contains(shape.visual_bounding_rect().center()));
+    shown1.add(of_first);
+    shown2.add(of_second);
+    let grip = look::of(Theme::Dark, Role::Grip);
+    if let Some([u, v]) = memory.probe {
+        shown1.ring(shown1.at(u, v), 6.0, grip);
+        if let Some(f) = pair.fundamental
+            && let Some((from, to)) = epipolar_line(&f, [u, v], [two.width, two.height])
+        {
+            shown2.line(shown2.at(from[0], from[1]), shown2.at(to[0], to[1]), grip);
+        } else if let ViewModel::Homography(h) = pair.model
+            && let Some([u2, v2]) = mapped(&h, [u, v])
+        {
+            shown2.ring(shown2.at(u2, v2), 9.0, grip);
+        }
+    }
+    if let Some(place) = memory.chosen_match.and_then(|n| places.get(n)) {
+        shown2.ring(shown2.at(place[2], place[3]), 5.0, grip);
+    }
+}
+
+fn halves(whole: Rect) -> (Rect, Rect) {
+    let gap = 4.0;
+    match whole.width() > whole.height() {
+        true => whole.split_left_right_at_fraction(0.5),
+        false => whole.split_top_bottom_at_fraction(0.5),
+    }
+    .map_each(|rect| rect.shrink(gap / 2.0))
+}
+
+/// Both of two.
+trait Both {
+    fn map_each(self, f: impl Fn(Rect) -> Rect) -> Self;
+}
+
+impl Both for (Rect, Rect) {
+    fn map_each(self, f: impl Fn(Rect) -> Rect) -> Self {
+        (f(self.0), f(self.1))
+    }
+}
+
+/// Where the epipolar line of a pixel enters and leaves the other photograph.
+fn epipolar_line(f: &[f64; 9], [u, v]: [f64; 2], size: [u32; 2]) -> Option<([f64; 2], [f64; 2])> {
+    let line = [0, 3, 6].map(|row| f[row] * u + f[row + 1] * v + f[row + 2]);
+    let [a, b, c] = line;
+    let (right, bottom) = (f64::from(size[0]) - 0.5, f64::from(size[1]) - 0.5);
+    let mut ends = Vec::new();
+    for x in [-0.5, right] {
+        ends.push([x, -(a * x + c) / b]);
+    }
+    for y in [-0.5, bottom] {
+        ends.push([-(b * y + c) / a, y]);
+    }
+    let hair = 1e-6;
+    ends.retain(|[x, y]| {
+        (-0.5 - hair..=right + hair).contains(x) && (-0.5 - hair..=bottom + hair).contains(y)
+    });
+    let first = *ends.first()?;
+    let far = |end: &[f64; 2]| libm::hypot(end[0] - first[0], end[1] - first[1]);
+    let last = ends
+        .iter()
+        .copied()
+        .max_by(|p, q| far(p).total_cmp(&far(q)))?;
+    (far(&last) > 0.0).then_some((first, last))
+}
+
+fn mapped(h: &[f64; 9], [u, v]: [f64; 2]) -> Option<[f64; 2]> {
+    let [x, y, w] = [0, 3, 6].map(|row| h[row] * u + h[row + 1] * v + h[row + 2]);
+    let place = [x / w, y / w];
+    place.iter().all(|x| x.is_finite()).then_some(place)
+}
+
+/// Which pair, and what it says.
+pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    let (a, b) = project.view().pair;
+    let chosen1 = knobs::choose(project, ui, "First", a, Some(b));
+    let chosen2 = knobs::choose(project, ui, "Second", b, Some(a));
+    if chosen1.is_some() || chosen2.is_some() {
+        events.push(Event::LookAtPair(
+            chosen1.unwrap_or(a),
+            chosen2.unwrap_or(b),
+        ));
+        memory.probe = None;
+        memory.chosen_match = None;
+    }
+    ui.label(project.describe());
+    let document = project.document();
+    if let (Some(first), Some(second)) = (document.photo(a), document.photo(b))
+        && let (Some(pair), Some(matches)) = (
+            project.two_views(first, second),
+            project.matches(first, second),
+        )
+    {
+        let (name, values) = match &pair.model {
+            ViewModel::Essential(e) => ("E", e),
+            ViewModel::Fundamental(f) => ("F", f),
+            ViewModel::Homography(h) => ("H", h),
+        };
+        knobs::row(
+            ui,
+            "inliers",
+            format!("{} of {}", pair.num_inliers, matches.len()),
+        );
+        knobs::row(ui, "samples drawn", pair.iterations.to_string());
+        if let Some(turn) = pair.turn_deg {
+            knobs::row(ui, "turn of the camera", format!("{turn:.1}°"));
+        }
+        ui.weak(format!("{name}, of norm 1:"));
+        egui::Grid::new("matrix").show(ui, |ui| {
+            for row in values.chunks(3) {
+                for value in row {
+                    ui.label(format!("{value:.3e}"));
+                }
+                ui.end_row();
+            }
+        });
+        if let Some(m) = memory
+            .chosen_match
+            .and_then(|n| matches.get(n).map(|m| (n, m)))
+        {
+            let fits = match pair.inliers.get(m.0) {
+                Some(true) => "agrees",
+                _ => "does not agree",
+            };
+            knobs::row(ui, "match", format!("ratio {:.2}, {fits}", m.1.ratio));
+        }
+    }
+    ui.weak("Click in the first photograph: the line in the second is where the same thing must be. Circles agree, crosses do not.");
+    knobs::edit(project, memory, events, |settings| {
+        let error = Slider::new(&mut settings.pairs.max_error_px, 0.1..=10.0).logarithmic(true);
+        let turned = knobs::slider(
+            ui,
+            "Largest error of an inlier ε, px",
+            error.max_decimals(2),
+        );
+        let seed = Slider::new(&mut settings.pairs.seed, 0..=20);
+        turned.max(knobs::slider(ui, "Seed", seed))
+    });
+    knobs::book(ui, "One point, one line", "epipolar.html");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_cut_at_the_edges_of_the_photograph() {
+        // v2 = v1: a step to the side.
+        let f = [0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
+        let (from, to) = epipolar_line(&f, [10.0, 7.0], [100, 50]).expect("it is in the picture");
+        assert_eq!((from, to), ([-0.5, 7.0], [99.5, 7.0]));
+        assert_eq!(epipolar_line(&f, [10.0, 70.0], [100, 50]), None);
+        assert_eq!(epipolar_line(&[0.0; 9], [1.0, 1.0], [100, 50]), None);
+    }
+}

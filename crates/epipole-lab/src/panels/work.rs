@@ -1,0 +1,173 @@
+//! Which pieces of work are under way: as many as the host can do, only what is wanted.
+
+use super::host::{Host, Report, WorkId};
+use crate::project::{About, Event, Project, Task};
+use crate::tasks::{Answer, Blob, Request};
+
+/// Work beside the project's own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Errand {
+    /// A zip file of the reconstruction.
+    Export,
+    /// A zip file of the project.
+    Save,
+    /// A project to open.
+    Open,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum What {
+    Task(Task),
+    Errand(Errand),
+}
+
+struct Running {
+    id: WorkId,
+    what: What,
+    share: f32,
+    words: String,
+}
+
+/// All work that is under way.
+#[derive(Default)]
+pub(super) struct Work {
+    running: Vec<Running>,
+    last: WorkId,
+    /// The revision of the project at which everything that is wanted was looked through.
+    seen: Option<u64>,
+    /// What came of the last errand.
+    pub(super) news: Option<String>,
+}
+
+impl Work {
+    /// Hears what is done, ends what is not wanted any more, starts what is.
+    pub(super) fn go_on(&mut self, project: &mut Project, host: &mut impl Host) {
+        for report in host.reports() {
+            self.hear(report, project, host);
+        }
+        if self.seen == Some(project.revision()) {
+            return;
+        }
+        self.seen = Some(project.revision());
+        let wanted = project.wanted();
+        self.running.retain(|running| match &running.what {
+            What::Errand(_) => true,
+            What::Task(task) => {
+                let keep = wanted.iter().any(|other| other.key == task.key);
+                if !keep {
+                    host.cancel(running.id);
+                }
+                keep
+            }
+        });
+        for task in wanted {
+            if self.running.len() >= host.capacity() {
+                break;
+            }
+            let under_way = |running: &Running| matches!(&running.what, What::Task(other) if other.key == task.key);
+            if self.running.iter().any(under_way) {
+                continue;
+            }
+            if let Some(request) = project.request(&task) {
+                self.start(What::Task(task), &request, host);
+            }
+        }
+    }
+
+    fn start(&mut self, what: What, request: &Request, host: &mut impl Host) {
+        self.last += 1;
+        self.running.push(Running {
+            id: self.last,
+            what,
+            share: 0.0,
+            words: String::new(),
+        });
+        host.start(self.last, request.to_bytes());
+    }
+
+    /// Starts an errand, unless one of its kind is under way.
+    pub(super) fn run(&mut self, errand: Errand, request: &Request, host: &mut impl Host) {
+        let what = What::Errand(errand);
+        if self.running.iter().all(|running| running.what != what) {
+            self.news = None;
+            self.start(what, request, host);
+        }
+    }
+
+    fn hear(&mut self, report: Report, project: &mut Project, host: &mut impl Host) {
+        match report {
+            Report::Progress(id, share, words) => {
+                if let Some(running) = self.running.iter_mut().find(|running| running.id == id) {
+                    running.share = share;
+                    running.words = words;
+                }
+            }
+            Report::Done(id, result) => {
+                let Some(place) = self.running.iter().position(|running| running.id == id) else {
+                    return;
+                };
+                self.seen = None;
+                match self.running.remove(place).what {
+                    What::Task(task) => project.done(task.key, result),
+                    What::Errand(errand) => {
+                        self.news = Some(finish(errand, result, project, host));
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn is_busy(&self) -> bool {
+        !self.running.is_empty()
+    }
+
+    /// What is under way, in a few words, with the share that is done of the longest.
+    pub(super) fn words(&self, project: &Project) -> Option<(String, f32)> {
+        let first = self.running.first()?;
+        let name = |id| project.document().photo(id).map_or("", |photo| &photo.name);
+        let mut words = match &first.what {
+            What::Task(task) => match task.about {
+                About::Photograph(id) => format!("Reading {}", name(id)),
+                About::Features(id) => format!("Features of {}", name(id)),
+                About::Matches(..) => "Matching pairs".to_owned(),
+                About::TwoViews(..) => "Judging pairs".to_owned(),
+                About::Reconstruction => "Reconstructing".to_owned(),
+            },
+            What::Errand(Errand::Export | Errand::Save) => "Writing the file".to_owned(),
+            What::Errand(Errand::Open) => "Opening the project".to_owned(),
+        };
+        if !first.words.is_empty() {
+            words.push_str(&format!(": {}", first.words));
+        }
+        Some((words, first.share))
+    }
+}
+
+/// What to say of an errand that is done.
+fn finish(
+    errand: Errand,
+    result: Result<Vec<u8>, String>,
+    project: &mut Project,
+    host: &mut impl Host,
+) -> String {
+    let answer = result.and_then(|bytes| Answer::from_bytes(&bytes));
+    let mut save = |name: &str, bytes: Blob| match host.save(name, bytes.to_vec()) {
+        Ok(sentence) | Err(sentence) => sentence,
+    };
+    match (errand, answer) {
+        (_, Err(sentence)) => sentence,
+        (Errand::Export, Ok(Answer::Archive(bytes))) => save("reconstruction.zip", bytes),
+        (Errand::Save, Ok(Answer::Archive(bytes))) => save("project.zip", bytes),
+        (
+            Errand::Open,
+            Ok(Answer::Opened {
+                project: saved,
+                files,
+            }),
+        ) => {
+            project.update(Event::OpenProject(saved, files));
+            "The project is open.".to_owned()
+        }
+        (_, Ok(_)) => "an answer came that nobody asked for".to_owned(),
+    }
+}

@@ -1,0 +1,207 @@
+//! What became of each photograph, and what would help.
+
+use super::document::{Given, PhotoId};
+use super::{Project, stages::FocalOrigin};
+use crate::tasks::{Component, Shows};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What became of a photograph.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Fate {
+    /// It is not known yet.
+    Open,
+    /// It has a camera, and so many points are seen in it.
+    Registered(usize),
+    /// The reader left it out.
+    Excluded,
+    /// The same file stands before it in the list.
+    Twin(String),
+    /// It cannot be read.
+    Unreadable(String),
+    /// No other photograph takes part.
+    Alone,
+    /// It has so few features.
+    FewFeatures(usize),
+    /// It shares nothing with any other; at best so many matches agree.
+    OverlapsNone(usize),
+    /// Between it and those that it overlaps with, the camera only turned.
+    OnlyTurned,
+    /// It sees so few of the points.
+    SeesFew(usize),
+    /// It sees so many points, but they do not agree on a place.
+    NoPlace(usize),
+    /// It belongs to another part.
+    OtherPart(usize),
+    /// Everything failed.
+    Failed(String),
+}
+
+/// Fewer features than this are few.
+const FEW_FEATURES: usize = 60;
+
+impl Project {
+    /// What became of a photograph.
+    pub fn fate(&self, photo: &Given) -> Fate {
+        let mut kept = self.fates.borrow_mut();
+        if kept.0 != self.revision {
+            *kept = (self.revision, BTreeMap::new());
+        }
+        let fate = kept.1.entry(photo.id);
+        fate.or_insert_with(|| self.find_fate(photo)).clone()
+    }
+
+    fn find_fate(&self, photo: &Given) -> Fate {
+        if photo.excluded {
+            return Fate::Excluded;
+        }
+        if let Some(twin) = self.document.twin(photo) {
+            return Fate::Twin(twin.name.clone());
+        }
+        for key in [self.photograph_key(photo), self.features_key(photo)] {
+            if let Some(why) = self.failure(key) {
+                return Fate::Unreadable(why.to_owned());
+            }
+        }
+        let all = self.taking_part();
+        if all.len() < 2 {
+            return match self.photograph(photo) {
+                Some(_) => Fate::Alone,
+                None => Fate::Open,
+            };
+        }
+        if let Some(why) = self.reconstruction_failure() {
+            return Fate::Failed(why.to_owned());
+        }
+        let (Some(found), Some(place)) = (self.reconstruction(), self.place(photo.id)) else {
+            return Fate::Open;
+        };
+        let looked_at = found.components.get(self.view.component);
+        if let Some(component) = looked_at
+            && component.cameras.get(place).is_some_and(Option::is_some)
+        {
+            let sees = |track: &[(u32, u32)]| track.iter().any(|(of, _)| *of as usize == place);
+            let points = component.points.iter();
+            return Fate::Registered(points.filter(|point| sees(&point.track)).count());
+        }
+        let has = |c: &Component| c.cameras.get(place).is_some_and(Option::is_some);
+        if let Some(part) = found.components.iter().position(has) {
+            return Fate::OtherPart(part);
+        }
+        self.why_left_out(photo, looked_at, &all)
+    }
+
+    fn why_left_out(&self, photo: &Given, component: Option<&Component>, all: &[&Given]) -> Fate {
+        let num_features = self.features(photo).map_or(0, |f| f.list.len());
+        if num_features < FEW_FEATURES {
+            return Fate::FewFeatures(num_features);
+        }
+        let enough = self.document.settings.sfm.min_num_inliers;
+        let (mut most, mut turns, mut moves) = (0, 0, 0);
+        // Keypoints that agree with a point which other photographs gave.
+        let mut seen = BTreeSet::new();
+        for other in all.iter().filter(|other| other.id != photo.id) {
+            let is_first = self.place(photo.id) < self.place(other.id);
+            let (first, second) = if is_first {
+                (photo, *other)
+            } else {
+                (*other, photo)
+            };
+            let (Some(pair), Some(matches)) =
+                (self.two_views(first, second), self.matches(first, second))
+            else {
+                return Fate::Open;
+            };
+            most = most.max(pair.num_inliers);
+            if pair.num_inliers < enough {
+                continue;
+            }
+            match pair.shows {
+                Shows::Turn => turns += 1,
+                Shows::Depth | Shows::Plane => moves += 1,
+                Shows::Nothing => {}
+            }
+            let Some(there) = component.zip(self.place(other.id)) else {
+                continue;
+            };
+            let points = points_seen(there.0, there.1);
+            let inliers = matches
+                .iter()
+                .zip(&pair.inliers)
+                .filter(|(_, inlier)| **inlier);
+            for (m, _) in inliers {
+                let (own, of_other) = if is_first {
+                    (m.first, m.second)
+                } else {
+                    (m.second, m.first)
+                };
+                if points.contains(&of_other) {
+                    seen.insert(own);
+                }
+            }
+        }
+        match (turns, moves) {
+            (0, 0) => Fate::OverlapsNone(most as usize),
+            (_, 0) => Fate::OnlyTurned,
+            _ if seen.len() < enough as usize => Fate::SeesFew(seen.len()),
+            _ => Fate::NoPlace(seen.len()),
+        }
+    }
+
+    /// What became of a photograph, for people, and what would help.
+    pub fn fate_words(&self, photo: &Given) -> String {
+        let enough = self.document.settings.sfm.min_num_inliers;
+        let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
+        match self.fate(photo) {
+            Fate::Open => "in work".to_owned(),
+            Fate::Registered(points) => format!("in, sees {points} points"),
+            Fate::Excluded => "left out by you".to_owned(),
+            Fate::Twin(name) => {
+                format!("the same file as {name}: one photograph twice shows no depth; take another from a step aside")
+            }
+            Fate::Unreadable(why) => format!("cannot be read: {why}"),
+            Fate::Alone => {
+                "alone: one photograph gives directions, not distances; add another from a step aside".to_owned()
+            }
+            Fate::FewFeatures(count) => format!(
+                "{count} features are too few: take it sharper, or of something with more texture, or lower the contrast"
+            ),
+            Fate::OverlapsNone(most) => format!(
+                "overlaps with no other photograph: at best {most} matches agree, {enough} are needed; \
+                 take one in between"
+            ),
+            Fate::OnlyTurned => "between it and the others the camera only turned, and a turn shows no \
+                 depth; take a step aside between two photographs"
+                .to_owned(),
+            Fate::SeesFew(count) => format!(
+                "sees {count} points of {enough} that are needed; take one between it and its neighbor"
+            ),
+            Fate::NoPlace(count) if guessed => format!(
+                "sees {count} points, but they agree on no place: its focal length is only a guess, type the right one"
+            ),
+            Fate::NoPlace(count) => {
+                format!("sees {count} points, but they agree on no place; something may have moved")
+            }
+            Fate::OtherPart(part) => format!(
+                "belongs to part {}: nothing joins it to the part shown; take one that shows both",
+                part + 1
+            ),
+            Fate::Failed(why) => format!("nothing could be reconstructed: {why}"),
+        }
+    }
+
+    /// The photographs that are given but not in the part that is looked at, with what became of them.
+    pub fn left_out(&self) -> Vec<(PhotoId, Fate)> {
+        let photos = self.document.photos.iter();
+        photos
+            .map(|photo| (photo.id, self.fate(photo)))
+            .filter(|(_, fate)| !matches!(fate, Fate::Registered(_) | Fate::Open))
+            .collect()
+    }
+}
+
+/// The keypoints of an image that show a point.
+fn points_seen(component: &Component, image: usize) -> BTreeSet<u32> {
+    let tracks = component.points.iter().flat_map(|point| &point.track);
+    let own = tracks.filter(|(of, _)| *of as usize == image);
+    own.map(|(_, keypoint)| *keypoint).collect()
+}

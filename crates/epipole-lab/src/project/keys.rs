@@ -1,0 +1,31 @@
+//! Names of results: a hash of everything that they depend on.
+
+use serde::Serialize;
+use std::hash::{DefaultHasher, Hasher};
+
+/// The name of a result. Equal inputs have equal names, within one run of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key(pub u64);
+
+impl Key {
+    /// The name of what depends on this.
+    pub(super) fn of<T: Serialize>(inputs: &T) -> Self {
+        let mut hasher = DefaultHasher::new();
+        hasher.write(&crate::tasks::to_bytes(inputs));
+        Self(hasher.finish())
+    }
+
+    /// The name of a file's bytes.
+    pub(super) fn of_bytes(bytes: &[u8]) -> Self {
+        let mut hasher = DefaultHasher::new();
+        hasher.write(bytes);
+        hasher.write_usize(bytes.len());
+        Self(hasher.finish())
+    }
+}
+
+impl std::fmt::Display for Key {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}

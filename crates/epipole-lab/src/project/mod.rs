@@ -1,0 +1,157 @@
+//! The state of the Lab: photographs, knobs, and what follows from them. Plain data, without a screen
+//! and without a clock.
+//!
+//! State changes only by [`Project::update`] and [`Project::done`]. [`Project::wanted`] says what there
+//! is to compute, and whoever can compute asks [`Project::request`] for the bytes.
+
+mod document;
+mod event;
+mod fate;
+mod keys;
+mod measure;
+mod results;
+mod saved;
+mod stages;
+mod update;
+mod wanted;
+mod words;
+
+pub use document::{Anchor, Document, Given, Measure, PhotoId, RefineFocal, Settings};
+pub use event::{Event, Step};
+pub use fate::Fate;
+pub use keys::Key;
+pub use measure::{Length, Scale};
+pub use results::Results;
+pub use saved::{Saved, SavedPhoto, VERSION};
+pub use stages::FocalOrigin;
+pub use wanted::{About, Task};
+
+use crate::tasks::Answer;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// What the reader looks at; undo leaves it alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// The step.
+    pub step: Step,
+    /// The photograph.
+    pub photo: PhotoId,
+    /// The pair, the first before the second in the list.
+    pub pair: (PhotoId, PhotoId),
+    /// The part of the reconstruction.
+    pub component: usize,
+}
+
+/// Everything that the Lab knows.
+#[derive(Debug)]
+pub struct Project {
+    pub(crate) document: Document,
+    pub(crate) view: View,
+    results: Results,
+    past: Vec<Document>,
+    future: Vec<Document>,
+    next_id: PhotoId,
+    paused: bool,
+    /// How often anything has changed.
+    revision: u64,
+    /// What became of photographs, found out once for each revision: panels ask with every frame.
+    fates: RefCell<(u64, BTreeMap<PhotoId, Fate>)>,
+}
+
+impl Default for Project {
+    fn default() -> Self {
+        Self {
+            document: Document::default(),
+            view: View {
+                step: Step::Photographs,
+                photo: 0,
+                pair: (0, 0),
+                component: 0,
+            },
+            results: Results::default(),
+            past: Vec::new(),
+            future: Vec::new(),
+            next_id: 0,
+            paused: false,
+            revision: 0,
+            fates: RefCell::default(),
+        }
+    }
+}
+
+impl Project {
+    /// What the project is made of.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// What the reader looks at.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// How often anything has changed: what was found out at one revision holds until the next.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Whether computing was stopped.
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// Whether there is something to take back.
+    pub fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    /// Whether there is something to bring back.
+    pub fn can_redo(&self) -> bool {
+        !self.future.is_empty()
+    }
+
+    /// Takes a result, or the sentence why there is none. A result that is no longer needed is kept as
+    /// well: undo may ask for it.
+    pub fn done(&mut self, key: Key, result: Result<Vec<u8>, String>) {
+        self.revision += 1;
+        let size = result.as_ref().map_or(0, Vec::len);
+        match result.and_then(|bytes| Answer::from_bytes(&bytes)) {
+            Ok(answer) => {
+                if !self.results.keep(key, answer, size) {
+                    self.results
+                        .fail(key, "an answer came that nobody asked for".to_owned());
+                }
+            }
+            Err(sentence) => self.results.fail(key, sentence),
+        }
+        let needed = self.needed();
+        self.results.tidy(|key| needed.contains(&key));
+    }
+
+    /// Why a result is missing for good.
+    pub fn failure(&self, key: Key) -> Option<&str> {
+        self.results.failure(key)
+    }
+
+    /// Why the reconstruction failed, if it did: an error, not photographs that do not fit.
+    pub fn reconstruction_failure(&self) -> Option<&str> {
+        self.results.failure(self.reconstruction_key()?)
+    }
+
+    /// The keys of what the project is made of now.
+    fn needed(&self) -> std::collections::BTreeSet<Key> {
+        let mut keys = std::collections::BTreeSet::new();
+        let photos = &self.document.photos;
+        for photo in photos {
+            keys.insert(self.photograph_key(photo));
+            keys.insert(self.features_key(photo));
+        }
+        for (first, second) in wanted::pairs(&self.taking_part()) {
+            keys.insert(self.matches_key(first, second));
+            keys.extend(self.two_views_key(first, second));
+        }
+        keys.extend(self.reconstruction_key());
+        keys
+    }
+}

@@ -1,0 +1,130 @@
+//! Results, kept by the key of their inputs, so that undo is instant.
+
+use super::keys::Key;
+use crate::tasks::{Answer, Features, Match, Photograph, Reconstructed, TwoViews};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A result, shared.
+#[derive(Debug, Clone)]
+pub(super) enum Kept {
+    /// A photograph.
+    Photograph(Rc<Photograph>),
+    /// The features of one.
+    Features(Rc<Features>),
+    /// The matches of a pair.
+    Matches(Rc<Vec<Match>>),
+    /// What a pair says.
+    TwoViews(Rc<TwoViews>),
+    /// Cameras and points.
+    Reconstruction(Rc<Reconstructed>),
+}
+
+/// Results that nobody has asked for lately go when all take more than this.
+const MAX_BYTES: usize = 600_000_000;
+
+/// All results, and what failed.
+#[derive(Debug, Default)]
+pub struct Results {
+    kept: BTreeMap<Key, (Kept, usize, u64)>,
+    failed: BTreeMap<Key, String>,
+    bytes: usize,
+    age: u64,
+}
+
+impl Results {
+    /// Keeps an answer. False for one that is not kept here.
+    pub(super) fn keep(&mut self, key: Key, answer: Answer, bytes: usize) -> bool {
+        let kept = match answer {
+            Answer::Photograph(answer) => Kept::Photograph(Rc::new(answer)),
+            Answer::Features(answer) => Kept::Features(Rc::new(answer)),
+            Answer::Matches(answer) => Kept::Matches(Rc::new(answer)),
+            Answer::TwoViews(answer) => Kept::TwoViews(Rc::new(answer)),
+            Answer::Reconstruction(answer) => Kept::Reconstruction(Rc::new(answer)),
+            Answer::Archive(_) | Answer::Opened { .. } => return false,
+        };
+        self.failed.remove(&key);
+        self.age += 1;
+        if let Some((_, before, _)) = self.kept.insert(key, (kept, bytes, self.age)) {
+            self.bytes -= before;
+        }
+        self.bytes += bytes;
+        true
+    }
+
+    pub(super) fn fail(&mut self, key: Key, sentence: String) {
+        self.failed.insert(key, sentence);
+    }
+
+    /// Lets go of the oldest results that are not `needed`, if all take too much.
+    pub(super) fn tidy(&mut self, needed: impl Fn(Key) -> bool) {
+        if self.bytes <= MAX_BYTES {
+            return;
+        }
+        let spare = self.kept.iter().filter(|(key, _)| !needed(**key));
+        let mut spare: Vec<(u64, Key)> = spare.map(|(key, (_, _, age))| (*age, *key)).collect();
+        spare.sort_unstable();
+        for (_, key) in spare {
+            if self.bytes <= MAX_BYTES {
+                break;
+            }
+            if let Some((_, bytes, _)) = self.kept.remove(&key) {
+                self.bytes -= bytes;
+            }
+        }
+    }
+
+    /// Whether there is an answer, or a sentence why there is none.
+    pub(super) fn is_settled(&self, key: Key) -> bool {
+        self.kept.contains_key(&key) || self.failed.contains_key(&key)
+    }
+
+    /// Why there is no such result.
+    pub fn failure(&self, key: Key) -> Option<&str> {
+        self.failed.get(&key).map(String::as_str)
+    }
+
+    fn get(&self, key: Key) -> Option<&Kept> {
+        self.kept.get(&key).map(|(kept, _, _)| kept)
+    }
+
+    /// The photograph of this name.
+    pub fn photograph(&self, key: Key) -> Option<&Rc<Photograph>> {
+        match self.get(key)? {
+            Kept::Photograph(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The features of this name.
+    pub fn features(&self, key: Key) -> Option<&Rc<Features>> {
+        match self.get(key)? {
+            Kept::Features(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The matches of this name.
+    pub fn matches(&self, key: Key) -> Option<&Rc<Vec<Match>>> {
+        match self.get(key)? {
+            Kept::Matches(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The pair of this name.
+    pub fn two_views(&self, key: Key) -> Option<&Rc<TwoViews>> {
+        match self.get(key)? {
+            Kept::TwoViews(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The reconstruction of this name.
+    pub fn reconstruction(&self, key: Key) -> Option<&Rc<Reconstructed>> {
+        match self.get(key)? {
+            Kept::Reconstruction(found) => Some(found),
+            _ => None,
+        }
+    }
+}

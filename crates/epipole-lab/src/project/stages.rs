@@ -1,0 +1,167 @@
+//! What follows from what: the key of every result, and where a focal length comes from.
+
+use super::Project;
+use super::document::{Given, PhotoId, RefineFocal};
+use super::keys::Key;
+use crate::tasks::{Calibrated, Features, Match, Photograph, Reconstructed, SfmOptions, TwoViews};
+use std::rc::Rc;
+
+/// Where a focal length comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FocalOrigin {
+    /// The reader typed it.
+    Typed,
+    /// The file tells it.
+    File,
+    /// 1.2 times the longer side.
+    Guessed,
+}
+
+impl Project {
+    fn max_pixels(&self) -> u32 {
+        (self.document.settings.max_megapixels * 1e6).round() as u32
+    }
+
+    /// The name of a photograph's pixels.
+    pub(super) fn photograph_key(&self, photo: &Given) -> Key {
+        Key::of(&("photograph", photo.content.0, self.max_pixels()))
+    }
+
+    pub(super) fn features_key(&self, photo: &Given) -> Key {
+        let options = self.document.settings.features;
+        Key::of(&("features", self.photograph_key(photo).0, options))
+    }
+
+    pub(super) fn matches_key(&self, first: &Given, second: &Given) -> Key {
+        let keys = (self.features_key(first).0, self.features_key(second).0);
+        Key::of(&("matches", keys, self.document.settings.matching))
+    }
+
+    pub(super) fn two_views_key(&self, first: &Given, second: &Given) -> Option<Key> {
+        let focals = (self.camera(first)?.focal_px, self.camera(second)?.focal_px);
+        let matches = self.matches_key(first, second).0;
+        Some(Key::of(&(
+            "two views",
+            matches,
+            focals,
+            self.document.settings.pairs,
+        )))
+    }
+
+    /// The name of the reconstruction, once all photographs are there.
+    pub(super) fn reconstruction_key(&self) -> Option<Key> {
+        let photos = self.taking_part();
+        if photos.len() < 2 {
+            return None;
+        }
+        let mut inputs = Vec::new();
+        for photo in &photos {
+            inputs.push((self.features_key(photo).0, self.camera(photo)?.focal_px));
+        }
+        let matching = self.document.settings.matching;
+        Some(Key::of(&(
+            "reconstruction",
+            inputs,
+            matching,
+            self.sfm_options(),
+        )))
+    }
+
+    /// The name of a photograph's pixels, for whoever keeps a picture of them.
+    pub fn key_of_photograph(&self, photo: &Given) -> Key {
+        self.photograph_key(photo)
+    }
+
+    /// The name of the reconstruction, likewise, once all photographs are there.
+    pub fn key_of_reconstruction(&self) -> Option<Key> {
+        self.reconstruction_key()
+    }
+
+    /// The pixels of a photograph, if they are there.
+    pub fn photograph(&self, photo: &Given) -> Option<&Rc<Photograph>> {
+        self.results.photograph(self.photograph_key(photo))
+    }
+
+    /// Its features, if they are there.
+    pub fn features(&self, photo: &Given) -> Option<&Rc<Features>> {
+        self.results.features(self.features_key(photo))
+    }
+
+    /// The matches of a pair, if they are there; the first stands before the second in the list.
+    pub fn matches(&self, first: &Given, second: &Given) -> Option<&Rc<Vec<Match>>> {
+        self.results.matches(self.matches_key(first, second))
+    }
+
+    /// What a pair says, if that is known.
+    pub fn two_views(&self, first: &Given, second: &Given) -> Option<&Rc<TwoViews>> {
+        self.results.two_views(self.two_views_key(first, second)?)
+    }
+
+    /// Cameras and points, if they are there.
+    pub fn reconstruction(&self) -> Option<&Rc<Reconstructed>> {
+        self.results.reconstruction(self.reconstruction_key()?)
+    }
+
+    /// Size and focal length of a photograph, once it is there.
+    pub fn camera(&self, photo: &Given) -> Option<Calibrated> {
+        let pixels = self.photograph(photo)?;
+        let (focal_px, _) = focal(photo, pixels);
+        Some(Calibrated {
+            width: pixels.width,
+            height: pixels.height,
+            focal_px,
+        })
+    }
+
+    /// Where its focal length comes from.
+    pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
+        Some(focal(photo, self.photograph(photo)?).1)
+    }
+
+    /// The photographs that are neither left out, nor twice in the list, nor unreadable.
+    pub fn taking_part(&self) -> Vec<&Given> {
+        let readable = |photo: &&Given| {
+            let failed = |key| self.results.failure(key).is_some();
+            !failed(self.photograph_key(photo)) && !failed(self.features_key(photo))
+        };
+        (self.document.photos.iter())
+            .filter(|photo| !photo.excluded && self.document.twin(photo).is_none())
+            .filter(readable)
+            .collect()
+    }
+
+    /// The place of a photograph among those that take part.
+    pub fn place(&self, id: PhotoId) -> Option<usize> {
+        self.taking_part().iter().position(|photo| photo.id == id)
+    }
+
+    /// The options of the reconstruction, with what "when guessed" means now.
+    pub fn sfm_options(&self) -> SfmOptions {
+        let guessed = || {
+            let mut photos = self.taking_part().into_iter();
+            photos.any(|photo| self.focal_origin(photo) == Some(FocalOrigin::Guessed))
+        };
+        let refine_focal = match self.document.settings.refine_focal {
+            RefineFocal::Always => true,
+            RefineFocal::Never => false,
+            RefineFocal::WhenGuessed => guessed(),
+        };
+        SfmOptions {
+            refine_focal,
+            ..self.document.settings.sfm
+        }
+    }
+}
+
+/// The focal length of a photograph in its own pixels, and where it comes from.
+fn focal(photo: &Given, pixels: &Photograph) -> (f64, FocalOrigin) {
+    let factor = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
+    if let Some(focal_px) = photo.focal_px {
+        return (focal_px * factor, FocalOrigin::Typed);
+    }
+    if let Some(focal_px) = pixels.focal_px {
+        return (focal_px, FocalOrigin::File);
+    }
+    let longer = f64::from(pixels.width.max(pixels.height));
+    (1.2 * longer, FocalOrigin::Guessed)
+}

@@ -1,0 +1,219 @@
+//! How events change the state.
+
+use super::document::{Document, Given, Measure, PhotoId, content_of};
+use super::{Event, Project, Step};
+use crate::tasks::{Blob, Sample, Source};
+
+/// So many changes can be taken back.
+const MAX_PAST: usize = 200;
+
+impl Project {
+    /// Carries out an event. Whatever is wrong with it, the state stays as it was.
+    pub fn update(&mut self, event: Event) {
+        self.revision += 1;
+        let before = self.document.clone();
+        match event {
+            Event::Undo => return self.step_back(),
+            Event::Redo => return self.step_forward(),
+            Event::Show(step) => self.view.step = step,
+            Event::Look(id) => self.look(id),
+            Event::LookAtPair(first, second) => self.look_at_pair(first, second),
+            Event::LookAtComponent(component) => self.view.component = component,
+            Event::Pause(paused) => self.paused = paused,
+            Event::Add(files) => self.add(files),
+            Event::OpenSample(sample) => self.open_sample(sample),
+            Event::OpenProject(saved, files) => {
+                self.document = self.restored(saved, files);
+                self.view.step = Step::Photographs;
+            }
+            Event::Remove(id) => {
+                self.document.photos.retain(|photo| photo.id != id);
+                let gone = |m: &Measure| m.ends.iter().any(|end| end.photo == id);
+                self.document.measures.retain(|measure| !gone(measure));
+            }
+            Event::Clear => {
+                self.document.photos.clear();
+                self.document.measures.clear();
+                self.view.step = Step::Photographs;
+            }
+            Event::Exclude(id, excluded) => {
+                if let Some(photo) = self.photo_mut(id) {
+                    photo.excluded = excluded;
+                }
+            }
+            Event::Focal(id, focal_px) => {
+                let is_length = focal_px.is_none_or(|f| f.is_finite() && f > 0.0);
+                if let Some(photo) = self.photo_mut(id).filter(|_| is_length) {
+                    photo.focal_px = focal_px;
+                }
+            }
+            Event::Earlier(id) => {
+                let photos = &mut self.document.photos;
+                if let Some(place @ 1..) = photos.iter().position(|photo| photo.id == id) {
+                    photos.swap(place, place - 1);
+                }
+            }
+            Event::Set(settings) => self.document.settings = settings.checked(),
+            Event::Measure(measure) => self.measure(measure),
+            Event::Length(index, length_m) => {
+                let is_length = length_m.is_none_or(|m| m.is_finite() && m > 0.0);
+                let measure = self.document.measures.get_mut(index);
+                if let Some(measure) = measure.filter(|_| is_length) {
+                    measure.length_m = length_m;
+                }
+            }
+            Event::Forget(index) => {
+                if index < self.document.measures.len() {
+                    self.document.measures.remove(index);
+                }
+            }
+        }
+        if self.document != before {
+            self.remember(before);
+        }
+        self.look_at_what_is_there();
+    }
+
+    fn photo_mut(&mut self, id: PhotoId) -> Option<&mut Given> {
+        self.document.photos.iter_mut().find(|photo| photo.id == id)
+    }
+
+    fn remember(&mut self, before: Document) {
+        self.future.clear();
+        self.past.push(before);
+        if self.past.len() > MAX_PAST {
+            self.past.remove(0);
+        }
+    }
+
+    fn step_back(&mut self) {
+        if let Some(before) = self.past.pop() {
+            self.future
+                .push(std::mem::replace(&mut self.document, before));
+            self.look_at_what_is_there();
+        }
+    }
+
+    fn step_forward(&mut self) {
+        if let Some(after) = self.future.pop() {
+            self.past.push(std::mem::replace(&mut self.document, after));
+            self.look_at_what_is_there();
+        }
+    }
+
+    fn add(&mut self, files: Vec<(String, Blob)>) {
+        for (name, bytes) in files {
+            let source = Source::File(bytes);
+            self.give(&name, source);
+        }
+    }
+
+    fn give(&mut self, name: &str, source: Source) {
+        self.next_id += 1;
+        self.document.photos.push(Given {
+            id: self.next_id,
+            name: unique_name(&self.document, name),
+            content: content_of(&source),
+            source,
+            excluded: false,
+            focal_px: None,
+        });
+    }
+
+    fn open_sample(&mut self, sample: Sample) {
+        self.document.photos.clear();
+        self.document.measures.clear();
+        for index in 0..sample.len() {
+            self.give(&sample.name(index), Source::Rendered(sample, index));
+        }
+    }
+
+    fn measure(&mut self, measure: Measure) {
+        let [a, b] = measure.ends;
+        let known =
+            self.document.photo(a.photo).is_some() && self.document.photo(b.photo).is_some();
+        let is_length = measure.length_m.is_none_or(|m| m.is_finite() && m > 0.0);
+        if a != b && known && is_length {
+            self.document.measures.push(measure);
+        }
+    }
+
+    fn look(&mut self, id: PhotoId) {
+        if self.document.photo(id).is_some() {
+            self.view.photo = id;
+        }
+    }
+
+    fn look_at_pair(&mut self, first: PhotoId, second: PhotoId) {
+        let place = |id| self.document.photos.iter().position(|photo| photo.id == id);
+        if let (Some(a), Some(b)) = (place(first), place(second))
+            && a != b
+        {
+            self.view.pair = if a < b {
+                (first, second)
+            } else {
+                (second, first)
+            };
+        }
+    }
+
+    /// What is looked at must be there, and in order.
+    fn look_at_what_is_there(&mut self) {
+        let photos = &self.document.photos;
+        if self.document.photo(self.view.photo).is_none() {
+            self.view.photo = photos.first().map_or(0, |photo| photo.id);
+        }
+        let place = |id| photos.iter().position(|photo| photo.id == id);
+        let (a, b) = self.view.pair;
+        match (place(a), place(b)) {
+            (Some(first), Some(second)) if first < second => {}
+            (Some(first), Some(second)) if first > second => self.view.pair = (b, a),
+            _ => {
+                let id = |place: usize| photos.get(place).map_or(0, |photo| photo.id);
+                self.view.pair = (id(0), id(1));
+            }
+        }
+        let components = self.reconstruction().map_or(0, |r| r.components.len());
+        if components > 0 {
+            self.view.component = self.view.component.min(components - 1);
+        }
+    }
+}
+
+/// The name, without folders, and with a number if another photograph has it already. Endings do not
+/// count: an exported photograph may get another one.
+pub(super) fn unique_name(document: &Document, name: &str) -> String {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let clean: String = (name.chars())
+        .map(|c| if c.is_control() { '_' } else { c })
+        .collect();
+    let name = if clean.trim().is_empty() {
+        "photograph"
+    } else {
+        clean.trim()
+    };
+    let split = |name: &str| match name.rsplit_once('.') {
+        Some((stem, end)) if !stem.is_empty() => (stem.to_lowercase(), format!(".{end}")),
+        _ => (name.to_lowercase(), String::new()),
+    };
+    let taken = |name: &str| {
+        let stem = split(name).0;
+        document
+            .photos
+            .iter()
+            .any(|photo| split(&photo.name).0 == stem)
+    };
+    if !taken(name) {
+        return name.to_owned();
+    }
+    let ending = split(name).1;
+    let stem = &name[..name.len() - ending.len()];
+    let mut number = 2;
+    loop {
+        let other = format!("{stem}-{number}{ending}");
+        if !taken(&other) {
+            return other;
+        }
+        number += 1;
+    }
+}

@@ -1,0 +1,194 @@
+//! What there is to compute now, most urgent first.
+
+use super::Project;
+use super::document::{Given, PhotoId};
+use super::keys::Key;
+use crate::tasks::{Described, ImagePoints, Packed, PairOf, Request};
+
+/// Something to compute.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Task {
+    /// The name of its result.
+    pub key: Key,
+    /// What it is about.
+    pub about: About,
+}
+
+/// What a task is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum About {
+    /// A photograph.
+    Photograph(PhotoId),
+    /// Its features.
+    Features(PhotoId),
+    /// A pair.
+    Matches(PhotoId, PhotoId),
+    /// A pair.
+    TwoViews(PhotoId, PhotoId),
+    /// All.
+    Reconstruction,
+}
+
+impl Project {
+    /// What is still to be computed and can be: its inputs are there.
+    pub fn wanted(&self) -> Vec<Task> {
+        if self.paused {
+            return Vec::new();
+        }
+        let mut tasks: Vec<Task> = Vec::new();
+        let mut want = |key: Key, about: About| {
+            if !self.results.is_settled(key) && tasks.iter().all(|task| task.key != key) {
+                tasks.push(Task { key, about });
+            }
+        };
+        for photo in &self.document.photos {
+            want(self.photograph_key(photo), About::Photograph(photo.id));
+        }
+        let photos = self.taking_part();
+        for photo in &photos {
+            if self.photograph(photo).is_some() {
+                want(self.features_key(photo), About::Features(photo.id));
+            }
+        }
+        let mut all_matched = photos.len() >= 2;
+        let mut judged = Vec::new();
+        for (first, second) in pairs(&photos) {
+            let key = self.matches_key(first, second);
+            all_matched &= self.results.matches(key).is_some();
+            if self.features(first).is_none() || self.features(second).is_none() {
+                continue;
+            }
+            want(key, About::Matches(first.id, second.id));
+            if self.results.matches(key).is_some()
+                && let Some(key) = self.two_views_key(first, second)
+            {
+                judged.push((key, About::TwoViews(first.id, second.id)));
+            }
+        }
+        // The pair that is looked at first, then everything in one, then all other pairs.
+        let (a, b) = self.view.pair;
+        judged.sort_by_key(|(_, about)| *about != About::TwoViews(a, b));
+        let looked_at = judged.iter().take(1);
+        for (key, about) in looked_at {
+            want(*key, *about);
+        }
+        if all_matched && let Some(key) = self.reconstruction_key() {
+            want(key, About::Reconstruction);
+        }
+        for (key, about) in judged {
+            want(key, about);
+        }
+        tasks
+    }
+
+    /// The request of a task; `None` if the project has changed since.
+    pub fn request(&self, task: &Task) -> Option<Request> {
+        let settings = &self.document.settings;
+        Some(match task.about {
+            About::Photograph(id) => Request::Photograph {
+                source: self.document.photo(id)?.source.clone(),
+                max_pixels: (settings.max_megapixels * 1e6).round() as u32,
+            },
+            About::Features(id) => Request::Features {
+                photograph: (**self.photograph(self.document.photo(id)?)?).clone(),
+                options: settings.features,
+            },
+            About::Matches(first, second) => Request::Matches {
+                first: self.described(first)?,
+                second: self.described(second)?,
+                options: settings.matching,
+            },
+            About::TwoViews(first, second) => {
+                let (first, second) = (self.document.photo(first)?, self.document.photo(second)?);
+                Request::TwoViews {
+                    places: self.match_places(first, second)?,
+                    cameras: [self.camera(first)?, self.camera(second)?],
+                    options: settings.pairs,
+                }
+            }
+            About::Reconstruction => Request::Reconstruction {
+                images: self.image_points()?,
+                pairs: self.all_matches()?,
+                options: self.sfm_options(),
+            },
+        })
+    }
+
+    fn described(&self, id: PhotoId) -> Option<Described> {
+        Some(self.features(self.document.photo(id)?)?.described.clone())
+    }
+
+    /// `u1, v1, u2, v2` of each match of a pair.
+    pub fn match_places(&self, first: &Given, second: &Given) -> Option<Vec<[f64; 4]>> {
+        let matches = self.matches(first, second)?;
+        let (one, two) = (self.features(first)?, self.features(second)?);
+        let place = |m: &crate::tasks::Match| {
+            let a = one.list.get(m.first as usize)?;
+            let b = two.list.get(m.second as usize)?;
+            Some([a.u, a.v, b.u, b.v])
+        };
+        matches.iter().map(place).collect()
+    }
+
+    fn image_points(&self) -> Option<Vec<ImagePoints>> {
+        let image = |photo: &&Given| {
+            let features = self.features(photo)?;
+            Some(ImagePoints {
+                name: photo.name.clone(),
+                camera: self.camera(photo)?,
+                points: features.list.iter().map(|f| [f.u, f.v]).collect(),
+                colors: features.list.iter().map(|f| f.color).collect(),
+            })
+        };
+        self.taking_part().iter().map(image).collect()
+    }
+
+    fn all_matches(&self) -> Option<Vec<PairOf>> {
+        let photos = self.taking_part();
+        let mut found = Vec::new();
+        for (i, first) in photos.iter().enumerate() {
+            for (j, second) in photos.iter().enumerate().skip(i + 1) {
+                let matches = self.matches(first, second)?;
+                found.push(PairOf {
+                    first: i as u32,
+                    second: j as u32,
+                    matches: matches.iter().map(|m| (m.first, m.second)).collect(),
+                });
+            }
+        }
+        Some(found)
+    }
+
+    /// The request for the zip file of what is looked at; `None` while there is no reconstruction.
+    pub fn export_request(&self) -> Option<Request> {
+        let found = self.reconstruction()?;
+        found.components.get(self.view.component)?;
+        let pack = |photo: &&Given| {
+            Some(Packed {
+                name: photo.name.clone(),
+                source: photo.source.clone(),
+                used: Some((**self.photograph(photo)?).clone()),
+            })
+        };
+        Some(Request::Export {
+            images: self.image_points()?,
+            photographs: (self.taking_part().iter())
+                .map(pack)
+                .collect::<Option<_>>()?,
+            found: (**found).clone(),
+            component: self.view.component as u32,
+            meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
+            options: self.sfm_options(),
+            features: self.document.settings.features,
+            matching: self.document.settings.matching,
+        })
+    }
+}
+
+/// All pairs, the first before the second in the list.
+pub(super) fn pairs<'a>(photos: &'a [&'a Given]) -> impl Iterator<Item = (&'a Given, &'a Given)> {
+    let after = |(i, first): (usize, &'a &'a Given)| {
+        photos[i + 1..].iter().map(move |second| (*first, *second))
+    };
+    photos.iter().enumerate().flat_map(after)
+}

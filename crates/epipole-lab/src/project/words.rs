@@ -1,0 +1,223 @@
+//! What there is to see now, in words: for screen readers, and for whoever wants the gist.
+
+use super::{Project, Step};
+use crate::tasks::{Shows, ViewModel};
+
+/// "1 photograph", "2 photographs".
+pub(crate) fn count(number: usize, what: &str) -> String {
+    match number {
+        1 => format!("1 {what}"),
+        _ => format!("{number} {what}s"),
+    }
+}
+
+impl Project {
+    /// What the step that is looked at shows now.
+    pub fn describe(&self) -> String {
+        if self.document.photos.is_empty() {
+            return "No photographs yet. Add two or more that show one thing from different places, or \
+                    open a sample."
+                .to_owned();
+        }
+        let mut words = match self.view.step {
+            Step::Photographs => self.photographs_words(),
+            Step::Features => self.features_words(),
+            Step::Matches => self.matches_words(),
+            Step::TwoViews => self.two_views_words(),
+            Step::Reconstruction => self.reconstruction_words(),
+            Step::Measure => self.measure_words(),
+            Step::Export => self.export_words(),
+        };
+        if self.paused {
+            words.push_str(" Computing is stopped.");
+        }
+        words
+    }
+
+    fn photographs_words(&self) -> String {
+        let mut words = format!("{}.", count(self.document.photos.len(), "photograph"));
+        for photo in &self.document.photos {
+            let fate = self.fate(photo);
+            if !matches!(fate, super::Fate::Registered(_) | super::Fate::Open) {
+                words.push_str(&format!(" {}: {}.", photo.name, self.fate_words(photo)));
+            }
+        }
+        words
+    }
+
+    fn features_words(&self) -> String {
+        let Some(photo) = self.document.photo(self.view.photo) else {
+            return String::new();
+        };
+        match self.features(photo) {
+            Some(found) => format!("{}: {}.", photo.name, count(found.list.len(), "feature")),
+            None => format!("{}: features are being looked for.", photo.name),
+        }
+    }
+
+    fn matches_words(&self) -> String {
+        let photos = self.taking_part();
+        let (mut pairs, mut joined, mut strongest) = (0, 0, None);
+        for (first, second) in super::wanted::pairs(&photos) {
+            pairs += 1;
+            if let Some(pair) = self.two_views(first, second) {
+                joined +=
+                    usize::from(pair.num_inliers >= self.document.settings.sfm.min_num_inliers);
+                if strongest.is_none_or(|(most, _, _)| pair.num_inliers > most) {
+                    strongest = Some((pair.num_inliers, first, second));
+                }
+            }
+        }
+        let strongest = strongest.map_or(String::new(), |(inliers, first, second)| {
+            format!(
+                " Most agree between {} and {}: {inliers}.",
+                first.name, second.name
+            )
+        });
+        format!(
+            "{joined} of {} share enough matches.{strongest}",
+            count(pairs, "pair")
+        )
+    }
+
+    fn two_views_words(&self) -> String {
+        let (first, second) = self.view.pair;
+        let (Some(first), Some(second)) = (self.document.photo(first), self.document.photo(second))
+        else {
+            return "A pair needs two photographs.".to_owned();
+        };
+        let names = format!("{} and {}", first.name, second.name);
+        let (Some(pair), Some(matches)) =
+            (self.two_views(first, second), self.matches(first, second))
+        else {
+            return format!("{names}: not known yet.");
+        };
+        format!(
+            "{names}: {} of {} agree. {}",
+            pair.num_inliers,
+            count(matches.len(), "match").replace("matchs", "matches"),
+            self.pair_words(pair)
+        )
+    }
+
+    /// What a pair shows, and why this matrix describes it.
+    pub fn pair_words(&self, pair: &crate::tasks::TwoViews) -> String {
+        let turn = pair.turn_deg.unwrap_or(0.0);
+        match (pair.shows, pair.model) {
+            (Shows::Nothing, _) => {
+                "No more matches agree than might by chance: most likely the two show \
+                                    different things."
+                    .to_owned()
+            }
+            (Shows::Turn, _) if turn < 0.05 => {
+                "The camera did not move at all: H explains everything, and there is no depth."
+                    .to_owned()
+            }
+            (Shows::Turn, _) => format!(
+                "The camera only turned, by {turn:.1}°: H explains everything, and a turn shows no depth."
+            ),
+            (Shows::Plane, _) => {
+                "They show a plane from two places: H explains nearly all matches.".to_owned()
+            }
+            (Shows::Depth, ViewModel::Essential(_)) => format!(
+                "A scene with depth from two places: E, since the intrinsics hold. Rays meet at {:.1}°.",
+                pair.angle_deg.unwrap_or(0.0)
+            ),
+            (Shows::Depth, _) => {
+                "A scene with depth from two places: F explains more matches than E, so the \
+                                  focal length may be wrong."
+                    .to_owned()
+            }
+        }
+    }
+
+    fn reconstruction_words(&self) -> String {
+        if let Some(why) = self.reconstruction_failure() {
+            return format!("Nothing could be reconstructed: {why}.");
+        }
+        let photos = self.document.photos.len();
+        let Some(found) = self.reconstruction() else {
+            return match self.taking_part().len() {
+                0 | 1 => self.photographs_words(),
+                _ => "Cameras and points are being looked for.".to_owned(),
+            };
+        };
+        let mut words = match found.components.get(self.view.component) {
+            Some(component) => format!(
+                "{} of {} have a camera; {} points, mean reprojection error {:.2} pixels.",
+                component.num_registered(),
+                count(photos, "photograph"),
+                component.points.len(),
+                found.mean_error_px.get(self.view.component).unwrap_or(&0.0)
+            ),
+            None => {
+                "No two photographs show enough of the same thing from different places.".to_owned()
+            }
+        };
+        if found.components.len() > 1 {
+            words.push_str(&format!(
+                " Part {} of {}, which nothing joins.",
+                self.view.component + 1,
+                found.components.len()
+            ));
+        }
+        for (id, _) in self.left_out() {
+            if let Some(photo) = self.document.photo(id) {
+                words.push_str(&format!(" {}: {}.", photo.name, self.fate_words(photo)));
+            }
+        }
+        words
+    }
+
+    fn measure_words(&self) -> String {
+        if self.component().is_none() {
+            return "There is nothing to measure yet.".to_owned();
+        }
+        if self.document.measures.is_empty() {
+            return "Choose two points and type the length between them: it sets the scale."
+                .to_owned();
+        }
+        let mut words = match self.scale() {
+            Some(_) => "The scale is set.".to_owned(),
+            None => "The scale is not set: type a length that you know.".to_owned(),
+        };
+        for index in 0..self.document.measures.len() {
+            words.push_str(&format!(" {}: {}.", index + 1, self.length_words(index)));
+        }
+        words
+    }
+
+    /// The length of a measure, for people.
+    pub fn length_words(&self, index: usize) -> String {
+        let Some(measure) = self.document.measures.get(index) else {
+            return String::new();
+        };
+        if let Some(length) = self.length_in_meters(index) {
+            return match length.sigma > 0.0 {
+                true => format!("{} m", with_sigma(length.value, length.sigma)),
+                false => format!("{:.4} m, as typed", length.value),
+            };
+        }
+        match self.length_in_units(measure) {
+            Some(units) => format!("{} units", with_sigma(units.value, units.sigma)),
+            None => "a point of it is gone".to_owned(),
+        }
+    }
+
+    fn export_words(&self) -> String {
+        match self.component() {
+            Some(component) => format!(
+                "Ready to save: {} and {}.",
+                count(component.num_registered(), "camera"),
+                count(component.points.len(), "point")
+            ),
+            None => "There is no reconstruction to save yet.".to_owned(),
+        }
+    }
+}
+
+/// A value with as many digits as its standard deviation leaves.
+fn with_sigma(value: f64, sigma: f64) -> String {
+    let digits = (1.0 - libm::floor(libm::log10(sigma.max(1e-9)))).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$} ± {sigma:.digits$}")
+}

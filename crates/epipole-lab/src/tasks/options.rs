@@ -1,0 +1,94 @@
+//! The knobs of each step, as they travel to whoever computes.
+
+use serde::{Deserialize, Serialize};
+
+/// Which descriptor features get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FeatureKind {
+    /// SIFT with the Hellinger kernel.
+    RootSift,
+    /// SIFT as published.
+    Sift,
+}
+
+/// How features are found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FeatureOptions {
+    /// The descriptor.
+    pub kind: FeatureKind,
+    /// At most so many a photograph, the strongest.
+    pub max_features: u32,
+    /// Smallest contrast of a feature, gray values being in [0, 1].
+    pub contrast: f32,
+}
+
+impl Default for FeatureOptions {
+    /// As `epipole sfm`.
+    fn default() -> Self {
+        Self {
+            kind: FeatureKind::RootSift,
+            max_features: 8192,
+            contrast: 0.02,
+        }
+    }
+}
+
+/// How features are matched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MatchOptions {
+    /// The nearest descriptor must be closer than this share of the second nearest.
+    pub ratio: f32,
+    /// Each must be the other's nearest.
+    pub mutual: bool,
+}
+
+impl Default for MatchOptions {
+    fn default() -> Self {
+        Self {
+            ratio: 0.8,
+            mutual: true,
+        }
+    }
+}
+
+/// How a pair of photographs is judged.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PairOptions {
+    /// The largest error of an inlier, pixels.
+    pub max_error_px: f64,
+    /// Equal seeds give equal results.
+    pub seed: u64,
+}
+
+impl Default for PairOptions {
+    fn default() -> Self {
+        Self {
+            max_error_px: 1.0,
+            seed: 0,
+        }
+    }
+}
+
+/// How all photographs become cameras and points.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SfmOptions {
+    /// Fewest points that a photograph must see, and fewest matches that join two.
+    pub min_num_inliers: u32,
+    /// Refine one factor for all focal lengths.
+    pub refine_focal: bool,
+    /// Refine two terms of radial distortion that all photographs share.
+    pub refine_distortion: bool,
+    /// Equal seeds give equal results.
+    pub seed: u64,
+}
+
+impl Default for SfmOptions {
+    fn default() -> Self {
+        Self {
+            min_num_inliers: 15,
+            refine_focal: false,
+            refine_distortion: false,
+            seed: 0,
+        }
+    }
+}

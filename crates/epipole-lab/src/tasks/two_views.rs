@@ -1,0 +1,82 @@
+//! What two photographs say about each other.
+
+use super::{Calibrated, PairOptions, Shows, TwoViews, ViewModel};
+use epipole::camera::Intrinsics;
+use epipole::robust::RansacOptions;
+use epipole::two_view::{
+    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
+};
+use nalgebra::{Matrix3, Point2};
+
+/// Chooses among E, F and H.
+///
+/// Matches from which nothing can be estimated are an answer, too: [`Shows::Nothing`].
+///
+/// # Errors
+/// A sentence for numbers that no photograph has.
+pub(super) fn two_views(
+    places: &[[f64; 4]],
+    cameras: &[Calibrated; 2],
+    options: &PairOptions,
+) -> Result<TwoViews, String> {
+    let first: Vec<Point2<f64>> = places.iter().map(|p| Point2::new(p[0], p[1])).collect();
+    let second: Vec<Point2<f64>> = places.iter().map(|p| Point2::new(p[2], p[3])).collect();
+    let [k1, k2] = [intrinsics(&cameras[0])?, intrinsics(&cameras[1])?];
+    let how = TwoViewOptions {
+        ransac: RansacOptions {
+            max_error_px: options.max_error_px,
+            seed: options.seed,
+            ..RansacOptions::default()
+        },
+        ..TwoViewOptions::default()
+    };
+    how.check().map_err(|error| error.to_string())?;
+    let Ok(found) = estimate_two_view_calibrated(&first, &second, &k1, &k2, &how) else {
+        return Ok(nothing(places.len()));
+    };
+    let shows = match found.configuration {
+        Configuration::General => Shows::Depth,
+        Configuration::Planar => Shows::Plane,
+        Configuration::Panoramic => Shows::Turn,
+        Configuration::Degenerate => Shows::Nothing,
+    };
+    Ok(TwoViews {
+        shows,
+        model: match found.model {
+            TwoViewModel::Essential(e) => ViewModel::Essential(rows(&e)),
+            TwoViewModel::Fundamental(f) => ViewModel::Fundamental(rows(&f)),
+            TwoViewModel::Homography(h) => ViewModel::Homography(rows(&h)),
+        },
+        fundamental: found.fundamental.as_ref().map(rows),
+        num_inliers: found.num_inliers as u32,
+        iterations: found.iterations as u32,
+        turn_deg: (found.cam2_from_cam1).map(|motion| motion.rotation.angle().to_degrees()),
+        angle_deg: found.median_triangulation_angle_rad.map(f64::to_degrees),
+        inliers: found.inliers,
+    })
+}
+
+fn nothing(num_matches: usize) -> TwoViews {
+    TwoViews {
+        shows: Shows::Nothing,
+        model: ViewModel::Fundamental([0.0; 9]),
+        fundamental: None,
+        inliers: vec![false; num_matches],
+        num_inliers: 0,
+        iterations: 0,
+        turn_deg: None,
+        angle_deg: None,
+    }
+}
+
+/// The intrinsics of a photograph.
+pub(super) fn intrinsics(camera: &Calibrated) -> Result<Intrinsics, String> {
+    Intrinsics::centered(camera.focal_px, camera.width, camera.height)
+        .map_err(|error| error.to_string())
+}
+
+fn rows(matrix: &Matrix3<f64>) -> [f64; 9] {
+    let mut rows = [0.0; 9];
+    rows.copy_from_slice(matrix.transpose().as_slice());
+    rows
+}

@@ -1,0 +1,149 @@
+//! What the toolkit tells of its widgets, for the page to show to assistive technology: a canvas says
+//! nothing by itself.
+//!
+//! A line a widget: number, role, name, value, state, least and largest value, step; separated by tabs.
+
+use egui::accesskit::{
+    Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId, TreeUpdate,
+};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What page and toolkit tell each other.
+#[derive(Default)]
+pub(super) struct Told {
+    widgets: String,
+    is_new: bool,
+    wishes: Vec<(NodeId, Action, Option<f64>)>,
+}
+
+/// One end of the line between page and toolkit.
+#[derive(Clone, Default)]
+pub(super) struct Mirror(Arc<Mutex<Told>>);
+
+impl Mirror {
+    fn told<R>(&self, with: impl FnOnce(&mut Told) -> R) -> R {
+        with(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// All widgets, if they have changed since they were asked for last.
+    pub(super) fn news(&self) -> Option<String> {
+        self.told(|told| std::mem::take(&mut told.is_new).then(|| told.widgets.clone()))
+    }
+
+    /// Operates a widget with the next frame.
+    pub(super) fn wish(&self, widget: u64, action: Action, value: Option<f64>) {
+        self.told(|told| told.wishes.push((NodeId(widget), action, value)));
+    }
+}
+
+impl egui::Plugin for Mirror {
+    fn debug_name(&self) -> &'static str {
+        "mirror"
+    }
+
+    fn setup(&mut self, context: &egui::Context) {
+        context.enable_accesskit();
+    }
+
+    fn input_hook(&mut self, _context: &egui::Context, input: &mut egui::RawInput) {
+        let wishes = self.told(|told| std::mem::take(&mut told.wishes));
+        for (target_node, action, value) in wishes {
+            let request = ActionRequest {
+                action,
+                target_tree: TreeId::ROOT,
+                target_node,
+                data: value.map(ActionData::NumericValue),
+            };
+            input
+                .events
+                .push(egui::Event::AccessKitActionRequest(request));
+        }
+    }
+
+    fn output_hook(&mut self, _context: &egui::Context, output: &mut egui::FullOutput) {
+        if let Some(update) = output.platform_output.accesskit_update.take() {
+            let widgets = lines(&update);
+            self.told(|told| {
+                if told.widgets != widgets {
+                    told.widgets = widgets;
+                    told.is_new = true;
+                }
+            });
+        }
+    }
+}
+
+fn lines(update: &TreeUpdate) -> String {
+    let nodes: BTreeMap<NodeId, &Node> =
+        update.nodes.iter().map(|(id, node)| (*id, node)).collect();
+    let mut text = String::new();
+    let Some(root) = update.tree.as_ref().map(|tree| tree.root) else {
+        return text;
+    };
+    let mut open = vec![root];
+    while let Some(id) = open.pop() {
+        let Some(node) = nodes.get(&id) else { continue };
+        if let Some(line) = line(id, node, &nodes) {
+            text.push_str(&line);
+            text.push('\n');
+        }
+        // Children of labels and buttons are runs of letters.
+        if !matches!(node.role(), Role::Label | Role::Button | Role::TextInput) {
+            open.extend(node.children().iter().rev());
+        }
+    }
+    text
+}
+
+fn line(id: NodeId, node: &Node, nodes: &BTreeMap<NodeId, &Node>) -> Option<String> {
+    let role = match node.role() {
+        Role::Button => "button",
+        Role::CheckBox => "checkbox",
+        Role::RadioButton => "radio",
+        Role::Slider => "slider",
+        Role::SpinButton => "number",
+        Role::ComboBox => "combobox",
+        Role::Link => "link",
+        Role::Label => "text",
+        Role::Image => "img",
+        _ => return None,
+    };
+    let of_label = || {
+        let label = nodes.get(node.labelled_by().first()?)?;
+        label.value().or(label.label())
+    };
+    let value = node.value().unwrap_or_default();
+    let (name, value) = match role {
+        "text" => (node.label().unwrap_or(value), ""),
+        _ => (node.label().or_else(of_label).unwrap_or_default(), value),
+    };
+    let state = match node.toggled() {
+        _ if node.is_disabled() => "disabled",
+        Some(Toggled::True) => "on",
+        Some(_) => "off",
+        None => "",
+    };
+    let number = |number: Option<f64>| number.map_or(String::new(), |n| n.to_string());
+    let value = match node.numeric_value() {
+        Some(value) => value.to_string(),
+        None => plain(value),
+    };
+    let fields = [
+        id.0.to_string(),
+        role.to_owned(),
+        plain(name),
+        value,
+        state.to_owned(),
+        number(node.min_numeric_value()),
+        number(node.max_numeric_value()),
+        number(node.numeric_value_step()),
+    ];
+    Some(fields.join("\t"))
+}
+
+/// Words in one line.
+fn plain(words: &str) -> String {
+    let space = |c: char| if c.is_control() { ' ' } else { c };
+    words.chars().map(space).collect()
+}

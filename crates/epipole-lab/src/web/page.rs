@@ -1,0 +1,226 @@
+//! What the page calls, and what it calls the page for.
+
+use super::mirror::Mirror;
+use crate::panels::{App, Arrival, Host, Report, WorkId, prepare};
+use crate::tasks::Blob;
+use eframe::web_sys::HtmlCanvasElement;
+use egui::accesskit::Action;
+use std::cell::RefCell;
+use std::rc::Rc;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen]
+extern "C" {
+    /// The script of the page, which has workers, file inputs and downloads.
+    pub type Shell;
+
+    #[wasm_bindgen(method, structural)]
+    fn capacity(this: &Shell) -> u32;
+    #[wasm_bindgen(method, structural)]
+    fn start(this: &Shell, work: f64, request: Vec<u8>);
+    #[wasm_bindgen(method, structural)]
+    fn cancel(this: &Shell, work: f64);
+    #[wasm_bindgen(method, structural, js_name = askForPhotographs)]
+    fn ask_for_photographs(this: &Shell);
+    #[wasm_bindgen(method, structural, js_name = askForProject)]
+    fn ask_for_project(this: &Shell);
+    #[wasm_bindgen(method, structural)]
+    fn save(this: &Shell, name: &str, bytes: Vec<u8>);
+    #[wasm_bindgen(method, structural)]
+    fn say(this: &Shell, words: &str);
+}
+
+/// What came from outside and was not seen yet.
+#[derive(Default)]
+struct Inbox {
+    reports: Vec<Report>,
+    arrivals: Vec<Arrival>,
+    photographs: Vec<(String, Blob)>,
+    dark: Option<bool>,
+    context: Option<egui::Context>,
+}
+
+struct Page {
+    shell: Shell,
+    inbox: Rc<RefCell<Inbox>>,
+}
+
+impl Host for Page {
+    fn capacity(&self) -> usize {
+        self.shell.capacity() as usize
+    }
+
+    fn start(&mut self, work: WorkId, request: Vec<u8>) {
+        self.shell.start(work as f64, request);
+    }
+
+    fn cancel(&mut self, work: WorkId) {
+        self.shell.cancel(work as f64);
+    }
+
+    fn reports(&mut self) -> Vec<Report> {
+        std::mem::take(&mut self.inbox.borrow_mut().reports)
+    }
+
+    fn arrivals(&mut self) -> Vec<Arrival> {
+        std::mem::take(&mut self.inbox.borrow_mut().arrivals)
+    }
+
+    fn ask_for_photographs(&mut self) -> bool {
+        self.shell.ask_for_photographs();
+        true
+    }
+
+    fn ask_for_project(&mut self) -> bool {
+        self.shell.ask_for_project();
+        true
+    }
+
+    fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
+        self.shell.save(name, bytes);
+        Ok(format!("{name} is saved."))
+    }
+
+    fn say(&mut self, words: &str) {
+        self.shell.say(words);
+    }
+}
+
+struct Frames(App<Page>);
+
+impl eframe::App for Frames {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let inbox = Rc::clone(&self.0.host().inbox);
+        if let Some(dark) = inbox.borrow_mut().dark.take() {
+            ui.ctx().set_theme(match dark {
+                true => egui::Theme::Dark,
+                false => egui::Theme::Light,
+            });
+        }
+        // Answers ask for a frame when they come, so nothing has to be drawn until then.
+        self.0.go_on();
+        self.0.ui(ui);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+}
+
+/// The Lab of a page.
+#[wasm_bindgen]
+pub struct Lab {
+    runner: eframe::WebRunner,
+    inbox: Rc<RefCell<Inbox>>,
+    mirror: Mirror,
+}
+
+#[wasm_bindgen]
+impl Lab {
+    /// A Lab that shows nothing yet.
+    #[wasm_bindgen(constructor)]
+    #[expect(clippy::new_without_default, reason = "a script has no defaults")]
+    pub fn new() -> Self {
+        Self {
+            runner: eframe::WebRunner::new(),
+            inbox: Rc::default(),
+            mirror: Mirror::default(),
+        }
+    }
+
+    /// Shows itself on a canvas.
+    ///
+    /// # Errors
+    /// If there is no WebGL.
+    pub async fn start(&self, canvas: HtmlCanvasElement, shell: Shell) -> Result<(), JsValue> {
+        let (inbox, mirror) = (Rc::clone(&self.inbox), self.mirror.clone());
+        let creator = Box::new(move |creation: &eframe::CreationContext<'_>| {
+            prepare(&creation.egui_ctx);
+            creation.egui_ctx.add_plugin(mirror);
+            inbox.borrow_mut().context = Some(creation.egui_ctx.clone());
+            let app = App::new(Page { shell, inbox });
+            Ok(Box::new(Frames(app)) as Box<dyn eframe::App>)
+        });
+        let options = eframe::WebOptions::default();
+        self.runner.start(canvas, options, creator).await
+    }
+
+    fn receive(&self, put: impl FnOnce(&mut Inbox)) {
+        let mut inbox = self.inbox.borrow_mut();
+        put(&mut inbox);
+        if let Some(context) = &inbox.context {
+            context.request_repaint();
+        }
+    }
+
+    /// Tells how far a piece of work is.
+    pub fn progress(&self, work: f64, share: f32, words: String) {
+        self.receive(|inbox| {
+            inbox
+                .reports
+                .push(Report::Progress(work as WorkId, share, words))
+        });
+    }
+
+    /// Brings an answer.
+    pub fn done(&self, work: f64, answer: Vec<u8>) {
+        self.receive(|inbox| inbox.reports.push(Report::Done(work as WorkId, Ok(answer))));
+    }
+
+    /// Says why there is none.
+    pub fn failed(&self, work: f64, sentence: String) {
+        self.receive(|inbox| {
+            inbox
+                .reports
+                .push(Report::Done(work as WorkId, Err(sentence)))
+        });
+    }
+
+    /// Brings a photograph, which is seen with the next [`Lab::deliver`].
+    pub fn photograph(&self, name: String, bytes: Vec<u8>) {
+        self.inbox
+            .borrow_mut()
+            .photographs
+            .push((name, bytes.into()));
+    }
+
+    /// All photographs of one choice have come.
+    pub fn deliver(&self) {
+        self.receive(|inbox| {
+            let photographs = std::mem::take(&mut inbox.photographs);
+            inbox.arrivals.push(Arrival::Photographs(photographs));
+        });
+    }
+
+    /// Brings a project.
+    pub fn project(&self, archive: Vec<u8>) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
+    }
+
+    /// Sets the theme.
+    pub fn dark(&self, dark: bool) {
+        self.receive(|inbox| inbox.dark = Some(dark));
+    }
+
+    /// All widgets, if they have changed: a line each, as `mirror.rs` says.
+    pub fn widgets(&self) -> Option<String> {
+        self.mirror.news()
+    }
+
+    /// Operates a widget: clicks it, or sets its number.
+    pub fn operate(&self, widget: &str, value: Option<f64>) {
+        let Ok(widget) = widget.parse() else { return };
+        let action = match value {
+            Some(_) => Action::SetValue,
+            None => Action::Click,
+        };
+        self.mirror.wish(widget, action, value);
+        self.receive(|_| {});
+    }
+
+    /// The message of a panic, after which nothing goes on.
+    pub fn panic(&self) -> Option<String> {
+        self.runner.panic_summary().map(|summary| summary.message())
+    }
+}

@@ -1,0 +1,51 @@
+//! What a worker runs.
+
+use crate::tasks::compute;
+use std::cell::RefCell;
+use std::ops::ControlFlow;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+thread_local! {
+    static LAST_PANIC: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+#[wasm_bindgen]
+extern "C" {
+    /// Whoever wants to know how far a computation is.
+    pub type Listener;
+
+    /// Called with the share that is done, and what is being done.
+    #[wasm_bindgen(method, structural)]
+    fn progress(this: &Listener, share: f32, words: &str);
+}
+
+/// Runs once when a worker has loaded the module.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| {
+        let message = info.to_string();
+        LAST_PANIC.with(|last| {
+            if let Ok(mut last) = last.try_borrow_mut() {
+                *last = Some(message);
+            }
+        });
+    }));
+}
+
+/// The message of the last panic, once.
+#[wasm_bindgen]
+pub fn take_panic() -> Option<String> {
+    LAST_PANIC.with(|last| last.try_borrow_mut().ok().and_then(|mut last| last.take()))
+}
+
+/// Carries out a request of the Lab. To end it early, end its worker.
+///
+/// # Errors
+/// A sentence for the reader.
+#[wasm_bindgen(js_name = compute)]
+pub fn carry_out(request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
+    compute(request, &mut |share, words| {
+        listener.progress(share, words);
+        ControlFlow::Continue(())
+    })
+}

@@ -1,0 +1,33 @@
+//! What tests share: a project that is computed to its end, as a thread or a worker would.
+
+#![allow(dead_code, reason = "each test uses some of it")]
+
+use epipole_lab::project::{Event, Project};
+use epipole_lab::tasks::{Answer, Request, Sample, compute};
+use std::ops::ControlFlow;
+
+/// Computes until nothing is wanted. Returns how many tasks that took.
+pub(crate) fn finish(project: &mut Project) -> usize {
+    let mut count = 0;
+    while let Some(task) = project.wanted().first().cloned() {
+        let request = project.request(&task).expect("what is wanted can be asked");
+        let result = compute(&request.to_bytes(), &mut |_, _| ControlFlow::Continue(()));
+        project.done(task.key, result);
+        count += 1;
+    }
+    count
+}
+
+/// A sample, computed to its end.
+pub(crate) fn solved(sample: Sample) -> Project {
+    let mut project = Project::default();
+    project.update(Event::OpenSample(sample));
+    finish(&mut project);
+    project
+}
+
+/// The answer of a request.
+pub(crate) fn answer(request: &Request) -> Result<Answer, String> {
+    let bytes = compute(&request.to_bytes(), &mut |_, _| ControlFlow::Continue(()))?;
+    Answer::from_bytes(&bytes)
+}

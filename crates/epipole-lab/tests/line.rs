@@ -1,0 +1,322 @@
+//! The whole line, from photographs to files, on the sample; and that it is the core's own.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use common::{answer, finish, solved};
+use epipole::camera::Intrinsics;
+use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
+use epipole_lab::project::{Event, Fate, Measure, Project, RefineFocal, Step};
+use epipole_lab::tasks::{Answer, Blob, Request, Sample, Source};
+use image::RgbImage;
+use std::io::{Cursor, Read};
+use std::ops::ControlFlow;
+
+/// Distance of the middle of two neighboring places around the table, meters: an arc of 8° at 1.38 m, and
+/// 0.13 m up.
+fn true_step_m() -> f64 {
+    let chord = 2.0 * 1.38 * libm::sin(4.0_f64.to_radians());
+    (chord * chord + 0.13 * 0.13).sqrt()
+}
+
+#[test]
+fn the_sample_is_solved_as_the_core_solves_it() {
+    let mut project = solved(Sample::Table);
+    let found = project.reconstruction().unwrap();
+    assert_eq!(found.components.len(), 1);
+    let component = &found.components[0];
+    assert_eq!(component.num_registered(), 9);
+    assert!(component.points.len() > 800, "{}", component.points.len());
+    assert!(found.mean_error_px[0] < 0.6, "{}", found.mean_error_px[0]);
+
+    // Against the truth: neighbors are equally far from each other.
+    let centers: Vec<_> = (component.cameras.iter())
+        .map(|camera| camera.as_ref().unwrap().center())
+        .collect();
+    let steps: Vec<f64> = centers
+        .windows(2)
+        .map(|two| (two[1] - two[0]).norm())
+        .collect();
+    let mean = steps.iter().sum::<f64>() / 8.0;
+    for step in &steps {
+        assert!((step / mean - 1.0).abs() < 0.01, "{steps:?}");
+    }
+
+    // Bit for bit what the core makes of the same photographs in one go.
+    let mut photos = Vec::new();
+    let mut intrinsics = Vec::new();
+    for given in &project.document().photos {
+        let pixels = project.photograph(given).unwrap();
+        let image = RgbImage::from_raw(pixels.width, pixels.height, pixels.rgb.to_vec()).unwrap();
+        photos.push(Photo {
+            name: given.name.clone(),
+            image,
+        });
+        let focal_px = pixels.focal_px.unwrap();
+        intrinsics.push(Intrinsics::centered(focal_px, pixels.width, pixels.height).unwrap());
+    }
+    let mut how = PhotoOptions::default();
+    how.sift.max_features = 8192;
+    let options = SfmOptions::default();
+    let go_on = &mut |_: &_| ControlFlow::Continue(());
+    let (_, direct) = reconstruct_photos(&photos, &intrinsics, &how, &options, go_on).unwrap();
+    assert_eq!(direct.components.len(), 1);
+    let places = |points: &[epipole::sfm::ScenePoint]| -> Vec<[f64; 3]> {
+        points.iter().map(|p| p.position.coords.into()).collect()
+    };
+    let ours: Vec<[f64; 3]> = component.points.iter().map(|p| p.position).collect();
+    assert_eq!(ours, places(&direct.components[0].points));
+
+    a_known_length_sets_the_scale(&mut project);
+    the_files_can_be_read_again(&project);
+    knobs_recompute_what_follows_and_undo_is_instant(&mut project);
+}
+
+/// One length is typed; others come out right within a percent.
+fn a_known_length_sets_the_scale(project: &mut Project) {
+    let component = project.component().unwrap().clone();
+    let centers: Vec<_> = (component.cameras.iter())
+        .map(|camera| camera.as_ref().unwrap().center())
+        .collect();
+    let meters = true_step_m() / (centers[1] - centers[0]).norm();
+    // Points that many photographs see, far from each other.
+    let mut seen: Vec<usize> = (0..component.points.len()).collect();
+    seen.sort_by_key(|&point| std::cmp::Reverse(component.points[point].track.len()));
+    let place = |point: usize| nalgebra::Vector3::from(component.points[point].position);
+    let far_from = |point: usize| {
+        let most = seen.iter().take(200).copied();
+        most.max_by(|&a, &b| {
+            let far = |other: usize| (place(other) - place(point)).norm();
+            far(a).total_cmp(&far(b))
+        })
+        .unwrap()
+    };
+    let (a, b) = (seen[0], far_from(seen[0]));
+    let (c, d) = (far_from(b), seen[1]);
+    let ends = |a, b| [project.anchor_of(a).unwrap(), project.anchor_of(b).unwrap()];
+    let (first, second) = (ends(a, b), ends(c, d));
+    let true_m = |a, b| (place(a) - place(b)).norm() * meters;
+    project.update(Event::Show(Step::Measure));
+    project.update(Event::Measure(Measure {
+        ends: first,
+        length_m: None,
+    }));
+    assert!(project.scale().is_none());
+    assert!(
+        project.describe().contains("not set"),
+        "{}",
+        project.describe()
+    );
+    project.update(Event::Length(0, Some(true_m(a, b))));
+    project.update(Event::Measure(Measure {
+        ends: second,
+        length_m: None,
+    }));
+    let length = project.length_in_meters(1).unwrap();
+    assert!((length.value / true_m(c, d) - 1.0).abs() < 1e-9);
+    assert!(
+        length.sigma > 0.0 && length.sigma < 0.05 * length.value,
+        "{length:?}"
+    );
+    assert_eq!(project.length_in_meters(0).unwrap().sigma, 0.0);
+    // The steps of the camera, which nobody typed, in meters.
+    let scale = project.scale().unwrap().meters_per_unit;
+    for two in centers.windows(2) {
+        let step = (two[1] - two[0]).norm() * scale;
+        assert!((step / true_step_m() - 1.0).abs() < 0.01, "{step}");
+    }
+}
+
+fn the_files_can_be_read_again(project: &Project) {
+    let Ok(Answer::Archive(bytes)) = answer(&project.export_request().unwrap()) else {
+        panic!("the export is no archive");
+    };
+    let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
+    let mut read = |name: &str| {
+        let mut content = Vec::new();
+        archive
+            .by_name(name)
+            .unwrap()
+            .read_to_end(&mut content)
+            .unwrap();
+        content
+    };
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    let points = project.component().unwrap().points.len();
+    let lines = |text: &str| text.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(lines(&text(read("sparse/0/points3D.txt"))), points);
+    assert_eq!(lines(&text(read("sparse/0/cameras.txt"))), 1);
+    let images = text(read("sparse/0/images.txt"));
+    assert_eq!(lines(&images), 18);
+    for line in images
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .step_by(2)
+    {
+        let name = line.rsplit(' ').next().unwrap();
+        let picture = image::load_from_memory(&read(&format!("images/{name}"))).unwrap();
+        assert_eq!((picture.width(), picture.height()), (480, 360));
+    }
+    let ply = read("points.ply");
+    assert!(ply.starts_with(b"ply\n"));
+    let json: serde_json::Value = serde_json::from_slice(&read("reconstruction.json")).unwrap();
+    assert_eq!(json["num_registered"], 9);
+    assert_eq!(json["num_points"], points);
+    assert_eq!(json["images"].as_array().unwrap().len(), 9);
+    assert!(json["meters_per_unit"].as_f64().unwrap() > 0.0);
+    let readme = text(read("README.txt"));
+    assert!(
+        readme.contains("epipole sfm images/ --focal-px 600"),
+        "{readme}"
+    );
+    assert!(readme.contains("Lengths are meters"), "{readme}");
+}
+
+fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
+    let mut settings = project.document().settings.clone();
+    settings.sfm.refine_distortion = true;
+    project.update(Event::Set(settings.clone()));
+    assert_eq!(
+        finish(project),
+        1,
+        "nothing before the reconstruction changed"
+    );
+    settings.pairs.seed = 5;
+    project.update(Event::Set(settings.clone()));
+    assert_eq!(finish(project), 36, "pairs, and nothing else");
+    settings.matching.ratio = 0.7;
+    project.update(Event::Set(settings));
+    assert_eq!(finish(project), 36 + 36 + 1);
+    for _ in 0..3 {
+        project.update(Event::Undo);
+        assert!(project.wanted().is_empty());
+    }
+    let third = project.document().photos[2].id;
+    project.update(Event::Exclude(third, true));
+    assert_eq!(finish(project), 1, "eight photographs, all matched before");
+    assert_eq!(project.component().unwrap().num_registered(), 8);
+    assert_eq!(project.fate(&project.document().photos[2]), Fate::Excluded);
+    project.update(Event::Undo);
+    assert!(project.wanted().is_empty());
+    assert_eq!(project.component().unwrap().num_registered(), 9);
+}
+
+#[test]
+fn a_saved_project_comes_back() {
+    let mut project = Project::default();
+    project.update(Event::OpenSample(Sample::Alone));
+    let file = png(40, 30);
+    project.update(Event::Add(vec![("my photo.png".to_owned(), file.clone())]));
+    let mut settings = project.document().settings.clone();
+    settings.refine_focal = RefineFocal::Never;
+    settings.matching.ratio = 0.7;
+    project.update(Event::Set(settings));
+    let id = project.document().photos[1].id;
+    project.update(Event::Focal(id, Some(55.0)));
+    project.update(Event::Exclude(id, true));
+
+    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
+        panic!("a project is an archive");
+    };
+    let Ok(Answer::Opened {
+        project: saved,
+        files,
+    }) = answer(&Request::Open { archive })
+    else {
+        panic!("it opens");
+    };
+    let mut again = Project::default();
+    again.update(Event::OpenProject(saved, files));
+    assert_eq!(again.document().settings, project.document().settings);
+    let same = |project: &Project| -> Vec<(String, Source, bool, Option<f64>)> {
+        let photos = project.document().photos.iter();
+        photos
+            .map(|p| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px))
+            .collect()
+    };
+    assert_eq!(same(&again), same(&project));
+    assert_eq!(again.document().photos[1].source, Source::File(file));
+}
+
+fn png(width: u32, height: u32) -> Blob {
+    let image = RgbImage::from_fn(width, height, |u, v| {
+        image::Rgb([(u * 7 % 256) as u8, (v * 9 % 256) as u8, 90])
+    });
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner().into()
+}
+
+/// The sentence of every photograph, and that of the step "Reconstruction".
+fn sentences(project: &mut Project) -> (Vec<String>, String) {
+    project.update(Event::Show(Step::Reconstruction));
+    let photos = &project.document().photos;
+    let words = photos
+        .iter()
+        .map(|photo| project.fate_words(photo))
+        .collect();
+    (words, project.describe())
+}
+
+#[test]
+fn a_camera_that_only_turned_is_told_so() {
+    let mut project = solved(Sample::Turned);
+    let (each, all) = sentences(&mut project);
+    assert!(
+        each.iter().all(|words| words.contains("only turned")),
+        "{each:?}"
+    );
+    assert!(all.contains("only turned"), "{all}");
+}
+
+#[test]
+fn two_places_mixed_are_two_parts() {
+    let mut project = solved(Sample::Mixed);
+    let (each, all) = sentences(&mut project);
+    let elsewhere = each
+        .iter()
+        .filter(|words| words.contains("belongs to part 2"))
+        .count();
+    assert_eq!(elsewhere, 3, "{each:?}");
+    assert!(all.contains("4 of 7"), "{all}");
+    project.update(Event::LookAtComponent(1));
+    let (each, _) = sentences(&mut project);
+    assert_eq!(
+        each.iter()
+            .filter(|words| words.contains("belongs to part 1"))
+            .count(),
+        4
+    );
+}
+
+#[test]
+fn one_alone_and_one_twice_are_told_so() {
+    let mut alone = solved(Sample::Alone);
+    let (each, all) = sentences(&mut alone);
+    assert!(each[0].starts_with("alone"), "{each:?}");
+    assert!(all.contains("alone"), "{all}");
+    let mut twice = solved(Sample::Twice);
+    let (each, _) = sentences(&mut twice);
+    assert!(each[0].starts_with("alone"), "{each:?}");
+    assert!(each[1].contains("the same file as twice-1.png"), "{each:?}");
+}
+
+#[test]
+fn a_file_that_is_none_leaves_the_others_alone() {
+    let mut project = Project::default();
+    project.update(Event::Add(vec![
+        (
+            "broken.jpg".to_owned(),
+            vec![0xFF, 0xD8, 0xFF, 0, 1, 2].into(),
+        ),
+        ("flat.png".to_owned(), png(64, 48)),
+        ("flat.png".to_owned(), png(65, 48)),
+    ]));
+    finish(&mut project);
+    let (each, all) = sentences(&mut project);
+    assert!(each[0].starts_with("cannot be read"), "{each:?}");
+    assert!(each[1].contains("features are too few"), "{each:?}");
+    assert!(all.contains("broken.jpg: cannot be read"), "{all}");
+    assert_eq!(project.document().photos[2].name, "flat-2.png");
+}

@@ -1,0 +1,122 @@
+//! Where a space is seen from: it turns about its middle.
+
+use super::Scene;
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+
+/// A view of a space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orbit {
+    /// What is in the middle of the picture.
+    pub middle: Point3<f64>,
+    /// How far away it is.
+    pub distance: f64,
+    /// Turn about the upright axis, radians.
+    pub yaw_rad: f64,
+    /// How far the view is from above, radians, −π/2 to π/2.
+    pub pitch_rad: f64,
+    /// The frame with x right, y down and z forward at no yaw and pitch, from the world.
+    upright: UnitQuaternion<f64>,
+    /// The size of the scene, by which distances are bounded.
+    size: f64,
+}
+
+/// Focal length over the shorter side of the picture.
+const FOCAL: f64 = 1.2;
+
+impl Orbit {
+    /// A view of all points but the outermost.
+    ///
+    /// * `down`: which direction of the world is down, of any length
+    pub fn around(scene: &Scene, down: [f64; 3]) -> Self {
+        let (mut middle, mut size) = (Point3::origin(), 1.0);
+        if !scene.points.is_empty() {
+            let along = |axis: usize| {
+                let finite = scene.points.iter().map(|(p, _)| f64::from(p[axis]));
+                let mut values: Vec<f64> = finite.filter(|v| v.is_finite()).collect();
+                values.sort_by(f64::total_cmp);
+                let at = |share: f64| {
+                    let last = values.len().saturating_sub(1) as f64;
+                    values.get((share * last) as usize).copied().unwrap_or(0.0)
+                };
+                (at(0.1), at(0.5), at(0.9))
+            };
+            let [x, y, z] = [along(0), along(1), along(2)];
+            middle = Point3::new(x.1, y.1, z.1);
+            let spread = Vector3::new(x.2 - x.0, y.2 - y.0, z.2 - z.0).norm();
+            if spread > 0.0 {
+                size = spread;
+            }
+        }
+        Self {
+            middle,
+            distance: 1.9 * size,
+            yaw_rad: 0.0,
+            pitch_rad: 0.25,
+            upright: upright(Vector3::from(down)),
+            size,
+        }
+    }
+
+    /// Camera from world: the camera looks along +z with y down.
+    pub fn rotation(&self) -> Matrix3<f64> {
+        let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), self.yaw_rad);
+        let pitch = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), self.pitch_rad);
+        *(pitch * yaw * self.upright).to_rotation_matrix().matrix()
+    }
+
+    /// Focal length for a picture of this size, pixels.
+    pub fn focal_px(size: (usize, usize)) -> f64 {
+        FOCAL * size.0.min(size.1) as f64
+    }
+
+    /// Turns by so many radians.
+    pub fn turn(&mut self, yaw_rad: f64, pitch_rad: f64) {
+        let most = 1.55;
+        self.yaw_rad += yaw_rad;
+        self.pitch_rad = (self.pitch_rad + pitch_rad).clamp(-most, most);
+    }
+
+    /// Moves the middle so that the picture moves by so many pixels.
+    pub fn pan(&mut self, right_px: f64, down_px: f64, size: (usize, usize)) {
+        let units = self.distance / Self::focal_px(size).max(1.0);
+        let moved = Vector3::new(-right_px * units, -down_px * units, 0.0);
+        self.middle += self.rotation().transpose() * moved;
+    }
+
+    /// Comes nearer by a factor above 1.
+    pub fn zoom(&mut self, factor: f64) {
+        if factor > 0.0 && factor.is_finite() {
+            let (near, far) = (0.02 * self.size, 20.0 * self.size);
+            self.distance = (self.distance / factor).clamp(near, far);
+        }
+    }
+
+    /// The pixel and the depth of a place; `None` behind the eye.
+    pub fn project(&self, place: [f32; 3], size: (usize, usize)) -> Option<([f64; 2], f64)> {
+        let place = Point3::from(place.map(f64::from));
+        let p = self.rotation() * (place - self.middle);
+        let depth = p.z + self.distance;
+        if depth <= 1e-3 * self.size {
+            return None;
+        }
+        let focal_px = Self::focal_px(size);
+        let pixel = [
+            focal_px * p.x / depth + size.0 as f64 / 2.0,
+            focal_px * p.y / depth + size.1 as f64 / 2.0,
+        ];
+        Some((pixel, depth))
+    }
+}
+
+/// A frame whose y is `down` and whose z is as much as can be that of the world.
+fn upright(down: Vector3<f64>) -> UnitQuaternion<f64> {
+    let y = down.try_normalize(1e-12).unwrap_or_else(Vector3::y);
+    let forward = match y.z.abs() < 0.9 {
+        true => Vector3::z(),
+        false => Vector3::x(),
+    };
+    let x = y.cross(&forward).normalize();
+    let z = x.cross(&y);
+    let rows = Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rows))
+}

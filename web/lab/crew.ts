@@ -1,0 +1,83 @@
+/** The workers of the Lab: each does one piece of work at a time; idle ones end after a while. */
+
+export interface Order {
+  work: number;
+  request: Uint8Array;
+}
+
+export type Told = { work: number } & (
+  | { share: number; words: string }
+  | { answer: Uint8Array }
+  | { problem: string }
+);
+
+interface Member {
+  worker: Worker;
+  work: number | undefined;
+  idleSince: number;
+}
+
+/** A worker without work ends after so long. */
+const IDLE_MS = 20_000;
+
+export class Crew {
+  readonly capacity: number;
+  readonly #members: Member[] = [];
+  readonly #hear: (told: Told) => void;
+
+  constructor(hear: (told: Told) => void) {
+    this.#hear = hear;
+    this.capacity = Math.min(6, Math.max(1, navigator.hardwareConcurrency || 2));
+    setInterval(() => this.#tidy(), IDLE_MS / 2);
+  }
+
+  start(work: number, request: Uint8Array): void {
+    const member = this.#members.find((other) => other.work === undefined) ?? this.#hire();
+    member.work = work;
+    member.worker.postMessage({ work, request } satisfies Order, [request.buffer as ArrayBuffer]);
+  }
+
+  /** Its worker is ended: nothing that runs in one listens before it is done. */
+  cancel(work: number): void {
+    const member = this.#members.find((other) => other.work === work);
+    if (member) this.#dismiss(member);
+  }
+
+  #hire(): Member {
+    const worker = new Worker(new URL(LAB_WORKER, import.meta.url), { type: "module" });
+    const member: Member = { worker, work: undefined, idleSince: performance.now() };
+    worker.onmessage = ({ data }: MessageEvent<Told>) => {
+      if (!("share" in data)) {
+        member.work = undefined;
+        member.idleSince = performance.now();
+      }
+      this.#hear(data);
+      // After a panic the module is in no state to go on.
+      if ("problem" in data) this.#dismiss(member);
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      const { work } = member;
+      this.#dismiss(member);
+      if (work !== undefined) {
+        this.#hear({ work, problem: "the code for this computation could not be loaded; reload the page" });
+      }
+    };
+    this.#members.push(member);
+    return member;
+  }
+
+  #dismiss(member: Member): void {
+    member.worker.onmessage = member.worker.onerror = null;
+    member.worker.terminate();
+    const place = this.#members.indexOf(member);
+    if (place >= 0) this.#members.splice(place, 1);
+  }
+
+  #tidy(): void {
+    const now = performance.now();
+    for (const member of [...this.#members]) {
+      if (member.work === undefined && now - member.idleSince > IDLE_MS) this.#dismiss(member);
+    }
+  }
+}

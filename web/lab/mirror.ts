@@ -1,0 +1,93 @@
+/**
+ * The widgets of the Lab as elements that nobody sees: screen readers find and operate them. With the
+ * keyboard alone one is on the canvas, so nothing here is a stop of the Tab key.
+ */
+
+/** A line of the module: number, role, name, value, state, least, largest, step. */
+type Widget = [string, string, string, string, string, string, string, string];
+
+export class Mirror {
+  readonly #root: HTMLElement;
+  readonly #operate: (widget: string, value?: number) => void;
+  readonly #elements = new Map<string, HTMLElement>();
+
+  constructor(root: HTMLElement, operate: (widget: string, value?: number) => void) {
+    this.#root = root;
+    this.#operate = operate;
+  }
+
+  show(lines: string): void {
+    const kept = new Set<string>();
+    let before: HTMLElement | undefined;
+    for (const line of lines.split("\n")) {
+      const widget = line.split("\t") as Widget;
+      if (widget.length !== 8) continue;
+      const key = `${widget[1]} ${widget[0]}`;
+      if (kept.has(key)) continue;
+      kept.add(key);
+      const element = this.#elements.get(key) ?? this.#make(widget);
+      this.#elements.set(key, element);
+      set(element, widget);
+      const place = before ? before.nextElementSibling : this.#root.firstElementChild;
+      if (place !== element) this.#root.insertBefore(element, place);
+      before = element;
+    }
+    for (const [key, element] of this.#elements) {
+      if (kept.has(key)) continue;
+      element.remove();
+      this.#elements.delete(key);
+    }
+  }
+
+  #make([id, role]: Widget): HTMLElement {
+    if (role === "slider" || role === "number") {
+      const input = document.createElement("input");
+      input.type = role === "slider" ? "range" : "number";
+      input.step = "any";
+      input.tabIndex = -1;
+      input.addEventListener("change", () => {
+        const value = Number(input.value);
+        if (input.value !== "" && Number.isFinite(value)) this.#operate(id, value);
+      });
+      return input;
+    }
+    if (role === "text") return document.createElement("p");
+    if (role === "img") {
+      const picture = document.createElement("div");
+      picture.setAttribute("role", "img");
+      return picture;
+    }
+    const button = document.createElement("button");
+    button.type = "button";
+    button.tabIndex = -1;
+    if (role !== "button") button.setAttribute("role", role);
+    button.addEventListener("click", () => this.#operate(id));
+    return button;
+  }
+}
+
+function set(element: HTMLElement, [, role, name, value, state, least, most]: Widget): void {
+  if (element instanceof HTMLInputElement) {
+    put(element, "aria-label", name || "number");
+    if (least) element.min = least;
+    if (most) element.max = most;
+    if (document.activeElement !== element) element.value = value;
+    element.disabled = state === "disabled";
+    return;
+  }
+  if (role === "text") {
+    if (element.textContent !== name) element.textContent = name;
+    return;
+  }
+  put(element, "aria-label", role === "combobox" ? `${name}: ${value}` : name);
+  if (element instanceof HTMLButtonElement) element.disabled = state === "disabled";
+  if (role === "combobox") put(element, "aria-expanded", "false");
+  if (role === "checkbox" || role === "radio") put(element, "aria-checked", String(state === "on"));
+  else if (role === "button" && (state === "on" || state === "off")) {
+    put(element, "aria-pressed", String(state === "on"));
+  }
+}
+
+function put(element: HTMLElement, name: string, value: string): void {
+  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+}
