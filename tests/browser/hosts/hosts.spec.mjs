@@ -219,6 +219,23 @@ test("marimo", async ({ page, book, strangers }) => {
   await server.close();
 });
 
+test("a plain script; and a second copy, which leaves everything to the first", async ({ page, book, strangers }) => {
+  const folder = join(work, "made/plain");
+  rmSync(folder, { recursive: true, force: true });
+  cpSync(join(work, "package/dist"), join(folder, "scripts"), { recursive: true });
+  const figures = ["ransac-race", "disparity-map"].map((name) => `<epipole-figure name="${name}"></epipole-figure>`);
+  const second = `<script type="module" src="${book}/embed/epipole.js"></script>`;
+  writeFileSync(join(folder, "index.html"), `<!doctype html><title>Course</title><script src="scripts/auto.js"></script>${figures.join("")}${second}`);
+  const server = await fileServer(folder);
+  const said = [];
+  page.on("console", (message) => message.type() === "warning" && said.push(message.text()));
+  await visit(page, `${server.origin}/index.html`, strangers);
+  await operate(page, race(page));
+  await answers(map(page));
+  expect(said).toEqual(["epipole-figure: another copy of the figures is on this page already, and serves it"]);
+  await server.close();
+});
+
 test("SCORM 1.2", async ({ page, strangers }) => {
   const folder = join(work, "made/scorm");
   rmSync(folder, { recursive: true, force: true });
