@@ -10,7 +10,7 @@ import { serve } from "../server.mjs";
 import { expect, test as base } from "../fixtures.mjs";
 import { answers, follows, operate } from "./drive.mjs";
 import { folderOf, work } from "./recipes.mjs";
-import { fileServer, started } from "./serving.mjs";
+import { endServers, fileServer, started } from "./serving.mjs";
 
 const run = promisify(execFile);
 const tools = join(here, "hosts/node_modules");
@@ -45,6 +45,8 @@ const test = base.extend({
     expect(strange, "requests elsewhere").toEqual([]);
   },
 });
+
+test.afterEach(endServers);
 
 /** Runs a tool in a folder. What it warns of is ours if it names us. */
 async function tool(folder, command, ...args) {
