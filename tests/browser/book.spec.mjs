@@ -52,6 +52,7 @@ for (const name of pages) {
     });
 
     test("axe finds nothing wrong, light or dark", async ({ page, library }) => {
+      test.slow(name === "gallery.html", "all figures on one page");
       await page.emulateMedia({ colorScheme: "light" });
       await page.goto(`${library}/${name}`);
       const figures = await wake(page);

@@ -10,7 +10,7 @@ import { serve } from "../server.mjs";
 import { expect, test as base } from "../fixtures.mjs";
 import { answers, follows, operate } from "./drive.mjs";
 import { folderOf, work } from "./recipes.mjs";
-import { fileServer, started } from "./serving.mjs";
+import { endServers, fileServer, started } from "./serving.mjs";
 
 const run = promisify(execFile);
 const tools = join(here, "hosts/node_modules");
@@ -45,6 +45,8 @@ const test = base.extend({
     expect(strange, "requests elsewhere").toEqual([]);
   },
 });
+
+test.afterEach(endServers);
 
 /** Runs a tool in a folder. What it warns of is ours if it names us. */
 async function tool(folder, command, ...args) {
@@ -216,6 +218,23 @@ test("marimo", async ({ page, book, strangers }) => {
   await answers(map(page));
   // A page that is left asks nothing of a server that goes.
   await page.goto("about:blank");
+  await server.close();
+});
+
+test("a plain script; and a second copy, which leaves everything to the first", async ({ page, book, strangers }) => {
+  const folder = join(work, "made/plain");
+  rmSync(folder, { recursive: true, force: true });
+  cpSync(join(work, "package/dist"), join(folder, "scripts"), { recursive: true });
+  const figures = ["ransac-race", "disparity-map"].map((name) => `<epipole-figure name="${name}"></epipole-figure>`);
+  const second = `<script type="module" src="${book}/embed/epipole.js"></script>`;
+  writeFileSync(join(folder, "index.html"), `<!doctype html><title>Course</title><script src="scripts/auto.js"></script>${figures.join("")}${second}`);
+  const server = await fileServer(folder);
+  const said = [];
+  page.on("console", (message) => message.type() === "warning" && said.push(message.text()));
+  await visit(page, `${server.origin}/index.html`, strangers);
+  await operate(page, race(page));
+  await answers(map(page));
+  expect(said).toEqual(["epipole-figure: another copy of the figures is on this page already, and serves it"]);
   await server.close();
 });
 

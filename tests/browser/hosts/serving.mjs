@@ -46,9 +46,18 @@ async function answering(origin) {
   }
 }
 
+const running = new Set();
+
+/** Ends the servers that a test has left behind. */
+export function endServers() {
+  for (const child of running) child.kill();
+}
+
 /** Waits until a server says its address, which `pattern` captures. */
 export function started(child, pattern, patience = 90_000) {
   let said = "";
+  running.add(child);
+  child.once("exit", () => running.delete(child));
   return new Promise((resolve, reject) => {
     const fail = (why) => {
       child.kill();
