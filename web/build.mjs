@@ -7,7 +7,7 @@
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, statSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -21,20 +21,11 @@ const { values } = parseArgs({
   },
 });
 
-/** The smaller and faster module that the book ships, unless it is of another build. */
-function moduleOf(stem) {
-  const [optimized, raw] = [`${stem}.wasm`, `${stem}_bg.wasm`];
-  const written = (path) => (existsSync(path) ? statSync(path).mtimeMs : -1);
-  if (written(optimized) >= written(raw)) return optimized;
-  console.warn(`${raw} is not optimized: \`make build\` does that`);
-  return raw;
-}
-
 const [bindings, out] = [resolve(values.bindings), resolve(values.out)];
 const parts = ["figures", "jobs"].map((name) => ({
   name,
   glue: join(bindings, `epipole_${name}.js`),
-  wasm: moduleOf(join(bindings, `epipole_${name}`)),
+  wasm: join(bindings, `epipole_${name}_bg.wasm`),
 }));
 for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
   if (!existsSync(path)) {

@@ -124,7 +124,7 @@ pub(crate) fn modules(options: &Options) -> Result<Option<Modules>> {
     if !manifest.is_file() {
         return Ok(None);
     }
-    wasm::make(&Tools::find(&options.project)?, options.live).map(Some)
+    wasm::make(&Tools::find(&options.project)?).map(Some)
 }
 
 /// Makes everything else, and puts the figures to it.

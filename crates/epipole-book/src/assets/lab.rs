@@ -15,8 +15,8 @@ pub(crate) const FOLDER: &str = "lab";
 /// A tool that is missing or fails, named with the remedy.
 pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let tools = Tools::find(project)?;
-    let page = wasm::one(&tools, "epipole-lab", "page", false)?;
-    let worker = wasm::one(&tools, "epipole-lab", "worker", false)?;
+    let page = wasm::build(&tools, "epipole-lab", "page")?;
+    let worker = wasm::build(&tools, "epipole-lab", "worker")?;
     let mut assets = Assets::default();
     let (css, script) = scripts::add_lab(&tools, (&page, &worker), &mut assets)?;
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
