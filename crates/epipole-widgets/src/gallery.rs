@@ -26,6 +26,7 @@ mod same_picture;
 mod scale_ambiguity;
 mod scale_drift;
 mod scale_space;
+mod schur;
 mod sift_descriptor;
 mod stereo_slider;
 mod tournament;
@@ -90,6 +91,7 @@ figures![
     four_poses::View,
     two_view_sfm::View,
     bundle_adjustment::View,
+    schur::View,
     scale_drift::View,
     ransac_race::View,
     tournament::View,

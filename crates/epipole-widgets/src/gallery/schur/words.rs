@@ -1,0 +1,43 @@
+//! What `schur` says.
+
+use super::model::Schur;
+use crate::contract::{Readout, Words, format_number};
+
+impl Words for Schur {
+    fn readouts(&self) -> Vec<Readout> {
+        let blocks = self.blocks();
+        let [cameras, points] = blocks.unknowns();
+        let percent = |share: f64| 100.0 * share;
+        vec![
+            Readout::count("unknowns", "All unknowns", cameras + points).main(),
+            Readout::count("left", "Left to solve", cameras).main(),
+            Readout::number("saving", "Less work", blocks.saving(), 0, "times").main(),
+            Readout::number("filled", "Not zero", percent(blocks.filled_share()), 1, "%"),
+            Readout::number(
+                "coupled",
+                "Coupled cameras",
+                percent(blocks.coupled_share()),
+                0,
+                "%",
+            ),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        let blocks = self.blocks();
+        let [cameras, points] = blocks.unknowns();
+        format!(
+            "{} cameras and {} points, each seen by {}: {} unknowns, and {} % of their matrix is not zero. With the \
+             points eliminated {} unknowns are left, which takes {} times less work; {} % of the blocks among cameras \
+             are not zero.",
+            blocks.num_cameras,
+            blocks.num_points(),
+            self.num_views(),
+            cameras + points,
+            format_number(100.0 * blocks.filled_share(), 1),
+            cameras,
+            format_number(blocks.saving(), 0),
+            format_number(100.0 * blocks.coupled_share(), 0)
+        )
+    }
+}
