@@ -9,9 +9,11 @@ use epipole::camera::LensKind;
 use epipole::imaging::{DecodeOptions, decode_gray};
 use std::path::PathBuf;
 
-/// OpenCV 4.14 on the same photographs, corners by its own search: `findChessboardCorners`, `cornerSubPix` 11 × 11,
-/// `calibrateCamera` and `stereoCalibrate` with fixed intrinsics.
-const OPENCV: [f64; 3] = [0.408, 0.458, 0.447];
+/// OpenCV 5.0 on the same photographs, corners by its own search: `findChessboardCorners`, `cornerSubPix` 11 × 11,
+/// `calibrateCamera` and `stereoCalibrate` with fixed intrinsics. OpenCV 4.14, whose corners are less exact, has
+/// 0.408, 0.458 and 0.447 px, and a baseline of 83.6 mm.
+const OPENCV: [f64; 3] = [0.1954, 0.2070, 0.2168];
+const OPENCV_BASELINE_M: f64 = 0.083206;
 
 #[test]
 fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
@@ -69,10 +71,10 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
         .iter()
         .zip(OPENCV)
     {
-        assert!(*ours <= theirs + 0.002, "{ours} {theirs}");
+        assert!(*ours <= theirs, "{ours} {theirs}");
     }
     assert!(
-        (rig.baseline_m - 0.0836).abs() < 0.0002,
+        (rig.baseline_m - OPENCV_BASELINE_M).abs() < 0.0002,
         "{}",
         rig.baseline_m
     );

@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 /// A place in the grid.
 pub(super) type Cell = (i32, i32);
 
+/// A point may be so far, as a share of a step, from where others expect it: perspective and lenses bend rows.
+const MOST_STRAYED: f64 = 0.3;
+
 /// Which point stands where in a grid.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lattice {
@@ -82,25 +85,36 @@ impl Lattice {
         (count > 0.0).then(|| sum / count)
     }
 
-    /// Removes points that are not between their neighbors, and those that have none.
+    /// How far a point is from where its row and its column expect it, as a share of a step; the lower median of all
+    /// that can be said.
+    fn strayed(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
+        let mut shares = Vec::new();
+        for (di, dj) in [(1, 0), (0, 1)] {
+            let at = |s: i32| self.points.get(&(i + s * di, j + s * dj));
+            if let (Some(a), Some(b)) = (at(-1), at(1)) {
+                let step = 0.5 * (b - a).norm();
+                shares.push((nalgebra::center(a, b) - place).norm() / step);
+            }
+            for s in [1, -1] {
+                if let (Some(near), Some(far)) = (at(s), at(2 * s)) {
+                    let step = near - far;
+                    shares.push((near + step - place).norm() / step.norm());
+                }
+            }
+        }
+        shares.sort_by(f64::total_cmp);
+        let middle = shares.len().checked_sub(1)? / 2;
+        Some(shares[middle])
+    }
+
+    /// Removes points that are not where their rows and columns go on, and those that are in none.
     pub(super) fn drop_strays(&mut self) {
         let strays: Vec<Cell> = self
             .points
             .iter()
             .filter(|(cell, place)| {
-                let (i, j) = **cell;
-                let Some(spacing) = self.spacing(**cell, place) else {
-                    return true;
-                };
-                [(1, 0), (0, 1)].iter().any(|(di, dj)| {
-                    let ends = [1, -1].map(|s| self.points.get(&(i + s * di, j + s * dj)));
-                    match ends {
-                        [Some(a), Some(b)] => {
-                            (nalgebra::center(a, b) - **place).norm() > 0.35 * spacing
-                        }
-                        _ => false,
-                    }
-                })
+                self.strayed(**cell, place)
+                    .is_none_or(|share| !(share < MOST_STRAYED))
             })
             .map(|(cell, _)| *cell)
             .collect();
