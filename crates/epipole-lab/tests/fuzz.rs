@@ -43,7 +43,7 @@ fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
             .prop_map(|(name, bytes)| Event::Add(vec![(name, Blob::from(bytes))])),
-        (0..5_usize).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
+        (0..4_usize).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
         id.clone().prop_map(Event::Remove),
         Just(Event::Clear),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),

@@ -1,12 +1,11 @@
 //! Photographs: decoded or rendered, upright, reduced.
 
-use super::sample::MIRRORED_FROM;
 use super::{Photograph, Sample, Source};
 use epipole::camera::{Camera, look_at};
 use epipole::imaging::{DecodeOptions, decode_rgb};
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
-use image::imageops::{FilterType, flip_horizontal_in_place, resize};
+use image::imageops::{FilterType, resize};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 /// Width and height of a rendered photograph, pixels.
@@ -68,16 +67,12 @@ fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
     let camera = match sample {
         Sample::Turned => turned(index),
         Sample::Twice => around_table(4)?,
-        Sample::Table | Sample::Mixed | Sample::Alone => around_table(index)?,
+        Sample::Table | Sample::Alone => around_table(index)?,
     };
     let picture = Scene::still_life()
         .render(&camera, width, height, Sampling::Full)
         .map_err(|error| error.to_string())?;
-    let mut image: RgbImage = picture.image;
-    if sample == Sample::Mixed && index >= MIRRORED_FROM {
-        // Seen in a mirror a room is another one: nothing in it looks the same.
-        flip_horizontal_in_place(&mut image);
-    }
+    let image: RgbImage = picture.image;
     Ok(Photograph {
         width,
         height,

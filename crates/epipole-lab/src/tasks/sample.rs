@@ -2,9 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The photographs of [`Sample::Mixed`] from this one on show another place.
-pub(super) const MIRRORED_FROM: u8 = 4;
-
 /// A set of rendered photographs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Sample {
@@ -12,8 +9,6 @@ pub enum Sample {
     Table,
     /// A camera that only turns.
     Turned,
-    /// Two places mixed: a room, and one that is its mirror image.
-    Mixed,
     /// One photograph alone.
     Alone,
     /// One photograph twice.
@@ -22,20 +17,13 @@ pub enum Sample {
 
 impl Sample {
     /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Table,
-        Self::Turned,
-        Self::Mixed,
-        Self::Alone,
-        Self::Twice,
-    ];
+    pub const ALL: [Self; 4] = [Self::Table, Self::Turned, Self::Alone, Self::Twice];
 
     /// What it is, in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Table => "A table, nine photographs",
             Self::Turned => "A camera that only turned",
-            Self::Mixed => "Two places mixed",
             Self::Alone => "One photograph alone",
             Self::Twice => "One photograph twice",
         }
@@ -46,7 +34,6 @@ impl Sample {
         match self {
             Self::Table => 9,
             Self::Turned => 4,
-            Self::Mixed => 7,
             Self::Alone => 1,
             Self::Twice => 2,
         }
@@ -62,8 +49,7 @@ impl Sample {
         let place = match self {
             Self::Table => "table",
             Self::Turned => "turned",
-            Self::Mixed if index >= MIRRORED_FROM => "mirror",
-            Self::Mixed | Self::Alone => "table",
+            Self::Alone => "alone",
             Self::Twice => "twice",
         };
         format!("{place}-{}.png", index + 1)
