@@ -50,6 +50,7 @@ impl Declared for Schur {
     const TITLE: &'static str = "What the Schur complement saves";
     const HELP: &'static str =
         "Set how many cameras and points there are, and how many cameras see each point.";
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
@@ -57,10 +58,6 @@ impl Declared for Schur {
             blocks: blocks(&settings),
             settings,
         }
-    }
-
-    fn challenges() -> &'static [Challenge<Self>] {
-        CHALLENGES
     }
 }
 
