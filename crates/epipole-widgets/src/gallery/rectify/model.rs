@@ -207,7 +207,8 @@ impl Model for Rectify {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) && id != MATCH.id {
+                let changed = self.settings.set(id, value)? == Some(true);
+                if changed && id != MATCH.id {
                     self.compute();
                 }
             }

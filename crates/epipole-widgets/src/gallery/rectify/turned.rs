@@ -107,7 +107,7 @@ impl Turned {
     }
 
     /// Seen from above in the frame of camera 1 as it stood: center and heading, (x, z) and radians.
-    pub(super) fn from_above(&self, index: usize) -> (Point2<f64>, f64) {
+    pub(super) fn seen_from_above(&self, index: usize) -> (Point2<f64>, f64) {
         let frame = self.taken[0].cam_from_world;
         let center = frame * self.shown[index].center_in_world();
         let ahead = self.shown[index].cam_from_world.inverse() * Vector3::z();
@@ -305,7 +305,7 @@ mod tests {
     fn from_above_the_centers_stay_where_they_are() {
         for way in [RAW, DONE] {
             let turned = Turned::new(-0.05, 10.0, way).unwrap();
-            let (center, heading) = turned.from_above(1);
+            let (center, heading) = turned.seen_from_above(1);
             assert!((center - Point2::new(RIGHT_M, -0.05)).norm() < 1e-9);
             // Square to the baseline in the end, turned left by 10° at first.
             let expected = match way == DONE {

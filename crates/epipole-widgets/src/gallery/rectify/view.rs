@@ -211,7 +211,7 @@ fn draw_top(model: &Rectify, state: &State, panel: &Panel, canvas: &mut Canvas) 
     plan::draw_distances(canvas, panel, "m");
     let mut labels = Labels::new(panel.rect.inset(3.0));
     let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
-    let cameras = [0, 1].map(|index| state.turned.from_above(index));
+    let cameras = [0, 1].map(|index| state.turned.seen_from_above(index));
     let along = cameras[1].0 - cameras[0].0;
     let dashed = Stroke::solid(Role::Muted, 1.25).dashed();
     plan::draw_ray(canvas, panel, &cameras[0].0, &along, dashed);

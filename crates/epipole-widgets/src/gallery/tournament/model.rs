@@ -129,7 +129,8 @@ impl Model for Tournament {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Set { id, value } => {
-                if self.settings.set(id, value)? == Some(true) && id != RATIO.id {
+                let changed = self.settings.set(id, value)? == Some(true);
+                if changed && id != RATIO.id {
                     self.start();
                 }
             }
