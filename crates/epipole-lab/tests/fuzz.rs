@@ -26,8 +26,10 @@ fn settings() -> impl Strategy<Value = Settings> {
         any::<u32>(),
     )
         .prop_map(|(megapixels, features, ratio, error, enough)| {
-            let mut settings = Settings::default();
-            settings.max_megapixels = megapixels;
+            let mut settings = Settings {
+                max_megapixels: megapixels,
+                ..Settings::default()
+            };
             settings.features.max_features = features;
             settings.features.contrast = ratio;
             settings.matching.ratio = ratio;

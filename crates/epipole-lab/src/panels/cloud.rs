@@ -31,6 +31,15 @@ struct Made {
     theme: Theme,
 }
 
+/// What the last frame shows.
+#[derive(Clone, PartialEq)]
+struct Drawn {
+    orbit: Orbit,
+    size: (usize, usize),
+    point: Option<usize>,
+    coarse: bool,
+}
+
 /// The view of a reconstruction, kept between frames.
 #[derive(Default)]
 pub(super) struct CloudView {
@@ -43,7 +52,7 @@ pub(super) struct CloudView {
     num_fixed_lines: usize,
     frame: Frame,
     texture: Option<TextureHandle>,
-    drawn: Option<(Orbit, (usize, usize), Option<usize>, bool)>,
+    drawn: Option<Drawn>,
 }
 
 /// A frame of so many points is drawn while something moves.
@@ -173,8 +182,13 @@ impl CloudView {
         moving: bool,
     ) {
         let coarse = moving && self.scene.points.len() > MAX_MOVING;
-        let now = (orbit, size, self.point, coarse);
-        if self.drawn == Some(now) {
+        let now = Drawn {
+            orbit,
+            size,
+            point: self.point,
+            coarse,
+        };
+        if self.drawn.as_ref() == Some(&now) {
             return;
         }
         self.drawn = Some(now);

@@ -88,7 +88,11 @@ fn around_table(index: u8) -> Result<Camera, String> {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let middle = Point3::new(0.035, -0.13, 0.05);
     let angle = (f64::from(index) - 4.0) * 8.0_f64.to_radians();
-    let height = if index % 2 == 0 { -0.43 } else { -0.56 };
+    let height = if index.is_multiple_of(2) {
+        -0.43
+    } else {
+        -0.56
+    };
     let radius = 1.38;
     let center = Point3::new(
         middle.x + radius * libm::sin(angle),

@@ -92,7 +92,8 @@ impl Frame {
             );
             let depth = m20 * x + m21 * y + m22 * z + distance;
             // Also false for NaN.
-            if !(depth > near) {
+            let is_in_front = depth > near;
+            if !is_in_front {
                 continue;
             }
             let scale = focal_px / depth;
