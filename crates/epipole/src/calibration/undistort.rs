@@ -31,13 +31,17 @@ pub struct Undistortion {
 /// large as the lens is long, and soon it would be infinite.
 const WIDEST_DEG: f64 = 80.0;
 
+/// How far from the middle to the border the lens model must reach, as a share, for a flat picture to be worth it.
+const LEAST_SEEN: f64 = 0.5;
+
 impl Undistortion {
     /// The camera of the same picture size that shows as much as asked for, as large as possible.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the lens model
-    /// bends no ray to a pixel on the border, so that what is valid cannot be said, or if a fisheye sees too far sideways
-    /// to keep all of it in a flat picture: then keep what is valid.
+    /// folds less than half-way to the border, so that most of the picture has no rays, or if a fisheye sees too far
+    /// sideways to keep all of it in a flat picture: then keep what is valid. What lies beyond a fold nearer to the
+    /// border is left black.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -68,7 +72,7 @@ impl Undistortion {
         }
         let widest = libm::tan(WIDEST_DEG.to_radians());
         let covered = border_outline(width, height, |u, v| {
-            let ray = camera.ray(&Point2::new(u, v))?;
+            let ray = farthest_ray(camera, &Point2::new(u, v))?;
             // As far out as a flat picture goes, in the direction of the ray.
             let across = ray.xy().norm();
             if across <= widest * ray.z {
@@ -124,6 +128,29 @@ impl Undistortion {
             }),
         })
     }
+}
+
+/// The ray to a pixel, or, where the lens model folds on the way to it, to the last pixel before the fold: a model
+/// that was fitted to marks in the middle often bends no ray to the very corners.
+fn farthest_ray(camera: &CalibratedCamera, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
+    let toward = |share: f64| {
+        let center = camera.intrinsics.principal_point();
+        camera.ray(&(center + (pixel - center) * share))
+    };
+    let missing = match toward(1.0) {
+        Ok(ray) => return Ok(ray),
+        Err(missing) => missing,
+    };
+    let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
+    let mut ray = toward(seen).map_err(|_| missing)?;
+    for _ in 0..30 {
+        let middle = 0.5 * (seen + beyond);
+        match toward(middle) {
+            Ok(found) => (seen, ray) = (middle, found),
+            Err(_) => beyond = middle,
+        }
+    }
+    Ok(ray)
 }
 
 #[cfg(test)]
@@ -216,6 +243,15 @@ mod tests {
             Undistortion::new(&folded, Keep::Valid),
             Err(Error::Degenerate { .. })
         ));
+        // Folds 394 px from the middle; the corners are 443 away.
+        let corners = camera(LensKind::Brown, &[-0.2, 0.0, 0.0, 0.0, 0.0]);
+        assert!(corners.ray(&Point2::new(0.0, 0.0)).is_err());
+        assert!(corners.ray(&Point2::new(60.0, 50.0)).is_ok());
+        for keep in [Keep::Valid, Keep::All] {
+            let flat = Undistortion::new(&corners, keep).unwrap();
+            assert!(flat.valid.u_max - flat.valid.u_min > 400.0);
+            assert!(flat.map.source(376, 240).is_some());
+        }
         let tiny = CalibratedCamera { width: 1, ..wide };
         assert!(Undistortion::new(&tiny, Keep::Valid).is_err());
     }
