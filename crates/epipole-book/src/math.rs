@@ -38,8 +38,8 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let mut html = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
-    // The renderer names the space of `\ `, which the escaping below would show as letters.
-    let html = html.replace("&nbsp;", "\u{a0}");
+    // The renderer names the space of `\ ` and escapes the name, so that letters would be shown.
+    let html = html.replace("&amp;nbsp;", "\u{a0}");
     let html = with_accents(&escape_leaves(&html));
     if html.contains("<merror") || html.contains(" style=") {
         return Err("this LaTeX is not supported (colors and sizes are not)".to_owned());

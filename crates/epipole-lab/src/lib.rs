@@ -14,4 +14,4 @@ pub mod panels;
 pub mod project;
 pub mod tasks;
 #[cfg(all(target_arch = "wasm32", any(feature = "page", feature = "worker")))]
-mod web;
+pub mod web;

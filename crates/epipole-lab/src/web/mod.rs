@@ -5,4 +5,4 @@ mod mirror;
 #[cfg(feature = "page")]
 mod page;
 #[cfg(feature = "worker")]
-mod worker;
+pub mod worker;

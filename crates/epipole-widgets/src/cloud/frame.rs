@@ -129,9 +129,10 @@ impl Frame {
             return;
         };
         let (du, dv) = (to[0] - from[0], to[1] - from[1]);
-        let steps = ((end - start) * du.abs().max(dv.abs()))
+        // Two to a pixel: with one, rounding would leave gaps.
+        let steps = (2.0 * (end - start) * du.abs().max(dv.abs()))
             .ceil()
-            .clamp(1.0, 20_000.0);
+            .clamp(1.0, 40_000.0);
         for step in 0..=steps as usize {
             let share = start + (end - start) * step as f64 / steps;
             let (u, v) = (from[0] + share * du, from[1] + share * dv);

@@ -36,7 +36,10 @@ impl Orbit {
                 values.sort_by(f64::total_cmp);
                 let at = |share: f64| {
                     let last = values.len().saturating_sub(1) as f64;
-                    values.get((share * last) as usize).copied().unwrap_or(0.0)
+                    values
+                        .get((share * last).round() as usize)
+                        .copied()
+                        .unwrap_or(0.0)
                 };
                 (at(0.1), at(0.5), at(0.9))
             };

@@ -29,7 +29,7 @@ use nalgebra::{Point2, SVector, Vector2};
 /// use epipole::robust::{fit_line_huber, fit_line_total_least_squares};
 /// use nalgebra::Point2;
 /// // Eleven points of the row v = 0, and one far above the middle.
-/// let mut points: Vec<_> = (-5..=5).map(|u| Point2::new(f64::from(u), 0.0)).collect();
+/// let mut points: Vec<_> = (-5..=5).map(|k| Point2::new(2.0 * f64::from(k), 0.0)).collect();
 /// points.push(Point2::new(0.0, 12.0));
 /// let offset = |line: epipole::math::Line2| (-line.c / line.b).abs();
 /// assert!((offset(fit_line_total_least_squares(&points)?) - 1.0).abs() < 1e-9);

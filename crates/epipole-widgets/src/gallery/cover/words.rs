@@ -39,7 +39,7 @@ impl Words for Cover {
             true => String::new(),
             false => format!(", {}× as large", format_number(self.zoom(), 1)),
         };
-        let view = format!("{}{near}", self.orbit().words());
+        let place = format!("{}{near}", self.orbit().words());
         let words = match self.step() {
             0 => "One camera photographs the still life, takes a step aside, and photographs it again.".to_owned(),
             1 => format!(
@@ -55,6 +55,6 @@ impl Words for Cover {
             3 => "Each match sends a ray from either camera. Where the two rays cross, there is the point.".to_owned(),
             _ => format!("A cloud of {} points, and the two cameras that saw them.", num_points(answer)),
         };
-        format!("{words} Seen from {view}.")
+        format!("{words} Seen from {place}.")
     }
 }
