@@ -2,11 +2,11 @@
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, figures, ready, test, told } from "./fixtures.mjs";
+import { expect, plain, ready, test, told } from "./fixtures.mjs";
 import { here, script } from "./places.mjs";
 import { serve } from "./server.mjs";
 
-const { name } = figures[0];
+const name = plain;
 
 /** The page as a teacher writes it, with the address of the book put in. */
 async function elsewhere(site, above = "2500px") {

@@ -1,9 +1,9 @@
 // What goes wrong becomes a sentence in the figure; the poster stays, and other figures go on.
 
-import { expect, figures, hear, heard, ready, test, told } from "./fixtures.mjs";
+import { expect, hear, heard, plain, ready, test, told } from "./fixtures.mjs";
 import { jobsWasm } from "./places.mjs";
 
-const { name } = figures[0];
+const name = plain;
 
 test("a module that cannot be loaded leaves the poster and a way to try again", async ({
   page,

@@ -7,8 +7,18 @@ import { figurePage, made } from "./pages.mjs";
 import { bindings, elements, here, loadBindings, root } from "./places.mjs";
 import { serve } from "./server.mjs";
 
+const module = await loadBindings();
 /** Every figure of the module: `{name, title, help}`. */
-export const figures = JSON.parse((await loadBindings()).figures());
+export const figures = JSON.parse(module.figures());
+
+/** What every figure is at first, by name. */
+export const snapshots = figures.map(({ name }) => [name, JSON.parse(new module.Figure(name).snapshot(760))]);
+/** The first figure of a kind. */
+export const first = (kind) => snapshots.find(([, snapshot]) => kind(snapshot))?.[0];
+/** A figure that answers at once, with a slider that is in front. */
+export const plain = first(
+  ({ controls, waiting }) => waiting === null && controls.some(({ kind, place }) => kind === "slider" && place === "first"),
+);
 
 const test = base.extend({
   /** Pages and elements of one origin, under the policy of the book. */
@@ -126,8 +136,8 @@ export async function gripOf(figure) {
   return (await grip.count()) > 0 ? { grip, ...(await middle(grip)) } : undefined;
 }
 
-/** A slider that does something now; the weights of a kernel that is given do not. */
-export const SLIDER = "input[type=range]:not([aria-disabled=true])";
+/** A slider that is in front and does something now; the weights of a kernel that is given do not. */
+export const SLIDER = "input[type=range]:not([aria-disabled=true]):visible";
 
 /** Changes a figure by the keys, `times` over: its first slider, away from its end, or its first choice. */
 export async function change(page, figure, times = 1) {
@@ -135,8 +145,8 @@ export async function change(page, figure, times = 1) {
   const counts = await Promise.all(settings.map((setting) => setting.count()));
   const setting = settings[counts.findIndex((count) => count > 0)].first();
   await setting.focus();
-  const key = await setting.evaluate(({ type, value, min }) => {
-    if (type === "select-one") return "ArrowDown";
+  const key = await setting.evaluate(({ type, value, min, selectedIndex, length }) => {
+    if (type === "select-one") return selectedIndex < length - 1 ? "ArrowDown" : "ArrowUp";
     return type === "radio" || value === min ? "ArrowRight" : "ArrowLeft";
   });
   for (let press = 0; press < times; press += 1) await page.keyboard.press(key);

@@ -114,7 +114,7 @@ impl Lattice {
             .iter()
             .filter(|(cell, place)| {
                 self.strayed(**cell, place)
-                    .is_none_or(|share| !(share < MOST_STRAYED))
+                    .is_none_or(|share| share.is_nan() || share >= MOST_STRAYED)
             })
             .map(|(cell, _)| *cell)
             .collect();

@@ -134,7 +134,9 @@ impl SaddleImage {
                 return None;
             }
             let step = Vector2::new(uv * gv - vv * gu, uv * gu - uu * gv) / determinant;
-            if !(step.norm() < 3.0) {
+            // Also false for NaN.
+            let is_near = step.norm() < 3.0;
+            if !is_near {
                 return None;
             }
             place += step;
