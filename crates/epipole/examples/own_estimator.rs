@@ -31,7 +31,8 @@ impl Estimator for Circles {
         models.extend(self.fit(sample));
     }
     fn error_sq(&self, (center, radius): &Self::Model, index: usize) -> f64 {
-        ((self.0[index] - center).norm() - radius).powi(2)
+        let distance = (self.0[index] - center).norm() - radius;
+        distance * distance
     }
     fn refine(&mut self, _: &Self::Model, inliers: &[usize], _: f64) -> Option<Self::Model> {
         self.fit(inliers)

@@ -1,5 +1,7 @@
 //! The examples, run as they are without arguments.
 
+// Each example is a program of its own, so each names what they share.
+#![allow(clippy::duplicate_mod)]
 #![cfg(feature = "decode")]
 
 #[path = "../examples/augmented_plane.rs"]

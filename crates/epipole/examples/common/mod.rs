@@ -37,11 +37,14 @@ pub(crate) fn gray(photograph: &Photograph) -> GrayImage32 {
     gray_to_f32(&rgb_to_gray(&photograph.image))
 }
 
+/// Places in a photograph.
+type Pixels = Vec<Point2<f64>>;
+
 /// Matching pixels of two images, wrong matches among them.
 pub(crate) fn matches(
     first: &GrayImage32,
     second: &GrayImage32,
-) -> Result<(Vec<Point2<f64>>, Vec<Point2<f64>>), Error> {
+) -> Result<(Pixels, Pixels), Error> {
     let options = SiftOptions::default();
     let [a, b] = [
         detect_sift(first, &options)?,
