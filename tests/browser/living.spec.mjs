@@ -5,7 +5,10 @@ import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
 const snapshots = figures.map(({ name }) => [name, JSON.parse(new Figure(name).snapshot(720))]);
-const patient = snapshots.find(([, { waiting }]) => waiting !== null)[0];
+/** One that computes for a while, with a slider in front. */
+const patient = snapshots.find(
+  ([, { waiting, controls }]) => waiting !== null && controls.some(({ kind, place }) => kind === "slider" && place === "first"),
+)[0];
 const [own] = snapshots.find(([, { photos }]) => photos.length > 0);
 
 /** Ids of what stands beside the picture. */

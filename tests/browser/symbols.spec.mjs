@@ -39,7 +39,7 @@ test("pointing at a letter lights up what the figure has for it, in its color", 
   await ready(figure);
   const grip = await figure.evaluate((element) => {
     const box = element.shadowRoot.querySelector("[data-handle=p]").getBoundingClientRect();
-    const sheet = element.shadowRoot.querySelector(".lit").getBoundingClientRect();
+    const sheet = element.shadowRoot.querySelector(".sheet").getBoundingClientRect();
     return (box.left + box.width / 2 - sheet.left) / sheet.width;
   });
   const place = {};
