@@ -10,7 +10,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-engines test-hosts monkey python bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-engines test-hosts monkey python bench bless bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -26,7 +26,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-listings test-browser ## runs every test
+test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-engines, test-hosts, monkey
 
 check: setup-build ## format, lints and types, without running anything
 	cargo fmt --all --check
@@ -44,8 +44,12 @@ test-listings: setup-test ## the Python listings and the notebooks of the chapte
 
 test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
-	$(BOOK) lab
 	cd tests/browser && npm test --silent
+
+test-lab: setup ## the Lab in a real browser, after building it
+	$(BOOK) build
+	$(BOOK) lab
+	cd tests/browser && LAB=1 npx playwright test lab
 
 test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
 	@tests/tools/engines.sh

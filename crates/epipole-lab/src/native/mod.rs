@@ -148,7 +148,10 @@ struct Frames(App<Window>);
 impl eframe::App for Frames {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let dropped = ui.input(|input| input.raw.dropped_files.clone());
-        let paths: Vec<PathBuf> = dropped.into_iter().filter_map(|file| file.path).collect();
+        let paths: Vec<PathBuf> = dropped
+            .into_iter()
+            .map(|file| file.path().to_path_buf())
+            .collect();
         self.0.host().arrivals.extend(read(&paths));
         self.0.go_on();
         self.0.ui(ui);
