@@ -1,8 +1,10 @@
 //! The examples, run as they are without arguments.
 
-// Each example is a program of its own, so each names what they share.
-#![allow(clippy::duplicate_mod)]
 #![cfg(feature = "decode")]
+#![allow(
+    clippy::duplicate_mod,
+    reason = "each example is a program of its own and names what they share"
+)]
 
 #[path = "../examples/augmented_plane.rs"]
 mod augmented_plane;
