@@ -19,8 +19,10 @@ pub struct RigCalibration {
     /// Root mean square of the reprojection errors in both cameras, pixels.
     pub rms_px: f64,
     /// One standard deviation of the rotation about the axes of the right camera, radians.
+    /// The intrinsics count as exact: what is unknown of them comes on top.
     pub std_dev_rotation_rad: [f64; 3],
     /// One standard deviation of the translation, meters.
+    /// The intrinsics count as exact: what is unknown of them comes on top.
     pub std_dev_translation_m: [f64; 3],
     /// For each pair given, the root mean square in both cameras, pixels; `None` where a board was not seen by
     /// both.
