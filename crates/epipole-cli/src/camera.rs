@@ -158,7 +158,11 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     Some(format!("no --k or --focal-px: taking {focal} px, {from}"))
 }
 
-fn centered(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failure> {
+/// The intrinsics of a camera whose principal point is the middle of the photograph.
+///
+/// # Errors
+/// As [`Intrinsics::centered`].
+pub(crate) fn centered(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failure> {
     Ok(Intrinsics::centered(
         focal_px,
         photo.color.width(),

@@ -1,16 +1,15 @@
-//! Which features commands look for, and how they match them.
+//! Which features commands look for, and how they match them. What is not said on the command line is the
+//! core's default, the same for every command.
 
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::photo::Photo;
 use crate::progress::Progress;
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use epipole::feature::{
-    BinaryDescriptors, CornerMeasure, Descriptors, GoodFeaturesOptions, Keypoint, Match,
-    MatchOptions, OrbOptions, RefineOptions, SiftNormalization, SiftOptions, describe_patches,
-    detect_orb, detect_sift_with_progress, good_features_to_track, match_descriptors,
-    match_hamming, refine_corners,
+    AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
+    detect_features_with_progress, match_any_descriptors,
 };
 
 /// The kinds of feature.
@@ -26,133 +25,137 @@ pub(crate) enum Kind {
     Harris,
 }
 
+impl From<Kind> for FeatureKind {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Sift => Self::Sift,
+            Kind::Rootsift => Self::RootSift,
+            Kind::Orb => Self::Orb,
+            Kind::Harris => Self::Harris,
+        }
+    }
+}
+
 /// The options that all commands with features share.
 #[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Features")]
 pub(crate) struct FeatureArguments {
     /// Which features to look for.
-    #[arg(long, value_enum, default_value = "rootsift")]
+    #[arg(long, value_enum, default_value_t = Kind::Rootsift)]
     pub(crate) features: Kind,
     /// At most so many features an image, the strongest; 0 for no limit.
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = FeatureOptions::default().max_features, value_name = "N")]
     pub(crate) max_features: usize,
-}
-
-/// Keypoints and their descriptors.
-pub(crate) struct Detected {
-    pub(crate) keypoints: Vec<Keypoint>,
-    descriptors: AnyDescriptors,
-}
-
-enum AnyDescriptors {
-    Vectors(Descriptors),
-    Bits(BinaryDescriptors),
+    /// How strong a feature must be, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB, 0.01 of the
+    /// strongest for Harris].
+    #[arg(long, value_name = "C", value_parser = above_0_up_to_1)]
+    pub(crate) contrast_threshold: Option<f32>,
+    /// SIFT: the blur that a photograph is assumed to have, pixels.
+    #[arg(long, default_value_t = FeatureOptions::default().input_blur_px, value_name = "PX", value_parser = blur)]
+    pub(crate) input_blur_px: f64,
+    /// SIFT: the largest ratio of the curvatures of an extremum, above 1; edges have large ones.
+    #[arg(long, default_value_t = FeatureOptions::default().edge_threshold, value_name = "R", value_parser = above_1)]
+    pub(crate) edge_threshold: f32,
+    /// SIFT: look for small features, in twice the size, in photographs of up to so many pixels.
+    #[arg(long, default_value_t = FeatureOptions::default().max_upsampled_pixels, value_name = "N")]
+    pub(crate) max_upsampled_pixels: u64,
+    /// Take no direction from the features: for cameras held upright.
+    #[arg(long)]
+    pub(crate) upright: bool,
 }
 
 impl FeatureArguments {
+    /// The same for the core.
+    pub(crate) fn options(&self) -> FeatureOptions {
+        FeatureOptions {
+            kind: self.features.into(),
+            max_features: self.max_features,
+            contrast_threshold: self.contrast_threshold,
+            input_blur_px: self.input_blur_px,
+            edge_threshold: self.edge_threshold,
+            max_upsampled_pixels: self.max_upsampled_pixels,
+            upright: self.upright,
+        }
+    }
+
     /// Looks for features in a photograph.
     ///
     /// # Errors
     /// As the core's detectors.
-    pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<Detected, Failure> {
+    pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<AnyFeatures, Failure> {
         let progress = Progress::new(context, "features");
-        let gray = photo.gray();
-        match self.features {
-            Kind::Sift | Kind::Rootsift => {
-                let normalization = match self.features {
-                    Kind::Sift => SiftNormalization::L2,
-                    _ => SiftNormalization::Root,
-                };
-                let options = SiftOptions {
-                    max_features: self.max_features,
-                    normalization,
-                    ..SiftOptions::default()
-                };
-                let found = detect_sift_with_progress(&gray, &options, &mut |share| {
-                    progress.set(f64::from(share));
-                    !interrupt::requested()
-                })?;
-                let descriptors = AnyDescriptors::Vectors(found.descriptors);
-                Ok(Detected {
-                    keypoints: found.keypoints,
-                    descriptors,
-                })
-            }
-            Kind::Orb => {
-                let default = OrbOptions::default();
-                let max_features = match self.max_features {
-                    0 => default.max_features,
-                    limit => limit,
-                };
-                let found = detect_orb(
-                    &gray,
-                    &OrbOptions {
-                        max_features,
-                        ..default
-                    },
-                )?;
-                Ok(Detected {
-                    keypoints: found.keypoints,
-                    descriptors: AnyDescriptors::Bits(found.descriptors),
-                })
-            }
-            Kind::Harris => {
-                let options = GoodFeaturesOptions {
-                    max_corners: self.max_features,
-                    measure: CornerMeasure::Harris(0.04),
-                    ..GoodFeaturesOptions::default()
-                };
-                let corners = good_features_to_track(&gray, &options)?;
-                let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
-                let refined = refine_corners(&gray, &places, &RefineOptions::default())?;
-                // A corner that cannot be refined is not one.
-                let keypoints: Vec<Keypoint> = corners
-                    .into_iter()
-                    .zip(refined)
-                    .filter_map(|(corner, place)| {
-                        place.map(|place| Keypoint {
-                            u: place.x,
-                            v: place.y,
-                            ..corner
-                        })
-                    })
-                    .collect();
-                let descriptors = describe_patches(&gray, &keypoints, 11, 1.0)?;
-                Ok(Detected {
-                    keypoints,
-                    descriptors: AnyDescriptors::Vectors(descriptors),
-                })
-            }
-        }
+        let watch = &mut |share: f32| {
+            progress.set(f64::from(share));
+            !interrupt::requested()
+        };
+        Ok(detect_features_with_progress(
+            &photo.gray(),
+            &self.options(),
+            watch,
+        )?)
     }
 }
 
 /// The options that all commands with matches share.
 #[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Matches")]
 pub(crate) struct MatchArguments {
     /// The nearest descriptor must be closer than this share of the second nearest.
-    #[arg(long, default_value_t = 0.8, value_name = "SHARE", value_parser = ratio)]
+    #[arg(long, default_value_t = 0.8, value_name = "SHARE", value_parser = above_0_up_to_1)]
     pub(crate) ratio: f32,
-    /// Each must be the other's nearest.
-    #[arg(long)]
+    /// Each must be the other's nearest; --mutual=false to do without.
+    #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) mutual: bool,
+    /// The largest distance of two descriptors [default: any].
+    #[arg(long, value_name = "D", value_parser = not_negative)]
+    pub(crate) max_distance: Option<f32>,
 }
 
-fn ratio(text: &str) -> Result<f32, String> {
+fn number(text: &str, fits: impl Fn(f32) -> bool, range: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
-        Ok(ratio) if ratio > 0.0 && ratio <= 1.0 => Ok(ratio),
-        _ => Err(format!("\"{text}\" is not a number above 0 and at most 1")),
+        Ok(value) if fits(value) && value.is_finite() => Ok(value),
+        _ => Err(format!("\"{text}\" is not a number {range}")),
     }
 }
 
+fn above_0_up_to_1(text: &str) -> Result<f32, String> {
+    number(text, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1")
+}
+
+fn blur(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=0.8).contains(&value) => Ok(value),
+        _ => Err(format!("\"{text}\" is not a number from 0 to 0.8")),
+    }
+}
+
+fn above_1(text: &str) -> Result<f32, String> {
+    number(text, |x| x > 1.0, "above 1")
+}
+
+fn not_negative(text: &str) -> Result<f32, String> {
+    number(text, |x| x >= 0.0, "of 0 or more")
+}
+
 impl MatchArguments {
+    /// The same for the core.
+    pub(crate) fn options(&self) -> MatchOptions {
+        MatchOptions {
+            max_ratio: Some(self.ratio),
+            mutual: self.mutual,
+            max_distance: self.max_distance,
+            ..MatchOptions::default()
+        }
+    }
+
     /// Matches the features of two photographs, the least ambiguous first: some samplers make use of it.
     ///
     /// # Errors
     /// As [`MatchArguments::run`].
     pub(crate) fn run_best_first(
         &self,
-        first: &Detected,
-        second: &Detected,
+        first: &AnyFeatures,
+        second: &AnyFeatures,
     ) -> Result<Vec<Match>, Failure> {
         let mut matches = self.run(first, second)?;
         matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
@@ -163,24 +166,13 @@ impl MatchArguments {
     ///
     /// # Errors
     /// As the core's matchers.
-    pub(crate) fn run(&self, first: &Detected, second: &Detected) -> Result<Vec<Match>, Failure> {
-        let options = MatchOptions {
-            max_ratio: Some(self.ratio),
-            mutual: self.mutual,
-            ..MatchOptions::default()
-        };
-        match (&first.descriptors, &second.descriptors) {
-            (AnyDescriptors::Vectors(a), AnyDescriptors::Vectors(b)) => {
-                Ok(match_descriptors(a, b, &options)?)
-            }
-            (AnyDescriptors::Bits(a), AnyDescriptors::Bits(b)) => {
-                Ok(match_hamming(a, b, &options)?)
-            }
-            _ => Err(Failure::new(
-                "failed",
-                "descriptors of different kinds cannot be compared",
-            )),
-        }
+    pub(crate) fn run(
+        &self,
+        first: &AnyFeatures,
+        second: &AnyFeatures,
+    ) -> Result<Vec<Match>, Failure> {
+        let (a, b) = (&first.descriptors, &second.descriptors);
+        Ok(match_any_descriptors(a, b, &self.options())?)
     }
 }
 
@@ -192,4 +184,63 @@ pub(crate) fn rows(keypoints: &[Keypoint]) -> Vec<[f64; 5]> {
         [keypoint.u, keypoint.v, scale, angle, response]
     };
     keypoints.iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::robust::RobustArguments;
+    use clap::Parser;
+    use epipole::robust::RansacOptions;
+
+    #[derive(Debug, Parser)]
+    struct All {
+        #[command(flatten)]
+        features: FeatureArguments,
+        #[command(flatten)]
+        matching: MatchArguments,
+        #[command(flatten)]
+        robust: RobustArguments,
+    }
+
+    fn parsed(words: &[&str]) -> All {
+        All::try_parse_from([&["epipole"], words].concat()).unwrap()
+    }
+
+    #[test]
+    fn what_is_not_said_is_the_default_of_the_core() {
+        let all = parsed(&[]);
+        assert_eq!(all.features.options(), FeatureOptions::default());
+        assert_eq!(all.matching.options(), MatchOptions::default());
+        let context = Context {
+            quiet: true,
+            seed: RansacOptions::default().seed,
+        };
+        assert_eq!(all.robust.options(&context), RansacOptions::default());
+    }
+
+    #[test]
+    fn mutual_can_be_said_and_denied() {
+        assert!(parsed(&["--mutual"]).matching.mutual);
+        assert!(!parsed(&["--mutual=false"]).matching.mutual);
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_refused() {
+        for words in [
+            ["--ratio", "0"],
+            ["--ratio", "1.5"],
+            ["--contrast-threshold", "nan"],
+            ["--contrast-threshold", "0"],
+            ["--edge-threshold", "1"],
+            ["--edge-threshold", "inf"],
+            ["--max-distance=-1", "--upright"],
+            ["--input-blur-px", "1"],
+        ] {
+            let refused = All::try_parse_from([&["epipole"][..], &words].concat());
+            assert!(refused.is_err(), "{words:?}");
+        }
+    }
 }

@@ -1,9 +1,8 @@
 //! Photographs from files.
 
 use crate::failure::Failure;
-use epipole::imaging::{
-    BT601_WEIGHTS, DecodeOptions, Decoded, GrayImage32, decode_rgb, rgb_to_gray, rgb_to_gray_f32,
-};
+use epipole::feature::photo_to_gray;
+use epipole::imaging::{DecodeOptions, Decoded, GrayImage32, decode_rgb, rgb_to_gray};
 use image::{GrayImage, RgbImage};
 use std::path::Path;
 
@@ -36,9 +35,9 @@ impl Photo {
         })
     }
 
-    /// Gray values in [0, 1].
+    /// Gray values in [0, 1], the same for every command.
     pub(crate) fn gray(&self) -> GrayImage32 {
-        rgb_to_gray_f32(&self.color, &BT601_WEIGHTS)
+        photo_to_gray(&self.color)
     }
 
     /// Gray values in 8 bits.

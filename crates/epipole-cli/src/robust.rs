@@ -4,10 +4,12 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Progress;
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use epipole::robust::{
-    Estimator, RansacOptions, RansacReport, SamplerKind, StopReason, Trial, ransac_with,
+    Budget, Estimator, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason,
+    ThresholdKind, Trial, ransac_with,
 };
+use std::fmt;
 use std::ops::ControlFlow;
 
 /// The bar moves once in so many samples: looking more often would cost more than small samples do.
@@ -22,21 +24,75 @@ pub(crate) enum Sampler {
     Prosac,
 }
 
-/// How to tell good data from bad.
+/// The largest error of an inlier.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum MaxError {
+    Pixels(f64),
+    /// To be found from the noise of the data.
+    Auto,
+}
+
+impl fmt::Display for MaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pixels(pixels) => write!(f, "{pixels}"),
+            Self::Auto => f.write_str(AUTO),
+        }
+    }
+}
+
+/// The word for a threshold that is to be found.
+const AUTO: &str = "auto";
+
+/// How a model is judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Score {
+    /// By the squared errors of its inliers.
+    Msac,
+    /// By their number alone.
+    Inliers,
+}
+
+/// Which formula says how many samples are enough.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BudgetFormula {
+    /// Of samples that put no datum back, as they are drawn.
+    WithoutReplacement,
+    /// The textbook's.
+    WithReplacement,
+}
+
+/// How to tell good data from bad: what all commands that do share.
 #[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Inliers")]
 pub(crate) struct RobustArguments {
-    /// The largest error of an inlier, pixels.
-    #[arg(long, default_value_t = 1.0, value_name = "PX", value_parser = threshold)]
-    pub(crate) max_error_px: f64,
+    /// The largest error of an inlier, pixels; "auto" finds it from the noise of the matches.
+    #[arg(long, default_value_t = MaxError::Pixels(RansacOptions::default().max_error_px), value_name = "PX|auto", value_parser = max_error)]
+    max_error_px: MaxError,
     /// The probability that one sample at least is free of outliers.
-    #[arg(long, default_value_t = 0.999, value_name = "P", value_parser = confidence)]
-    pub(crate) confidence: f64,
+    #[arg(long, default_value_t = RansacOptions::default().confidence, value_name = "P", value_parser = confidence)]
+    confidence: f64,
     /// Samples drawn at most.
-    #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(crate) max_iterations: u32,
+    #[arg(long, default_value_t = RansacOptions::default().max_iterations as u32, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    max_iterations: u32,
+    /// Samples drawn even if fewer would do.
+    #[arg(long, default_value_t = RansacOptions::default().min_iterations as u32, value_name = "N")]
+    min_iterations: u32,
     /// How samples are drawn.
     #[arg(long, value_enum, default_value = "uniform")]
-    pub(crate) sampler: Sampler,
+    sampler: Sampler,
+    /// How a model is judged.
+    #[arg(long, value_enum, default_value = "msac")]
+    score: Score,
+    /// Which formula says how many samples are enough.
+    #[arg(long, value_enum, default_value = "without-replacement")]
+    budget: BudgetFormula,
+    /// Improve promising models from their inliers; --local-optimization=false for plain RANSAC.
+    #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
+    local_optimization: bool,
+    /// Rounds of such an improvement.
+    #[arg(long, default_value_t = RansacOptions::default().inner_iterations as u32, value_name = "N")]
+    inner_iterations: u32,
 }
 
 fn confidence(text: &str) -> Result<f64, String> {
@@ -46,6 +102,16 @@ fn confidence(text: &str) -> Result<f64, String> {
     }
 }
 
+/// `epipole::two_view::PHOTO_MAX_ERROR_PX`, the threshold of commands on photographs, as clap wants it.
+pub(crate) const PHOTO_MAX_ERROR: &str = "2";
+
+fn max_error(text: &str) -> Result<MaxError, String> {
+    if text == AUTO {
+        return Ok(MaxError::Auto);
+    }
+    threshold(text).map(MaxError::Pixels)
+}
+
 /// Errors are compared with the threshold squared, so the square must be a number above zero, too.
 fn threshold(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -53,22 +119,48 @@ fn threshold(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => {
             Err(format!("\"{text}\" is beyond what can be squared"))
         }
-        _ => Err(format!("\"{text}\" is not a number above 0")),
+        _ => Err(format!("\"{text}\" is neither a number above 0 nor {AUTO}")),
+    }
+}
+
+/// A threshold, in words.
+pub(crate) fn threshold_words(options: &RansacOptions, max_error_px: f64) -> String {
+    match options.threshold {
+        ThresholdKind::Given => format!("{max_error_px} px"),
+        ThresholdKind::Noise => format!("{max_error_px:.3} px, found from the noise"),
     }
 }
 
 impl RobustArguments {
+    /// The same for the core.
     pub(crate) fn options(&self, context: &Context) -> RansacOptions {
+        let default = RansacOptions::default();
+        let (max_error_px, threshold) = match self.max_error_px {
+            MaxError::Pixels(pixels) => (pixels, ThresholdKind::Given),
+            MaxError::Auto => (default.max_error_px, ThresholdKind::Noise),
+        };
         RansacOptions {
-            max_error_px: self.max_error_px,
+            max_error_px,
+            threshold,
             confidence: self.confidence,
+            min_iterations: self.min_iterations as usize,
             max_iterations: self.max_iterations as usize,
             seed: context.seed,
             sampler: match self.sampler {
                 Sampler::Uniform => SamplerKind::Uniform,
                 Sampler::Prosac => SamplerKind::Prosac,
             },
-            ..RansacOptions::default()
+            score: match self.score {
+                Score::Msac => ScoreKind::Msac,
+                Score::Inliers => ScoreKind::InlierCount,
+            },
+            budget: match self.budget {
+                BudgetFormula::WithoutReplacement => Budget::WithoutReplacement,
+                BudgetFormula::WithReplacement => Budget::WithReplacement,
+            },
+            local_optimization: self.local_optimization,
+            inner_iterations: self.inner_iterations as usize,
+            ..default
         }
     }
 
@@ -180,12 +272,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_threshold_of_photographs_is_that_of_the_core() {
+        let said: f64 = PHOTO_MAX_ERROR.parse().expect("a number");
+        assert_eq!(said, epipole::two_view::PHOTO_MAX_ERROR_PX);
+    }
+
+    #[test]
     fn thresholds_are_numbers_that_can_be_squared() {
         for (text, expected) in [("1", 1.0), ("0.25", 0.25), ("1e100", 1e100)] {
-            assert_eq!(threshold(text), Ok(expected));
+            assert_eq!(max_error(text), Ok(MaxError::Pixels(expected)));
         }
+        assert_eq!(max_error("auto"), Ok(MaxError::Auto));
+        assert_eq!(MaxError::Auto.to_string(), "auto");
         for text in ["0", "-1", "nan", "inf", "", "1e300", "1e-300"] {
-            let sentence = threshold(text).expect_err(text);
+            let sentence = max_error(text).expect_err(text);
             assert!(sentence.len() < 60, "{sentence}");
         }
     }

@@ -125,19 +125,8 @@ fn a_rig_is_calibrated_and_its_photographs_made_flat() {
     }
     let stereo = &result["stereo"];
     let off = motion(&stereo["right_from_left"]).inverse() * right_from_left;
-    // The rig is found for the cameras as they were found. A focal length that is off moves the boards along the
-    // axis, a principal point turns them: three standard deviations of what both cameras say of themselves.
-    let off_px = |indices: &[usize]| {
-        let cameras = [&result, &result["right"]].map(|camera| numbers(&camera["std_dev"]));
-        let squares = cameras
-            .iter()
-            .flat_map(|of| indices.iter().map(|&index| of[index] * of[index]));
-        3.0 * squares.sum::<f64>().sqrt()
-    };
-    let (depth_m, focal_px) = (0.36, 400.0);
     assert!(
-        off.translation.vector.norm() < depth_m * off_px(&[0]) / focal_px
-            && off.rotation.angle() < off_px(&[2, 3]) / focal_px,
+        off.translation.vector.norm() < 5e-4 && off.rotation.angle() < 2e-3,
         "{stereo}"
     );
     let baseline = stereo["baseline_m"].as_f64().unwrap();

@@ -79,6 +79,89 @@ fn an_unknown_focal_length_is_refined() {
     assert!(refined_px < guessed_px);
 }
 
+/// One set of defaults: `detect` finds, and `match` matches, just what `sfm` does.
+#[test]
+fn commands_find_the_same_features() {
+    let folder = Folder::new("sfm-features");
+    let cameras: Vec<Camera> = (0..2).map(around).collect();
+    photographs(&folder, "photos", &cameras);
+    let files = [0, 1].map(|n| folder.file(&format!("photos/{n}.png")));
+    let options = epipole::sfm::PhotoOptions::default();
+    let features = files.each_ref().map(|file| {
+        let photo = epipole::sfm::Photo {
+            name: String::new(),
+            image: image::open(file).unwrap().to_rgb8(),
+        };
+        epipole::sfm::photo_features(&photo, &options).unwrap()
+    });
+    let places = |rows: &Value| -> Vec<(f64, f64)> {
+        let rows = rows.as_array().unwrap().iter().map(numbers);
+        rows.map(|row| (row[0], row[1])).collect()
+    };
+    let found = json(&["detect", path(&files[0])]);
+    let expected: Vec<_> = (features[0].keypoints.iter()).map(|k| (k.u, k.v)).collect();
+    assert!(expected.len() > 100);
+    assert_eq!(places(&found["keypoints"]), expected);
+    let matched = json(&["match", path(&files[0]), path(&files[1])]);
+    let expected = epipole::sfm::match_pair(&features[0], &features[1], &options).unwrap();
+    let expected: Vec<_> = (expected.iter())
+        .map(|(i, j)| (f64::from(*i), f64::from(*j)))
+        .collect();
+    assert!(expected.len() > 50);
+    assert_eq!(places(&matched["matches"]), expected);
+}
+
+/// What the command line says of features, matches and the reconstruction reaches it.
+#[test]
+fn every_step_of_a_reconstruction_can_be_set() {
+    let folder = Folder::new("sfm-set");
+    let cameras: Vec<Camera> = (0..3).map(around).collect();
+    photographs(&folder, "photos", &cameras);
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let k = k(&cameras[0]);
+    let run = |more: &[&str]| {
+        let arguments = ["sfm", path(&photos), "--k", &k, "-o", path(&out)];
+        json(&[&arguments[..], more].concat())["num_points"]
+            .as_u64()
+            .unwrap()
+    };
+    let default = run(&[]);
+    for fewer in [
+        &["--features", "orb", "--max-features", "500"][..],
+        &["--max-features", "300"],
+        &["--contrast-threshold", "0.06"],
+        &["--ratio", "0.6"],
+        &["--max-error-px", "0.2"],
+        &["--min-angle-deg", "8"],
+        &["--max-reprojection-error-px", "0.3"],
+        &["--neighbors", "1"],
+    ] {
+        let count = run(fewer);
+        assert!(
+            count < default && count > 10,
+            "{fewer:?}: {count} of {default}"
+        );
+    }
+    // Other ways to find the pairs' geometry find it, too.
+    for other in [
+        &["--max-error-px", "auto"][..],
+        &["--sampler", "prosac"],
+        &["--score", "inliers"],
+        &["--budget", "with-replacement", "--confidence", "0.9"],
+        &["--min-iterations", "1000", "--inner-iterations", "8"],
+        &["--local-optimization=false", "--max-iterations", "5000"],
+    ] {
+        let count = run(other);
+        assert!(2 * count > default, "{other:?}: {count} of {default}");
+    }
+    std::fs::remove_dir_all(&out).unwrap();
+    let arguments = ["sfm", path(&photos), "--k", &k, "-o", path(&out)];
+    let many = [&arguments[..], &["--min-inliers", "100000"]].concat();
+    fails(&folder, &many, 1, "no two photographs");
+    let wrong = [&arguments[..], &["--min-angle-deg", "0"]].concat();
+    fails(&folder, &wrong, 2, "--min-angle-deg");
+}
+
 #[test]
 fn photographs_become_cameras_and_points() {
     let folder = Folder::new("sfm");

@@ -18,7 +18,8 @@ pub use crate::epipolar::{
     decompose_essential, estimate_relative_pose, find_essential, find_fundamental, sampson_px,
 };
 pub use crate::feature::{
-    Keypoint, MatchOptions, SiftOptions, detect_sift, match_descriptors, refine_corners,
+    FeatureKind, FeatureOptions, Keypoint, MatchOptions, SiftOptions, detect_features, detect_sift,
+    match_any_descriptors, match_descriptors, refine_corners,
 };
 pub use crate::homography::{find_homography, transfer};
 #[cfg(feature = "decode")]

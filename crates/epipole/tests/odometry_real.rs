@@ -56,7 +56,7 @@ fn kitti_turn_is_followed() {
         neighbors: 4,
         ..PhotoOptions::default()
     };
-    photo_options.sift.max_features = 3000;
+    photo_options.features.max_features = 3000;
     let mut observer = |progress: &_| {
         println!("{:?} {progress:?}", begin.elapsed());
         ControlFlow::Continue(())

@@ -284,6 +284,29 @@ fn what_does_not_connect_makes_components() {
 }
 
 #[test]
+fn a_watcher_sees_one_image_more_each_time_and_changes_nothing() {
+    let center = Point3::new(0.0, 0.0, 6.0);
+    let world = photograph(arc(7, center), &ball(150, center, 5), Making::default(), 5);
+    let mut seen = Vec::new();
+    let mut watcher = |so_far: epipole::sfm::Reconstruction| {
+        assert!(
+            so_far
+                .points
+                .iter()
+                .all(|point| point.track.len() >= 2 && point.error_px.is_finite())
+        );
+        seen.push((so_far.num_registered(), so_far.points.len()));
+    };
+    let options = SfmOptions::default();
+    let found =
+        epipole::sfm::reconstruct_watched(&world.input, &options, &mut keep_going, &mut watcher);
+    assert_eq!(found.expect("a result"), run(&world, &options));
+    let registered: Vec<usize> = seen.iter().map(|(registered, _)| *registered).collect();
+    assert_eq!(registered, [2, 3, 4, 5, 6, 7]);
+    assert!(seen[0].1 > 20 && seen[5].1 >= seen[0].1, "{seen:?}");
+}
+
+#[test]
 fn canceling_leaves_a_valid_part() {
     let world = photograph(
         arc(7, Point3::origin()),

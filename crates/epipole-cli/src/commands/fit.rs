@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::{Motion, intrinsics, row_major};
 use crate::report::Report;
-use crate::robust::{RobustArguments, stop_word};
+use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::turn::{self, find_turn, left_open};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
@@ -37,12 +37,12 @@ enum Model {
     JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
     num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
     for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
-    Ctrl-C), could_be_chance (whether wrong data would show as many inliers), mean_error_px (of the\n\
-    inliers), num_left_out (rows beyond 10⁹ pixels), for homography and fundamental not_determined (a\n\
-    sentence where the inliers show no motion, or for fundamental a plane or a turn; else null), and for\n\
-    essential cam2_from_cam1 (rotation and translation of length 1) and could_be_turn\n\
-    (whether a turn of the camera alone explains nearly all inliers: then that translation means\n\
-    nothing).\n\n\
+    Ctrl-C), could_be_chance (whether wrong data would show as many inliers), max_error_px (that of the\n\
+    options, or with auto the one found), mean_error_px (of the inliers), num_left_out (rows beyond 10⁹\n\
+    pixels), for homography and fundamental not_determined (a sentence where the inliers show no motion,\n\
+    or for fundamental a plane or a turn; else null), and for essential cam2_from_cam1 (rotation and\n\
+    translation of length 1) and could_be_turn (whether a turn of the camera alone explains nearly all\n\
+    inliers: then that translation means nothing).\n\n\
     Errors are distances of a point from the line, in image 2 from where homography or similarity put a\n\
     pixel, and Sampson errors of fundamental and essential."
 )]
@@ -73,6 +73,7 @@ struct Found {
     num_left_out: usize,
     /// For F and H: what the inliers leave open, if anything.
     not_determined: Option<Option<String>>,
+    max_error_px: f64,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
     could_be_turn: Option<bool>,
@@ -111,6 +112,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("inliers", format!("{num_inliers} of {}", mask.len()))
         .row("iterations", found.iterations)
         .row("ended by", stop_word(found.stop))
+        .row(
+            "largest error of an inlier",
+            threshold_words(&arguments.robust.options(context), found.max_error_px),
+        )
         .row("mean error of inliers", format!("{mean_error_px:.3} px"));
     for (index, row) in found.model.chunks(3).enumerate() {
         let label = if index == 0 { "model" } else { "" };
@@ -128,6 +133,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         )
         .field("stop", stop_word(found.stop))
         .field("could_be_chance", found.could_be_chance)
+        .field("max_error_px", found.max_error_px)
         .field("mean_error_px", mean_error_px)
         .field("num_left_out", found.num_left_out);
     if found.num_left_out > 0 {
@@ -172,7 +178,7 @@ fn fit(
                 pixels2,
                 &found.inliers,
                 false,
-                &robust.options(context),
+                &robust.options(context).within(found.max_error_px),
             );
             Ok(told(of_matrix(found, &h, errors), open, context))
         }
@@ -185,7 +191,7 @@ fn fit(
                 pixels2,
                 &found.inliers,
                 true,
-                &robust.options(context),
+                &robust.options(context).within(found.max_error_px),
             );
             Ok(told(of_matrix(found, &f, errors), open, context))
         }
@@ -201,7 +207,7 @@ fn fit(
             let errors = pairs()
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
                 .collect();
-            let ransac = robust.options(context);
+            let ransac = robust.options(context).within(found.max_error_px);
             let turn = find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)?;
             if let (Some(turn), false) = (&turn, found.could_be_chance()) {
                 context.warn(&turn::sentence(turn));
@@ -243,6 +249,7 @@ fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -
         could_be_chance: report.could_be_chance(),
         num_left_out: report.num_left_out,
         not_determined: None,
+        max_error_px: report.max_error_px,
         inliers: report.inliers,
         iterations: report.iterations,
         required_iterations: report.required_iterations,

@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         neighbors: NEIGHBORS,
         ..PhotoOptions::default()
     };
-    options.sift.max_features = arguments.max_features;
+    options.features.max_features = arguments.max_features;
     let work = Work {
         arguments,
         context,

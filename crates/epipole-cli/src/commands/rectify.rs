@@ -122,7 +122,7 @@ fn rectify(
         let report = arguments.robust.watched(context, |options, watch| {
             estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
         })?;
-        let ransac = arguments.robust.options(context);
+        let ransac = (arguments.robust.options(context)).within(report.max_error_px);
         if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac)? {
             context.warn(&turn::sentence(&turn));
         }

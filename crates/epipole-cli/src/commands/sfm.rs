@@ -1,15 +1,21 @@
 //! `epipole sfm`: cameras and points from photographs.
 
+mod growth;
+
+use self::growth::GrowthArguments;
 use crate::camera::{CameraArguments, sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::features::{FeatureArguments, MatchArguments};
 use crate::files;
 use crate::interrupt;
 use crate::matrices::Motion;
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::report::Report;
+use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
+use epipole::robust::SamplerKind;
 use epipole::sfm::{
     Photo as SfmPhoto, PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmProgress, SfmResult,
     reconstruct_photos, why_unregistered,
@@ -22,6 +28,10 @@ use std::path::{Path, PathBuf};
 /// Reconstruct cameras and points from photographs of one thing.
 #[derive(Debug, Args)]
 #[command(
+    mut_arg("max_error_px", |argument| argument.help(
+        "The largest error of a match of two photographs, pixels: Sampson error of E; \"auto\" finds it \
+         for each pair from the noise of its matches"
+    ).default_value(PHOTO_MAX_ERROR)),
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
     Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
@@ -37,20 +47,19 @@ pub(crate) struct Arguments {
     photos: Vec<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Refine one factor for the focal lengths of all photographs, also where they are known.
-    #[arg(long)]
-    refine_focal: bool,
-    /// Keep the focal lengths, also where they are but a guess.
-    #[arg(long, conflicts_with = "refine_focal")]
-    keep_focal: bool,
-    /// Refine two terms of radial distortion that all photographs share.
-    #[arg(long)]
-    refine_distortion: bool,
-    /// At most so many features a photograph.
-    #[arg(long, default_value_t = 8192, value_name = "N")]
-    max_features: usize,
+    #[command(flatten)]
+    features: FeatureArguments,
+    #[command(flatten)]
+    matching: MatchArguments,
+    /// Match each photograph with so many after it, for frames in order of time; 0 for all.
+    #[arg(long, default_value_t = 0, value_name = "N", help_heading = "Matches")]
+    neighbors: usize,
+    #[command(flatten)]
+    robust: RobustArguments,
+    #[command(flatten)]
+    growth: GrowthArguments,
     /// The folder for the result.
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help_heading = "Options")]
     output: PathBuf,
 }
 
@@ -70,7 +79,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             image: photo.color,
         });
     }
-    let refine_focal = arguments.refine_focal || some_unknown(&guesses) && !arguments.keep_focal;
+    let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
+    let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
         let then = if refine_focal { ", to be refined" } else { "" };
         context.warn(&format!("{sentence}{then}"));
@@ -84,13 +94,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             photos[place].name
         ));
     }
-    let mut photo_options = PhotoOptions::default();
-    photo_options.sift.max_features = arguments.max_features;
-    let options = SfmOptions {
-        refine_focal,
-        refine_distortion: arguments.refine_distortion,
-        seed: context.seed,
-        ..SfmOptions::default()
+    let photo_options = PhotoOptions {
+        features: arguments.features.options(),
+        matching: arguments.matching.options(),
+        neighbors: arguments.neighbors,
+        best_first: options.ransac.sampler == SamplerKind::Prosac,
     };
     let progress = Progress::new(context, "structure from motion");
     let observer = &mut |step: &SfmProgress| {

@@ -1,5 +1,6 @@
 //! `epipole two-view`: the geometry of two photographs.
 
+mod focal;
 mod search;
 
 use self::search::estimate;
@@ -7,11 +8,12 @@ use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
-use crate::matrices::{Motion, row_major};
+use crate::matrices::{Motion, positive, row_major};
 use crate::photo::Photo;
 use crate::report::Report;
-use crate::robust::RobustArguments;
+use crate::robust::{PHOTO_MAX_ERROR, RobustArguments, threshold_words};
 use clap::{Args, ValueEnum};
+use epipole::two_view::TwoViewOptions;
 use nalgebra::Point2;
 use std::path::PathBuf;
 
@@ -32,17 +34,22 @@ enum Model {
 #[command(
     mut_arg("max_error_px", |argument| argument.help(
         "The largest error of an inlier, pixels: Sampson error of F and E; of planes and turns 1.25 \
-         times it, or with --model homography the distance in image 2"
-    )),
+         times it, or with --model homography the distance in image 2; \"auto\" finds it from the \
+         noise of the matches"
+    ).default_value(PHOTO_MAX_ERROR)),
     after_help = "Example: epipole two-view left.jpg right.jpg --focal-px 1200\n\n\
+    With --model essential, a focal length that neither --k, --focal-px nor EXIF data tell is found from\n\
+    the matches, if they tell it, or else taken to be 1.2 times the longer side.\n\n\
     A match can miss an epipolar line in one dimension, a plane or a turn in two. So, when auto finds\n\
     one of these, its inliers have a Sampson error of H of up to 1.25 times --max-error-px.\n\n\
     JSON: model_kind (fundamental, essential or homography), model (9 numbers row by row),\n\
     num_keypoints (of both photographs), num_matches, num_inliers, matches ([u1, v1, u2, v2, 1 for an\n\
     inlier or 0] each), cam2_from_cam1 (rotation and translation of length 1, or 0 if the camera only\n\
     turned; null if unknown), other_cam2_from_cam1 (of a plane: another motion that fits as well, or\n\
-    null), mean_sampson_px (of the inliers), configuration (general; planar: a plane, or a turn if\n\
-    no intrinsics are known; panoramic: a turn; degenerate: no more than chance)."
+    null), focals_px (with --model essential the focal lengths of both photographs, else null),\n\
+    max_error_px (that of the options, or with auto the one found), mean_sampson_px (of the\n\
+    inliers), configuration (general; planar: a plane, or a turn if no intrinsics are known; panoramic:\n\
+    a turn; degenerate: no more than chance)."
 )]
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
@@ -60,6 +67,35 @@ pub(crate) struct Arguments {
     matching: MatchArguments,
     #[command(flatten)]
     robust: RobustArguments,
+    #[command(flatten)]
+    judging: JudgingArguments,
+}
+
+/// How the models are judged.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Configuration")]
+struct JudgingArguments {
+    /// With fewer different inliers the configuration is degenerate.
+    #[arg(long, default_value_t = TwoViewOptions::default().min_num_inliers, value_name = "N")]
+    min_inliers: usize,
+    /// A homography that explains this share of the other inliers means a plane or a turn.
+    #[arg(long, default_value_t = TwoViewOptions::default().max_homography_share, value_name = "SHARE", value_parser = positive)]
+    max_homography_share: f64,
+    /// E is preferred to F if it has this share of F's inliers.
+    #[arg(long, default_value_t = TwoViewOptions::default().min_essential_share, value_name = "SHARE", value_parser = positive)]
+    min_essential_share: f64,
+}
+
+impl Arguments {
+    /// How the core is to judge.
+    fn options(&self, context: &Context) -> TwoViewOptions {
+        TwoViewOptions {
+            ransac: self.robust.options(context),
+            min_num_inliers: self.judging.min_inliers,
+            max_homography_share: self.judging.max_homography_share,
+            min_essential_share: self.judging.min_essential_share,
+        }
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -104,6 +140,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("matches", rows.len())
         .row("model", found.kind)
         .row("inliers", num_inliers)
+        .row(
+            "largest error of an inlier",
+            threshold_words(&arguments.robust.options(context), found.max_error_px),
+        )
         .row("mean error of inliers", format!("{mean_px:.3} px"))
         .row("configuration", found.configuration)
         .field("model_kind", found.kind)
@@ -120,6 +160,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             "other_cam2_from_cam1",
             found.other_cam2_from_cam1.as_ref().map(Motion::from),
         )
+        .field("focals_px", found.focals_px)
+        .field("max_error_px", found.max_error_px)
         .field("mean_sampson_px", mean_px)
         .field("configuration", found.configuration))
 }

@@ -116,6 +116,10 @@ impl Estimator for AbsolutePoseEstimator {
         3
     }
 
+    fn codimension(&self) -> usize {
+        2
+    }
+
     fn num_data(&self) -> usize {
         self.points.len()
     }

@@ -144,6 +144,25 @@ impl BoardView {
             .min_by(f64::total_cmp)
     }
 
+    /// Where the marks beside one are seen: of its row, then of its column, the one before it and the one behind.
+    pub(super) fn beside(&self, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
+        let at = |inside: bool, index: usize| {
+            let pixel = || self.pixels.get(index).copied().flatten();
+            inside.then(pixel).flatten()
+        };
+        let (column, row) = (mark % columns, mark / columns);
+        [
+            [
+                at(column > 0, mark.wrapping_sub(1)),
+                at(column + 1 < columns, mark + 1),
+            ],
+            [
+                at(row > 0, mark.wrapping_sub(columns)),
+                at(true, mark + columns),
+            ],
+        ]
+    }
+
     /// Refuses views that are not of this board.
     pub(super) fn check(&self, board: &Board) -> Result<()> {
         if self.pixels.len() != board.num_marks() {

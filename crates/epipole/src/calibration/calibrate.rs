@@ -11,6 +11,7 @@ use super::start::{board_pose, plain, starts};
 use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
 use crate::camera::{Intrinsics, LensKind, RigidTransform};
+use crate::optim::{Iteration, Termination};
 use crate::{Error, Result};
 use nalgebra::Point3;
 use std::ops::ControlFlow;
@@ -107,9 +108,39 @@ pub struct Calibration {
 pub fn calibrate(
     board: &Board,
     views: &[Option<BoardView>],
-    (width, height): (u32, u32),
+    size: (u32, u32),
     options: &CalibrationOptions,
 ) -> Result<Calibration> {
+    calibrate_with_progress(board, views, size, options, &mut |_| true)
+}
+
+/// [`calibrate`] that reports how far it is and can be stopped.
+///
+/// * `progress`: called after each step of refinement with the share of the starts that are done, in [0, 1]; it
+///   returns whether to go on
+///
+/// # Errors
+/// As [`calibrate`], and [`Error::Canceled`] if `progress` said so.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::calibration::{Board, Pattern, calibrate_with_progress};
+/// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
+/// let views = [None, None];
+/// let stopped = calibrate_with_progress(&board, &views, (640, 480), &Default::default(), &mut |_| false);
+/// assert_eq!(stopped.map(drop), Err(epipole::Error::Canceled));
+/// # Ok(()) }
+/// ```
+pub fn calibrate_with_progress(
+    board: &Board,
+    views: &[Option<BoardView>],
+    (width, height): (u32, u32),
+    options: &CalibrationOptions,
+    progress: &mut dyn FnMut(f32) -> bool,
+) -> Result<Calibration> {
+    if !progress(0.0) {
+        return Err(Error::Canceled);
+    }
     let size = (width, height);
     check(board, views, size)?;
     let given: Vec<&BoardView> = views.iter().flatten().collect();
@@ -130,8 +161,16 @@ pub fn calibrate(
     );
     let mut best: Option<(f64, State)> = None;
     let mut failure = None;
-    for start in starts(board, &given, size, kind)? {
-        match refine_from(board, &given, start, size, options, &problem) {
+    let starts = starts(board, &given, size, kind)?;
+    let num_starts = starts.len() as f32;
+    for (index, start) in starts.into_iter().enumerate() {
+        let share = index as f32 / num_starts;
+        let mut watch = |_: &Iteration| match progress(share) {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        };
+        match refine_from(board, &given, start, size, options, &problem, &mut watch) {
+            Err(Error::Canceled) => return Err(Error::Canceled),
             Ok((cost, state)) => {
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     best = Some((cost, state));
@@ -253,6 +292,7 @@ fn refine_from(
     size: (u32, u32),
     options: &CalibrationOptions,
     problem: &Problem,
+    watch: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<(f64, State)> {
     let camera = plain(start, options.lens, size);
     let mut poses = Vec::new();
@@ -275,10 +315,15 @@ fn refine_from(
         problem.kinds,
         few,
     );
-    let mut go_on = |_: &_| ControlFlow::Continue(());
-    first.minimize(&mut state, &strict(30), &mut go_on)?;
-    let report = problem.minimize(&mut state, &strict(options.max_iterations), &mut go_on)?;
-    Ok((report.final_cost, state))
+    let begun = first.minimize(&mut state, &strict(30), watch)?;
+    if begun.termination == Termination::Canceled {
+        return Err(Error::Canceled);
+    }
+    let report = problem.minimize(&mut state, &strict(options.max_iterations), watch)?;
+    match report.termination {
+        Termination::Canceled => Err(Error::Canceled),
+        _ => Ok((report.final_cost, state)),
+    }
 }
 
 #[cfg(test)]
@@ -378,6 +423,29 @@ mod tests {
         let spread = (focals.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / 99.0).sqrt();
         assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
         assert!((mean - 540.0).abs() < 0.4 * spread, "{mean} {spread}");
+    }
+
+    #[test]
+    fn it_can_be_stopped_at_every_step() {
+        let camera = truth(LensKind::Brown);
+        let views = views(&camera, &poses(&board(), 5, 15.0, 6), 0.1);
+        let options = CalibrationOptions::default();
+        let run = |most: usize| {
+            let (mut calls, mut last) = (0, 0.0);
+            let found =
+                calibrate_with_progress(&board(), &views, (640, 480), &options, &mut |share| {
+                    assert!((last..=1.0).contains(&share));
+                    (calls, last) = (calls + 1, share);
+                    calls <= most
+                });
+            (found, calls)
+        };
+        let (found, calls) = run(usize::MAX);
+        assert_eq!(found, calibrate(&board(), &views, (640, 480), &options));
+        assert!(calls > 4, "{calls}");
+        for most in 0..calls {
+            assert_eq!(run(most), (Err(Error::Canceled), most + 1));
+        }
     }
 
     #[test]

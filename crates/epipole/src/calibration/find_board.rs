@@ -2,6 +2,7 @@
 
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
+use super::crossing::{edges_through, fit_crossing};
 use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
 use crate::Result;
@@ -79,9 +80,15 @@ impl BoardSearch {
 
 /// The search begins in an image whose longer side is no more than this, pixels.
 const FIRST_SIDE: u32 = 1300;
-/// The window of the last refinement, as a share of the distance to the nearest mark.
+/// The window of the refinement by gradients, as a share of the distance to the nearest mark.
 const WINDOW: f64 = 0.3;
 const WINDOWS: (usize, usize) = (2, 15);
+/// The radius of the disk in which two edges are fitted, as such a share: it stays within the four squares.
+const DISK: f64 = 0.45;
+const DISKS_PX: (f64, f64) = (3.0, 15.0);
+/// The two refinements agree to this share of the distance to the nearest mark, or something else is in the disk.
+const AGREEMENT: f64 = 0.05;
+const LEAST_AGREEMENT_PX: f64 = 0.5;
 
 /// Finds a board's marks to a fraction of a pixel.
 ///
@@ -97,7 +104,7 @@ const WINDOWS: (usize, usize) = (2, 15);
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
 ///
 /// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing using circular
-/// boundaries"; the last refinement is that of [`refine_corners`].
+/// boundaries"; refined by [`refine_corners`], then by two blurred edges that cross, fitted to the gray values.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -155,8 +162,8 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     Ok(best)
 }
 
-/// Corners to a fraction of a pixel, by gradients in a window that stays between the neighbors. Those that do not
-/// stay where they are are left out.
+/// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients, and from there by
+/// two edges fitted to the gray values. Those that do not stay where they are are left out.
 fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
@@ -171,8 +178,16 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
             max_iterations: 60,
             tolerance_px: 1e-4,
         };
-        let refined = refine_corners(image, &[*pixel], &options)?[0];
-        pixels.push(refined.filter(|refined| (refined - pixel).norm() < 0.25 * spacing));
+        let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
+            .filter(|refined| (refined - pixel).norm() < 0.25 * spacing);
+        let by_edges = by_gradients.and_then(|start| {
+            let edges = edges_through(pixel, view.beside(mark, columns))?;
+            let radius_px = (DISK * spacing).clamp(DISKS_PX.0, DISKS_PX.1);
+            let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
+            fit_crossing(image, &start, edges, radius_px)
+                .filter(|place| (place - start).norm() <= agreement_px)
+        });
+        pixels.push(by_edges.or(by_gradients));
     }
     Ok(BoardView { pixels })
 }
@@ -180,7 +195,7 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
 #[cfg(test)]
 mod tests {
     use super::super::CalibratedCamera;
-    use super::super::synthetic::{photograph, poses, true_view};
+    use super::super::synthetic::{photograph_of_board, poses, true_view};
     use super::*;
     use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
     use image::Luma;
@@ -230,7 +245,7 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let image = photograph(&board, camera, pose, 0.01, seed as u64);
+                let image = photograph_of_board(&board, camera, pose, 0.01, seed as u64);
                 let search = find_board(&image, &board).unwrap();
                 let problem = search.problem(&board);
                 let Some(view) = search.view() else {
@@ -256,7 +271,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let truth = true_view(&board, &camera, &pose);
-        let mut image = photograph(&board, &camera, &pose, 0.01, 1);
+        let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1);
         // A hand over some eight corners of the interior.
         let (a, b) = (truth.pixels[12].unwrap(), truth.pixels[33].unwrap());
         for (u, v, value) in image.enumerate_pixels_mut() {
@@ -284,7 +299,7 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let dark = photograph(&board, camera, pose, 0.01, seed as u64);
+                let dark = photograph_of_board(&board, camera, pose, 0.01, seed as u64);
                 let bright =
                     GrayImage32::from_fn(640, 480, |u, v| Luma([1.0 - dark.get_pixel(u, v).0[0]]));
                 for image in [dark, bright] {
@@ -315,7 +330,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let told = |pose: &RigidTransform, columns: usize, rows: usize| {
-            let image = photograph(&board, &camera, pose, 0.01, 2);
+            let image = photograph_of_board(&board, &camera, pose, 0.01, 2);
             let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
             let search = find_board(&image, &wanted).unwrap();
             assert!(!matches!(search, BoardSearch::Found(_)));

@@ -4,7 +4,8 @@
 //! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, and says how sure each
 //!    number is.
 //! 3. [`calibrate_rig`] adds how a second camera stands beside the first.
-//! 4. [`Undistortion`] redraws photographs as a camera without distortion would show them.
+//! 4. [`photograph_of_board`] makes photographs to try this on, with exact truth.
+//! 5. [`Undistortion`] redraws photographs as a camera without distortion would show them.
 //!
 //! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at the origin.
 
@@ -17,22 +18,25 @@ mod chessboard;
 mod circle_grid;
 mod closed_form;
 mod coverage;
+mod crossing;
 mod find_board;
 mod lattice;
 mod problem;
 mod rig;
 mod saddles;
 mod start;
-#[cfg(test)]
-pub(crate) mod synthetic;
+mod synthetic;
 mod uncertainty;
 mod undistort;
 
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
-pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
+pub use calibrate::{
+    CalibratedView, Calibration, CalibrationOptions, calibrate, calibrate_with_progress,
+};
 pub use camera::CalibratedCamera;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::{BoardSearch, find_board};
 pub use rig::{RigCalibration, calibrate_rig};
+pub use synthetic::photograph_of_board;
 pub use undistort::{Keep, Undistortion};

@@ -1,6 +1,8 @@
-//! Photographs of boards, with exact truth, for the tests of this room.
+//! Photographs of boards, with exact truth.
 
-use super::{Board, BoardView, CalibratedCamera, Pattern};
+#[cfg(test)]
+use super::BoardView;
+use super::{Board, CalibratedCamera, Pattern};
 use crate::camera::RigidTransform;
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
@@ -42,8 +44,34 @@ fn gray(board: &Board, x: f64, y: f64) -> f32 {
     }
 }
 
-/// A photograph of the board, each pixel the mean over its area, with noise.
-pub(crate) fn photograph(
+/// A photograph of a board on a gray table, each pixel the mean over its area.
+///
+/// * `cam_from_board`: where the board is, meters
+/// * `noise`: one standard deviation of the noise, white being 1 and black 0
+/// * `seed`: of the noise
+///
+/// Where the lens sees nothing, and behind the board, there is table.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::calibration::{Board, CalibratedCamera, Pattern, find_board, photograph_of_board};
+/// use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+/// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
+/// let camera = CalibratedCamera {
+///     intrinsics: Intrinsics::centered(200.0, 160, 120)?,
+///     lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5])?,
+///     width: 160,
+///     height: 120,
+/// };
+/// // The corner in row 1 and column 2 is 2 cm to the right and 2 cm below of the first.
+/// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
+/// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+/// let found = find_board(&image, &board)?.view().expect("a board");
+/// let seen = found.pixels[7].expect("a corner");
+/// assert!((seen - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
+/// # Ok(()) }
+/// ```
+pub fn photograph_of_board(
     board: &Board,
     camera: &CalibratedCamera,
     cam_from_board: &RigidTransform,
@@ -75,6 +103,7 @@ pub(crate) fn photograph(
 }
 
 /// Where the marks are seen.
+#[cfg(test)]
 pub(crate) fn true_view(
     board: &Board,
     camera: &CalibratedCamera,
@@ -92,6 +121,7 @@ pub(crate) fn true_view(
 }
 
 /// Poses that show the board from all sides, at so many squares' distance.
+#[cfg(test)]
 pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Vec<RigidTransform> {
     let mut random = Random::new(seed);
     let last = board.mark(board.num_marks() - 1);

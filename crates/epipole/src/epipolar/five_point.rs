@@ -199,12 +199,12 @@ fn take_roots(basis: &[[f64; 9]; 4], resolvent: &Resolvent, solutions: &mut Solu
 /// Depths of a point whose rays are parallel but for rounding.
 const NO_DEPTH: f64 = 1e-12;
 
-/// The motion (R, t) of an essential matrix that puts all five points in front of both cameras. Points
+/// The motion (R, t) of an essential matrix that puts all points in front of both cameras. Points
 /// at infinity are in front if their rays have one direction; those alone leave the sign of t open.
 pub(crate) fn pose_in_front(
     essential: &Matrix3<f64>,
-    rays1: &[Vector3<f64>; 5],
-    rays2: &[Vector3<f64>; 5],
+    rays1: &[Vector3<f64>],
+    rays2: &[Vector3<f64>],
 ) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     let (rotations, direction) = rotations_and_direction(essential)?;
     for rotation in &rotations {

@@ -11,7 +11,9 @@ mod epipoles;
 mod essential;
 mod find_essential;
 mod find_fundamental;
+mod find_with_focal;
 mod five_point;
+mod focal_lengths;
 mod from_cameras;
 mod in_front;
 pub(crate) mod judge;
@@ -23,6 +25,7 @@ mod refine;
 mod relative_pose;
 mod sampson;
 mod seven_point;
+mod six_point;
 
 pub use distance::{sampson_px, sampson_sq, symmetric_epipolar_px, symmetric_epipolar_sq};
 pub use eight_point::{
@@ -37,7 +40,9 @@ pub use find_essential::{
     EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
 };
 pub use find_fundamental::{FundamentalEstimator, find_fundamental};
+pub use find_with_focal::{FocalEstimator, PoseWithFocal, estimate_relative_pose_with_focal};
 pub use five_point::essential_5point;
+pub use focal_lengths::focal_lengths_from_fundamental;
 pub(crate) use from_cameras::share_center;
 pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
@@ -49,3 +54,4 @@ pub(crate) use refine::scaled as scaled_loss;
 pub use refine::{refine_fundamental, refine_relative_pose};
 pub use relative_pose::RelativePose;
 pub use seven_point::{epipolar_row, fundamental_7point};
+pub use six_point::{EssentialWithFocal, essential_6point};

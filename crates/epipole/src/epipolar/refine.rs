@@ -356,14 +356,19 @@ impl FixedProblem<5> for PoseProblem<'_> {
         cost(self.coordinates, &self.fundamental(pose), &self.loss)
     }
 
-    fn plus(&self, (rotation, direction): &Pose, delta: &SVector<f64, 5>) -> Pose {
-        let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
-        let [b1, b2] = tangent_plane(direction);
-        (
-            turn.into_inner() * rotation,
-            (direction + b1 * delta[3] + b2 * delta[4]).normalize(),
-        )
+    fn plus(&self, pose: &Pose, delta: &SVector<f64, 5>) -> Pose {
+        moved_pose(pose, delta)
     }
+}
+
+/// As [`essential_derivatives`] has the parameters.
+fn moved_pose((rotation, direction): &Pose, delta: &SVector<f64, 5>) -> Pose {
+    let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
+    let [b1, b2] = tangent_plane(direction);
+    (
+        turn.into_inner() * rotation,
+        (direction + b1 * delta[3] + b2 * delta[4]).normalize(),
+    )
 }
 
 /// Refines a relative pose in the frame of the coordinates.
@@ -381,11 +386,136 @@ pub(crate) fn refine_pose_in_frame(
         loss,
     };
     minimize_fixed(&problem, &mut pose, options).ok()?;
-    // Products of many rotations drift from orthogonality.
-    let svd = svd3(&pose.0);
+    orthogonal(&pose)
+}
+
+/// Products of many rotations drift from orthogonality.
+fn orthogonal((rotation, direction): &Pose) -> Option<Pose> {
+    let svd = svd3(rotation);
     let rotation = svd.u * svd.v.transpose();
-    let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
-    finite.then_some((rotation, pose.1))
+    let mut entries = rotation.iter().chain(direction.iter());
+    entries
+        .all(|x| x.is_finite())
+        .then_some((rotation, *direction))
+}
+
+/// How the rays of cameras that share a focal length become coordinates of the common frame.
+#[derive(Debug, Clone)]
+pub(crate) struct FocalCenters {
+    /// Coordinates of the frame as pixels about the principal point, of images 1 and 2.
+    about: [Matrix3<f64>; 2],
+}
+
+impl FocalCenters {
+    pub(crate) fn new(frame: &CommonFrame, centers: &[Point2<f64>; 2]) -> Self {
+        let about = |image: usize| {
+            let c = &centers[image];
+            let shift = Matrix3::new(1.0, 0.0, -c.x, 0.0, 1.0, -c.y, 0.0, 0.0, 1.0);
+            shift * frame.frame_to_pixels(image)
+        };
+        Self {
+            about: [0, 1].map(about),
+        }
+    }
+
+    /// `F = A2ᵀ D E D A1`, D = diag(1, 1, f): that of K⁻¹, times f², which F does not see.
+    fn fundamental(&self, essential: &Matrix3<f64>, focal_px: f64) -> Matrix3<f64> {
+        let d = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, focal_px));
+        self.about[1].transpose() * (d * essential * d) * self.about[0]
+    }
+
+    /// Its derivative by log f.
+    fn by_log_focal(&self, essential: &Matrix3<f64>, focal_px: f64) -> Matrix3<f64> {
+        let d = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, focal_px));
+        let slope = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, focal_px));
+        let inner = slope * essential * d + d * essential * slope;
+        self.about[1].transpose() * inner * self.about[0]
+    }
+}
+
+struct FocalProblem<'a> {
+    coordinates: &'a Coordinates,
+    centers: &'a FocalCenters,
+    loss: RobustLoss,
+}
+
+impl FocalProblem<'_> {
+    fn fundamental(&self, ((rotation, direction), focal_px): &(Pose, f64)) -> Matrix3<f64> {
+        let essential = cross_matrix(direction) * rotation;
+        self.centers.fundamental(&essential, *focal_px)
+    }
+}
+
+impl FixedProblem<6> for FocalProblem<'_> {
+    type Parameters = (Pose, f64);
+
+    fn accumulate(&self, model: &(Pose, f64), normal: &mut NormalEquations<6>) {
+        let sums = linearize(self.coordinates, &self.fundamental(model), &self.loss);
+        let ((rotation, direction), focal_px) = model;
+        let mut d = SMatrix::<f64, 9, 6>::zeros();
+        for (i, essential) in essential_derivatives(rotation, direction)
+            .iter()
+            .enumerate()
+        {
+            d.set_column(i, &flatten(&self.centers.fundamental(essential, *focal_px)));
+        }
+        let essential = cross_matrix(direction) * rotation;
+        d.set_column(
+            5,
+            &flatten(&self.centers.by_log_focal(&essential, *focal_px)),
+        );
+        project(&sums, &d, normal);
+    }
+
+    fn cost(&self, model: &(Pose, f64)) -> f64 {
+        cost(self.coordinates, &self.fundamental(model), &self.loss)
+    }
+
+    fn plus(&self, (pose, focal_px): &(Pose, f64), delta: &SVector<f64, 6>) -> (Pose, f64) {
+        let moved = moved_pose(pose, &delta.fixed_rows::<5>(0).into_owned());
+        (moved, focal_px * libm::exp(delta[5]))
+    }
+}
+
+/// The standard deviation of the focal length, as a share of it: that of the errors, and how they depend on all
+/// six parameters. `None` if they do not determine it.
+///
+/// * `num_matches`: there are so many in the coordinates, all of them inliers
+pub(crate) fn relative_focal_deviation(
+    coordinates: &Coordinates,
+    num_matches: usize,
+    centers: &FocalCenters,
+    (pose, focal_px): (&RelativePose, f64),
+) -> Option<f64> {
+    let problem = FocalProblem {
+        coordinates,
+        centers,
+        loss: RobustLoss::Trivial,
+    };
+    let mut normal = NormalEquations::new();
+    problem.accumulate(&((pose.rotation, pose.direction), focal_px), &mut normal);
+    let variance = 2.0 * normal.cost / num_matches.checked_sub(6).filter(|n| *n > 0)? as f64;
+    let inverse = normal.hessian.cholesky()?.inverse();
+    let share = (variance * inverse[(5, 5)]).sqrt();
+    share.is_finite().then_some(share)
+}
+
+/// Refines a relative pose together with the focal length that both cameras share.
+pub(crate) fn refine_pose_and_focal_in_frame(
+    coordinates: &Coordinates,
+    centers: &FocalCenters,
+    (start, focal_px): (&RelativePose, f64),
+    loss: RobustLoss,
+    options: &LmOptions,
+) -> Option<(Pose, f64)> {
+    let mut model = ((start.rotation, start.direction), focal_px);
+    let problem = FocalProblem {
+        coordinates,
+        centers,
+        loss,
+    };
+    minimize_fixed(&problem, &mut model, options).ok()?;
+    Some((orthogonal(&model.0)?, model.1))
 }
 
 #[cfg(test)]

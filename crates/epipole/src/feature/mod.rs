@@ -6,6 +6,7 @@
 
 mod corners;
 mod descriptors;
+mod extract;
 mod good_features;
 mod keypoint;
 mod matching;
@@ -21,6 +22,10 @@ mod window_tensor;
 
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
+pub use extract::{
+    AnyDescriptors, AnyFeatures, FeatureKind, FeatureOptions, detect_features,
+    detect_features_with_progress, match_any_descriptors, photo_to_gray,
+};
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
 pub use matching::{

@@ -101,6 +101,10 @@ impl Estimator for HomographyEstimator {
         4
     }
 
+    fn codimension(&self) -> usize {
+        2
+    }
+
     fn num_data(&self) -> usize {
         self.matches.len()
     }

@@ -1,5 +1,8 @@
 //! What data without any structure would show.
 
+/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
+pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
+
 /// How many models with so much support are to be expected among data that have nothing to do with
 /// one another: a bound on the number of false alarms, as its decimal logarithm.
 ///

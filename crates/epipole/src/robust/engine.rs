@@ -1,7 +1,7 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
 use super::budget::{all_inlier_probability, ratio_to_the, trials};
-use super::chance::log10_false_alarms;
+use super::chance::{UNKNOWN_CHANCE, log10_false_alarms};
 use super::options::HARDLY_CHANCE;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
@@ -34,9 +34,6 @@ const SHARP_MEDIANS: f64 = 3.0;
 
 /// The width of the last loss, in the same medians.
 const WIDTH_MEDIANS: f64 = 2.5;
-
-/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
-const UNKNOWN_CHANCE: f64 = 0.05;
 
 /// How often data are weighed anew at the end.
 const REWEIGHTINGS: usize = 6;
@@ -135,6 +132,17 @@ impl<E: Estimator> Ransac<E> {
         })
     }
 
+    /// Begins with a model that is known already; samples may still find a better one.
+    pub(super) fn propose(&mut self, model: E::Model) {
+        let support = self.support(&model, f64::INFINITY);
+        let mut candidate = Candidate { model, support };
+        if self.options.local_optimization {
+            self.improve(&mut candidate);
+        }
+        self.require(&candidate);
+        self.best = Some(candidate);
+    }
+
     /// Draws one sample, unless the run has finished.
     pub fn step(&mut self) -> Step<'_, E::Model> {
         if let Some(stop) = self.stop {
@@ -231,6 +239,16 @@ impl<E: Estimator> Ransac<E> {
     /// [`Error::NoConsensus`] if no sample gave a model that the data of one sample, at least,
     /// support; [`Error::Canceled`] if the run was ended before one did.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
+        self.conclude()
+    }
+
+    /// The problem, to be run again.
+    pub(super) fn into_estimator(self) -> E {
+        self.estimator
+    }
+
+    /// As [`finish`](Ransac::finish), once.
+    pub(super) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
         let no_consensus = match self.stop {
             Some(StopReason::Canceled) => Error::Canceled,
             _ => Error::NoConsensus {
@@ -284,6 +302,7 @@ impl<E: Estimator> Ransac<E> {
             inliers,
             iterations: self.iterations,
             required_iterations: self.required,
+            max_error_px,
             score: self.score(&best.support),
             log10_false_alarms,
             refinements: self.refinements,

@@ -58,6 +58,12 @@ pub trait Estimator {
     /// Data there are.
     fn num_data(&self) -> usize;
 
+    /// In how many dimensions a datum can miss a model: 1 where the error is the distance from a line, 2
+    /// where it is that from a point.
+    fn codimension(&self) -> usize {
+        1
+    }
+
     /// Models that one sample can give, at most.
     fn max_models(&self) -> usize {
         1

@@ -11,6 +11,7 @@
 //! & Kittler 2003 (local optimization).
 
 mod budget;
+mod by_noise;
 mod chance;
 mod engine;
 mod estimator;
@@ -18,6 +19,7 @@ mod least_median;
 mod line;
 mod line_huber;
 mod matches;
+mod noise;
 mod options;
 mod run;
 mod sampler;
@@ -35,7 +37,9 @@ pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;
 pub(crate) use matches::FARTHEST_PX;
 pub use matches::MatchSet;
-pub use options::{Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason};
+pub use options::{
+    Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason, ThresholdKind,
+};
 pub use run::{ransac, ransac_with};
 pub use similarity::{Similarity2, SimilarityEstimator, find_similarity, fit_similarity};
 pub use step::{Step, Trial};

@@ -37,6 +37,23 @@ pub enum Budget {
     WithoutReplacement,
 }
 
+/// Where the threshold comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ThresholdKind {
+    /// It is [`RansacOptions::max_error_px`].
+    Given,
+    /// It is found along with the model, from the noise that good data turn out to have: 99 of 100 of
+    /// them are within it. [`RansacOptions::max_error_px`] is not looked at, nor does the outcome depend
+    /// on any guess; [`RansacReport::max_error_px`] says what was found, at least a twentieth of a pixel. The
+    /// loop runs some five times, with [`RansacOptions::max_iterations`] for each run.
+    ///
+    /// This is for [`ransac`](super::ransac) and all that call it; [`Ransac`](super::Ransac) by itself is
+    /// one run, with the threshold given.
+    ///
+    /// Source: Edstedt 2025, "Less biased noise scale estimation for threshold-robust RANSAC".
+    Noise,
+}
+
 /// How to run [`Ransac`](super::Ransac).
 ///
 /// ```
@@ -48,6 +65,8 @@ pub enum Budget {
 pub struct RansacOptions {
     /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0. 1.
     pub max_error_px: f64,
+    /// Where the threshold comes from. Given.
+    pub threshold: ThresholdKind,
     /// The probability that one sample at least is free of outliers, in (0, 1). 0.999.
     pub confidence: f64,
     /// Samples drawn even if fewer would do, unless [`max_iterations`](Self::max_iterations) is
@@ -78,6 +97,7 @@ impl Default for RansacOptions {
     fn default() -> Self {
         Self {
             max_error_px: 1.0,
+            threshold: ThresholdKind::Given,
             confidence: 0.999,
             min_iterations: 200,
             max_iterations: 10_000,
@@ -93,6 +113,22 @@ impl Default for RansacOptions {
 }
 
 impl RansacOptions {
+    /// The same with a threshold that is given: that of a report, for what follows from its inliers.
+    ///
+    /// ```
+    /// use epipole::robust::{RansacOptions, ThresholdKind};
+    /// let searching = RansacOptions { threshold: ThresholdKind::Noise, ..RansacOptions::default() };
+    /// let given = searching.within(1.5);
+    /// assert_eq!((given.threshold, given.max_error_px), (ThresholdKind::Given, 1.5));
+    /// ```
+    pub fn within(&self, max_error_px: f64) -> Self {
+        Self {
+            max_error_px,
+            threshold: ThresholdKind::Given,
+            ..*self
+        }
+    }
+
     /// Whether every field is in its range.
     ///
     /// # Errors
@@ -158,6 +194,8 @@ pub struct RansacReport<M> {
     /// Samples that the final share of inliers asks for, with [`SamplerKind::Prosac`] that among the
     /// best data; `u64::MAX` if no number is enough.
     pub required_iterations: u64,
+    /// The threshold T within which a datum is an inlier, pixels.
+    pub max_error_px: f64,
     /// The model's score over different data, as [`ScoreKind`] defines it.
     pub score: f64,
     /// How many models with so many inliers data without any structure would give, as a decimal
@@ -207,6 +245,7 @@ impl<M> RansacReport<M> {
             num_left_out: self.num_left_out,
             iterations: self.iterations,
             required_iterations: self.required_iterations,
+            max_error_px: self.max_error_px,
             score: self.score,
             log10_false_alarms: self.log10_false_alarms,
             refinements: self.refinements,

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, Trial};
+use super::by_noise::ransac_by_noise;
+use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, ThresholdKind, Trial};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
@@ -59,6 +60,9 @@ pub fn ransac_with<E: Estimator>(
     options: &RansacOptions,
     mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
 ) -> Result<RansacReport<E::Model>> {
+    if options.threshold == ThresholdKind::Noise {
+        return ransac_by_noise(estimator, options, &mut watch);
+    }
     let mut run = Ransac::new(estimator, *options)?;
     while let Step::Trial(trial) = run.step() {
         if watch(&trial).is_break() {

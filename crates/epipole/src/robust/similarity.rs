@@ -147,6 +147,10 @@ impl Estimator for SimilarityEstimator {
         2
     }
 
+    fn codimension(&self) -> usize {
+        2
+    }
+
     fn num_data(&self) -> usize {
         self.matches.len()
     }

@@ -6,6 +6,8 @@ use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
 use crate::camera::Intrinsics;
+use crate::robust::RansacOptions;
+use crate::two_view::PHOTO_MAX_ERROR_PX;
 use crate::{Error, Result};
 use nalgebra::Point2;
 use std::ops::ControlFlow;
@@ -24,8 +26,9 @@ pub struct SfmInput {
 /// How to reconstruct.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SfmOptions {
-    /// Largest distance of a match from its epipolar geometry, pixels. 2.
-    pub max_epipolar_error_px: f64,
+    /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
+    /// registered. Its threshold is 2 pixels, and its seed is not looked at.
+    pub ransac: RansacOptions,
     /// Largest reprojection error when an image is registered, pixels. 6.
     pub max_registration_error_px: f64,
     /// Largest reprojection error of an observation that is kept, pixels. 4.
@@ -50,7 +53,7 @@ pub struct SfmOptions {
 impl Default for SfmOptions {
     fn default() -> Self {
         Self {
-            max_epipolar_error_px: 2.0,
+            ransac: RansacOptions::default().within(PHOTO_MAX_ERROR_PX),
             max_registration_error_px: 6.0,
             max_reprojection_error_px: 4.0,
             min_num_inliers: 15,
@@ -125,9 +128,13 @@ pub struct SfmResult {
 /// Hears of progress and says whether to go on.
 pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmProgress) -> ControlFlow<()>;
 
+/// Sees cameras and points while they become more.
+pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction);
+
 /// Asks the observer, and remembers that it wanted to stop.
 pub(super) struct Reporter<'a> {
     pub(super) observer: SfmObserver<'a>,
+    pub(super) watcher: Option<SfmWatcher<'a>>,
     pub(super) canceled: bool,
 }
 
@@ -138,6 +145,13 @@ impl Reporter<'_> {
             self.canceled = true;
         }
         !self.canceled
+    }
+
+    /// Shows what there is so far, which is put together only if somebody watches.
+    pub(super) fn show(&mut self, so_far: impl FnOnce() -> Reconstruction) {
+        if let Some(watcher) = &mut self.watcher {
+            watcher(so_far());
+        }
     }
 }
 
@@ -176,7 +190,6 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
         }
     }
     for (what, value) in [
-        ("the largest epipolar error", options.max_epipolar_error_px),
         (
             "the largest registration error",
             options.max_registration_error_px,
@@ -196,6 +209,7 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
             });
         }
     }
+    pair_ransac(options).check()?;
     if !(options.distortion.k1.is_finite() && options.distortion.k2.is_finite()) {
         return Err(Error::NotFinite {
             what: "the lens distortion",
@@ -231,15 +245,45 @@ pub fn reconstruct(
     options: &SfmOptions,
     observer: SfmObserver<'_>,
 ) -> Result<SfmResult> {
+    let reporter = Reporter {
+        observer,
+        watcher: None,
+        canceled: false,
+    };
+    reconstruct_telling(input, options, reporter)
+}
+
+/// As [`reconstruct`], with the same result, showing `watcher` what there is after the first two images and after
+/// each one that was added. Each component starts anew.
+///
+/// # Errors
+/// As [`reconstruct`].
+///
+/// Source: as [`reconstruct`].
+pub fn reconstruct_watched(
+    input: &SfmInput,
+    options: &SfmOptions,
+    observer: SfmObserver<'_>,
+    watcher: SfmWatcher<'_>,
+) -> Result<SfmResult> {
+    let reporter = Reporter {
+        observer,
+        watcher: Some(watcher),
+        canceled: false,
+    };
+    reconstruct_telling(input, options, reporter)
+}
+
+fn reconstruct_telling(
+    input: &SfmInput,
+    options: &SfmOptions,
+    mut reporter: Reporter<'_>,
+) -> Result<SfmResult> {
     let intrinsics = check(input, options)?;
     let images = &input.images;
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     // Bad indices are found before the work begins.
     build_tracks(&counts, &input.pairs)?;
-    let mut reporter = Reporter {
-        observer,
-        canceled: false,
-    };
     let pixels = undistorted(images, &intrinsics, options.distortion);
     let verified = verify(input, options, &intrinsics, &pixels, &mut reporter);
     grow(images, &intrinsics, pixels, &verified, options, reporter)
@@ -270,6 +314,7 @@ pub fn reconstruct_verified(
     let pixels = undistorted(images, &intrinsics, options.distortion);
     let reporter = Reporter {
         observer,
+        watcher: None,
         canceled: false,
     };
     grow(images, &intrinsics, pixels, verified, options, reporter)
@@ -311,6 +356,7 @@ fn grow(
         if !builder.start(verified, &mut reporter) {
             break;
         }
+        reporter.show(|| builder.so_far());
         builder.grow(&mut reporter);
         let reconstruction = builder.finish();
         for (image, camera) in reconstruction.cameras.iter().enumerate() {

@@ -43,7 +43,8 @@ pub use bundle::{
 };
 pub use export::ColmapModel;
 pub use incremental::{
-    SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct, reconstruct_verified,
+    SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, SfmWatcher, reconstruct,
+    reconstruct_verified, reconstruct_watched,
 };
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, find_similarity_of_points,

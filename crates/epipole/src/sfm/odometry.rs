@@ -7,6 +7,7 @@ use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
 use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use std::ops::ControlFlow;
 
@@ -26,7 +27,7 @@ impl Default for OdometryOptions {
     fn default() -> Self {
         Self {
             sfm: SfmOptions {
-                max_epipolar_error_px: 1.5,
+                ransac: RansacOptions::default().within(1.5),
                 max_registration_error_px: 3.0,
                 max_reprojection_error_px: 2.0,
                 min_angle_deg: 0.3,
@@ -166,6 +167,7 @@ fn follow(
     build_tracks(&counts, &input.pairs)?;
     let mut reporter = Reporter {
         observer,
+        watcher: None,
         canceled: false,
     };
     let distortion: RadialDistortion = options.sfm.distortion;

@@ -5,10 +5,9 @@ use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
-    Descriptors, Keypoint, Match, MatchOptions, SiftNormalization, SiftOptions, detect_sift,
-    match_descriptors,
+    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
+    match_any_descriptors, photo_to_gray,
 };
-use crate::imaging::{gray_to_f32, rgb_to_gray};
 use crate::{Error, Result};
 use image::RgbImage;
 
@@ -22,35 +21,18 @@ pub struct Photo {
 }
 
 /// How features are found and matched.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PhotoOptions {
-    /// RootSIFT, up to 6000 features, faint ones too. Photographs of more than 1.5 megapixels
-    /// have features enough without being doubled in size, whatever `upsample` says.
-    pub sift: SiftOptions,
+    /// RootSIFT, up to 8192 features, faint ones too.
+    pub features: FeatureOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
     /// Match each photograph with so many after it; 0 for all. For frames in order of time.
     pub neighbors: usize,
+    /// Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than in the
+    /// order of the first photograph's keypoints. False.
+    pub best_first: bool,
 }
-
-impl Default for PhotoOptions {
-    fn default() -> Self {
-        Self {
-            sift: SiftOptions {
-                max_features: 6000,
-                contrast_threshold: 0.02,
-                input_blur_px: 0.5,
-                normalization: SiftNormalization::Root,
-                ..SiftOptions::default()
-            },
-            matching: MatchOptions::default(),
-            neighbors: 0,
-        }
-    }
-}
-
-/// Doubling the size of larger photographs costs seconds each and yields what is not needed.
-const MAX_UPSAMPLED_PIXELS: u64 = 1_500_000;
 
 /// What [`match_features`] needs to know about a photograph; its pixels are no longer needed.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +40,7 @@ pub struct PhotoFeatures {
     /// Size, keypoints and their colors.
     pub image: SfmImage,
     /// What the keypoints look like, in the same order.
-    pub descriptors: Descriptors,
+    pub descriptors: AnyDescriptors,
     /// The keypoints once more, with their scales and directions.
     pub keypoints: Vec<Keypoint>,
 }
@@ -66,18 +48,12 @@ pub struct PhotoFeatures {
 /// Keypoints and descriptors of a photograph.
 ///
 /// # Errors
-/// As [`detect_sift`].
+/// As [`detect_features`].
 ///
 /// Source: Lowe 2004.
 pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeatures> {
-    let gray = gray_to_f32(&rgb_to_gray(&photo.image));
     let (width, height) = photo.image.dimensions();
-    let sift = SiftOptions {
-        upsample: options.sift.upsample
-            && u64::from(width) * u64::from(height) <= MAX_UPSAMPLED_PIXELS,
-        ..options.sift
-    };
-    let features = detect_sift(&gray, &sift)?;
+    let features = detect_features(&photo_to_gray(&photo.image), &options.features)?;
     let color = |u: f64, v: f64| {
         let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
         photo.image.get_pixel(inside(u, width), inside(v, height)).0
@@ -103,7 +79,7 @@ pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeat
 /// Returns `None` if the observer did not want to wait.
 ///
 /// # Errors
-/// As [`match_descriptors`].
+/// As [`match_any_descriptors`].
 ///
 /// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
 pub fn match_features(
@@ -142,7 +118,7 @@ pub fn match_features(
 /// row to within 2 pixels and are further right in the left picture.
 ///
 /// # Errors
-/// As [`match_descriptors`].
+/// As [`match_any_descriptors`].
 ///
 /// Source: Lowe 2004.
 pub fn match_rectified(
@@ -167,7 +143,7 @@ const MAX_ROW_ERROR_PX: f64 = 2.0;
 /// Matches between two photographs, as indices of their keypoints.
 ///
 /// # Errors
-/// As [`match_descriptors`].
+/// As [`match_any_descriptors`].
 ///
 /// Source: Lowe 2004.
 pub fn match_pair(
@@ -175,7 +151,11 @@ pub fn match_pair(
     second: &PhotoFeatures,
     options: &PhotoOptions,
 ) -> Result<Vec<(u32, u32)>> {
-    let matches = match_descriptors(&first.descriptors, &second.descriptors, &options.matching)?;
+    let descriptors = (&first.descriptors, &second.descriptors);
+    let mut matches = match_any_descriptors(descriptors.0, descriptors.1, &options.matching)?;
+    if options.best_first {
+        matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    }
     let pair = |m: &Match| (m.index1 as u32, m.index2 as u32);
     Ok(matches.iter().map(pair).collect())
 }

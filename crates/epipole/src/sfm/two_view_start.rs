@@ -8,6 +8,7 @@ use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::find_homography;
 use crate::robust::RansacOptions;
+use crate::two_view::TwoViewOptions;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -26,17 +27,12 @@ pub struct VerifiedPair {
     pub is_flat: bool,
 }
 
-/// Share of the matches that a homography may explain before a pair counts as flat.
-///
-/// Source: Schönberger & Frahm 2016, §4.1.
-const MAX_HOMOGRAPHY_SHARE: f64 = 0.8;
-
 /// The matches of two photographs that agree with one motion of the camera; `None` if too few do.
 ///
 /// * `pair`: matches of the photographs' keypoints
 /// * `images`, `intrinsics`: of the two photographs that the pair names
-/// * `options`: [`SfmOptions::max_epipolar_error_px`], [`SfmOptions::min_num_inliers`],
-///   [`SfmOptions::distortion`] and the seed
+/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::distortion`] and the
+///   seed
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if a match refers to a keypoint that is not there.
@@ -74,9 +70,8 @@ pub fn verify_matches(
 /// How pairs are tested.
 pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
     RansacOptions {
-        max_error_px: options.max_epipolar_error_px,
         seed: options.seed,
-        ..RansacOptions::default()
+        ..options.ransac
     }
 }
 
@@ -128,10 +123,12 @@ pub(super) fn verify_pair(
     };
     let few = RansacOptions {
         max_iterations: 500,
-        ..*options
+        ..options.within(report.max_error_px)
     };
+    // The share that makes two views planar makes a pair flat.
+    let share = TwoViewOptions::default().max_homography_share;
     let is_flat = find_homography(&chosen(&pixels1), &chosen(&pixels2), &few)
-        .is_ok_and(|flat| flat.num_inliers as f64 > MAX_HOMOGRAPHY_SHARE * matches.len() as f64);
+        .is_ok_and(|flat| flat.num_inliers as f64 > share * matches.len() as f64);
     Some(VerifiedPair {
         pair: PairMatches { matches, ..*pair },
         cam2_from_cam1,

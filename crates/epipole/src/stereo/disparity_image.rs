@@ -85,6 +85,17 @@ impl DisparityImage {
         &self.values
     }
 
+    /// Rows and columns exchanged.
+    pub(super) fn transposed(&self) -> Self {
+        let value = |u: u32, v: u32| self.values[u as usize * self.width as usize + v as usize];
+        let pixels = (0..self.width).flat_map(|v| (0..self.height).map(move |u| (u, v)));
+        Self {
+            width: self.height,
+            height: self.width,
+            values: pixels.map(|(u, v)| value(u, v)).collect(),
+        }
+    }
+
     pub(super) fn values_mut(&mut self) -> &mut [f32] {
         &mut self.values
     }

@@ -11,6 +11,7 @@ mod paths;
 mod pixel_map;
 mod point_cloud;
 mod prefilter;
+mod rectified_pair;
 mod rectify;
 mod rectify_uncalibrated;
 mod search;
@@ -27,6 +28,7 @@ pub use matching_cost::StereoCost;
 pub use pixel_map::PixelMap;
 pub use point_cloud::{PointCloud, depth_image, point_cloud};
 pub use prefilter::StereoPrefilter;
+pub use rectified_pair::RectifiedPair;
 pub(crate) use rectify::border_outline;
 pub use rectify::{
     PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
 use super::pairs::Pairs;
 use super::search::{Searches, TwoViewObserver, TwoViewSearch};
+use super::turn::{ExplainingTurn, homography_of_turn};
 use super::{RotationEstimator, TwoViewOptions};
 #[cfg(doc)]
 use crate::Error;
@@ -21,7 +22,7 @@ use crate::homography::{HomographyEstimator, homography_sampson_px};
 #[cfg(doc)]
 use crate::robust::RansacOptions;
 use crate::robust::{MatchSet, RansacReport, StopReason};
-use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion};
+use nalgebra::{Matrix3, Point2};
 
 /// What two views show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,13 +67,15 @@ pub struct TwoViewReport {
     /// Of a plane: another motion that explains the matches as well, if there is one. Which of the two
     /// is right, a plane alone does not tell.
     pub other_cam2_from_cam1: Option<RigidTransform>,
-    /// For each match given, whether it fits `model`: within [`RansacOptions::max_error_px`] of F or E, by
-    /// the Sampson error, and within 1.25 times as much of H, which has to fit in two dimensions.
+    /// For each match given, whether it fits `model`: within `max_error_px` of F or E, by the Sampson error,
+    /// and within 1.25 times as much of H, which has to fit in two dimensions.
     pub inliers: Vec<bool>,
     /// How many do.
     pub num_inliers: usize,
     /// Matches that were left out: an infinite coordinate, or one beyond 10⁹ pixels.
     pub num_left_out: usize,
+    /// The threshold of F and E, pixels.
+    pub max_error_px: f64,
     /// Samples drawn, over all models tried.
     pub iterations: usize,
     /// Why the search for `model` ended, or [`StopReason::Canceled`] if any search was ended early.
@@ -149,6 +152,7 @@ pub fn estimate_two_view_with(
     let set = MatchSet::new(pixels1, pixels2)?;
     let pairs = Pairs::new(pixels1, pixels2, &set);
     let mut searches = Searches::new(observer);
+    let options = &searches.with_threshold(options, &set);
     let fundamental = searches.ransac(
         TwoViewSearch::Fundamental,
         FundamentalEstimator::new(set.clone()),
@@ -170,7 +174,7 @@ pub fn estimate_two_view_with(
                     >= options.max_homography_share
         }
     };
-    let mut found = TwoViewReport::nothing(&searches);
+    let mut found = TwoViewReport::nothing(&searches, options);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     if homography_wins {
         let report = homography?;
@@ -272,8 +276,9 @@ pub fn estimate_two_view_calibrated_with(
     options.check()?;
     let set = MatchSet::new(pixels1, pixels2)?;
     let pairs = Pairs::new(pixels1, pixels2, &set);
-    let in_two_dimensions = options.in_two_dimensions();
     let mut searches = Searches::new(observer);
+    let options = &searches.with_threshold(options, &set);
+    let in_two_dimensions = options.in_two_dimensions();
     let essential = searches.run(TwoViewSearch::Essential, |watch| {
         estimate_relative_pose_with(pixels1, pixels2, k1, k2, &options.ransac, watch)
     });
@@ -292,7 +297,7 @@ pub fn estimate_two_view_calibrated_with(
         RotationEstimator::new(set.clone(), *k1, *k2),
         &in_two_dimensions,
     );
-    let mut found = TwoViewReport::nothing(&searches);
+    let mut found = TwoViewReport::nothing(&searches, options);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     let (num_e, num_f) = (support(&essential), support(&fundamental));
     let epipolar = if num_e > num_f {
@@ -305,23 +310,23 @@ pub fn estimate_two_view_calibrated_with(
             pairs.explained_share(matrix, inliers, options) >= options.max_homography_share
         })
     };
-    if let Ok(turn) = &rotation {
-        let matrix = k2.matrix() * turn.model * k1.inverse_matrix();
-        // A homography may explain what a rotation does not, even where nothing epipolar was found.
-        let num_needed = options.max_homography_share * support(&homography) as f64;
-        if turn.num_unique_inliers >= 3
-            && turn.num_unique_inliers as f64 >= num_needed
-            && explains(&matrix)
-        {
-            found.model = TwoViewModel::Homography(matrix / matrix.norm());
-            found.configuration = Configuration::Panoramic;
-            found.cam2_from_cam1 = Some(RigidTransform::from_parts(
-                nalgebra::Translation3::identity(),
-                UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn.model)),
-            ));
-            found.take_homography(&pairs, turn, options);
-            return Ok(found);
-        }
+    // A homography may explain what a rotation does not, even where nothing epipolar was found.
+    let num_needed = options.max_homography_share * support(&homography) as f64;
+    if let Ok(report) = &rotation
+        && report.num_unique_inliers as f64 >= num_needed
+        && let Some(turn) = ExplainingTurn::new(
+            report,
+            [k1, k2],
+            epipolar.iter().flat_map(|mask| pairs.different_among(mask)),
+            options,
+        )
+    {
+        let matrix = homography_of_turn(&report.model, [k1, k2]);
+        found.model = TwoViewModel::Homography(matrix / matrix.norm());
+        found.configuration = Configuration::Panoramic;
+        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+        found.take_homography(&pairs, report, options);
+        return Ok(found);
     }
     if let Ok(report) = &homography
         && explains(&report.model)
@@ -377,7 +382,7 @@ fn support<M>(report: &Result<RansacReport<M>>) -> usize {
 }
 
 impl TwoViewReport {
-    fn nothing(searches: &Searches<'_>) -> Self {
+    fn nothing(searches: &Searches<'_>, options: &TwoViewOptions) -> Self {
         Self {
             configuration: Configuration::Degenerate,
             model: TwoViewModel::Homography(Matrix3::identity() / 3.0_f64.sqrt()),
@@ -388,6 +393,7 @@ impl TwoViewReport {
             inliers: Vec::new(),
             num_inliers: 0,
             num_left_out: 0,
+            max_error_px: options.ransac.max_error_px,
             iterations: searches.iterations,
             stop: if searches.canceled() {
                 StopReason::Canceled

@@ -12,7 +12,7 @@ pub use choice::{
     Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
     estimate_two_view_calibrated_with, estimate_two_view_with,
 };
-pub use options::TwoViewOptions;
+pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
 pub use rotation::{RotationEstimator, find_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};

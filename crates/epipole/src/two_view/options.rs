@@ -7,11 +7,17 @@ use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
+/// The largest error of a match of two photographs, pixels, that the commands on photographs and
+/// [`SfmOptions`](crate::sfm::SfmOptions) begin with. Features of photographs are less exact, and their lenses
+/// less straight, than the one pixel of [`RansacOptions`] would have it.
+pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
+
 /// How to judge a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoViewOptions {
     /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
-    /// 1.25 times its threshold, by the Sampson error.
+    /// 1.25 times its threshold, by the Sampson error. [`ThresholdKind::Noise`](crate::robust::ThresholdKind)
+    /// is that of F, which needs no intrinsics, for all of them.
     pub ransac: RansacOptions,
     /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
     pub min_num_inliers: usize,
@@ -69,9 +75,20 @@ impl TwoViewOptions {
 
     /// For models whose errors are distances in image 2, which have the noise of both images.
     pub(super) fn in_two_dimensions(&self) -> RansacOptions {
-        RansacOptions {
-            max_error_px: TWO_DIMENSIONS * core::f64::consts::SQRT_2 * self.ransac.max_error_px,
-            ..self.ransac
+        let max_error_px = self.ransac.max_error_px;
+        (self.ransac).within(TWO_DIMENSIONS * core::f64::consts::SQRT_2 * max_error_px)
+    }
+
+    /// The same with a threshold that is given, as [`RansacOptions::within`].
+    ///
+    /// ```
+    /// use epipole::two_view::TwoViewOptions;
+    /// assert_eq!(TwoViewOptions::default().within(1.5).ransac.max_error_px, 1.5);
+    /// ```
+    pub fn within(&self, max_error_px: f64) -> Self {
+        Self {
+            ransac: self.ransac.within(max_error_px),
+            ..*self
         }
     }
 

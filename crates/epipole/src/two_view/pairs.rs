@@ -62,6 +62,18 @@ impl<'a> Pairs<'a> {
             .map(|(pair, _)| pair)
     }
 
+    /// The different matches of a mask, each once.
+    pub(super) fn different_among<'b>(
+        &'b self,
+        mask: &'b [bool],
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, 'b> {
+        let pairs = self.pixels1.iter().zip(self.pixels2);
+        pairs
+            .zip(mask.iter().zip(&self.is_first))
+            .filter(|(_, (kept, first))| **kept && **first)
+            .map(|(pair, _)| pair)
+    }
+
     /// The share of some inliers that fit a homography.
     pub(super) fn explained_share(
         &self,
@@ -70,10 +82,7 @@ impl<'a> Pairs<'a> {
         options: &TwoViewOptions,
     ) -> f64 {
         let (mut fit, mut count) = (0.0, 0.0_f64);
-        let different: Vec<bool> = (inliers.iter().zip(&self.is_first))
-            .map(|(inlier, first)| *inlier && *first)
-            .collect();
-        for (p1, p2) in self.among(&different) {
+        for (p1, p2) in self.different_among(inliers) {
             count += 1.0;
             if options.fits_homography(homography, p1, p2) {
                 fit += 1.0;

@@ -98,6 +98,10 @@ impl Estimator for RotationEstimator {
         2
     }
 
+    fn codimension(&self) -> usize {
+        2
+    }
+
     fn num_data(&self) -> usize {
         self.matches.len()
     }

@@ -2,7 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use crate::robust::{Estimator, RansacOptions, RansacReport, Trial, ransac_with};
+use super::TwoViewOptions;
+use crate::epipolar::FundamentalEstimator;
+use crate::homography::HomographyEstimator;
+use crate::robust::{
+    Estimator, MatchSet, RansacOptions, RansacReport, ThresholdKind, Trial, ransac_with,
+};
 use crate::{Error, Result};
 
 /// A model that two views are tried with.
@@ -47,6 +52,31 @@ impl<'a> Searches<'a> {
             iterations: 0,
             canceled: false,
         }
+    }
+
+    /// The options with a threshold that is given: where it is to be found, that of F, which all pairs
+    /// have, whatever the scene and the intrinsics; else that of H. Where neither is found, that of the
+    /// options.
+    pub(super) fn with_threshold(
+        &mut self,
+        options: &TwoViewOptions,
+        set: &MatchSet,
+    ) -> TwoViewOptions {
+        let given_px = options.ransac.max_error_px;
+        if options.ransac.threshold == ThresholdKind::Given {
+            return *options;
+        }
+        let f = FundamentalEstimator::new(set.clone());
+        let found = self.ransac(TwoViewSearch::Fundamental, f, &options.ransac);
+        if let Ok(report) = found
+            && !report.could_be_chance()
+        {
+            return options.within(report.max_error_px);
+        }
+        let h = HomographyEstimator::new(set.clone());
+        let found = self.ransac(TwoViewSearch::Homography, h, &options.ransac);
+        let of_f = |h_px: f64| h_px / options.within(1.0).in_two_dimensions().max_error_px;
+        options.within(found.map_or(given_px, |report| of_f(report.max_error_px)))
     }
 
     /// Searches by the one loop.

@@ -3,9 +3,9 @@
 use super::TwoViewOptions;
 use super::rotation::find_rotation;
 use crate::camera::{Intrinsics, RigidTransform};
-use crate::robust::RansacOptions;
+use crate::robust::{RansacOptions, RansacReport};
 use crate::{Error, Result};
-use nalgebra::{Point2, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
 
 /// Samples of two matches. Where a turn explains as much as is asked for, a tenth is plenty.
 const MAX_SAMPLES: usize = 300;
@@ -19,6 +19,49 @@ pub struct ExplainingTurn {
     pub num_explained: usize,
     /// How many inliers there are.
     pub num_inliers: usize,
+}
+
+impl ExplainingTurn {
+    /// The turn of a search, if it explains nearly all inliers of another model: the one place where that is
+    /// decided.
+    ///
+    /// * `intrinsics`: of the two cameras
+    /// * `inliers`: the matches that fit the other model
+    pub(super) fn new<'a>(
+        turn: &RansacReport<Matrix3<f64>>,
+        intrinsics: [&Intrinsics; 2],
+        inliers: impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
+        options: &TwoViewOptions,
+    ) -> Option<Self> {
+        // Two matches fit a turn always.
+        if turn.num_unique_inliers < 3 {
+            return None;
+        }
+        let homography = homography_of_turn(&turn.model, intrinsics);
+        let (mut num_inliers, mut num_explained) = (0, 0);
+        for (p1, p2) in inliers {
+            num_inliers += 1;
+            num_explained += usize::from(options.fits_homography(&homography, p1, p2));
+        }
+        let needed = options.max_homography_share * num_inliers as f64;
+        let rotation = Rotation3::from_matrix_unchecked(turn.model);
+        (num_explained as f64 >= needed).then(|| Self {
+            cam2_from_cam1: RigidTransform::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::from_rotation_matrix(&rotation),
+            ),
+            num_explained,
+            num_inliers,
+        })
+    }
+}
+
+/// What a turn does to pixels: `K2 R K1⁻¹`.
+pub(super) fn homography_of_turn(
+    rotation: &Matrix3<f64>,
+    [k1, k2]: [&Intrinsics; 2],
+) -> Matrix3<f64> {
+    k2.matrix() * rotation * k1.inverse_matrix()
 }
 
 /// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in which
@@ -39,7 +82,7 @@ pub struct ExplainingTurn {
 /// use epipole::camera::Intrinsics;
 /// use epipole::estimate_relative_pose;
 /// use epipole::two_view::{TwoViewOptions, find_explaining_turn};
-/// use nalgebra::{Point2, Rotation3, Vector3};
+/// use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
 /// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
@@ -90,23 +133,6 @@ pub fn find_explaining_turn(
         Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
         Err(error) => return Err(error),
     };
-    let homography = k2.matrix() * report.model * k1.inverse_matrix();
     let pairs = in1.iter().zip(&in2);
-    let num_explained = pairs
-        .filter(|(p1, p2)| options.fits_homography(&homography, p1, p2))
-        .count();
-    let needed = options.max_homography_share * in1.len() as f64;
-    // Two matches fit a turn always.
-    if report.num_unique_inliers < 3 || (num_explained as f64) < needed {
-        return Ok(None);
-    }
-    let rotation = Rotation3::from_matrix_unchecked(report.model);
-    Ok(Some(ExplainingTurn {
-        cam2_from_cam1: RigidTransform::from_parts(
-            Translation3::identity(),
-            UnitQuaternion::from_rotation_matrix(&rotation),
-        ),
-        num_explained,
-        num_inliers: in1.len(),
-    }))
+    Ok(ExplainingTurn::new(&report, [k1, k2], pairs, options))
 }

@@ -1,17 +1,18 @@
 //! The searches of `epipole two-view`, and what they found.
 
+use super::focal::intrinsics;
 use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
-use crate::turn::{self, find_turn};
+use crate::turn;
 use epipole::camera::RigidTransform;
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
 use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch, TwoViewTrial,
-    estimate_two_view_calibrated_with, estimate_two_view_with,
+    estimate_two_view_calibrated_with, estimate_two_view_with, find_explaining_turn,
 };
 use nalgebra::{Matrix3, Point2};
 
@@ -24,6 +25,9 @@ pub(super) struct Found {
     pub(super) other_cam2_from_cam1: Option<RigidTransform>,
     pub(super) configuration: &'static str,
     pub(super) errors_px: Vec<f64>,
+    pub(super) max_error_px: f64,
+    /// Of both cameras, where E was searched for.
+    pub(super) focals_px: Option<[f64; 2]>,
 }
 
 /// Looks for the model that was asked for.
@@ -37,11 +41,7 @@ pub(super) fn estimate(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
-    let ransac = arguments.robust.options(context);
-    let options = TwoViewOptions {
-        ransac,
-        ..TwoViewOptions::default()
-    };
+    let options = arguments.options(context);
     let set = || MatchSet::new(pixels1, pixels2);
     let errors = |f: &Matrix3<f64>| -> Vec<f64> {
         pixels1
@@ -90,35 +90,37 @@ pub(super) fn estimate(
             Ok(Found {
                 kind: "fundamental",
                 errors_px: errors(&report.model),
-                configuration: configuration(&report, "general"),
+                configuration: configuration(&report, "general", &options),
                 model: report.model,
+                max_error_px: report.max_error_px,
                 inliers: report.inliers,
                 cam2_from_cam1: None,
                 other_cam2_from_cam1: None,
+                focals_px: None,
             })
         }
         Model::Essential => {
-            let ([k1, k2], guess) = arguments.camera.or_guess(photos)?;
-            if let Some(sentence) = guess {
-                context.warn(&sentence);
-            }
+            let [k1, k2] = intrinsics(arguments, context, photos, pixels1, pixels2)?;
             let report = arguments.robust.watched(context, |options, watch| {
                 estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
             })?;
             let pose = report.model;
+            let judging = options.within(report.max_error_px);
             let mut found = Found {
                 kind: "essential",
                 errors_px: errors(&pose.fundamental),
                 model: pose.essential(),
                 cam2_from_cam1: Some(pose.cam2_from_cam1()),
                 other_cam2_from_cam1: None,
-                configuration: configuration(&report, "general"),
+                focals_px: Some([k1.fu_px(), k2.fu_px()]),
+                configuration: configuration(&report, "general", &options),
+                max_error_px: report.max_error_px,
                 inliers: report.inliers,
             };
             if found.configuration == "degenerate" {
                 found.cam2_from_cam1 = None;
             } else if let Some(turn) =
-                find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)?
+                find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
             {
                 context.warn(&turn::sentence(&turn));
                 found.configuration = "panoramic";
@@ -130,19 +132,23 @@ pub(super) fn estimate(
             let given = arguments.camera.given(photos)?;
             let estimator = HomographyEstimator::new(set()?)?;
             let report = arguments.robust.run(estimator, context)?;
+            let judging = options.within(report.max_error_px);
             let error = |(a, b)| homography_sampson_px(&report.model, a, b);
             let mut found = Found {
                 kind: "homography",
                 errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
-                configuration: configuration(&report, "planar"),
+                configuration: configuration(&report, "planar", &options),
                 model: report.model,
+                max_error_px: report.max_error_px,
                 inliers: report.inliers,
                 cam2_from_cam1: None,
                 other_cam2_from_cam1: None,
+                focals_px: None,
             };
             // Pixels alone do not tell a turn from a plane.
-            if let (Some(k), "planar") = (given, found.configuration)
-                && let Some(turn) = find_turn(pixels1, pixels2, &k, &found.inliers, &ransac)?
+            if let (Some([k1, k2]), "planar") = (given, found.configuration)
+                && let Some(turn) =
+                    find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
             {
                 found.configuration = "panoramic";
                 found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
@@ -153,14 +159,17 @@ pub(super) fn estimate(
 }
 
 /// Whether no more matches agree than wrong ones might.
-fn is_degenerate<M>(report: &RansacReport<M>) -> bool {
-    report.could_be_chance()
-        || report.num_unique_inliers < TwoViewOptions::default().min_num_inliers
+fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool {
+    report.could_be_chance() || report.num_unique_inliers < options.min_num_inliers
 }
 
 /// What the views show, if it is enough to be anything.
-fn configuration<M>(report: &RansacReport<M>, otherwise: &'static str) -> &'static str {
-    if is_degenerate(report) {
+fn configuration<M>(
+    report: &RansacReport<M>,
+    otherwise: &'static str,
+    options: &TwoViewOptions,
+) -> &'static str {
+    if is_degenerate(report, options) {
         "degenerate"
     } else {
         otherwise
@@ -197,6 +206,8 @@ fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f
         kind,
         model,
         errors_px,
+        max_error_px: report.max_error_px,
+        focals_px: None,
         inliers: report.inliers,
         cam2_from_cam1: report.cam2_from_cam1,
         other_cam2_from_cam1: report.other_cam2_from_cam1,

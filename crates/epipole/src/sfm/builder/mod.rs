@@ -8,10 +8,10 @@ use super::incremental::{Reporter, SfmOptions, SfmProgress};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
-use super::two_view_start::VerifiedPair;
+use super::two_view_start::{VerifiedPair, pair_ransac};
 use crate::absolute_pose::find_absolute_pose;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::robust::RansacOptions;
+use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::{Point2, Point3};
 
 /// A point and the elements of its track that agree with it.
@@ -210,6 +210,7 @@ impl Builder<'_> {
                 num_registered: self.num_registered(),
                 num_points: self.num_points(),
             });
+            reporter.show(|| self.so_far());
         }
         if reporter.canceled {
             return;
@@ -289,10 +290,10 @@ impl Builder<'_> {
                 positions.push(point.position);
             }
         }
+        // Points come in no order.
         let ransac = RansacOptions {
-            max_error_px: self.options.max_registration_error_px,
-            seed: self.options.seed,
-            ..RansacOptions::default()
+            sampler: SamplerKind::Uniform,
+            ..pair_ransac(self.options).within(self.options.max_registration_error_px)
         };
         let intrinsics = self.intrinsics[image];
         // Without consensus the image is not registered, and may be later.
@@ -313,21 +314,23 @@ impl Builder<'_> {
         Some(found.num_inliers)
     }
 
-    pub(super) fn finish(mut self) -> Reconstruction {
+    pub(super) fn finish(self) -> Reconstruction {
+        self.so_far()
+    }
+
+    /// What there is.
+    pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
             distortion: self.distortion,
-            points: self
-                .points
-                .drain(..)
-                .flatten()
+            points: (self.points.iter().flatten())
                 .map(|point| ScenePoint {
                     position: point.position,
                     color: [128; 3],
-                    track: point.seen,
+                    track: point.seen.clone(),
                     error_px: 0.0,
                 })
                 .collect(),
-            cameras: self.cameras,
+            cameras: self.cameras.clone(),
         };
         reconstruction.finish_points(self.images);
         reconstruction

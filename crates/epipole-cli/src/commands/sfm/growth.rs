@@ -1,0 +1,112 @@
+//! How a reconstruction grows: what `epipole sfm` asks beyond features and matches.
+
+use crate::context::Context;
+use crate::matrices::positive;
+use crate::robust::RobustArguments;
+use clap::Args;
+use epipole::sfm::SfmOptions;
+
+/// What is refined, and what a photograph or a point must have to be accepted.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Reconstruction")]
+pub(super) struct GrowthArguments {
+    /// Refine one factor for the focal lengths of all photographs, also where they are known.
+    #[arg(long)]
+    refine_focal: bool,
+    /// Keep the focal lengths, also where they are but a guess.
+    #[arg(long, conflicts_with = "refine_focal")]
+    keep_focal: bool,
+    /// Refine two terms of radial distortion that all photographs share.
+    #[arg(long)]
+    refine_distortion: bool,
+    /// Fewest matches that connect two photographs, and fewest points that place one.
+    #[arg(long, default_value_t = SfmOptions::default().min_num_inliers, value_name = "N")]
+    min_inliers: usize,
+    /// The smallest angle under which a point must be seen, degrees.
+    #[arg(long, default_value_t = SfmOptions::default().min_angle_deg, value_name = "DEG", value_parser = positive)]
+    min_angle_deg: f64,
+    /// The median angle that the two first photographs should have, degrees; less if none have it.
+    #[arg(long, default_value_t = SfmOptions::default().min_start_angle_deg, value_name = "DEG", value_parser = positive)]
+    min_start_angle_deg: f64,
+    /// The largest reprojection error of a point that helps to place a photograph, pixels.
+    #[arg(long, default_value_t = SfmOptions::default().max_registration_error_px, value_name = "PX", value_parser = positive)]
+    max_registration_error_px: f64,
+    /// The largest reprojection error that is kept, pixels.
+    #[arg(long, default_value_t = SfmOptions::default().max_reprojection_error_px, value_name = "PX", value_parser = positive)]
+    max_reprojection_error_px: f64,
+}
+
+impl GrowthArguments {
+    /// The same for the core.
+    ///
+    /// * `some_unknown`: whether the focal length of some photograph is but a guess
+    pub(super) fn options(
+        &self,
+        robust: &RobustArguments,
+        context: &Context,
+        some_unknown: bool,
+    ) -> SfmOptions {
+        SfmOptions {
+            ransac: robust.options(context),
+            max_registration_error_px: self.max_registration_error_px,
+            max_reprojection_error_px: self.max_reprojection_error_px,
+            min_num_inliers: self.min_inliers,
+            min_angle_deg: self.min_angle_deg,
+            min_start_angle_deg: self.min_start_angle_deg,
+            refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
+            refine_distortion: self.refine_distortion,
+            seed: context.seed,
+            ..SfmOptions::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::robust::PHOTO_MAX_ERROR;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    #[command(mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)))]
+    struct All {
+        #[command(flatten)]
+        robust: RobustArguments,
+        #[command(flatten)]
+        growth: GrowthArguments,
+    }
+
+    fn options(words: &[&str], some_unknown: bool) -> SfmOptions {
+        let all = All::try_parse_from([&["epipole"], words].concat()).unwrap();
+        let context = Context {
+            quiet: true,
+            seed: 0,
+        };
+        (all.growth).options(&all.robust, &context, some_unknown)
+    }
+
+    #[test]
+    fn what_is_not_said_is_the_default_of_the_core() {
+        assert_eq!(options(&[], false), SfmOptions::default());
+        let words = [
+            "--min-inliers",
+            "30",
+            "--max-error-px",
+            "0.5",
+            "--confidence",
+            "0.9",
+        ];
+        let said = options(&words, false);
+        assert_eq!((said.min_num_inliers, said.ransac.max_error_px), (30, 0.5));
+        assert_eq!(said.ransac.confidence, 0.9);
+    }
+
+    #[test]
+    fn guessed_focal_lengths_are_refined_unless_they_are_to_be_kept() {
+        assert!(options(&[], true).refine_focal);
+        assert!(!options(&["--keep-focal"], true).refine_focal);
+        assert!(options(&["--refine-focal"], false).refine_focal);
+    }
+}

@@ -1,0 +1,67 @@
+//! Intrinsics of two photographs of which nobody said the focal length.
+
+use super::Arguments;
+use crate::camera::centered;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::Photo;
+use epipole::camera::Intrinsics;
+use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_with_focal};
+use epipole::robust::{RansacOptions, RansacReport};
+use nalgebra::Point2;
+
+/// Samples of six matches, at most: each takes as long as ten of five.
+const MAX_SAMPLES: usize = 2000;
+
+/// The intrinsics given; or else a focal length of both photographs that the matches tell, if neither command
+/// line nor EXIF data do; or else a guess. A sentence says which.
+///
+/// # Errors
+/// As [`PairArguments::or_guess`](crate::camera::PairArguments::or_guess).
+pub(super) fn intrinsics(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+) -> Result<[Intrinsics; 2], Failure> {
+    let (intrinsics, guess) = arguments.camera.or_guess(photos)?;
+    let Some(sentence) = guess else {
+        return Ok(intrinsics);
+    };
+    let is_silent = photos.iter().all(|photo| photo.focal_px.is_none())
+        && photos[0].color.dimensions() == photos[1].color.dimensions();
+    if !is_silent {
+        context.warn(&sentence);
+        return Ok(intrinsics);
+    }
+    let middle = intrinsics[0].principal_point();
+    let options = arguments.options(context);
+    let ransac = RansacOptions {
+        max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
+        ..options.ransac
+    };
+    let is_telling = |report: &RansacReport<PoseWithFocal>| {
+        report.num_unique_inliers >= options.min_num_inliers
+            && !report.could_be_chance()
+            && report.model.tells_focal()
+    };
+    let found = estimate_relative_pose_with_focal(pixels1, pixels2, &middle, &middle, &ransac);
+    let Some(PoseWithFocal {
+        focal_px,
+        focal_std_px: Some(std_px),
+        ..
+    }) = found.ok().filter(is_telling).map(|report| report.model)
+    else {
+        context.warn(&format!(
+            "{sentence}; the matches do not tell it, as where the axes of the cameras are parallel or meet \
+             at the same distance from both"
+        ));
+        return Ok(intrinsics);
+    };
+    context.warn(&format!(
+        "no --k or --focal-px: taking {focal_px:.0} px, which the matches tell to ± {std_px:.0}"
+    ));
+    let k = centered(focal_px, &photos[0])?;
+    Ok([k, k])
+}

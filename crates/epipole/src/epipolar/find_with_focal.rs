@@ -1,0 +1,324 @@
+//! The relative pose and the focal length from matches of which many are wrong.
+
+use super::coordinates::{CommonFrame, Coordinates};
+use super::find_fundamental::refuse_collinear;
+use super::five_point::pose_in_front;
+use super::refine::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
+use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
+use super::{RelativePose, decompose_essential, sampson, select_pose};
+use crate::camera::Intrinsics;
+use crate::optim::{LmOptions, RobustLoss};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Vector3};
+
+/// The motion between two cameras that share a focal length, up to the length of the translation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseWithFocal {
+    /// The motion, and F of the pixels.
+    pub pose: RelativePose,
+    /// The focal length of both cameras, pixels.
+    pub focal_px: f64,
+    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it. `None` for a
+    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
+    pub focal_std_px: Option<f64>,
+}
+
+/// A focal length whose standard deviation is a larger share of it says no more than a guess.
+const TELLING: f64 = 0.1;
+
+impl PoseWithFocal {
+    /// Whether the matches tell the focal length, to a tenth of it.
+    pub fn tells_focal(&self) -> bool {
+        self.focal_std_px
+            .is_some_and(|std_px| std_px < TELLING * self.focal_px)
+    }
+
+    fn new(
+        (rotation, direction): (Matrix3<f64>, Vector3<f64>),
+        focal_px: f64,
+        centers: &[Point2<f64>; 2],
+    ) -> Option<Self> {
+        let camera = |c: &Point2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y).ok();
+        let (k1, k2) = (camera(&centers[0])?, camera(&centers[1])?);
+        Some(Self {
+            pose: RelativePose::new(rotation, direction, &k1, &k2),
+            focal_px,
+            focal_std_px: None,
+        })
+    }
+}
+
+/// Relative poses of two cameras with one unknown focal length from matches, for
+/// [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is six matches, and of its solutions only those are looked at that put the six points in front of both
+/// cameras, and whose focal length is between a fifth and twenty times the reach of the pixels about the
+/// principal points. The error is the Sampson error in pixels; refinement minimizes it over rotation, direction
+/// and focal length. Equal matches count once.
+///
+/// Source: as [`essential_6point`](super::essential_6point).
+#[derive(Debug, Clone)]
+pub struct FocalEstimator {
+    matches: MatchSet,
+    pixels: Coordinates,
+    in_frame: Coordinates,
+    frame: CommonFrame,
+    centers: [Point2<f64>; 2],
+    centers_in_frame: FocalCenters,
+    reach_px: f64,
+    found: Vec<EssentialWithFocal>,
+}
+
+/// Focal lengths that are looked at, as multiples of the reach of the pixels.
+const FOCALS: [f64; 2] = [0.2, 20.0];
+
+const NAME: &str = "a relative pose with a focal length from matches";
+
+impl FocalEstimator {
+    /// Prepares the estimation.
+    ///
+    /// * `principal1`, `principal2`: the principal points of the two images, pixels
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of an image lie
+    /// on one line, or are equal, [`Error::NotFinite`] for principal points that are not.
+    pub fn new(
+        matches: MatchSet,
+        principal1: &Point2<f64>,
+        principal2: &Point2<f64>,
+    ) -> Result<Self> {
+        if matches.len() < 6 {
+            return Err(Error::TooFew {
+                what: NAME,
+                needed: 6,
+                got: matches.len(),
+            });
+        }
+        let centers = [*principal1, *principal2];
+        if !centers.iter().all(|c| c.x.is_finite() && c.y.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "a principal point",
+            });
+        }
+        refuse_collinear(&matches, NAME)?;
+        let pixels = Coordinates::voting(&matches);
+        let frame = CommonFrame::new(&matches);
+        let far = (0..matches.len()).map(|i| {
+            let (p1, p2) = matches.pair(i);
+            (p1 - centers[0]).norm().max((p2 - centers[1]).norm())
+        });
+        Ok(Self {
+            reach_px: far.fold(0.0, f64::max),
+            in_frame: pixels.mapped(&frame),
+            centers_in_frame: FocalCenters::new(&frame, &centers),
+            matches,
+            pixels,
+            frame,
+            centers,
+            found: Vec::with_capacity(MAX_SOLUTIONS),
+        })
+    }
+
+    fn refined(
+        &self,
+        model: &PoseWithFocal,
+        coordinates: &Coordinates,
+        loss: RobustLoss,
+        max_iterations: usize,
+    ) -> Option<PoseWithFocal> {
+        let options = LmOptions {
+            max_iterations,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        let (pose, focal_px) = refine_pose_and_focal_in_frame(
+            coordinates,
+            &self.centers_in_frame,
+            (&model.pose, model.focal_px),
+            loss,
+            &options,
+        )?;
+        let is_usable = self.is_usable(focal_px);
+        is_usable.then(|| PoseWithFocal::new(pose, focal_px, &self.centers))?
+    }
+
+    /// The standard deviation of the focal length of a model, from its inliers.
+    fn focal_std_px(&self, model: &PoseWithFocal, max_error_px: f64) -> Option<f64> {
+        let mut inliers = Vec::new();
+        self.inliers(model, max_error_px, &mut inliers);
+        let near = self.in_frame.weighted(&inliers, &vec![1.0; inliers.len()]);
+        let share = relative_focal_deviation(
+            &near,
+            inliers.len(),
+            &self.centers_in_frame,
+            (&model.pose, model.focal_px),
+        )?;
+        Some(share * model.focal_px)
+    }
+
+    fn is_usable(&self, focal_px: f64) -> bool {
+        (FOCALS[0] * self.reach_px..FOCALS[1] * self.reach_px).contains(&focal_px)
+    }
+}
+
+impl Estimator for FocalEstimator {
+    type Model = PoseWithFocal;
+
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn sample_size(&self) -> usize {
+        6
+    }
+
+    fn num_data(&self) -> usize {
+        self.matches.len()
+    }
+
+    fn max_models(&self) -> usize {
+        MAX_SOLUTIONS
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<PoseWithFocal>) {
+        if self.matches.have_shared_pixel(sample) {
+            return;
+        }
+        let pairs: [_; 6] = core::array::from_fn(|i| self.matches.pair(sample[i]));
+        let about1 = pairs.map(|(p1, _)| p1 - self.centers[0].coords);
+        let about2 = pairs.map(|(_, p2)| p2 - self.centers[1].coords);
+        self.found.clear();
+        solve(&about1, &about2, &mut self.found);
+        for solution in &self.found {
+            if !self.is_usable(solution.focal_px) {
+                continue;
+            }
+            let ray = |p: Point2<f64>| Vector3::new(p.x, p.y, solution.focal_px).normalize();
+            let (rays1, rays2) = (about1.map(ray), about2.map(ray));
+            if let Some(pose) = pose_in_front(&solution.essential, &rays1, &rays2) {
+                models.extend(PoseWithFocal::new(pose, solution.focal_px, &self.centers));
+            }
+        }
+    }
+
+    fn error_sq(&self, model: &PoseWithFocal, index: usize) -> f64 {
+        let (x1, x2) = self.matches.pair(index);
+        super::sampson_sq(&model.pose.fundamental, &x1, &x2)
+    }
+
+    fn refine(
+        &mut self,
+        model: &PoseWithFocal,
+        _: &[usize],
+        max_error_px: f64,
+    ) -> Option<PoseWithFocal> {
+        let loss = RobustLoss::Truncated {
+            width: max_error_px * self.frame.scale,
+        };
+        self.refined(model, &self.in_frame, loss, 2)
+    }
+
+    fn polish(
+        &mut self,
+        model: &PoseWithFocal,
+        near: &[usize],
+        weights: &[f64],
+    ) -> Option<PoseWithFocal> {
+        let near = self.in_frame.weighted(near, weights);
+        self.refined(model, &near, RobustLoss::Trivial, 4)
+    }
+
+    fn support(&self, model: &PoseWithFocal, max_error_px: f64, cost_limit: f64) -> Support {
+        sampson::support(
+            &self.pixels,
+            &model.pose.fundamental,
+            max_error_px,
+            cost_limit,
+        )
+    }
+
+    fn inliers(&self, model: &PoseWithFocal, max_error_px: f64, inliers: &mut Vec<usize>) {
+        sampson::inliers(&self.pixels, &model.pose.fundamental, max_error_px, inliers);
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        Some(self.matches.chance_near_lines(max_error_px))
+    }
+
+    fn num_votes(&self) -> f64 {
+        self.matches.num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        self.matches.num_distinct(inliers)
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(self.matches.unique())
+    }
+}
+
+/// The relative pose and the focal length of two cameras that share it, as most matches have it.
+///
+/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `principal1`, `principal2`: the principal points, pixels: the middles of the images, for most cameras
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier
+///
+/// Of the four motions that the essential matrix allows, the one that puts the most inliers in front of both
+/// cameras is returned. Where the axes of the cameras are nearly parallel, or meet at the same distance from both
+/// cameras, as when both look at one thing from the same distance, any focal length fits nearly as well:
+/// [`PoseWithFocal::tells_focal`] says no, and rotation and direction are the poorer for it, too.
+///
+/// # Errors
+/// As [`MatchSet::new`], [`FocalEstimator::new`] and [`ransac`].
+///
+/// Source: as [`FocalEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::estimate_relative_pose_with_focal;
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.6), Vector3::new(0.2, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// let middle = k.principal_point();
+/// let report = estimate_relative_pose_with_focal(&p1, &p2, &middle, &middle, &RansacOptions::default())?;
+/// assert!((report.model.focal_px - 700.0).abs() < 0.1);
+/// let found = report.model.pose.cam2_from_cam1();
+/// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-4);
+/// # Ok(()) }
+/// ```
+pub fn estimate_relative_pose_with_focal(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    principal1: &Point2<f64>,
+    principal2: &Point2<f64>,
+    options: &RansacOptions,
+) -> Result<RansacReport<PoseWithFocal>> {
+    let matches = MatchSet::new(pixels1, pixels2)?;
+    let estimator = FocalEstimator::new(matches, principal1, principal2)?;
+    let all = estimator.clone();
+    let mut report = ransac(estimator, options)?;
+    report.model.focal_std_px = all.focal_std_px(&report.model, report.max_error_px);
+    let focal_px = report.model.focal_px;
+    let [k1, k2] = [principal1, principal2].map(|c| Intrinsics::new(focal_px, focal_px, c.x, c.y));
+    let (k1, k2) = (k1?, k2?);
+    let inliers_of = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+        let kept = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
+        kept.map(|(pixel, _)| *pixel).collect()
+    };
+    let (inliers1, inliers2) = (inliers_of(pixels1), inliers_of(pixels2));
+    let motions = decompose_essential(&report.model.pose.essential())?;
+    let chosen = select_pose(&motions, &inliers1, &inliers2, &k1, &k2)?;
+    report.model.pose = RelativePose::from_motion(&chosen.cam2_from_cam1, &k1, &k2)?;
+    Ok(report)
+}

@@ -1,0 +1,191 @@
+//! The loop at a threshold that the data themselves give.
+
+use std::ops::ControlFlow;
+
+use super::noise::{Background, noise_scale_px};
+use super::{
+    Estimator, Ransac, RansacOptions, RansacReport, Step, StopReason, Trial, log10_false_alarms,
+};
+use crate::{Error, Result};
+
+/// Thresholds to begin with, pixels. Each one leads to those around it.
+const STARTS_PX: [f64; 3] = [2.0, 8.0, 0.5];
+
+/// From one start, the loop runs so often at most.
+const ROUNDS: usize = 4;
+
+/// Thresholds within this ratio of each other are the same.
+const SAME: f64 = 1.15;
+
+/// No threshold is smaller, pixels: nothing is seen more exactly in an image, and data that fit exactly
+/// would ask for 0.
+const LEAST_PX: f64 = 0.05;
+
+/// Nor is one so large that more than this share of wrong data would be within it.
+const MOST_CHANCE: f64 = 0.1;
+
+/// Within so many standard deviations are 99 of 100 errors, in one dimension and in two.
+const QUANTILES: [f64; 2] = [2.576, 3.035];
+
+/// A model, and the threshold that the errors of its inliers ask for.
+struct Suited<M> {
+    report: RansacReport<M>,
+    max_error_px: f64,
+    /// With that threshold: how little the model owes to chance.
+    log10_false_alarms: f64,
+}
+
+/// Runs of the loop at several thresholds, watched together.
+struct Search<'a, W> {
+    options: &'a RansacOptions,
+    background: Background,
+    most_px: f64,
+    watch: &'a mut W,
+    /// Samples drawn so far.
+    iterations: usize,
+    canceled: bool,
+}
+
+/// [`ransac_with`](super::ransac_with) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
+///
+/// A run at some threshold gives a model, the errors of all data from it tell the noise, and the noise another
+/// threshold, until both agree. Of what several starts lead to, the model is kept that is least likely by
+/// chance.
+pub(super) fn ransac_by_noise<E: Estimator>(
+    mut estimator: E,
+    options: &RansacOptions,
+    watch: &mut impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
+) -> Result<RansacReport<E::Model>> {
+    options.check()?;
+    let background = Background::new(&estimator, LEAST_PX, options.max_error_px);
+    let mut search = Search {
+        options,
+        background,
+        most_px: background.reach_px(MOST_CHANCE).max(LEAST_PX),
+        watch,
+        iterations: 0,
+        canceled: false,
+    };
+    let mut best: Option<Suited<E::Model>> = None;
+    let mut failure = None;
+    for start_px in STARTS_PX {
+        let mut max_error_px = start_px.clamp(LEAST_PX, search.most_px);
+        let mut model = None;
+        for _ in 0..ROUNDS {
+            let (outcome, back) = search.run(estimator, model, max_error_px)?;
+            estimator = back;
+            let suited = match outcome {
+                Ok(report) => search.suited(&estimator, report),
+                Err(error) => {
+                    failure = Some(error);
+                    break;
+                }
+            };
+            let before_px = max_error_px;
+            max_error_px = suited.max_error_px;
+            model = Some(suited.report.model.clone());
+            let known = best.as_ref();
+            let settled = known.is_some_and(|known| same(known.max_error_px, max_error_px))
+                || same(before_px, max_error_px);
+            if known.is_none_or(|known| suited.log10_false_alarms < known.log10_false_alarms) {
+                best = Some(suited);
+            }
+            if settled || search.canceled {
+                break;
+            }
+        }
+        if search.canceled {
+            break;
+        }
+    }
+    let Some(Suited {
+        mut report,
+        max_error_px,
+        ..
+    }) = best
+    else {
+        return Err(failure.unwrap_or(Error::Canceled));
+    };
+    if search.canceled {
+        report.stop = StopReason::Canceled;
+    } else {
+        let (last, _) = search.run(estimator, Some(report.model.clone()), max_error_px)?;
+        report = last.unwrap_or(report);
+    }
+    report.iterations = search.iterations;
+    Ok(report)
+}
+
+fn same(first_px: f64, second_px: f64) -> bool {
+    first_px < SAME * second_px && second_px < SAME * first_px
+}
+
+impl<W> Search<'_, W> {
+    /// One run; gives the estimator back.
+    fn run<E: Estimator>(
+        &mut self,
+        estimator: E,
+        model: Option<E::Model>,
+        max_error_px: f64,
+    ) -> Result<(Result<RansacReport<E::Model>>, E)>
+    where
+        W: FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
+    {
+        let mut run = Ransac::new(estimator, self.options.within(max_error_px))?;
+        if let Some(model) = model {
+            run.propose(model);
+        }
+        let before = self.iterations;
+        while let Step::Trial(mut trial) = run.step() {
+            trial.iteration += before;
+            trial.required_iterations = trial.required_iterations.saturating_add(before as u64);
+            if (self.watch)(&trial).is_break() {
+                self.canceled = true;
+                run.cancel();
+            }
+        }
+        self.iterations += run.iterations();
+        let outcome = run.conclude();
+        Ok((outcome, run.into_estimator()))
+    }
+
+    /// The threshold that suits the model of a run.
+    fn suited<E: Estimator>(
+        &self,
+        estimator: &E,
+        report: RansacReport<E::Model>,
+    ) -> Suited<E::Model> {
+        let background = &self.background;
+        let model = &report.model;
+        let mut near = Vec::new();
+        estimator.inliers(model, self.most_px, &mut near);
+        let errors_sq: Vec<f64> = (near.iter())
+            .map(|&i| estimator.error_sq(model, i))
+            .collect();
+        let quantile = QUANTILES[background.codimension() - 1];
+        let scale_px = noise_scale_px(
+            &errors_sq,
+            estimator.num_data(),
+            background,
+            report.max_error_px / quantile,
+            LEAST_PX / quantile,
+            background.codimension() * estimator.sample_size(),
+        );
+        let max_error_px = scale_px.map_or(report.max_error_px, |scale_px| {
+            (quantile * scale_px).clamp(LEAST_PX, self.most_px)
+        });
+        estimator.inliers(model, max_error_px, &mut near);
+        let log10_false_alarms = log10_false_alarms(
+            estimator.num_distinct(&near),
+            estimator.num_data(),
+            estimator.sample_size(),
+            estimator.max_models(),
+            background.chance(max_error_px),
+        );
+        Suited {
+            report,
+            max_error_px,
+            log10_false_alarms,
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! Two photographs redrawn for a rectified rig, and the disparities that are matched in them.
+
+use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
+use crate::imaging::rgb_to_gray;
+use crate::{Error, Result};
+use image::{GrayImage, RgbImage};
+use nalgebra::{Point2, Point3, Vector4};
+
+/// So near to the edge of a photograph, pixels of the photograph, answers are not trusted: edges match each other.
+const EDGE_PX: f64 = 6.0;
+/// Fewer points than this say nothing of the range of disparities.
+const MIN_POINTS: usize = 8;
+/// The share of points below and above the range, which may be wrong.
+const WRONG: f64 = 0.02;
+/// Surfaces go on where no point is: so much more on either side, pixels and as a share of the range.
+const BEYOND: (f64, f64) = (2.0, 0.15);
+
+impl Rectification {
+    /// The pixel of the first rectified picture that shows a point, and the disparity of the point there, pixels.
+    /// `None` if the point is not in front of the camera.
+    ///
+    /// * `place`: in the frame of the first photograph's camera, in the unit of the baseline
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+    /// use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
+    /// use nalgebra::Point3;
+    /// let intrinsics = Intrinsics::centered(500.0, 640, 480)?;
+    /// let camera = StereoCamera { intrinsics, distortion: Distortion::NONE };
+    /// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
+    /// let rig = rectify_calibrated(
+    ///     &[camera, camera], &cam2_from_cam1, 640, 480, &RectifyOptions::default())?;
+    /// let (pixel, disparity) = rig.disparity_of(&Point3::new(0.0, 0.0, 2.0)).unwrap();
+    /// assert!((pixel.x - 319.5).abs() < 1e-6 && (disparity - 500.0 * 0.1 / 2.0).abs() < 1e-6);
+    /// # Ok(()) }
+    /// ```
+    pub fn disparity_of(&self, place: &Point3<f64>) -> Option<(Point2<f64>, f64)> {
+        let turned = self.rect_from_cam[0] * place;
+        if turned.z.is_nan() || turned.z <= 0.0 {
+            return None;
+        }
+        let from_space = self.q.try_inverse()?;
+        let [u, v, d, w] = (from_space * Vector4::from(turned.to_homogeneous())).into();
+        let found = [u / w, v / w, d / w];
+        let is_finite = found.iter().all(|x| x.is_finite());
+        is_finite.then(|| (Point2::new(found[0], found[1]), found[2]))
+    }
+
+    /// The smallest and the largest disparity to look for, pixels: those of nearly all points, and some more, since
+    /// surfaces go on where no point is; nothing lies beyond infinity.
+    ///
+    /// * `places`: points that both photographs show, in the frame of the first photograph's camera
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] if the first picture shows fewer than eight of them.
+    pub fn disparity_range(&self, places: &[Point3<f64>]) -> Result<[i32; 2]> {
+        let sides = [f64::from(self.width), f64::from(self.height)];
+        let inside =
+            |pixel: &Point2<f64>| (0..2).all(|axis| (0.0..sides[axis]).contains(&pixel[axis]));
+        let seen = places.iter().filter_map(|place| self.disparity_of(place));
+        let disparities = seen.filter_map(|(pixel, disparity)| inside(&pixel).then_some(disparity));
+        let axis = usize::from(self.is_vertical);
+        let center = |index: usize| self.intrinsics[index].principal_point()[axis];
+        range_of(disparities.collect(), center(0) - center(1))
+    }
+}
+
+/// * `at_infinity`: the disparity of what is infinitely far, pixels
+fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
+    if disparities.len() < MIN_POINTS {
+        return Err(Error::TooFew {
+            what: "a range of disparities from points that both photographs show",
+            needed: MIN_POINTS,
+            got: disparities.len(),
+        });
+    }
+    disparities.sort_by(f64::total_cmp);
+    let last = (disparities.len() - 1) as f64;
+    let at = |share: f64| disparities[(share * last).round() as usize];
+    let (low, high) = (at(WRONG), at(1.0 - WRONG));
+    let room = BEYOND.0 + BEYOND.1 * (high - low);
+    let (mut first, mut end) = ((low - room).floor(), (high + room).ceil());
+    if low >= at_infinity {
+        first = first.max(at_infinity.floor());
+    }
+    if high <= at_infinity {
+        end = end.min(at_infinity.ceil());
+    }
+    // A saturating cast; one disparity alone could not be told from its neighbors.
+    let (first, end) = (first as i32, end as i32);
+    Ok([first, end.max(first.saturating_add(1))])
+}
+
+/// Two photographs as a rectified rig sees them.
+///
+/// Zoomed out ([`RectifyOptions::alpha`](super::RectifyOptions::alpha) of 1) the pictures have borders that no
+/// photograph fills. Borders match each other perfectly, so answers there, and those whose match is there, are taken
+/// back. Where one camera stands above the other the pictures are laid on their side before they are matched.
+#[derive(Debug, Clone)]
+pub struct RectifiedPair<'a> {
+    rig: &'a Rectification,
+    pictures: [RgbImage; 2],
+    /// Which pixels of the first picture its photograph fills.
+    shown: Vec<bool>,
+    /// Which pixels of each picture its photograph fills, and not only just.
+    trusted: [Vec<bool>; 2],
+}
+
+impl<'a> RectifiedPair<'a> {
+    /// Redraws two photographs.
+    ///
+    /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for photographs of different size.
+    pub fn new(rig: &'a Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
+        let sizes = photographs.map(RgbImage::dimensions);
+        for (what, first, second) in [
+            ("the widths of the two photographs", sizes[0].0, sizes[1].0),
+            ("the heights of the two photographs", sizes[0].1, sizes[1].1),
+        ] {
+            if first != second {
+                return Err(Error::SizeMismatch {
+                    what,
+                    first: first as usize,
+                    second: second as usize,
+                });
+            }
+        }
+        let maps = [rig.map(0)?, rig.map(1)?];
+        Ok(Self {
+            rig,
+            pictures: [0, 1].map(|index| maps[index].warp_rgb(photographs[index])),
+            shown: filled(&maps[0], sizes[0], 0.0),
+            trusted: maps.map(|map| filled(&map, sizes[0], EDGE_PX)),
+        })
+    }
+
+    /// The redrawn photographs, black where they fill nothing.
+    pub fn pictures(&self) -> &[RgbImage; 2] {
+        &self.pictures
+    }
+
+    /// How many pixels of the first picture its photograph fills.
+    pub fn num_shown(&self) -> usize {
+        self.shown.iter().filter(|is_shown| **is_shown).count()
+    }
+
+    /// The disparities of the first picture, pixels, along the columns if the rig is vertical.
+    ///
+    /// * `matching`: finds the disparities of two gray pictures whose matches share a row, such as
+    ///   [`StereoSgm::compute`](super::StereoSgm::compute)
+    ///
+    /// # Errors
+    /// Those of `matching`.
+    pub fn disparity(
+        &self,
+        matching: impl FnOnce(&GrayImage, &GrayImage) -> Result<DisparityImage>,
+    ) -> Result<DisparityImage> {
+        let [first, second] =
+            [0, 1].map(|index| self.along_rows(&rgb_to_gray(&self.pictures[index])));
+        let found = self.turned(&matching(&first, &second)?);
+        Ok(self.kept(&found, |index, disparity| self.is_within(index, disparity)))
+    }
+
+    /// The same with an answer for every pixel that the photograph fills, as [`fill_gaps`].
+    ///
+    /// # Errors
+    /// As [`fill_gaps`].
+    pub fn filled(&self, disparity: &DisparityImage) -> Result<DisparityImage> {
+        let first = self.along_rows(&rgb_to_gray(&self.pictures[0]));
+        let filled = self.turned(&fill_gaps(&self.turned(disparity), &first)?);
+        Ok(self.kept(&filled, |index, _| self.shown[index]))
+    }
+
+    /// Whether a pixel of the first picture and its match are both what photographs show.
+    fn is_within(&self, index: usize, disparity: f32) -> bool {
+        let (width, height) = (i64::from(self.rig.width), i64::from(self.rig.height));
+        let (u, v) = (index as i64 % width, index as i64 / width);
+        let steps = disparity.round() as i64;
+        let (u, v) = match self.rig.is_vertical {
+            true => (u, v - steps),
+            false => (u - steps, v),
+        };
+        let is_in_picture = (0..width).contains(&u) && (0..height).contains(&v);
+        self.trusted[0][index] && is_in_picture && self.trusted[1][(v * width + u) as usize]
+    }
+
+    fn kept(&self, found: &DisparityImage, is_kept: impl Fn(usize, f32) -> bool) -> DisparityImage {
+        let mut kept = found.clone();
+        for (index, value) in kept.values_mut().iter_mut().enumerate() {
+            if !is_kept(index, *value) {
+                *value = f32::NAN;
+            }
+        }
+        kept
+    }
+
+    /// A picture whose matches share a row.
+    fn along_rows(&self, picture: &GrayImage) -> GrayImage {
+        match self.rig.is_vertical {
+            true => GrayImage::from_fn(picture.height(), picture.width(), |u, v| {
+                *picture.get_pixel(v, u)
+            }),
+            false => picture.clone(),
+        }
+    }
+
+    /// From pictures as they stand to those whose matches share a row, or back.
+    fn turned(&self, disparity: &DisparityImage) -> DisparityImage {
+        match self.rig.is_vertical {
+            true => disparity.transposed(),
+            false => disparity.clone(),
+        }
+    }
+}
+
+/// Which pixels of a rectified picture are read from a photograph of this size, so far from its edge.
+fn filled(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool> {
+    let inside = |at: f64, side: u32| (edge_px..=f64::from(side) - 1.0 - edge_px).contains(&at);
+    let is_filled = |(u, v)| {
+        let source = map.source(u, v);
+        source.is_some_and(|place| inside(place.x, width) && inside(place.y, height))
+    };
+    let pixels = (0..map.height()).flat_map(|v| (0..map.width()).map(move |u| (u, v)));
+    pixels.map(is_filled).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Camera, Distortion, look_at, relative_motion};
+    use crate::stereo::{RectifyOptions, StereoCamera, StereoSgm, rectify_calibrated};
+    use crate::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+    use nalgebra::Vector3;
+
+    const SIZE: (u32, u32) = (320, 240);
+
+    /// The still life from the book's own place and from one beside it, meters.
+    fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
+        let first = still_life_camera(SIZE.0, SIZE.1);
+        let center = first.center_in_world() + aside;
+        let target = Point3::new(0.02, -0.16, 0.05);
+        let second = Camera {
+            cam_from_world: look_at(&center, &target, &Vector3::new(0.0, -1.0, 0.0)).unwrap(),
+            ..first
+        };
+        let cameras = [first, second];
+        let scene = Scene::still_life();
+        let take = |camera| {
+            scene
+                .render(&camera, SIZE.0, SIZE.1, Sampling::Full)
+                .unwrap()
+        };
+        (cameras, cameras.map(take))
+    }
+
+    fn rig_of(cameras: &[Camera; 2]) -> Result<Rectification> {
+        let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
+        let cameras = cameras.map(|camera| StereoCamera {
+            intrinsics: camera.intrinsics,
+            distortion: Distortion::NONE,
+        });
+        let options = RectifyOptions {
+            alpha: 1.0,
+            ..RectifyOptions::default()
+        };
+        rectify_calibrated(&cameras, &motion, SIZE.0, SIZE.1, &options)
+    }
+
+    /// Some true points, in the frame of camera 1.
+    fn places(camera: &Camera, photograph: &Photograph) -> Vec<Point3<f64>> {
+        let pixels = (0..SIZE.1)
+            .step_by(12)
+            .flat_map(|v| (0..SIZE.0).step_by(12).map(move |u| (u, v)));
+        let place = |(u, v): (u32, u32)| {
+            let pixel = Point2::new(f64::from(u), f64::from(v));
+            let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
+            Point3::from(camera.intrinsics.ray(&pixel) * depth)
+        };
+        pixels.map(place).collect()
+    }
+
+    /// Depths against the truth, for cameras beside, on the other side, and above.
+    #[test]
+    fn depth_is_the_scene_wherever_the_second_camera_stands() {
+        for aside in [[0.2, 0.0], [-0.2, 0.0], [0.0, -0.2], [0.0, 0.2]] {
+            let (cameras, photographs) = pair(Vector3::new(aside[0], aside[1], 0.0));
+            let rig = rig_of(&cameras).unwrap();
+            assert_eq!(rig.is_vertical, aside[0] == 0.0);
+            let [first, end] = rig
+                .disparity_range(&places(&cameras[0], &photographs[0]))
+                .unwrap();
+            let images = photographs.each_ref().map(|photograph| &photograph.image);
+            let redrawn = RectifiedPair::new(&rig, images).unwrap();
+            let matcher = StereoSgm {
+                min_disparity_px: first,
+                num_disparities: (end - first + 1) as u32,
+                ..StereoSgm::default()
+            };
+            let found = redrawn
+                .disparity(|left, right| matcher.compute(left, right))
+                .unwrap();
+            let cloud = crate::stereo::point_cloud(&found, &rig.q, None).unwrap();
+            let mut errors: Vec<f64> = (cloud.points.iter())
+                .map(|point| rig.rect_from_cam[0].inverse() * point)
+                .filter_map(|place| {
+                    let pixel = cameras[0].intrinsics.project(&place).unwrap();
+                    let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
+                    let truth = photographs[0].depth_m.get_pixel_checked(u, v)?;
+                    Some((place.z / f64::from(truth.0[0]) - 1.0).abs())
+                })
+                .collect();
+            errors.sort_by(f64::total_cmp);
+            let (half, most) = (errors[errors.len() / 2], errors[errors.len() * 9 / 10]);
+            assert!(
+                errors.len() > redrawn.num_shown() / 3,
+                "{aside:?}: {}",
+                errors.len()
+            );
+            assert!(half < 0.01 && most < 0.05, "{aside:?}: {half} {most}");
+            // Every pixel that the photograph fills has an answer then, and no other; given ones stay.
+            let filled = redrawn.filled(&found).unwrap();
+            let answered =
+                |image: &DisparityImage| image.as_raw().iter().filter(|d| !d.is_nan()).count();
+            assert_eq!(answered(&filled), redrawn.num_shown());
+            for (given, value) in found.as_raw().iter().zip(filled.as_raw()) {
+                assert!(given.is_nan() || given == value);
+            }
+        }
+    }
+
+    #[test]
+    fn borders_and_what_matches_them_have_no_answer() {
+        let (cameras, photographs) = pair(Vector3::new(0.2, 0.0, 0.0));
+        let rig = rig_of(&cameras).unwrap();
+        let images = photographs.each_ref().map(|photograph| &photograph.image);
+        let redrawn = RectifiedPair::new(&rig, images).unwrap();
+        let everywhere = |left: &GrayImage, _: &GrayImage| {
+            let number = (left.width() * left.height()) as usize;
+            DisparityImage::from_raw(left.width(), left.height(), vec![30.0; number])
+        };
+        let found = redrawn.disparity(everywhere).unwrap();
+        let black =
+            |index: usize, u: u32, v: u32| redrawn.pictures()[index].get_pixel(u, v).0 == [0; 3];
+        let mut num_kept = 0;
+        for (u, v) in (0..rig.height).flat_map(|v| (0..rig.width).map(move |u| (u, v))) {
+            if found.get(u, v).is_some() {
+                num_kept += 1;
+                assert!(
+                    u >= 30 && !black(0, u, v) && !black(1, u - 30, v),
+                    "{u} {v}"
+                );
+            }
+        }
+        assert!(num_kept > 1000 && num_kept < redrawn.num_shown());
+    }
+
+    #[test]
+    fn nearly_all_points_are_within_the_range_and_few_propose_none() {
+        let disparities: Vec<f64> = (0..=100).map(|n| 40.0 + 0.2 * f64::from(n)).collect();
+        let [low, high] = range_of(disparities.clone(), 0.0).unwrap();
+        assert!(
+            (33..=39).contains(&low) && (61..=67).contains(&high),
+            "{low} {high}"
+        );
+        // One wrong point does not widen it, and the other side of infinity is never looked at.
+        let mut with_outlier = disparities.clone();
+        with_outlier.push(4000.0);
+        assert_eq!(range_of(with_outlier, 0.0).unwrap(), [low, high]);
+        let mirrored = disparities.iter().map(|d| -d).collect();
+        assert_eq!(range_of(mirrored, 0.0).unwrap(), [-high, -low]);
+        assert_eq!(range_of(vec![0.5; 9], 0.0).unwrap(), [0, 3]);
+        assert_eq!(range_of(vec![-0.5; 9], 0.0).unwrap(), [-3, 0]);
+        assert_eq!(range_of(vec![0.0; 9], 0.0).unwrap(), [0, 1]);
+        assert!(matches!(
+            range_of(vec![3.0; 7], 0.0),
+            Err(Error::TooFew { got: 7, .. })
+        ));
+    }
+
+    #[test]
+    fn a_point_behind_the_camera_has_no_disparity() {
+        let (cameras, _) = pair(Vector3::new(0.2, 0.0, 0.0));
+        let rig = rig_of(&cameras).unwrap();
+        for place in [
+            Point3::new(0.0, 0.0, -1.0),
+            Point3::new(f64::NAN, 0.0, 1.0),
+            Point3::origin(),
+        ] {
+            assert_eq!(rig.disparity_of(&place), None);
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! `docs/names.md` names functions and types of the library that are there.
+
+use std::path::Path;
+
+/// What a room makes public: the names of its `pub use` declarations.
+fn public_names(room: &str) -> Vec<String> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("src")
+        .join(room)
+        .join("mod.rs");
+    let text = std::fs::read_to_string(&file)
+        .unwrap_or_else(|error| panic!("there is no room {room}: {error}"));
+    let mut names = Vec::new();
+    for declaration in text.split("pub use ").skip(1) {
+        let list = declaration.split(';').next().unwrap_or_default();
+        // What stands before the last `::` is where it comes from.
+        let list = list.rsplit("::").next().unwrap_or_default();
+        let words = list.split(|c: char| !c.is_alphanumeric() && c != '_');
+        names.extend(words.filter(|word| !word.is_empty()).map(str::to_owned));
+    }
+    names
+}
+
+/// The names in backticks of the last column of each table, and of the text.
+fn named(page: &str) -> Vec<(String, String)> {
+    let mut names = Vec::new();
+    for line in page.lines() {
+        let ours = match line.strip_suffix(" |") {
+            Some(row) => row.rsplit(" | ").next().unwrap_or_default(),
+            None => line,
+        };
+        for code in ours.split('`').skip(1).step_by(2) {
+            if let Some((room, name)) = code.split_once("::") {
+                names.push((room.to_owned(), name.to_owned()));
+            }
+        }
+    }
+    names
+}
+
+#[test]
+fn every_name_of_the_guide_exists() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/names.md");
+    let Ok(page) = std::fs::read_to_string(page) else {
+        // The published crate comes without the repository's docs.
+        return;
+    };
+    let names = named(&page);
+    assert!(names.len() > 60, "only {} names were found", names.len());
+    for (room, name) in names {
+        assert!(
+            public_names(&room).contains(&name),
+            "docs/names.md names {room}::{name}, which is not there"
+        );
+    }
+}
+
+#[test]
+fn the_test_would_notice_a_name_that_is_not_there() {
+    assert_eq!(
+        named("| `a::b` | `robust::ransac`, `x::y` |"),
+        [
+            ("robust".to_owned(), "ransac".to_owned()),
+            ("x".to_owned(), "y".to_owned())
+        ]
+    );
+    assert!(public_names("robust").contains(&"ransac_with".to_owned()));
+    assert!(!public_names("robust").contains(&"run".to_owned()));
+}
