@@ -24,6 +24,7 @@ declare module "epipole-web" {
     click_in(panel: string, x: number, y: number): string | undefined;
     solution(challenge: string): string;
     take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
+    file(): Uint8Array;
     take_focal(slot: string, focal: number): void;
     job_key(): string | undefined;
     job_request(): Uint8Array;
@@ -41,7 +42,7 @@ declare module "epipole-web" {
   export function figures(): string;
   export function take_panic(): string | undefined;
   export default function load(options: {
-    module_or_path: Promise<Response>;
+    module_or_path: WebAssembly.Module;
   }): Promise<{ memory: WebAssembly.Memory }>;
 }
 
@@ -53,7 +54,7 @@ declare module "epipole-jobs" {
     listener: { progress: (share: number) => void },
   ): Uint8Array;
   export function take_panic(): string | undefined;
-  export default function load(options: { module_or_path: URL }): Promise<unknown>;
+  export default function load(options: { module_or_path: WebAssembly.Module }): Promise<unknown>;
 }
 
 /** Where the WebAssembly module of a page is, relative to the script; the bundler puts it in. */

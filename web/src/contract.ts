@@ -95,6 +95,15 @@ export interface PhotoSlot {
   max_side_px: number;
 }
 
+/** What can be saved besides the picture. */
+export interface FileOffer {
+  label: string;
+  hint: string;
+  extension: string;
+  /** Whether there is something to save already. */
+  is_ready: boolean;
+}
+
 /** A part of the picture. */
 export interface Panel {
   id: string;
@@ -134,6 +143,7 @@ export interface Snapshot {
   description: string;
   running: boolean;
   photos: PhotoSlot[];
+  file: FileOffer | null;
   /** What to say while the figure waits for a long computation. */
   waiting: string | null;
 }

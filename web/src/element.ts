@@ -7,6 +7,7 @@
 import { changedParameters, parametersOf, wholeState } from "./attributes.js";
 import type { Goal } from "./challenges.js";
 import { CHOOSING, choiceOf } from "./choice.js";
+import { whyMissing } from "./compile.js";
 import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
 import { capitalize, make, setAttribute } from "./dom.js";
 import { Engine, hurryModule, loadModule } from "./module.js";
@@ -360,6 +361,7 @@ export class EpipoleFigure extends Base {
           reset: () => this.reset(),
           link: () => this.permalink,
           save: () => void this.#save(),
+          saveFile: () => this.#saveFile(),
           fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
         },
         jobs: {
@@ -482,10 +484,8 @@ export class EpipoleFigure extends Base {
         if (attempt !== this.#opening) return;
         this.#say("The interactive part of this figure is slow to come.", hurryModule);
       }));
-    } catch {
-      if (attempt === this.#opening) {
-        this.#fail("The interactive part of this figure could not be loaded.", true);
-      }
+    } catch (problem) {
+      if (attempt === this.#opening) this.#fail(`${whyMissing(problem, "The interactive part of this figure")}.`, true);
       return;
     }
     // Figures that have waited for the module would all open in one long task.
@@ -705,20 +705,27 @@ export class EpipoleFigure extends Base {
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
     this.#session?.portrait(2)?.toBlob((blob) => {
-      if (!blob) return;
-      const link = make("a", {
-        href: URL.createObjectURL(blob),
-        download: `${this.getAttribute("name")}.png`,
-      });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+      if (blob) download(blob, `${this.getAttribute("name")}.png`);
     });
+  }
+
+  #saveFile(): void {
+    const { extension, is_ready: isReady } = this.#snapshot?.file ?? {};
+    const bytes = this.#session?.ask((engine) => engine.file());
+    if (isReady && bytes) download(new Blob([bytes]), `${this.getAttribute("name")}.${extension}`);
   }
 
   async #toggleFullscreen(): Promise<void> {
     if (document.fullscreenElement) await document.exitFullscreen();
     else await this.requestFullscreen().catch(() => this.#shell.speaker.say("Full screen is not allowed here."));
   }
+}
+
+/** Offers a file for saving, as if a link to it had been followed. */
+function download(blob: Blob, name: string): void {
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
 function textOf(parameters: Record<string, string | number | boolean>): Parameters {

@@ -10,13 +10,15 @@ export interface Request {
   request: Uint8Array;
   /** Where the module is, if not beside the worker. */
   module: string | undefined;
+  /** It did not come before: what a cache has of it is of no use. */
+  anew: boolean;
 }
 
 /** What it answers: how far it is, and in the end a result or a sentence. */
 export type Answer = { key: string } & (
   | { share: number }
   | { result: Uint8Array }
-  | { problem: string }
+  | { problem: string; missing?: boolean }
 );
 
 /** A computation that a figure waits for; its bytes are many, so they are made when they are needed. */
@@ -26,14 +28,17 @@ export interface Wanted {
   request: () => Uint8Array;
 }
 
-/** Why there is no result, where neither worker nor module came. */
-export const NOT_LOADED = "the code for this computation could not be loaded; Reset tries again";
+/** What is missing where neither worker nor module came, and what helps. */
+export const CODE = "the code for this computation";
+export const TRY_AGAIN = "Reset tries again";
 
 export interface JobHooks {
   /** The computation that the figure waits for, as it stands. */
   next: () => Wanted | undefined;
   done: (key: string, result: Uint8Array) => void;
   failed: (key: string, sentence: string) => void;
+  /** The reader has stopped it, or lets it go on. */
+  turned?: () => void;
 }
 
 /** A computation that nobody wants any more may go on for so long; then its worker is ended. */
@@ -55,6 +60,8 @@ export class Jobs {
   #stopped: string | undefined;
   /** Whatever computes is slow to come. */
   #late = false;
+  /** How often in a row it has not come. */
+  #misses = 0;
   #words = "";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #silence: ReturnType<typeof setTimeout> | undefined;
@@ -88,6 +95,11 @@ export class Jobs {
     return this.#running !== undefined;
   }
 
+  /** Whether the reader has stopped what the figure waits for. */
+  get stopped(): boolean {
+    return this.#stopped !== undefined;
+  }
+
   /** Ends everything. */
   end(): void {
     this.#dismiss();
@@ -98,8 +110,10 @@ export class Jobs {
   /** Computes again what the reader has stopped, or what never came. */
   goOn(): void {
     if (this.#stopped === undefined && !this.#late) return;
+    if (this.#late) this.#misses += 1;
     this.end();
     this.follow(this.#words);
+    this.#hooks.turned?.();
   }
 
   #dismiss(): void {
@@ -133,7 +147,8 @@ export class Jobs {
     }
     const { name, key } = wanted;
     const module = movedTo("jobs")?.href;
-    this.#worker.postMessage({ name, key, request: wanted.request(), module } satisfies Request);
+    const anew = this.#misses > 0;
+    this.#worker.postMessage({ name, key, request: wanted.request(), module, anew } satisfies Request);
   }
 
   /** Says so if nobody answers. */
@@ -146,7 +161,7 @@ export class Jobs {
   }
 
   #hire(): Worker {
-    const worker = hire();
+    const worker = hire(this.#misses);
     worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#hear(data);
     worker.onerror = (event) => {
       // The page does not allow workers: then here, and the page waits.
@@ -166,16 +181,17 @@ export class Jobs {
     setTimeout(() => {
       // Bundlers know the file from `hire`, and here they must leave its address alone.
       const script: Promise<typeof import("./worker.js")> = import(
-        /* webpackIgnore: true */ /* @vite-ignore */ workerUrl().href
+        /* webpackIgnore: true */ /* @vite-ignore */ workerUrl(this.#misses).href
       );
       script.then(
         ({ carryOut }) => {
           // It may have been stopped while the script came.
           if (this.#running?.key !== key) return;
           const module = movedTo("jobs")?.href;
-          void carryOut({ name, key, request: wanted.request(), module }, (answer) => this.#hear(answer));
+          const anew = this.#misses > 0;
+          void carryOut({ name, key, request: wanted.request(), module, anew }, (answer) => this.#hear(answer));
         },
-        () => this.#hear({ key, problem: NOT_LOADED }),
+        () => this.#hear({ key, problem: `${CODE} could not be loaded; ${TRY_AGAIN}`, missing: true }),
       );
     }, 50);
   }
@@ -183,6 +199,7 @@ export class Jobs {
   #hear(answer: Answer): void {
     if (answer.key !== this.#running?.key) return;
     clearTimeout(this.#silence);
+    this.#misses = "missing" in answer ? this.#misses + 1 : 0;
     if (this.#late) {
       this.#late = false;
       this.#show(true);
@@ -212,6 +229,7 @@ export class Jobs {
     this.end();
     this.#stopped = key;
     this.#show(true);
+    this.#hooks.turned?.();
   }
 
   #show(shown: boolean): void {
@@ -225,15 +243,20 @@ export class Jobs {
   }
 }
 
-function workerUrl(): URL {
-  return movedTo("worker") ?? new URL(EPIPOLE_WORKER, import.meta.url);
+/** An address that has failed before gets another look: browsers keep answers, and requests that never end. */
+function workerUrl(misses: number): URL {
+  const url = movedTo("worker") ?? new URL(EPIPOLE_WORKER, import.meta.url);
+  if (misses > 0 && url.protocol.startsWith("http")) url.searchParams.set("again", String(misses));
+  return url;
 }
 
 /** A worker may only be started from the page's own origin; from elsewhere it takes one hop. */
-function hire(): Worker {
-  const url = workerUrl();
-  if (url.origin === location.origin && movedTo("worker")) return new Worker(url, { type: "module" });
-  if (url.origin === location.origin) {
+function hire(misses: number): Worker {
+  const url = workerUrl(misses);
+  // A sandboxed frame has an address, and yet no origin of its own.
+  const own = url.origin === globalThis.origin;
+  if (own && (misses > 0 || movedTo("worker"))) return new Worker(url, { type: "module" });
+  if (own) {
     // Written out, because this is the form by which bundlers find the worker's file.
     return new Worker(new URL(EPIPOLE_WORKER, import.meta.url), { type: "module" });
   }

@@ -2,6 +2,7 @@
 
 import load, { Figure, figures, take_panic } from "epipole-web";
 import { movedTo } from "./assets.js";
+import { compile } from "./compile.js";
 import type {
   Direction,
   Parameters,
@@ -12,6 +13,15 @@ import type {
 import type { Photo } from "./photos.js";
 
 type Loaded = { memory: WebAssembly.Memory };
+
+/** What the module must export for this script: a class's methods go by its name. */
+const WANTED = [
+  "figures",
+  "take_panic",
+  ...Object.getOwnPropertyNames(Figure.prototype)
+    .filter((name) => !/^(constructor|free|__.*)$/.test(name))
+    .map((name) => `figure_${name}`),
+];
 
 /** A request that takes longer is slow enough to say so, milliseconds. */
 const SLOW_MS = 15_000;
@@ -44,8 +54,12 @@ const loader = {
     const late = setTimeout(() => {
       for (const tell of this.slow) tell();
     }, SLOW_MS);
-    const answer = fetch(movedTo("figures") ?? new URL(EPIPOLE_WASM, import.meta.url), { signal: this.abort.signal });
-    this.ended = load({ module_or_path: answer })
+    const { signal } = this.abort;
+    // What a cache has of it did not help the last time.
+    const cache = attempt > 1 ? "reload" : "default";
+    const answer = fetch(movedTo("figures") ?? new URL(EPIPOLE_WASM, import.meta.url), { signal, cache });
+    this.ended = compile(answer, WANTED)
+      .then((module) => load({ module_or_path: module }))
       .then(
         (loaded) => this.settle?.done(loaded),
         (problem: unknown) => {
@@ -177,6 +191,11 @@ export class Engine {
     const refused = this.#figure.take_photo(slot, width, height, rgba);
     if (refused === undefined && focal !== undefined) this.#figure.take_focal(slot, focal);
     return refused;
+  }
+
+  /** What can be saved besides the picture: a copy, which outlives the module's memory. */
+  file(): Uint8Array<ArrayBuffer> {
+    return new Uint8Array(this.#figure.file());
   }
 
   /** The long computation that the figure waits for. */

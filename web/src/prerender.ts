@@ -29,7 +29,7 @@ export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wan
       send: nothing,
       hand,
       // Whether the reader's browser lets figures fill the screen shows in the reader's browser.
-      deeds: { reset: nothing, link: () => "", save: nothing, fullscreen: nothing },
+      deeds: { reset: nothing, link: () => "", save: nothing, saveFile: nothing, fullscreen: nothing },
       jobs: { next: nothing, done: nothing, failed: nothing },
       takePhoto: nothing,
       showHow: nothing,

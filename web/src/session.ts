@@ -14,6 +14,8 @@ import { wantsStillness, type Theme } from "./theme.js";
 const REST_MS = 120;
 /** How long refining may take of one frame of the display, milliseconds. */
 const SLICE_MS = 8;
+/** How often an idle moment is looked for, where a browser does not say when it has one, milliseconds. */
+const IDLE_MS = 50;
 /** How often a picture that is being refined is shown, milliseconds. */
 const SHOW_MS = 150;
 /** How often a running figure changes for a reader who wants things to stand still, milliseconds. */
@@ -149,7 +151,9 @@ export class Session {
     if (inSight === this.#inSight) return;
     this.#inSight = inSight;
     this.#lastTick = undefined;
-    if (inSight) this.#want();
+    if (!inSight) return;
+    this.#want();
+    if (this.#held) this.#warm();
   }
 
   /** Draws now, without waiting for the display. */
@@ -204,6 +208,31 @@ export class Session {
     if (this.#stale) this.#draw();
     if (running) this.#want();
     else if (this.#rough && this.#inSight && !this.#held) this.#refineAfterRest(now);
+  }
+
+  /**
+   * Prepares in idle moments what the first picture needs, while the poster is in its place: so whoever takes hold of
+   * the figure need not wait for it.
+   */
+  #warm(): void {
+    if (this.#warming || !this.#rough) return;
+    this.#warming = true;
+    const work = (remaining: () => number) => {
+      this.#warming = false;
+      if (!this.#held || !this.#inSight || this.#ended) return;
+      let more = true;
+      while (more && remaining() > 0) more = this.ask((engine) => engine.refine()) === true;
+      if (more) this.#warm();
+    };
+    // Safari has no idle callbacks.
+    if (typeof requestIdleCallback === "function") {
+      requestIdleCallback((deadline) => work(() => Math.min(SLICE_MS, deadline.timeRemaining())));
+      return;
+    }
+    setTimeout(() => {
+      const start = performance.now();
+      work(() => SLICE_MS - (performance.now() - start));
+    }, IDLE_MS);
   }
 
   /** Lets time pass in a running figure. */
@@ -274,6 +303,8 @@ export class Session {
 
   /** The view is better than the picture. */
   #unshown = false;
+  /** An idle moment is waited for. */
+  #warming = false;
 
   #guard<T>(work: () => T): T | undefined {
     if (this.#ended) return undefined;

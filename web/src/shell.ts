@@ -58,12 +58,14 @@ export class Shell {
   /** The stand-in whose numbers are still shown. */
   #borrowed: ParentNode | undefined;
   #marked: ReturnType<typeof setTimeout> | undefined;
+  /** The figure waits for a computation. */
+  #waiting = false;
 
   constructor(acts: Acts, choice: Choice) {
     this.#choice = choice;
     this.picture = new Picture(acts.hand);
     this.speaker = new Speaker(this.picture.overlay);
-    this.jobs = new Jobs(acts.jobs);
+    this.jobs = new Jobs({ ...acts.jobs, turned: () => this.#tellBusy() });
     this.#controls = new Controls(acts.send);
     this.#challenges = new Challenges(acts.showHow);
     this.#toolbar = new Toolbar(acts.deeds, (sentence) => this.speaker.say(sentence));
@@ -175,12 +177,19 @@ export class Shell {
     this.picture.update(snapshot);
     this.photos.update(snapshot.photos);
     if (this.photos.offered) this.#toolbar.offerPhotos(this.photos.element);
+    this.#toolbar.offerFile(snapshot.file);
     this.jobs.follow(snapshot.waiting);
-    setAttribute(this.root, "aria-busy", snapshot.waiting === null ? undefined : "true");
+    this.#waiting = snapshot.waiting !== null;
+    this.#tellBusy();
     setText(this.#description, snapshot.description);
     const solved = this.#challenges.update(snapshot.challenges, this.#choice.goals);
     this.#under.hidden = this.#controls.buttons.hidden;
     return solved;
+  }
+
+  /** A figure whose computation was stopped is at rest. */
+  #tellBusy(): void {
+    setAttribute(this.root, "aria-busy", this.#waiting && !this.jobs.stopped ? "true" : undefined);
   }
 
   /** The figure can be operated: everything beside the picture comes. */

@@ -3,12 +3,14 @@
  * screen, take photographs of the reader's own.
  */
 
+import type { FileOffer } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";
 
 export interface Deeds {
   reset: () => void;
   link: () => string;
   save: () => void;
+  saveFile: () => void;
   fullscreen: (() => void) | undefined;
 }
 
@@ -20,6 +22,8 @@ export class Toolbar {
   readonly link = make("div", { class: "link", hidden: true });
   readonly #deeds: Deeds;
   #photos: HTMLButtonElement | undefined;
+  #file: HTMLButtonElement | undefined;
+  readonly #save: HTMLButtonElement;
   readonly #say: (sentence: string) => void;
 
   constructor(deeds: Deeds, say: (sentence: string) => void) {
@@ -35,6 +39,7 @@ export class Toolbar {
     copy.title = "Copy a link to this figure in its present state";
     const save = this.#button("Save image", deeds.save, "M10 3.5v9", "M6.2 9l3.8 3.8L13.8 9", "M4 16.5h12");
     save.title = "Save the picture as a PNG file";
+    this.#save = save;
     this.element.append(reset, copy, save);
     if (deeds.fullscreen) {
       const paths = ["M3.5 7.5v-4h4", "M12.5 3.5h4v4", "M16.5 12.5v4h-4", "M7.5 16.5h-4v-4"];
@@ -52,6 +57,24 @@ export class Toolbar {
     setAttribute(button, "aria-expanded", "false");
     this.#photos = button;
     this.element.prepend(button);
+  }
+
+  /** Shows the button that saves what the figure offers besides its picture, or none. */
+  offerFile(file: FileOffer | null): void {
+    if (!file) {
+      this.#file?.remove();
+      this.#file = undefined;
+      return;
+    }
+    if (!this.#file) {
+      const paths = ["M6 3.5h5.5l3.5 3.5v9.5H6z", "M10.5 8.5v5", "M8.2 11.4l2.3 2.3 2.3-2.3"];
+      this.#file = this.#button(file.label, this.#deeds.saveFile, ...paths);
+      this.#save.after(this.#file);
+    }
+    const words = this.#file.querySelector("span");
+    if (words) setText(words, file.label);
+    setAttribute(this.#file, "title", file.hint);
+    setAttribute(this.#file, "aria-disabled", file.is_ready ? undefined : "true");
   }
 
   openPhotos(panel: HTMLElement, open: boolean): void {

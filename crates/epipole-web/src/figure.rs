@@ -216,6 +216,11 @@ impl Figure {
         refused.map(|problem| problem.to_string())
     }
 
+    /// What the reader can save besides the picture, as the snapshot offers it.
+    pub fn file(&self) -> Vec<u8> {
+        self.figure.file_bytes()
+    }
+
     /// Tells the focal length of the photograph in a slot, in units of its longer side.
     pub fn take_focal(&mut self, slot: &str, focal: f64) {
         self.figure.take_focal(slot, focal);

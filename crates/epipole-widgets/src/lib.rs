@@ -38,7 +38,7 @@ mod stage;
 pub mod theme;
 
 #[cfg(feature = "figures")]
-pub use figure::{ChallengeStatus, Figure, POSTER_WIDTH};
+pub use figure::{Answers, ChallengeStatus, Figure, POSTER_WIDTH};
 #[cfg(feature = "figures")]
 pub use snapshot::Snapshot;
 

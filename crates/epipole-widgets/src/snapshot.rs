@@ -1,7 +1,9 @@
 //! Everything that a page shows beside the picture, as one piece of plain data: the page in a browser
 //! and the builder of pages, which writes it without one, take it from here.
 
-use crate::contract::{Aspect, Control, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space};
+use crate::contract::{
+    Aspect, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space,
+};
 use crate::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
 
@@ -19,6 +21,8 @@ pub struct Snapshot {
     description: String,
     running: bool,
     photos: &'static [PhotoSlot],
+    /// What can be saved besides the picture.
+    file: Option<FileOffer>,
     /// What to say while the figure waits for a long computation.
     waiting: Option<&'static str>,
 }
@@ -54,6 +58,7 @@ impl Snapshot {
             description: figure.describe(),
             running: figure.is_running(),
             photos: figure.photo_slots(),
+            file: figure.file(),
             waiting: figure.job().map(|job| job.label()),
             layout,
         }

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{assert_sound, random_event};
+use common::{assert_sound, finish, random_event};
 use epipole::math::random::Random;
 use epipole_widgets::contract::{Control, ControlKind, Event, Place, Problem, Value};
 use epipole_widgets::gallery::FIGURES;
@@ -24,7 +24,7 @@ fn finished(name: &str, events: &[Event]) -> Figure {
     for event in events {
         figure.update(event).expect("the event is good");
     }
-    figure.finish_job();
+    finish(&mut figure);
     figure
 }
 
@@ -134,14 +134,14 @@ fn every_control_and_handle_changes_something_that_can_be_seen_and_read() {
                 y: middle(handle.y_range),
             };
             figure.update(&event).unwrap();
-            figure.finish_job();
+            finish(&mut figure);
             assert!(figure.query().starts_with(&format!("{}=", handle.id)));
             assert!(figure.describe() != describe || figure.readouts() != readouts);
             let picture = figure.draw(400.0, 1.0, Theme::Light).unwrap();
             assert_ne!(picture.hash(), hash, "{name}: {}", handle.id);
         }
         figure.update(&Event::Reset).unwrap();
-        figure.finish_job();
+        finish(&mut figure);
         assert_eq!(
             (figure.describe(), figure.query()),
             (describe, String::new())
@@ -167,7 +167,7 @@ fn challenges_are_open_at_first_and_can_be_solved() {
             let mut solver = Figure::new(name).unwrap();
             for event in solver.solution(challenge.id).unwrap() {
                 solver.update(&event).unwrap();
-                solver.finish_job();
+                finish(&mut solver);
             }
             let now = solver.challenges();
             let now = now.iter().find(|other| other.id == challenge.id).unwrap();

@@ -7,9 +7,9 @@ mod common;
 
 use common::{assert_sound, copy_of, random_event};
 use epipole::math::random::Random;
-use epipole_widgets::Figure;
 use epipole_widgets::gallery::{self, FIGURES};
 use epipole_widgets::theme::Theme;
+use epipole_widgets::{Answers, Figure};
 use std::ops::ControlFlow;
 
 const NUM_SEQUENCES: u64 = 2000;
@@ -26,6 +26,7 @@ fn any_events_leave_a_sound_figure_whose_state_round_trips() {
 
 fn fuzz(name: &str, seed: u64) {
     let mut refused = 0;
+    let answers = Answers::new();
     for sequence in 0..NUM_SEQUENCES {
         let mut random = Random::new(1_000_000 * seed + sequence);
         let mut figure = Figure::new(name).expect("it exists");
@@ -43,7 +44,7 @@ fn fuzz(name: &str, seed: u64) {
         // Jobs take long, so most states are looked at while theirs is still to be done.
         let finishes_job = sequence % 250 == 0;
         if finishes_job {
-            figure.finish_job();
+            answers.finish(&mut figure);
             assert!(figure.job().is_none(), "{name} computes forever");
         }
         assert_sound(&figure, random.uniform(280.0, 1200.0));
@@ -51,7 +52,7 @@ fn fuzz(name: &str, seed: u64) {
         if figure.handles().len() < 20 || sequence % 8 == 0 {
             let mut copy = copy_of(&figure);
             if finishes_job {
-                copy.finish_job();
+                answers.finish(&mut copy);
             }
             let query = figure.query();
             assert_eq!(copy.state(), figure.state(), "{name}, sequence {sequence}");

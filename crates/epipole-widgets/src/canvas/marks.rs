@@ -84,4 +84,32 @@ impl Canvas {
             markers::draw_dot(self, center, radius.clamp(0.5, 20.0), color);
         }
     }
+
+    /// A small square of whole device pixels in a color of the world, such as a point of a surface: neighbors
+    /// grow together; `side` in CSS pixels. Made for tens of thousands.
+    pub fn speck(&mut self, center: Place, side: f64, color: Rgb) {
+        if !self.clip.contains(center) || !side.is_finite() {
+            return;
+        }
+        let side = side.clamp(0.5, 40.0);
+        let num_pixels = (side * self.scale).round().max(1.0);
+        let device = |middle: f64, clip: (f64, f64)| {
+            let first = (self.scale * (middle - side / 2.0)).round();
+            let low = first.max((clip.0 * self.scale).round()).max(0.0);
+            let high = (first + num_pixels).min((clip.1 * self.scale).round());
+            low as usize..high.max(low) as usize
+        };
+        let columns = device(center.0, (self.clip.x, self.clip.right()));
+        let rows = device(center.1, (self.clip.y, self.clip.bottom()));
+        let (width, height) = (self.pixmap.width() as usize, self.pixmap.height() as usize);
+        let columns = columns.start..columns.end.min(width);
+        let [r, g, b] = color;
+        let data = self.pixmap.data_mut();
+        for row in rows.start..rows.end.min(height) {
+            let start = 4 * (row * width + columns.start);
+            for pixel in data[start..start + 4 * columns.len()].as_chunks_mut().0 {
+                *pixel = [r, g, b, 255];
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! A picture of a space, with depth and the number of the point in each pixel.
 
+use super::picture::Standing;
 use super::{Line, Orbit, Scene};
 
 /// How a space is drawn.
@@ -65,6 +66,11 @@ impl Frame {
             return;
         }
         self.points(scene, orbit, look);
+        for picture in &scene.pictures {
+            if let Some(standing) = Standing::new(picture, orbit, size) {
+                self.picture(&standing);
+            }
+        }
         for line in &scene.lines {
             self.line(line, orbit);
         }
@@ -113,6 +119,22 @@ impl Frame {
                         self.point[at] = index as u32;
                         self.rgba[4 * at..4 * at + 3].copy_from_slice(color);
                     }
+                }
+            }
+        }
+    }
+
+    fn picture(&mut self, standing: &Standing<'_>) {
+        for row in standing.rows.clone() {
+            for column in standing.columns.clone() {
+                let Some((depth, color)) = standing.seen(column, row) else {
+                    continue;
+                };
+                let at = row * self.width + column;
+                if depth < self.depth[at] {
+                    self.depth[at] = depth;
+                    self.point[at] = NONE;
+                    self.rgba[4 * at..4 * at + 3].copy_from_slice(&color);
                 }
             }
         }

@@ -14,9 +14,11 @@
 
 mod frame;
 mod orbit;
+mod picture;
 
 pub use frame::{Frame, Look};
 pub use orbit::Orbit;
+pub use picture::Picture;
 
 /// What is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,6 +27,8 @@ pub struct Scene {
     pub points: Vec<([f32; 3], [u8; 3])>,
     /// Lines, such as the edges of a camera's frustum.
     pub lines: Vec<Line>,
+    /// Photographs that stand in the space.
+    pub pictures: Vec<Picture>,
 }
 
 /// A line between two places.

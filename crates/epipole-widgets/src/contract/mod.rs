@@ -4,6 +4,7 @@
 mod challenge;
 mod control;
 mod event;
+mod file;
 mod handle;
 mod job;
 mod layout;
@@ -20,6 +21,7 @@ pub use challenge::Challenge;
 pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Place, Slider, Toggle};
 pub use event::{Event, Value};
+pub use file::FileOffer;
 pub use handle::Handle;
 pub use job::{Compute, Job, JobResult, PhotoSlot, Progress};
 pub use layout::{Axis, Layout, Panel, Rect, WIDTHS};

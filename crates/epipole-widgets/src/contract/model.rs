@@ -1,8 +1,8 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Compute, Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Space, Symbol,
-    Words,
+    Challenge, Compute, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem,
+    Space, Symbol, Words,
 };
 use image::RgbImage;
 
@@ -25,6 +25,16 @@ pub trait Model {
 
     /// What of the book's letters the picture shows: a letter of the prose lights it up.
     fn symbols(&self) -> Vec<Symbol> {
+        Vec::new()
+    }
+
+    /// What the reader can save besides the picture; `None` where there is nothing to save.
+    fn file(&self) -> Option<FileOffer> {
+        None
+    }
+
+    /// The bytes of what is offered; none if nothing is.
+    fn file_bytes(&self) -> Vec<u8> {
         Vec::new()
     }
 

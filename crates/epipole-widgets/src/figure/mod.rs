@@ -3,16 +3,18 @@
 //! Pages, posters, the command line and the tests all drive figures through [`Figure`]; nothing
 //! outside this crate sees a model or a view.
 
+mod answers;
 mod checks;
 mod drawing;
 mod permalink;
 
 use crate::canvas::Picture;
 use crate::contract::{
-    Control, Event, Handle, Job, JobResult, PhotoSlot, Problem, Readout, Space, Symbol,
+    Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem, Readout, Space, Symbol,
 };
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
+pub use answers::Answers;
 use image::RgbImage;
 use permalink::Untouched;
 use std::cell::RefCell;
@@ -104,6 +106,16 @@ impl Figure {
         self.stage.model().symbols()
     }
 
+    /// What the reader can save besides the picture.
+    pub fn file(&self) -> Option<FileOffer> {
+        self.stage.model().file()
+    }
+
+    /// The bytes of that; none if nothing is offered.
+    pub fn file_bytes(&self) -> Vec<u8> {
+        self.stage.model().file_bytes()
+    }
+
     /// The numbers beside the picture.
     pub fn readouts(&self) -> Vec<Readout> {
         self.stage.words().readouts()
@@ -146,12 +158,18 @@ impl Figure {
 
     /// Carries out what the figure waits for, here and now.
     pub fn finish_job(&mut self) {
+        self.finish_job_by(|name, job| {
+            gallery::compute(name, &job.request(), &mut |_| ControlFlow::Continue(()))
+        });
+    }
+
+    /// The same by whoever computes: of the name of the figure and what it waits for.
+    fn finish_job_by(&mut self, mut compute: impl FnMut(&'static str, &dyn Job) -> JobResult) {
         // A figure may go through several stages, but not through endlessly many.
         for _ in 0..16 {
+            let name = self.entry.name;
             let Some(job) = self.job() else { return };
-            let result = gallery::compute(self.name(), &job.request(), &mut |_| {
-                ControlFlow::Continue(())
-            });
+            let result = compute(name, job);
             self.stage.model_mut().job_done(result);
         }
     }

@@ -22,6 +22,7 @@ const TEXT: f64 = 13.0;
 
 enum Mark {
     Dot(Place, f64, Rgb),
+    Speck(Place, f64, Rgb),
     Marker(Place, f64, Shape, Role),
     Line(Place, Place, Stroke),
     Facet([Place; 4], Rgb, Stroke),
@@ -112,6 +113,16 @@ impl<'a> Space<'a> {
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
             let scale = (self.lens.distance / depth).clamp(0.6, 2.5);
             self.push(&in_eye, &[place], Mark::Dot(place, radius * scale, color));
+        }
+    }
+
+    /// A point of a surface, without a rim, so that neighbors grow together; `side` is that of its square in
+    /// the middle of the scene, CSS pixels.
+    pub(crate) fn speck(&mut self, point: &Point3<f64>, side: f64, color: Rgb) {
+        let in_eye = self.in_eye(point);
+        if let Some((place, depth)) = self.lens.shown(&in_eye) {
+            let scale = (self.lens.distance / depth).clamp(0.6, 2.5);
+            self.push(&in_eye, &[place], Mark::Speck(place, side * scale, color));
         }
     }
 
@@ -284,6 +295,7 @@ impl<'a> Space<'a> {
                 match mark {
                     Mark::Face(places, role, opacity) => canvas.polygon(&places, role, opacity),
                     Mark::Dot(place, radius, color) => canvas.dot(place, radius, color),
+                    Mark::Speck(place, side, color) => canvas.speck(place, side, color),
                     Mark::Marker(place, radius, shape, role) => {
                         canvas.marker(place, radius, shape, role, true);
                     }

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test uses a part")]
 
 use epipole::math::random::Random;
-use epipole_widgets::Figure;
 use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value};
+use epipole_widgets::{Answers, Figure};
 
 /// Longest text that a screen reader should have to read for a picture.
 const LONGEST_DESCRIPTION: usize = 400;
@@ -151,20 +151,19 @@ fn odd_value(random: &mut Random) -> Value {
 /// What must hold in every state of every figure.
 pub(crate) fn assert_sound(figure: &Figure, width: f64) {
     let name = figure.name();
-    let context = || format!("{name} at {}", figure.query());
+    let context = format!("{name} at {}", figure.query());
     let description = figure.describe();
-    assert_readable(&description, &context());
+    assert_readable(&description, &context);
     let length = description.chars().count();
     assert!(
         length <= LONGEST_DESCRIPTION,
-        "{}: {length} characters: {description}",
-        context()
+        "{context}: {length} characters: {description}"
     );
     for readout in figure.readouts() {
-        assert_readable(&readout.text, &context());
-        assert_readable(readout.label, &context());
+        assert_readable(&readout.text, &context);
+        assert_readable(readout.label, &context);
         if let ReadoutValue::Number(number) = readout.value {
-            assert!(number.is_finite(), "{}: {}", context(), readout.id);
+            assert!(number.is_finite(), "{context}: {}", readout.id);
         }
     }
     for control in figure.controls() {
@@ -172,24 +171,19 @@ pub(crate) fn assert_sound(figure: &Figure, width: f64) {
             min, max, value, ..
         } = control.kind
         {
-            assert!(
-                (min..=max).contains(&value),
-                "{}: {}",
-                context(),
-                control.id
-            );
-            assert_readable(&control.value_text, &context());
+            assert!((min..=max).contains(&value), "{}: {}", context, control.id);
+            assert_readable(&control.value_text, &context);
         }
     }
     let layout = figure.layout(width);
     for handle in figure.handles() {
-        assert_readable(&handle.label, &context());
-        assert_readable(&handle.value_text, &context());
+        assert_readable(&handle.label, &context);
+        assert_readable(&handle.value_text, &context);
         let inside = |value: f64, [low, high]: [f64; 2]| (low..=high).contains(&value);
         assert!(
             inside(handle.x, handle.x_range) && inside(handle.y, handle.y_range),
             "{}: {} is out of range",
-            context(),
+            context,
             handle.id
         );
         let panel = layout.panel(handle.panel);
@@ -197,7 +191,7 @@ pub(crate) fn assert_sound(figure: &Figure, width: f64) {
         assert!(
             panel.rect.contains(place),
             "{}: {} is at {place:?}, outside of {:?}",
-            context(),
+            context,
             handle.id,
             panel.rect
         );
@@ -211,6 +205,13 @@ fn assert_readable(text: &str, context: &str) {
     let mut words = text.split(|c: char| !c.is_alphanumeric());
     let found = words.find(|word| bad.contains(word));
     assert!(found.is_none(), "{context}: {found:?} in \"{text}\"");
+}
+
+static ANSWERS: Answers = Answers::new();
+
+/// Carries out what a figure waits for, unless that has been done before.
+pub(crate) fn finish(figure: &mut Figure) {
+    ANSWERS.finish(figure);
 }
 
 /// A new figure with the state of another.

@@ -95,7 +95,7 @@ impl Declared for Cover {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            orbit: Orbit::new(-32.0, 18.0),
+            orbit: Orbit::new(-40.0, 22.0),
             asked: Asked::about(Question {
                 source: Source::Step,
                 focal: 1.25,

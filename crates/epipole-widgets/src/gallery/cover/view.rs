@@ -5,7 +5,7 @@ use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::gallery::two_view_sfm::model::Stage;
 use crate::gallery::two_view_sfm::question::{Answer, Motion, Question};
-use crate::gallery::two_view_sfm::view::spread;
+use crate::gallery::two_view_sfm::view::{draw_surface, spread};
 use crate::kit::grid::{self, Grid};
 use crate::kit::orbit::Orbit;
 use crate::kit::question::Question as _;
@@ -17,11 +17,13 @@ use nalgebra::{Isometry3, Point2, Point3};
 
 /// What the reader looks at, in the frame of camera 1; the baseline is 1 long.
 const SUBJECT: Subject = Subject {
-    middle: Point3::new(0.4, -0.25, 3.0),
-    radius: 1.75,
+    middle: Point3::new(0.55, -0.38, 2.7),
+    radius: 1.85,
 };
 /// The photographs stand so far before their centers.
-const PICTURE: f64 = 1.05;
+const PICTURE: f64 = 0.9;
+/// The share of the last step in which the points of the matches appear.
+const POINTS: f64 = 0.35;
 /// More lines than this hide what is behind.
 const MOST_LINES: usize = 30;
 /// More dots than this hide a photograph.
@@ -109,10 +111,18 @@ fn draw_space(
     }
     draw_points(model, answer, [&first, &second], &mut space, canvas);
     draw_rays(model, motion, [&first, &second], &mut space);
+    // The points first, then every pixel, which hide them.
+    let [points, pixels] = [0.0, POINTS].map(|from| {
+        let length = if from > 0.0 { 1.0 - POINTS } else { POINTS };
+        ((model.share(4) - from) / length).clamp(0.0, 1.0)
+    });
     let radius = (panel.rect.height / 150.0).clamp(1.5, 2.8);
-    for point in told(&motion.points, model.share(4)) {
-        space.dot(&point.place, radius, point.color);
+    if pixels < 1.0 || motion.surface.is_err() {
+        for point in told(&motion.points, points) {
+            space.dot(&point.place, radius, point.color);
+        }
     }
+    draw_surface(&mut space, motion, pixels, panel);
     if model.share(4) >= 1.0 {
         let ends = [first.center_in_world(), second.center_in_world()];
         space.line(&ends[0], &ends[1], Stroke::solid(Role::Ink, 1.5));

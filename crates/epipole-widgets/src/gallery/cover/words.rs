@@ -11,6 +11,13 @@ fn num_points(answer: &Answer) -> usize {
         .map_or(0, |motion| motion.points.len())
 }
 
+fn num_pixels(answer: &Answer) -> usize {
+    let surface = answer.motion.as_ref().map(|motion| &motion.surface);
+    surface
+        .and_then(|surface| surface.as_ref().ok())
+        .map_or(0, |surface| surface.points.len())
+}
+
 impl Words for Cover {
     fn readouts(&self) -> Vec<Readout> {
         let count = |id, label, get: fn(&Answer) -> usize| match self.answer() {
@@ -25,6 +32,7 @@ impl Words for Cover {
             count("matches", "Matches", |answer| answer.matches.len()).main(),
             count("inliers", "True to one motion", Answer::num_inliers).main(),
             count("points", "Points in space", num_points).main(),
+            count("pixels", "Pixels with a depth", num_pixels),
         ]
     }
 
@@ -53,7 +61,14 @@ impl Words for Cover {
                 answer.num_inliers()
             ),
             3 => "Each match sends a ray from either camera. Where the two rays cross, there is the point.".to_owned(),
-            _ => format!("A cloud of {} points, and the two cameras that saw them.", num_points(answer)),
+            _ => match num_pixels(answer) {
+                0 => format!("A cloud of {} points, and the two cameras that saw them.", num_points(answer)),
+                pixels => format!(
+                    "{} points tell where the two cameras stood. With that known, {pixels} pixels find their \
+                     partners, and the table stands in space.",
+                    num_points(answer)
+                ),
+            },
         };
         format!("{words} Seen from {place}.")
     }

@@ -3,7 +3,7 @@
 use super::estimates::{Estimates, METHODS};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Space, Value,
+    Settings, Slider, Space, Symbol, Value,
 };
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::pin::Pin;
@@ -144,6 +144,11 @@ impl Model for Triangulate {
 
     fn spaces(&self) -> &'static [Space] {
         &[SPACE]
+    }
+
+    fn symbols(&self) -> Vec<Symbol> {
+        let (x, z) = self.point.place();
+        vec![Symbol::point("X", "top", x, z)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

@@ -2,6 +2,7 @@
 
 pub(super) mod model;
 pub(super) mod question;
+mod surface;
 mod verdict;
 pub(super) mod view;
 mod words;

@@ -1,14 +1,17 @@
 //! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
 
-use super::question::{Answer, Question, Source};
+use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle,
-    Job, JobResult, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Value, format_number,
+    Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
+    FileOffer, Handle, Job, JobResult, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space,
+    Value, format_number,
 };
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::picture::{Own, Picture};
 use crate::kit::question::{Asked, carry_out};
+use epipole::stereo::PointCloud;
 use image::RgbImage;
+use nalgebra::Point3;
 
 const STAGE: Choice = Choice::new(
     "stage",
@@ -20,9 +23,10 @@ const STAGE: Choice = Choice::new(
         ("pose", "4 Pose"),
         ("cloud", "5 Triangulate"),
         ("adjust", "6 Adjust"),
+        ("surface", "7 Every pixel"),
     ],
 )
-.at(5);
+.at(6);
 const NEXT: Button = Button::new("next", "Next stage", ButtonRole::Step);
 const PAIR: Choice = Choice::new(
     "pair",
@@ -91,15 +95,17 @@ pub(in crate::gallery) enum Stage {
     Pose,
     Cloud,
     Adjust,
+    Surface,
 }
 
-const STAGES: [Stage; 6] = [
+const STAGES: [Stage; 7] = [
     Stage::Detect,
     Stage::Match,
     Stage::Ransac,
     Stage::Pose,
     Stage::Cloud,
     Stage::Adjust,
+    Stage::Surface,
 ];
 
 /// Who says how long the focal length is.
@@ -188,6 +194,25 @@ impl TwoViewSfm {
         self.source()?.true_turn_deg()
     }
 
+    /// The points that the stage shows, in the frame of camera 1 and in units of the baseline.
+    fn cloud(&self) -> Option<PointCloud> {
+        let motion = self.answer()?.motion.as_ref()?;
+        let (points, colors) = match (self.stage(), &motion.surface) {
+            (Stage::Surface, Ok(surface)) => {
+                let points = surface.points.iter();
+                points
+                    .map(|(place, color)| (Point3::from(*place).cast(), *color))
+                    .unzip()
+            }
+            (Stage::Cloud, _) => (motion.points.iter()).map(CloudPoint::before).unzip(),
+            (Stage::Adjust | Stage::Surface, _) => (motion.points.iter())
+                .map(|point| (point.place, point.color))
+                .unzip(),
+            _ => return None,
+        };
+        Some(PointCloud { points, colors })
+    }
+
     /// States the computation that the present settings need.
     fn ask(&mut self) {
         let Some(source) = self.source() else {
@@ -209,7 +234,7 @@ impl TwoViewSfm {
     }
 
     fn is_last_stage(&self) -> bool {
-        self.stage() == Stage::Adjust
+        self.stage() == Stage::Surface
     }
 }
 
@@ -299,6 +324,19 @@ impl Model for TwoViewSfm {
         self.asked.take(result);
     }
 
+    fn file(&self) -> Option<FileOffer> {
+        (self.stage() >= Stage::Cloud).then(|| FileOffer {
+            label: "Save points",
+            hint: "Save the points in color as a PLY file, which MeshLab, CloudCompare and Blender open",
+            extension: "ply",
+            is_ready: self.cloud().is_some(),
+        })
+    }
+
+    fn file_bytes(&self) -> Vec<u8> {
+        self.cloud().map_or_else(Vec::new, |cloud| cloud.to_ply())
+    }
+
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         if !self.is_own() {
@@ -342,7 +380,7 @@ const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
               bends with them.",
         check: |model| {
             let wrong = model.turn_deg().zip(model.true_turn_deg());
-            model.is_last_stage()
+            model.stage() >= Stage::Adjust
                 && wrong.is_some_and(|(found, truth)| (found - truth).abs() >= 2.0)
         },
         solution: || vec![Event::set(&FOCAL, 2.5)],
@@ -366,7 +404,29 @@ const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::question::settled;
+    use crate::contract::Words;
+    use crate::kit::question::{settle, settled};
+    use image::imageops::crop_imm;
+
+    #[test]
+    fn photographs_of_two_sizes_give_points_and_say_what_they_do_not_give() {
+        let mut model: TwoViewSfm = settled(&[Event::set(&STAGE, "surface")]);
+        let pictures = &model.answer().unwrap().pictures;
+        let [first, second] = pictures.each_ref().map(|picture| picture.image().clone());
+        let (width, height) = second.dimensions();
+        let second = crop_imm(&second, 0, 12, width, height - 24).to_image();
+        model.take_photo("first", first).unwrap();
+        model.take_photo("second", second).unwrap();
+        model.update(&Event::set(&FOCAL, FOCAL.default)).unwrap();
+        settle(&mut model);
+        let motion = model.answer().unwrap().motion.as_ref().unwrap();
+        assert!(motion.points.len() > 300 && motion.surface.is_err());
+        let words = model.describe();
+        assert!(
+            words.contains("the same size") && words.contains("all there is"),
+            "{words}"
+        );
+    }
 
     #[test]
     fn the_adjustment_undoes_what_knocking_a_camera_did() {
@@ -381,6 +441,36 @@ mod tests {
         assert!((errors[0][0] - errors[0][1]).abs() < 0.002, "{errors:?}");
         assert!(errors[1][0] > 5.0 && errors[2][0] > 25.0, "{errors:?}");
         assert!(errors.iter().all(|error| error[1] < 0.2), "{errors:?}");
+    }
+
+    #[test]
+    fn the_points_of_each_stage_can_be_saved() {
+        let lengths = ["ransac", "cloud", "adjust", "surface"].map(|stage| {
+            let model: TwoViewSfm = settled(&[Event::set(&STAGE, stage)]);
+            assert_eq!(
+                model.file().is_some_and(|file| file.is_ready),
+                stage != "ransac"
+            );
+            let bytes = model.file_bytes();
+            let text = String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned();
+            let number = text
+                .split("element vertex ")
+                .nth(1)?
+                .split_whitespace()
+                .next()?;
+            let number: usize = number.parse().ok()?;
+            // Three numbers of four bytes and a color.
+            let header = text.find("end_header\n")? + "end_header\n".len();
+            assert_eq!(bytes.len(), header + 15 * number);
+            Some(number)
+        });
+        let [None, Some(cloud), Some(adjusted), Some(surface)] = lengths else {
+            panic!("{lengths:?}");
+        };
+        assert!(
+            cloud == adjusted && adjusted > 500 && surface > 20 * adjusted,
+            "{lengths:?}"
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What do two photographs tell? Every stage, from their pixels to points in space.
 
 use super::model::Stage;
+use super::surface::{Surface, surface};
 use super::verdict::{Judged, Verdict, judge};
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
@@ -60,6 +61,13 @@ pub(in crate::gallery) struct CloudPoint {
     pub(in crate::gallery) color: [u8; 3],
 }
 
+impl CloudPoint {
+    /// Where it was before the adjustment, and its color.
+    pub(super) fn before(&self) -> (Point3<f64>, [u8; 3]) {
+        (self.triangulated, self.color)
+    }
+}
+
 /// A motion and what follows from it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::gallery) struct Motion {
@@ -73,6 +81,8 @@ pub(in crate::gallery) struct Motion {
     /// after the adjustment of all.
     pub(super) error_px: [f64; 2],
     pub(in crate::gallery) points: Vec<CloudPoint>,
+    /// Every pixel that has a partner in its row; or why there is none.
+    pub(in crate::gallery) surface: Result<Surface, String>,
 }
 
 /// What the computation finds.
@@ -101,10 +111,13 @@ impl Motion {
             .iter()
             .flat_map(|point| [&point.place, &point.triangulated]);
         let numbers = places.flat_map(|place| place.iter()).chain(&self.error_px);
+        let surface = self.surface.iter().flat_map(|surface| &surface.points);
+        let surface = surface.flat_map(|(place, _)| place);
         // NaN is not less than anything.
         is_motion(&self.found)
             && is_motion(&self.cam2_from_cam1)
             && numbers.into_iter().all(|x| x.abs() < 1e12)
+            && surface.into_iter().all(|x| x.abs() < 1e12)
     }
 }
 
@@ -137,7 +150,7 @@ impl Question {
             Stage::Detect | Stage::Match | Stage::Ransac => None,
             Stage::Pose => Some(motion.found),
             Stage::Cloud => Some(self.knocked(&motion.found)),
-            Stage::Adjust => Some(motion.cam2_from_cam1),
+            Stage::Adjust | Stage::Surface => Some(motion.cam2_from_cam1),
         }
     }
 
@@ -224,7 +237,25 @@ impl Question {
                     color: colors[inliers[*inlier]],
                 })
                 .collect(),
+            surface: Err(String::new()),
         }))
+    }
+
+    /// Every pixel as a point, where the pair can be rectified.
+    fn look_everywhere(
+        motion: &mut Motion,
+        pictures: &[Picture; 2],
+        lenses: &[Intrinsics; 2],
+        progress: Progress<'_>,
+    ) -> Result<(), Error> {
+        let places: Vec<_> = motion.points.iter().map(|point| point.place).collect();
+        let images = pictures.each_ref().map(Picture::image);
+        let found = surface(images, lenses, &motion.cam2_from_cam1, &places, progress);
+        motion.surface = match found {
+            Err(Error::Canceled) => return Err(Error::Canceled),
+            found => found.map_err(|error| error.to_string()),
+        };
+        Ok(())
     }
 }
 
@@ -247,14 +278,14 @@ impl question::Question for Question {
             },
             ..PhotoOptions::default()
         };
-        options.sift.max_features = MAX_FEATURES;
+        options.features.max_features = MAX_FEATURES;
         let photos = pictures.each_ref().map(|picture| Photo {
             name: String::new(),
             image: picture.image().clone(),
         });
         let mut stage = 0.4;
         let (images, pairs) = match_photos(&photos, &options, &mut |_| {
-            stage += 0.15;
+            stage += 0.1;
             progress(stage)
         })?;
         let pair = pairs.ok_or(Error::Canceled)?.pop();
@@ -266,8 +297,13 @@ impl question::Question for Question {
             .map(|m| images[0].colors[m.0 as usize])
             .collect();
         let judged = judge([&pixels1, &pixels2], &lenses, self.max_error_px)?;
-        tell(progress, 0.95)?;
-        let motion = self.reconstruct(&judged, [&pixels1, &pixels2], &lenses, &colors)?;
+        tell(progress, 0.75)?;
+        let mut motion = self.reconstruct(&judged, [&pixels1, &pixels2], &lenses, &colors)?;
+        if let Some(motion) = &mut motion {
+            Self::look_everywhere(motion, &pictures, &lenses, &mut |share| {
+                progress(0.8 + 0.2 * share)
+            })?;
+        }
         let has_depth = judged.cam2_from_cam1.is_some();
         Ok(Answer {
             pictures,

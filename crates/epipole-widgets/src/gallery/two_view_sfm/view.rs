@@ -1,7 +1,7 @@
 //! The two photographs with what each stage finds, and beside them cameras and points in space.
 
 use super::model::{Stage, TwoViewSfm};
-use super::question::{Answer, Question};
+use super::question::{Answer, Motion, Question};
 use super::words;
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
@@ -93,9 +93,11 @@ impl View for TwoViewSfmView {
         draw_titles(model, layout, canvas);
         let failed = model.answer().and_then(words::failure);
         let failed = failed.filter(|_| model.stage() >= Stage::Ransac);
+        let sparse = model.answer().and_then(words::no_surface);
+        let sparse = sparse.filter(|_| model.stage() == Stage::Surface);
         let waiting = asked.is_waiting().then(|| format!("{} …", Question::LABEL));
         let problem = asked.problem().map(str::to_owned);
-        if let Some(words) = problem.or(failed).or(waiting) {
+        if let Some(words) = problem.or(failed).or(waiting).or(sparse) {
             grid::notice(canvas, space.rect, &words);
         }
     }
@@ -115,6 +117,9 @@ fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
         );
     }
     let has_motion = model.answer().is_none_or(|answer| answer.motion.is_some());
+    let has_surface = model
+        .answer()
+        .is_none_or(|answer| words::no_surface(answer).is_none());
     let title = match model.stage() {
         Stage::Detect => "In space: each feature of camera 1 is a ray",
         Stage::Match => "In space: rays of features with a match",
@@ -122,7 +127,8 @@ fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
         _ if !has_motion => "In space: rays of the inliers, all from one place",
         Stage::Pose => "In space: camera 2, one step aside",
         Stage::Cloud => "In space: points, camera 2 knocked askew",
-        Stage::Adjust => "In space: points and cameras, adjusted",
+        Stage::Surface if has_surface => "In space: every pixel that has a depth",
+        Stage::Adjust | Stage::Surface => "In space: points and cameras, adjusted",
     };
     grid::title(canvas, layout.panel("space").rect, title);
 }
@@ -282,7 +288,10 @@ fn draw_space(
         space.line(&centers[0], &centers[1], Stroke::solid(Role::Ink, 2.0));
     }
     match (&answer.motion, stage) {
-        (Some(motion), Stage::Cloud | Stage::Adjust) => {
+        (Some(motion), Stage::Surface) if motion.surface.is_ok() => {
+            draw_surface(&mut space, motion, 1.0, panel);
+        }
+        (Some(motion), Stage::Cloud | Stage::Adjust | Stage::Surface) => {
             let radius = (panel.rect.height / 140.0).clamp(1.6, 3.2);
             for point in &motion.points {
                 let place = match stage {
@@ -314,6 +323,24 @@ fn draw_space(
         }
     }
     space.draw(canvas, panel);
+}
+
+/// The first `share` of the pixels that have a depth.
+pub(in crate::gallery) fn draw_surface(
+    space: &mut Space<'_>,
+    motion: &Motion,
+    share: f64,
+    panel: &Panel,
+) {
+    let Ok(surface) = &motion.surface else {
+        return;
+    };
+    let side = (panel.rect.height / 130.0).clamp(1.6, 3.4);
+    let all = surface.coarse();
+    let shown = (share * all.len() as f64) as usize;
+    for (place, color) in &all[..shown] {
+        space.speck(&Point3::from(*place).cast(), side, *color);
+    }
 }
 
 /// What a feature is at a stage.

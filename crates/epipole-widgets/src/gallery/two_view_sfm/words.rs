@@ -78,7 +78,10 @@ fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
     let in_front = motion.map(|motion| motion.num_in_front.map(|n| n.to_string()).join(", "));
     let turn = model.turn_deg().map(|turn| number(turn, 2, "°"));
     let truth = model.true_turn_deg().map(|turn| number(turn, 2, "°"));
-    let points = motion.map(|motion| motion.points.len().to_string());
+    let points = motion.map(|motion| match (&motion.surface, stage) {
+        (Ok(surface), Stage::Surface) => surface.points.len().to_string(),
+        _ => motion.points.len().to_string(),
+    });
     let mut readouts = vec![
         say("inliers", "Inliers", Stage::Match, inliers).main(),
         say("points", "Points", Stage::Cloud, points).main(),
@@ -116,7 +119,7 @@ fn describe(model: &TwoViewSfm) -> String {
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     let counts = answer.keypoints.each_ref().map(Vec::len);
     let turn = degrees(model.turn_deg().unwrap_or(0.0));
-    let knock = format_number(model.knock_deg(), 1);
+    let (before, ago) = knocks(model.knock_deg());
     match (stage, failure(answer), &answer.motion) {
         (Stage::Detect, ..) => format!(
             "{} features in the first photograph and {} in the second.",
@@ -142,14 +145,28 @@ fn describe(model: &TwoViewSfm) -> String {
             )
         }
         (Stage::Cloud, _, Some(motion)) => format!(
-            "Camera 2 has been knocked {knock}° askew. {} points, triangulated all the same, miss \
-             their features by {} px (RMS).",
+            "{before} {} points, triangulated {}, miss their features by {} px (RMS).",
             motion.points.len(),
+            if model.knock_deg() > 0.0 {
+                "all the same"
+            } else {
+                "with it"
+            },
             format_number(motion.error_px[0], 2),
         ),
+        (Stage::Surface, _, Some(motion)) => match &motion.surface {
+            Ok(surface) => format!(
+                "{} pixels of photograph 1 found their partner in photograph 2, and stand in space in their own \
+                 colors, seen from {}. {ago}{}",
+                surface.points.len(),
+                model.orbit().words(),
+                caution(answer)
+            ),
+            Err(_) => no_surface(answer).unwrap_or_default(),
+        },
         (Stage::Adjust, _, Some(motion)) => format!(
-            "{} points in color and the two cameras, seen from {}. Camera 2 had been knocked {knock}° \
-             askew; the adjustment takes the error from {} px to {} px (RMS).{}",
+            "{} points in color and the two cameras, seen from {}. {ago} The adjustment takes the error from {} px to \
+             {} px (RMS).{}",
             motion.points.len(),
             model.orbit().words(),
             format_number(motion.error_px[0], 2),
@@ -157,6 +174,31 @@ fn describe(model: &TwoViewSfm) -> String {
             caution(answer)
         ),
     }
+}
+
+/// What camera 2 has been through before the adjustment, and after it.
+fn knocks(knock_deg: f64) -> (String, String) {
+    let knock = format_number(knock_deg, 1);
+    match knock_deg > 0.0 {
+        true => (
+            format!("Camera 2 has been knocked {knock}° askew."),
+            format!("Camera 2 had been knocked {knock}° askew."),
+        ),
+        false => (
+            "Camera 2 stands as RANSAC has it.".to_owned(),
+            "Camera 2 had not been knocked.".to_owned(),
+        ),
+    }
+}
+
+/// Why not every pixel has a depth, where the cameras are known.
+pub(super) fn no_surface(answer: &Answer) -> Option<String> {
+    let motion = answer.motion.as_ref()?;
+    let why = motion.surface.as_ref().err()?;
+    Some(format!(
+        "There is no depth for every pixel: {why}. The {} points of the matches are all there is.",
+        motion.points.len()
+    ))
 }
 
 impl Words for TwoViewSfm {

@@ -1,0 +1,207 @@
+//! Every pixel of the first photograph as a point: the pair is rectified with the cameras that were found,
+//! and each pixel looks for its partner in its row.
+
+use crate::contract::Progress;
+use epipole::Error;
+use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole::stereo::{
+    DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera, StereoSgm,
+    point_cloud, rectify_calibrated,
+};
+use image::RgbImage;
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+/// The longer side of the rectified pictures: more pixels show nothing new in a figure.
+const LONGEST_PX: u32 = 480;
+/// More candidates than this take too long; the farthest are left out.
+const MOST_DISPARITIES: u32 = 192;
+/// A surface of fewer pixels than this is an error that agrees with itself.
+const SPECKLE_PX: u32 = 150;
+
+/// The pixels of camera 1 whose depth is known.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::gallery) struct Surface {
+    /// Where they are in the frame of camera 1, in units of the baseline, and their colors: first, row by row,
+    /// a quarter of them that is spread over all.
+    pub(in crate::gallery) points: Vec<([f32; 3], [u8; 3])>,
+    num_coarse: u32,
+}
+
+impl Surface {
+    /// As many of them as the eye can tell apart in a figure, row by row.
+    pub(in crate::gallery) fn coarse(&self) -> &[([f32; 3], [u8; 3])] {
+        &self.points[..(self.num_coarse as usize).min(self.points.len())]
+    }
+}
+
+/// Looks for the partner of each pixel.
+///
+/// * `photographs`, `lenses`: the pair and its cameras, without distortion; equal sizes
+/// * `cam2_from_cam1`: the motion, in units of the baseline
+/// * `places`: points that both cameras see, in the frame of camera 1
+///
+/// # Errors
+/// As [`rectify_calibrated`], `disparity_range` of the rig, [`RectifiedPair::new`] and
+/// [`StereoSgm::compute`].
+pub(super) fn surface(
+    photographs: [&RgbImage; 2],
+    lenses: &[Intrinsics; 2],
+    cam2_from_cam1: &RigidTransform,
+    places: &[Point3<f64>],
+    progress: Progress<'_>,
+) -> Result<Surface, Error> {
+    let (width, height) = photographs[0].dimensions();
+    let cameras = lenses.map(|intrinsics| StereoCamera {
+        intrinsics,
+        distortion: Distortion::NONE,
+    });
+    let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
+    let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
+    let options = RectifyOptions {
+        // All that a camera saw, not only the rectangle that both share.
+        alpha: 1.0,
+        size: Some((side(width), side(height))),
+        ..RectifyOptions::default()
+    };
+    let rig = rectify_calibrated(&cameras, cam2_from_cam1, width, height, &options)?;
+    let redrawn = RectifiedPair::new(&rig, photographs)?;
+    let (min_disparity_px, num_disparities) = searched(rig.disparity_range(places)?);
+    let matcher = StereoSgm {
+        min_disparity_px,
+        num_disparities,
+        speckle_size: SPECKLE_PX,
+        ..StereoSgm::default()
+    };
+    let found = redrawn.disparity(|first, second| {
+        matcher.compute_with(first, second, &mut |share| progress(f64::from(share)))
+    })?;
+    // Every other pixel of every other row, and then those between.
+    let part = |is_coarse: bool| -> Result<PointCloud, Error> {
+        let value = |index: u32| {
+            let (u, v) = (index % found.width(), index / found.width());
+            let is_wanted = (u.is_multiple_of(2) && v.is_multiple_of(2)) == is_coarse;
+            found.get(u, v).filter(|_| is_wanted).unwrap_or(f32::NAN)
+        };
+        let values = (0..found.width() * found.height()).map(value).collect();
+        let part = DisparityImage::from_raw(found.width(), found.height(), values)?;
+        point_cloud(&part, &rig.q, Some(&redrawn.pictures()[0]))
+    };
+    let (coarse, fine) = (part(true)?, part(false)?);
+    let cam1_from_rect = rig.rect_from_cam[0].inverse();
+    let places = coarse.points.iter().chain(&fine.points);
+    Ok(Surface {
+        num_coarse: coarse.points.len() as u32,
+        points: places
+            .map(|point| cam1_from_rect * point)
+            .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+            .zip(coarse.colors.iter().chain(&fine.colors).copied())
+            .collect(),
+    })
+}
+
+/// The smallest disparity to look for, and how many: of too many those of what is near, which are far from 0.
+fn searched([first, last]: [i32; 2]) -> (i32, u32) {
+    let count = last.abs_diff(first).saturating_add(1).min(MOST_DISPARITIES);
+    match last.unsigned_abs() >= first.unsigned_abs() {
+        true => (last - count as i32 + 1, count),
+        false => (first, count),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::camera::{Camera, look_at, relative_motion};
+    use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+    use nalgebra::Point2;
+    use nalgebra::Vector3;
+    use std::ops::ControlFlow;
+
+    const SIZE: (u32, u32) = (320, 240);
+
+    /// Photographs of the still life from the book's own place and from one beside it, meters.
+    fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
+        let first = still_life_camera(SIZE.0, SIZE.1);
+        let center = first.center_in_world() + aside;
+        let target = Point3::new(0.02, -0.16, 0.05);
+        let up = Vector3::new(0.0, -1.0, 0.0);
+        let second = Camera {
+            cam_from_world: look_at(&center, &target, &up).unwrap(),
+            ..first
+        };
+        let scene = Scene::still_life();
+        let cameras = [first, second];
+        let photographs = cameras.map(|camera| {
+            scene
+                .render(&camera, SIZE.0, SIZE.1, Sampling::Full)
+                .unwrap()
+        });
+        (cameras, photographs)
+    }
+
+    /// What is found for a pair with known cameras, and some true points.
+    fn found(cameras: &[Camera; 2], photographs: &[Photograph; 2]) -> Result<Surface, Error> {
+        let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
+        let places: Vec<_> = (0..SIZE.1)
+            .step_by(16)
+            .flat_map(|v| (0..SIZE.0).step_by(16).map(move |u| (u, v)))
+            .map(|(u, v)| {
+                let pixel = Point2::new(f64::from(u), f64::from(v));
+                let depth = f64::from(photographs[0].depth_m.get_pixel(u, v).0[0]);
+                Point3::from(cameras[0].intrinsics.ray(&pixel) * depth)
+            })
+            .collect();
+        let images = photographs.each_ref().map(|photograph| &photograph.image);
+        let lenses = cameras.map(|camera| camera.intrinsics);
+        let go_on = &mut |_| ControlFlow::Continue(());
+        surface(images, &lenses, &motion, &places, go_on)
+    }
+
+    #[test]
+    fn pixels_stand_where_the_scene_is_and_a_quarter_comes_first() {
+        let (cameras, photographs) = pair(Vector3::new(0.2, 0.0, 0.0));
+        let surface = found(&cameras, &photographs).unwrap();
+        let mut errors: Vec<f64> = (surface.points.iter())
+            .filter_map(|(place, _)| {
+                let place = Point3::from(*place).cast::<f64>();
+                let pixel = cameras[0].intrinsics.project(&place).unwrap();
+                let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
+                let truth = photographs[0].depth_m.get_pixel_checked(u, v)?;
+                Some((place.z / f64::from(truth.0[0]) - 1.0).abs())
+            })
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        let (half, most) = (errors[errors.len() / 2], errors[errors.len() * 9 / 10]);
+        assert!(
+            errors.len() > (SIZE.0 * SIZE.1) as usize / 3,
+            "{}",
+            errors.len()
+        );
+        assert!(half < 0.01 && most < 0.05, "{half} {most}");
+        let (coarse, all) = (surface.coarse().len(), surface.points.len());
+        assert!(coarse > all / 5 && coarse < all / 3, "{coarse} of {all}");
+    }
+
+    #[test]
+    fn of_too_many_disparities_the_near_ones_are_looked_for() {
+        assert_eq!(searched([5, 40]), (5, 36));
+        assert_eq!(searched([5, 400]), (209, 192));
+        assert_eq!(searched([-400, -5]), (-400, 192));
+    }
+
+    #[test]
+    fn what_has_no_common_rows_says_so() {
+        let (cameras, photographs) = pair(Vector3::new(0.0, 0.0, 0.4));
+        assert!(matches!(
+            found(&cameras, &photographs),
+            Err(Error::Degenerate { .. })
+        ));
+        let (cameras, mut photographs) = pair(Vector3::new(0.2, 0.0, 0.0));
+        photographs[1].image = RgbImage::new(SIZE.0, SIZE.1 - 1);
+        assert!(matches!(
+            found(&cameras, &photographs),
+            Err(Error::SizeMismatch { .. })
+        ));
+    }
+}
