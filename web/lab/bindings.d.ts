@@ -6,19 +6,30 @@ declare module "epipole-lab-page" {
       canvas: HTMLCanvasElement,
       shell: {
         capacity(): number;
-        start(work: number, request: Uint8Array): void;
+        start(work: number, branch: string, request: Uint8Array): void;
         cancel(work: number): void;
         askForPhotographs(): void;
         askForProject(): void;
+        askForCamera(): void;
+        askForFrames(video: number, numParts: number): void;
         save(name: string, bytes: Uint8Array): void;
         say(words: string): void;
+        explain(figure: string, page: string, title: string): void;
+        address(link: string): void;
       },
     ): Promise<void>;
     progress(work: number, share: number, words: string): void;
+    soFar(work: number, answer: Uint8Array): void;
     done(work: number, answer: Uint8Array): void;
     failed(work: number, sentence: string): void;
     photograph(name: string, bytes: Uint8Array): void;
     deliver(): void;
+    video(video: number): void;
+    frame(part: number, bytes: Uint8Array): void;
+    frames(video: number, name: string): void;
+    dropFrames(): void;
+    news(sentence: string): void;
+    link(parameters: string[]): void;
     project(archive: Uint8Array): void;
     dark(dark: boolean): void;
     widgets(): string | undefined;
@@ -28,17 +39,23 @@ declare module "epipole-lab-page" {
   export default function load(options: { module_or_path: URL }): Promise<unknown>;
 }
 
-/** The bindings for its workers. */
-declare module "epipole-lab-worker" {
+/** The bindings for its workers: what is seen in photographs, and what reads and writes files. */
+declare module "epipole-lab-vision" {
   export function compute(
     request: Uint8Array,
-    listener: { progress: (share: number, words: string) => void },
+    listener: { progress: (share: number, words: string) => void; soFar: (answer: Uint8Array) => void },
   ): Uint8Array;
   export function take_panic(): string | undefined;
   export default function load(options: { module_or_path: URL }): Promise<unknown>;
 }
 
+declare module "epipole-lab-files" {
+  export { compute, take_panic } from "epipole-lab-vision";
+  export { default } from "epipole-lab-vision";
+}
+
 /** Where the modules and the worker's script are, relative to the script; the bundler puts them in. */
 declare const LAB_PAGE_WASM: string;
-declare const LAB_WORKER_WASM: string;
+declare const LAB_VISION_WASM: string;
+declare const LAB_FILES_WASM: string;
 declare const LAB_WORKER: string;

@@ -7,12 +7,17 @@ export interface Order {
 
 export type Told = { work: number } & (
   | { share: number; words: string }
+  | { soFar: Uint8Array }
   | { answer: Uint8Array }
   | { problem: string }
 );
 
+/** Which module a worker has. */
+export type Branch = "vision" | "files";
+
 interface Member {
   worker: Worker;
+  branch: Branch;
   work: number | undefined;
   idleSince: number;
 }
@@ -31,8 +36,12 @@ export class Crew {
     setInterval(() => this.#tidy(), IDLE_MS / 2);
   }
 
-  start(work: number, request: Uint8Array): void {
-    const member = this.#members.find((other) => other.work === undefined) ?? this.#hire();
+  start(work: number, branch: Branch, request: Uint8Array): void {
+    const idle = this.#members.filter((other) => other.work === undefined);
+    const fit = idle.find((other) => other.branch === branch);
+    // Never more than can work at once: one that waits for other work makes room.
+    if (!fit && this.#members.length >= this.capacity && idle[0]) this.#dismiss(idle[0]);
+    const member = fit ?? this.#hire(branch);
     member.work = work;
     member.worker.postMessage({ work, request } satisfies Order, [request.buffer as ArrayBuffer]);
   }
@@ -43,11 +52,11 @@ export class Crew {
     if (member) this.#dismiss(member);
   }
 
-  #hire(): Member {
-    const worker = new Worker(new URL(LAB_WORKER, import.meta.url), { type: "module" });
-    const member: Member = { worker, work: undefined, idleSince: performance.now() };
+  #hire(branch: Branch): Member {
+    const worker = new Worker(new URL(LAB_WORKER, import.meta.url), { type: "module", name: branch });
+    const member: Member = { worker, branch, work: undefined, idleSince: performance.now() };
     worker.onmessage = ({ data }: MessageEvent<Told>) => {
-      if (!("share" in data)) {
+      if (!("share" in data || "soFar" in data)) {
         member.work = undefined;
         member.idleSince = performance.now();
       }

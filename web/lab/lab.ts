@@ -1,8 +1,11 @@
 /** The page of the Lab: file inputs, downloads, workers, theme. Everything else is in its module. */
 
 import load, { Lab } from "epipole-lab-page";
+import { Camera } from "./camera.js";
 import { Crew, type Told } from "./crew.js";
+import { FigureBeside } from "./figure.js";
 import { Mirror } from "./mirror.js";
+import { framesOf, isVideo } from "./video.js";
 
 function find<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -47,27 +50,58 @@ async function start(): Promise<void> {
   const lab = new Lab();
   const hear = (told: Told) => {
     if ("share" in told) lab.progress(told.work, told.share, told.words);
+    else if ("soFar" in told) lab.soFar(told.work, told.soFar);
     else if ("answer" in told) lab.done(told.work, told.answer);
     else lab.failed(told.work, told.problem);
   };
   const crew = new Crew(hear);
+  const beside = new FigureBeside();
+  const camera = new Camera(
+    (name, jpeg) => lab.photograph(name, jpeg),
+    () => lab.deliver(),
+  );
+  /** Videos by their numbers, and the one after the other: each takes the machine for itself. */
+  const videos: File[] = [];
+  let reading = Promise.resolve();
+  const read = async (video: number, numParts: number) => {
+    const file = videos[video];
+    if (!file) return;
+    try {
+      await framesOf(file, numParts, (words) => lab.news(words), (part, jpeg) => lab.frame(part, jpeg));
+      lab.frames(video, file.name);
+    } catch (error) {
+      lab.dropFrames();
+      lab.news(error instanceof Error ? error.message : String(error));
+    }
+  };
   let resting: ReturnType<typeof setTimeout> | undefined;
   const shell = {
     capacity: () => crew.capacity,
-    start: (work: number, request: Uint8Array) => crew.start(work, request),
+    start: (work: number, branch: string, request: Uint8Array) =>
+      crew.start(work, branch === "files" ? "files" : "vision", request),
     cancel: (work: number) => crew.cancel(work),
     askForPhotographs: () => photographs.click(),
     askForProject: () => project.click(),
+    askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
+    askForFrames: (video: number, numParts: number) => {
+      reading = reading.then(() => read(video, numParts));
+    },
     save,
     say: (words: string) => {
       clearTimeout(resting);
       resting = setTimeout(() => (said.textContent = words), REST_MS);
     },
+    explain: (figure: string, page: string, title: string) => void beside.show(figure, page, title),
+    address: (link: string) => history.replaceState(null, "", `?${link}`),
   };
 
   const take = async (files: Iterable<File>) => {
     let count = 0;
     for (const file of files) {
+      if (isVideo(file)) {
+        lab.video(videos.push(file) - 1);
+        continue;
+      }
       const bytes = new Uint8Array(await file.arrayBuffer());
       if (file.name.toLowerCase().endsWith(".zip")) {
         lab.project(bytes);
@@ -90,6 +124,8 @@ async function start(): Promise<void> {
     event.preventDefault();
     void take([...(event.dataTransfer?.files ?? [])]);
   });
+
+  if (location.search) lab.link([...new URLSearchParams(location.search)].flat());
 
   letTabLeave();
   try {
@@ -144,7 +180,8 @@ function letTabLeave(): void {
 }
 
 function save(name: string, bytes: Uint8Array): void {
-  const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type: "application/zip" }));
+  const type = name.endsWith(".json") ? "application/json" : "application/zip";
+  const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type }));
   const link = document.createElement("a");
   link.href = url;
   link.download = name;

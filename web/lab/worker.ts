@@ -1,9 +1,14 @@
 /** Carries out the requests of the Lab, one after the other. */
 
-import load, { compute, take_panic } from "epipole-lab-worker";
-import type { Order, Told } from "./crew.js";
+import * as files from "epipole-lab-files";
+import * as vision from "epipole-lab-vision";
+import type { Branch, Order, Told } from "./crew.js";
 
-const loading = load({ module_or_path: new URL(LAB_WORKER_WASM, import.meta.url) });
+/** Whoever started the worker named it for the module that it is to have. */
+const [code, place] =
+  (self.name as Branch) === "files" ? ([files, LAB_FILES_WASM] as const) : ([vision, LAB_VISION_WASM] as const);
+const { compute, take_panic } = code;
+const loading = code.default({ module_or_path: new URL(place, import.meta.url) });
 
 /** How often progress is told, milliseconds. */
 const TELL_MS = 60;
@@ -28,7 +33,8 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
     tell({ work, share, words });
   };
   try {
-    const answer = compute(request, { progress });
+    const soFar = (bytes: Uint8Array) => tell({ work, soFar: bytes }, [bytes.buffer as ArrayBuffer]);
+    const answer = compute(request, { progress, soFar });
     tell({ work, answer }, [answer.buffer as ArrayBuffer]);
   } catch (problem) {
     const sentence = typeof problem === "string" ? problem : take_panic() ?? String(problem);

@@ -7,11 +7,14 @@
 //! * `panels`: what is seen, in egui.
 //! * `web`, and `native` in the binary: the two places where it runs.
 
-#[cfg(feature = "compute")]
+#[cfg(feature = "files")]
 mod export;
 #[cfg(feature = "panels")]
 pub mod panels;
 pub mod project;
 pub mod tasks;
-#[cfg(all(target_arch = "wasm32", any(feature = "page", feature = "worker")))]
+#[cfg(all(
+    target_arch = "wasm32",
+    any(feature = "page", feature = "vision-worker", feature = "files-worker")
+))]
 pub mod web;

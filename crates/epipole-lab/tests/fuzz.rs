@@ -35,6 +35,11 @@ fn settings() -> impl Strategy<Value = Settings> {
             settings.matching.ratio = ratio;
             settings.pairs.max_error_px = error;
             settings.sfm.min_num_inliers = enough;
+            settings.calibration.board.columns = features;
+            settings.calibration.board.rows = enough;
+            settings.calibration.square_m = error;
+            settings.depth.range_px =
+                (features % 2 == 0).then_some([features as i32, enough as i32]);
             settings
         })
 }
@@ -48,6 +53,11 @@ fn event() -> impl Strategy<Value = Event> {
         (0..4_usize).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
         id.clone().prop_map(Event::Remove),
         Just(Event::Clear),
+        ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(name, bytes)| Event::AddBoards(vec![(name, Blob::from(bytes))])),
+        Just(Event::OpenBoards),
+        Just(Event::ClearBoards),
+        any::<bool>().prop_map(Event::UseCalibration),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
         (id.clone(), length()).prop_map(|(id, f)| Event::Focal(id, f)),
         id.clone().prop_map(Event::Earlier),
@@ -58,9 +68,11 @@ fn event() -> impl Strategy<Value = Event> {
         })),
         (0..4_usize, length()).prop_map(|(n, m)| Event::Length(n, m)),
         (0..4_usize).prop_map(Event::Forget),
+        (id.clone(), id.clone(), any::<bool>())
+            .prop_map(|(a, b, is_part)| Event::Dense(a, b, is_part)),
         Just(Event::Undo),
         Just(Event::Redo),
-        (0..7_usize).prop_map(|n| Event::Show(Step::ALL[n])),
+        (0..9_usize).prop_map(|n| Event::Show(Step::ALL[n])),
         id.clone().prop_map(Event::Look),
         (id.clone(), id).prop_map(|(a, b)| Event::LookAtPair(a, b)),
         any::<usize>().prop_map(Event::LookAtComponent),
@@ -85,6 +97,11 @@ proptest! {
             for photo in &document.photos {
                 prop_assert!(!project.fate_words(photo).is_empty());
             }
+            for photo in &document.boards {
+                prop_assert!(!project.board_words(photo).is_empty());
+            }
+            let names: std::collections::BTreeSet<_> = document.boards.iter().map(|p| &p.name).collect();
+            prop_assert_eq!(names.len(), document.boards.len());
             for task in project.wanted() {
                 prop_assert!(project.request(&task).is_some());
             }
@@ -95,7 +112,8 @@ proptest! {
             project.update(Event::Undo);
             undone += 1;
         }
-        prop_assert!(project.document().photos.is_empty() || undone >= 200);
+        let document = project.document();
+        prop_assert!(document.photos.is_empty() && document.boards.is_empty() || undone >= 200);
         for _ in 0..undone {
             project.update(Event::Redo);
         }
@@ -122,12 +140,15 @@ proptest! {
         let plain = |p: &epipole_lab::project::Given| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px);
         let photos = |d: &epipole_lab::project::Document| d.photos.iter().map(plain).collect::<Vec<_>>();
         prop_assert_eq!(photos(a), photos(b));
+        let boards = |d: &epipole_lab::project::Document| d.boards.iter().map(plain).collect::<Vec<_>>();
+        prop_assert_eq!(boards(a), boards(b));
+        prop_assert_eq!(a.dense.len(), b.dense.len());
     }
 
     #[test]
     fn bytes_that_are_no_request_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         // Whatever they happen to mean, there is an answer or a sentence.
-        let result = epipole_lab::tasks::compute(&bytes, &mut |_, _| std::ops::ControlFlow::Continue(()));
+        let result = epipole_lab::tasks::compute(&bytes, &mut |_| std::ops::ControlFlow::Continue(()));
         if let Err(sentence) = result {
             prop_assert!(!sentence.is_empty());
         }

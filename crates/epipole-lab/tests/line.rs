@@ -4,11 +4,13 @@
 
 mod common;
 
+use common::depth::every_pixel_has_its_depth;
+use common::growing::it_grows_as_one_watches;
 use common::{answer, finish, solved};
 use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Measure, Project, RefineFocal, Step};
-use epipole_lab::tasks::{Answer, Blob, Request, Sample, Source};
+use epipole_lab::tasks::{Answer, Blob, FeatureKind, Request, Sample, Source};
 use image::RgbImage;
 use std::io::{Cursor, Read};
 use std::ops::ControlFlow;
@@ -57,7 +59,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
         intrinsics.push(Intrinsics::centered(focal_px, pixels.width, pixels.height).unwrap());
     }
     let mut how = PhotoOptions::default();
-    how.sift.max_features = 8192;
+    how.features.max_features = 8192;
     let options = SfmOptions::default();
     let go_on = &mut |_: &_| ControlFlow::Continue(());
     let (_, direct) = reconstruct_photos(&photos, &intrinsics, &how, &options, go_on).unwrap();
@@ -70,6 +72,8 @@ fn the_sample_is_solved_as_the_core_solves_it() {
 
     a_known_length_sets_the_scale(&mut project);
     the_files_can_be_read_again(&project);
+    every_pixel_has_its_depth(&mut project);
+    it_grows_as_one_watches(&mut project);
     knobs_recompute_what_follows_and_undo_is_instant(&mut project);
     parts_that_nothing_joins_are_told(&mut project);
 }
@@ -220,6 +224,7 @@ fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
     settings.matching.ratio = 0.7;
     project.update(Event::Set(settings));
     assert_eq!(finish(project), 36 + 36 + 1);
+    the_command_says_every_knob(project);
     for _ in 0..3 {
         project.update(Event::Undo);
         assert!(project.wanted().is_empty());
@@ -232,6 +237,44 @@ fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
     project.update(Event::Undo);
     assert!(project.wanted().is_empty());
     assert_eq!(project.component().unwrap().num_registered(), 9);
+}
+
+fn the_command_says_every_knob(project: &Project) {
+    let mut request = project.export_request().unwrap();
+    let readme = |request: &Request| {
+        let Ok(Answer::Archive(bytes)) = answer(request) else {
+            panic!("the export is no archive");
+        };
+        let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
+        let mut text = String::new();
+        let mut file = archive.by_name("README.txt").unwrap();
+        file.read_to_string(&mut text).unwrap();
+        text
+    };
+    let Request::Export {
+        images,
+        features,
+        matching,
+        options,
+        ..
+    } = &mut request
+    else {
+        panic!("that is the request");
+    };
+    assert_eq!(matching.ratio, 0.7);
+    features.kind = FeatureKind::Sift;
+    features.contrast = 0.013;
+    matching.mutual = false;
+    options.min_num_inliers = 20;
+    options.refine_focal = true;
+    for image in images {
+        image.camera.k = [600.5, 601.0, 239.0, 180.25];
+    }
+    let text = readme(&request);
+    let command = "epipole sfm images/ --k 600.5,601,239,180.25 --max-features 8192 --seed 0 --features sift \
+                   --contrast-threshold 0.013 --ratio 0.7 --mutual=false --min-inliers 20 --refine-focal \
+                   --refine-distortion -o sparse/0\n";
+    assert!(text.contains(command), "{text}");
 }
 
 #[test]

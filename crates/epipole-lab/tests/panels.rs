@@ -5,9 +5,9 @@
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::{App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
 use epipole_lab::project::Step;
-use epipole_lab::tasks::compute;
+use epipole_lab::tasks::{Branch, compute};
 use std::ops::ControlFlow;
 
 /// A host that computes at once.
@@ -18,6 +18,9 @@ struct Desk {
     saved: Vec<(String, Vec<u8>)>,
     said: String,
     asked: usize,
+    frames: Vec<(u32, u32)>,
+    explained: Vec<About>,
+    address: String,
 }
 
 impl Host for Desk {
@@ -25,8 +28,8 @@ impl Host for Desk {
         4
     }
 
-    fn start(&mut self, work: WorkId, request: Vec<u8>) {
-        let result = compute(&request, &mut |_, _| ControlFlow::Continue(()));
+    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+        let result = compute(&request, &mut |_| ControlFlow::Continue(()));
         self.reports.push(Report::Done(work, result));
     }
 
@@ -50,9 +53,30 @@ impl Host for Desk {
         true
     }
 
+    fn ask_for_camera(&mut self) -> bool {
+        self.asked += 1;
+        true
+    }
+
+    fn ask_for_frames(&mut self, video: u32, num_parts: u32) {
+        self.frames.push((video, num_parts));
+    }
+
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
         self.saved.push((name.to_owned(), bytes));
         Ok(format!("{name} is saved."))
+    }
+
+    fn explain(&mut self, about: About) {
+        self.explained.push(about);
+    }
+
+    fn has_book(&self) -> bool {
+        true
+    }
+
+    fn address(&mut self, link: &str) {
+        self.address = link.to_owned();
     }
 
     fn say(&mut self, words: &str) {
@@ -71,13 +95,7 @@ fn open<'a>(width: f32, height: f32) -> Bench<'a> {
         .with_size(egui::vec2(width, height))
         .with_context_setup(prepare)
         .build_ui_state(frame, App::new(Desk::default()));
-    for _ in 0..200 {
-        bench.step();
-        if !bench.state_mut().go_on() && bench.state().project().wanted().is_empty() {
-            break;
-        }
-    }
-    bench.run_steps(3);
+    rest(&mut bench);
     bench
 }
 
@@ -148,13 +166,152 @@ fn the_line_from_the_sample_to_a_file() {
     );
 }
 
+/// Draws frames until nothing is under way.
+fn rest(bench: &mut Bench<'_>) {
+    for _ in 0..200 {
+        bench.step();
+        if !bench.state_mut().go_on() && bench.state().project().wanted().is_empty() {
+            break;
+        }
+    }
+    bench.run_steps(3);
+}
+
+#[test]
+fn a_board_gives_a_camera_and_its_file() {
+    let mut bench = open(1280.0, 720.0);
+    click(&mut bench, "Calibrate");
+    let said = |bench: &mut Bench<'_>| bench.state_mut().host().said.clone();
+    assert!(said(&mut bench).contains("No photographs of a board yet"));
+    click(&mut bench, "Open the sample");
+    rest(&mut bench);
+    let words = said(&mut bench);
+    assert!(words.contains("found in 9 of 10 photographs"), "{words}");
+    bench.get_by_label_contains("board-10.png: a grid of");
+    click(&mut bench, "fisheye");
+    rest(&mut bench);
+    let lens = |bench: &Bench<'_>| bench.state().project().document().settings.calibration.lens;
+    assert_eq!(lens(&bench), epipole_lab::tasks::LensModel::Fisheye);
+    click(&mut bench, "Undo");
+    bench.get_by_label_contains("board-3.png: 54 marks").click();
+    bench.run_steps(3);
+    let project = bench.state().project();
+    assert_eq!(project.view().board, project.document().boards[2].id);
+    click(&mut bench, "Save camera.json");
+    assert_eq!(bench.state_mut().host().saved[0].0, "camera.json");
+    click(&mut bench, "Use for my photographs");
+    let words = said(&mut bench);
+    assert!(
+        words.contains("of 640 × 480 pixels, of which there are none yet"),
+        "{words}"
+    );
+    assert!(bench.state().project().document().camera.is_some());
+    click(&mut bench, "Do not use it any more");
+    assert!(bench.state().project().document().camera.is_none());
+    // What comes while this step is open is of a board, and the sample makes room.
+    let broken = vec![("broken.png".to_owned(), vec![1_u8, 2, 3].into())];
+    let arrival = Arrival::Photographs(broken);
+    bench.state_mut().host().arrivals.push(arrival);
+    bench.run_steps(6);
+    let document = bench.state().project().document();
+    assert_eq!((document.boards.len(), document.photos.len()), (1, 9));
+    let words = said(&mut bench);
+    assert!(words.contains("broken.png: cannot be read"), "{words}");
+}
+
+#[test]
+fn a_video_gives_its_sharpest_frames() {
+    let mut bench = open(1280.0, 720.0);
+    click(&mut bench, "Photographs");
+    click(&mut bench, "Take photographs…");
+    assert_eq!(bench.state_mut().host().asked, 1);
+    let bring = |bench: &mut Bench<'_>, arrival| {
+        bench.state_mut().host().arrivals.push(arrival);
+        bench.run_steps(2);
+        rest(bench);
+    };
+    bring(&mut bench, Arrival::Video(3));
+    assert_eq!(bench.state_mut().host().frames, [(3, 20)]);
+    let picture = |blur: f32| -> epipole_lab::tasks::Blob {
+        let sharp = image::RgbImage::from_fn(60, 40, |u, v| {
+            image::Rgb([if (u / 7 + v / 5) % 2 == 0 { 20 } else { 230 }; 3])
+        });
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let blurred = image::imageops::blur(&sharp, blur);
+        blurred
+            .write_to(&mut bytes, image::ImageFormat::Png)
+            .unwrap();
+        bytes.into_inner().into()
+    };
+    let [soft, sharp] = [picture(3.0), picture(0.5)];
+    let parts = vec![vec![soft.clone(), sharp.clone()], vec![sharp.clone(), soft]];
+    bring(&mut bench, Arrival::Frames(3, "walk.mp4".to_owned(), parts));
+    let photos = &bench.state().project().document().photos;
+    let names: Vec<&str> = photos.iter().map(|photo| photo.name.as_str()).collect();
+    assert_eq!(names, ["walk-01.jpg", "walk-02.jpg"]);
+    let source = epipole_lab::tasks::Source::File(sharp);
+    assert!(photos.iter().all(|photo| photo.source == source));
+    let said = bench.state_mut().host().said.clone();
+    assert!(
+        said.contains("2 frames were taken from the video."),
+        "{said}"
+    );
+    let refused = "walk.mp4 cannot be decoded here.".to_owned();
+    bring(&mut bench, Arrival::News(refused.clone()));
+    let said = bench.state_mut().host().said.clone();
+    assert!(said.contains(&refused), "{said}");
+}
+
 #[test]
 fn every_step_fits_on_a_phone() {
     let mut bench = open(390.0, 844.0);
-    for step in Step::ALL {
+    // From the middle of the row, where it opens, to both of its ends.
+    let begun = Step::ALL
+        .iter()
+        .position(|step| *step == Step::Reconstruction);
+    let (before, after) = Step::ALL.split_at(begun.unwrap());
+    for step in before.iter().rev().chain(before).chain(after) {
+        let step = *step;
         click(&mut bench, step.title());
         assert_eq!(bench.state().project().view().step, step);
         assert!(!bench.state_mut().host().said.is_empty());
+        // All steps are in one row, and the bar above them is one row, too.
+        let tops = Step::ALL.map(|step| {
+            let mut all = bench.get_all_by_label(step.title());
+            all.next().unwrap().rect().top()
+        });
+        assert!(
+            tops.iter().all(|top| *top == tops[0] && *top < 100.0),
+            "{tops:?}"
+        );
+        let undo = bench.get_by_label("Undo").rect();
+        assert!(undo.bottom() < tops[0] && undo.top() < 20.0, "{undo}");
+    }
+}
+
+#[test]
+fn a_link_opens_a_step_and_every_step_is_explained() {
+    let mut bench = open(1280.0, 720.0);
+    let parameter = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+    let link = vec![
+        parameter("step", "matches"),
+        parameter("ratio", "0.7"),
+        parameter("color", "red"),
+    ];
+    bench.state_mut().host().arrivals.push(Arrival::Link(link));
+    bench.run_steps(3);
+    assert_eq!(bench.state().project().view().step, Step::Matches);
+    assert_eq!(
+        bench.state().project().document().settings.matching.ratio,
+        0.7
+    );
+    bench.get_by_label_contains("The Lab knows no \"color\".");
+    assert_eq!(bench.state_mut().host().address, "step=matches&ratio=0.7");
+    for step in Step::ALL {
+        click(&mut bench, step.title());
+        click(&mut bench, "What is this?");
+        let explained = bench.state_mut().host().explained.pop();
+        assert_eq!(explained, Some(step.about()));
     }
 }
 

@@ -1,10 +1,10 @@
 //! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
 
 use super::archive::Archive;
-use super::summary;
+use super::{depth, summary};
 use crate::tasks::{
-    FeatureOptions, ImagePoints, MatchOptions, Packed, Photograph, Reconstructed, SfmOptions,
-    Source, core_reconstruction, sfm_images, to_image,
+    Dense, FeatureOptions, ImagePoints, MatchOptions, Packed, Photograph, Reconstructed,
+    SfmOptions, Source, core_reconstruction, sfm_images, to_image,
 };
 use epipole::sfm::Reconstruction;
 use image::codecs::jpeg::JpegEncoder;
@@ -22,6 +22,7 @@ pub(crate) struct Order<'a> {
     pub(crate) options: SfmOptions,
     pub(crate) features: FeatureOptions,
     pub(crate) matching: MatchOptions,
+    pub(crate) dense: &'a [(String, Dense)],
 }
 
 /// The zip file of a reconstruction.
@@ -53,6 +54,7 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
     archive.add("sparse/0/images.txt", text.images.as_bytes())?;
     archive.add("sparse/0/points3D.txt", text.points.as_bytes())?;
     archive.add("points.ply", &model.to_ply())?;
+    depth::add(&mut archive, order)?;
     let json = summary::json(order, &images, &model);
     archive.add("reconstruction.json", json.as_bytes())?;
     archive.add("README.txt", summary::readme(order).as_bytes())?;

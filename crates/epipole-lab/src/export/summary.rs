@@ -1,7 +1,7 @@
 //! A reconstruction in words and numbers: the command line's JSON, and the command that does the same.
 
 use super::model::Order;
-use crate::tasks::Source;
+use crate::tasks::{Calibrated, FeatureKind, FeatureOptions, MatchOptions, SfmOptions, Source};
 use epipole::camera::RigidTransform;
 use epipole::sfm::{Reconstruction, SfmImage};
 use serde_json::{Value, json};
@@ -41,6 +41,7 @@ pub(super) fn json(order: &Order<'_>, images: &[SfmImage], model: &Reconstructio
         "components": components,
         "complete": true,
         "meters_per_unit": order.meters_per_unit,
+        "depth": super::depth::json(order),
     });
     summary.to_string()
 }
@@ -51,18 +52,27 @@ pub(super) fn readme(order: &Order<'_>) -> String {
         Some(_) => "Lengths are meters, by the length that was measured.",
         None => "The unit of length is arbitrary: nothing was measured.",
     };
-    let mut text = format!(
+    let mut text = String::from(
         "images/              the photographs, as they were reconstructed\n\
          sparse/0/            COLMAP's text model: `colmap gui`, or the import of another program, opens it\n\
          points.ply           the points with their colors\n\
-         reconstruction.json  what `epipole sfm --json` prints\n\n\
-         {unit}\n"
+         reconstruction.json  what `epipole sfm --json` prints\n",
     );
+    if !order.dense.is_empty() {
+        text.push_str(
+            "depth/               the depth of every pixel of a rectified photograph, along its camera's axis; the \
+             photograph as PNG, and its camera in reconstruction.json\n\
+             dense.ply            all of these pixels as points with their colors, in the frame of points.ply\n",
+        );
+    }
+    text.push_str(&format!("\n{unit}\n"));
     let reduced = (order.photographs.iter()).any(|p| {
         matches!(p.source, Source::File(_)) && p.used.as_ref().is_some_and(|used| !used.as_given)
     });
     let lead = match reduced {
-        true => "Nearly the same (photographs were reduced or turned, and written anew) by",
+        true => {
+            "Nearly the same (photographs were reduced, turned or freed of distortion, and written anew) by"
+        }
         false => "The same by",
     };
     if let Some(command) = command(order) {
@@ -73,25 +83,38 @@ pub(super) fn readme(order: &Order<'_>) -> String {
 
 /// The command that reconstructs what is in `images/`, if its options can say it.
 fn command(order: &Order<'_>) -> Option<String> {
-    let focal_px = order.images.first()?.camera.focal_px;
-    let has_flags = order.matching == crate::tasks::MatchOptions::default()
-        && order.options.min_num_inliers == crate::tasks::SfmOptions::default().min_num_inliers
-        && order.features
-            == crate::tasks::FeatureOptions {
-                max_features: order.features.max_features,
-                ..crate::tasks::FeatureOptions::default()
-            }
-        && order
-            .images
-            .iter()
-            .all(|image| image.camera.focal_px == focal_px);
-    if !has_flags {
-        return None;
-    }
+    let first = order.images.first()?.camera;
+    let all = |same: &dyn Fn(&Calibrated) -> bool| order.images.iter().all(|i| same(&i.camera));
+    let intrinsics = match (first.centered_focal_px(), first.k) {
+        (Some(focal_px), _) if all(&|c| c.centered_focal_px() == Some(focal_px)) => {
+            format!("--focal-px {focal_px}")
+        }
+        (None, k) if all(&|camera| camera.k == k) => {
+            format!("--k {},{},{},{}", k[0], k[1], k[2], k[3])
+        }
+        _ => return None,
+    };
     let mut command = format!(
-        "epipole sfm images/ --focal-px {focal_px} --max-features {} --seed {}",
+        "epipole sfm images/ {intrinsics} --max-features {} --seed {}",
         order.features.max_features, order.options.seed
     );
+    let (features, usual) = (order.features, FeatureOptions::default());
+    if features.kind == FeatureKind::Sift {
+        command.push_str(" --features sift");
+    }
+    if features.contrast != usual.contrast {
+        command.push_str(&format!(" --contrast-threshold {}", features.contrast));
+    }
+    if order.matching.ratio != MatchOptions::default().ratio {
+        command.push_str(&format!(" --ratio {}", order.matching.ratio));
+    }
+    if !order.matching.mutual {
+        command.push_str(" --mutual=false");
+    }
+    let enough = order.options.min_num_inliers;
+    if enough != SfmOptions::default().min_num_inliers {
+        command.push_str(&format!(" --min-inliers {enough}"));
+    }
     if order.options.refine_focal {
         command.push_str(" --refine-focal");
     }

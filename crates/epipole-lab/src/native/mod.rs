@@ -1,11 +1,11 @@
 //! A window, and threads that compute. Files are given as arguments or dropped, and written to the
 //! folder where the program was started.
 
-use epipole_lab::panels::{App, Arrival, Host, Report, WorkId, prepare};
-use epipole_lab::tasks::compute;
+use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::tasks::{Branch, Told, compute};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, OnceLock};
@@ -34,6 +34,12 @@ fn read(paths: &[PathBuf]) -> Vec<Arrival> {
     let mut arrivals = Vec::new();
     let mut photographs = Vec::new();
     for path in paths {
+        if is_video(path) {
+            let sentence =
+                "Videos open in the Lab in a browser: their frames become photographs there.";
+            arrivals.push(Arrival::News(sentence.to_owned()));
+            continue;
+        }
         let bytes = std::fs::read(path).unwrap_or_default();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.to_lowercase().ends_with(".zip") {
@@ -46,6 +52,12 @@ fn read(paths: &[PathBuf]) -> Vec<Arrival> {
         arrivals.push(Arrival::Photographs(photographs));
     }
     arrivals
+}
+
+fn is_video(path: &Path) -> bool {
+    const ENDINGS: [&str; 7] = ["mp4", "m4v", "mov", "webm", "mkv", "ogv", "avi"];
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    ENDINGS.contains(&ending.to_lowercase().as_str())
 }
 
 struct Window {
@@ -75,15 +87,18 @@ impl Host for Window {
         *COUNT.get_or_init(|| std::thread::available_parallelism().map_or(2, usize::from))
     }
 
-    fn start(&mut self, work: WorkId, request: Vec<u8>) {
+    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
         let stop = Arc::new(AtomicBool::new(false));
         self.canceled.insert(work, Arc::clone(&stop));
         let (sender, context) = (self.sender.clone(), self.context.clone());
         std::thread::spawn(move || {
             // The window may be gone by now.
             let tell = |report| drop(sender.send(report));
-            let result = compute(&request, &mut |share, words| {
-                tell(Report::Progress(work, share, words.to_owned()));
+            let result = compute(&request, &mut |told| {
+                tell(match told {
+                    Told::Share(share, words) => Report::Progress(work, share, words.to_owned()),
+                    Told::SoFar(bytes) => Report::SoFar(work, bytes),
+                });
                 context.request_repaint();
                 match stop.load(Ordering::Relaxed) {
                     true => ControlFlow::Break(()),
@@ -123,6 +138,14 @@ impl Host for Window {
         false
     }
 
+    fn ask_for_camera(&mut self) -> bool {
+        false
+    }
+
+    fn ask_for_frames(&mut self, _video: u32, _num_parts: u32) {
+        // None ever arrives here.
+    }
+
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
         let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "zip"));
         let mut path = PathBuf::from(name);
@@ -137,6 +160,14 @@ impl Host for Window {
             Err(error) => Err(format!("{} could not be written: {error}", path.display())),
         }
     }
+
+    fn explain(&mut self, _about: About) {}
+
+    fn has_book(&self) -> bool {
+        false
+    }
+
+    fn address(&mut self, _link: &str) {}
 
     fn say(&mut self, _words: &str) {
         // The toolkit tells assistive technology itself.

@@ -1,12 +1,16 @@
 //! The whole of what is seen: a bar, the steps, the picture of a step and its knobs.
 
 use super::cloud::CloudView;
-use super::host::{Arrival, Host};
+use super::depth::DepthView;
+use super::host::{Host, Wish};
 use super::photo::{Lens, Pictures};
 use super::work::{Errand, Work};
-use super::{features, look, matches, measure, photographs, reconstruction, two_views};
+use super::{
+    calibrate, depth, features, intake, look, matches, measure, photographs, reconstruction, steps,
+    two_views,
+};
 use crate::project::{Event, Project, Settings, Step};
-use crate::tasks::{Request, Sample};
+use crate::tasks::Sample;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 
 /// Below this width, steps and knobs stand below each other.
@@ -17,9 +21,13 @@ const NARROW: f32 = 760.0;
 pub(super) struct Memory {
     pub(super) pictures: Pictures,
     pub(super) lenses: [Lens; 2],
+    pub(super) board: calibrate::BoardView,
     pub(super) cloud: CloudView,
+    pub(super) depth: DepthView,
     /// Knobs while they are held.
     pub(super) draft: Option<Settings>,
+    /// The step that the row of steps has in its middle.
+    pub(super) step: Option<Step>,
     /// The feature that was clicked.
     pub(super) feature: Option<usize>,
     /// The place that was clicked in the first photograph of a pair.
@@ -37,6 +45,7 @@ pub struct App<H> {
     work: Work,
     memory: Memory,
     said: String,
+    link: String,
     /// When that was found out: the revision, and the news.
     told_at: Option<(u64, Option<String>)>,
 }
@@ -58,6 +67,7 @@ impl<H: Host> App<H> {
             work: Work::default(),
             memory: Memory::default(),
             said: String::new(),
+            link: String::new(),
             told_at: None,
         }
     }
@@ -75,23 +85,7 @@ impl<H: Host> App<H> {
     /// Does what is to be done between two frames. True while something is under way.
     pub fn go_on(&mut self) -> bool {
         for arrival in self.host.arrivals() {
-            match arrival {
-                Arrival::Photographs(files) => {
-                    // One's own photographs take the place of the sample.
-                    let is_sample = |photo: &crate::project::Given| {
-                        matches!(photo.source, crate::tasks::Source::Rendered(..))
-                    };
-                    if self.project.document().photos.iter().all(is_sample) {
-                        self.project.update(Event::Clear);
-                    }
-                    self.project.update(Event::Add(files));
-                    self.project.update(Event::Show(Step::Photographs));
-                }
-                Arrival::Project(archive) => {
-                    let request = Request::Open { archive };
-                    self.work.run(Errand::Open, &request, &mut self.host);
-                }
-            }
+            intake::take(arrival, &mut self.project, &mut self.work, &mut self.host);
         }
         self.work.go_on(&mut self.project, &mut self.host);
         let now = (self.project.revision(), self.work.news.clone());
@@ -107,6 +101,11 @@ impl<H: Host> App<H> {
             self.host.say(&words);
             self.said = words;
         }
+        let link = self.project.link();
+        if link != self.link {
+            self.host.address(&link);
+            self.link = link;
+        }
         self.work.is_busy()
     }
 
@@ -115,10 +114,10 @@ impl<H: Host> App<H> {
         let mut events = Vec::new();
         self.keys(ui, &mut events);
         let narrow = ui.available_width() < NARROW;
-        Panel::top("bar").show(ui, |ui| self.bar(ui, &mut events));
+        Panel::top("bar").show(ui, |ui| self.bar(ui, narrow, &mut events));
         if narrow {
             Panel::top("steps in a row").show(ui, |ui| {
-                ui.horizontal_wrapped(|ui| self.steps(ui, &mut events));
+                steps::row(&self.project, &mut self.memory.step, ui, &mut events);
             });
             let height = ui.available_height();
             Panel::bottom("knobs below")
@@ -132,7 +131,7 @@ impl<H: Host> App<H> {
                 .resizable(false)
                 .show(ui, |ui| {
                     ui.add_space(6.0);
-                    self.steps(ui, &mut events);
+                    steps::column(&self.project, ui, &mut events);
                 });
             Panel::right("knobs")
                 .exact_size(316.0)
@@ -163,11 +162,18 @@ impl<H: Host> App<H> {
         });
     }
 
-    fn bar(&mut self, ui: &mut Ui, events: &mut Vec<Event>) {
+    fn bar(&mut self, ui: &mut Ui, narrow: bool, events: &mut Vec<Event>) {
         ui.add_space(3.0);
         ui.horizontal_wrapped(|ui| {
-            ui.heading("Lab");
-            if ui.button("Add photographs…").clicked() && !self.host.ask_for_photographs() {
+            let add = match self.project.view().step {
+                _ if narrow => "Add…",
+                Step::Calibrate => "Add photographs of a board…",
+                _ => "Add photographs…",
+            };
+            if !narrow {
+                ui.heading("Lab");
+            }
+            if ui.button(add).clicked() && !self.host.ask_for_photographs() {
                 self.work.news = Some("Drop photographs onto this window.".to_owned());
             }
             ui.menu_button("Samples", |ui| {
@@ -216,26 +222,19 @@ impl<H: Host> App<H> {
                 });
             } else if paused {
                 ui.weak("stopped");
-            } else if let Some(news) = &self.work.news {
+            }
+            if let Some(news) = &self.work.news {
                 ui.weak(news);
             }
         });
         ui.add_space(3.0);
     }
 
-    fn steps(&self, ui: &mut Ui, events: &mut Vec<Event>) {
-        for step in Step::ALL {
-            let current = self.project.view().step == step;
-            let text = egui::RichText::new(step.title());
-            let label = ui.selectable_label(current, text);
-            if label.clicked() {
-                events.push(Event::Show(step));
-            }
-        }
-    }
-
     fn picture(&mut self, ui: &mut Ui, events: &mut Vec<Event>) {
         let (project, memory) = (&self.project, &mut self.memory);
+        if project.view().step == Step::Calibrate {
+            return calibrate::picture(project, memory, ui, events);
+        }
         if project.document().photos.is_empty() {
             ui.centered_and_justified(|ui| {
                 ui.label("Add photographs of one thing from different places, or open a sample.")
@@ -243,11 +242,14 @@ impl<H: Host> App<H> {
             return;
         }
         match project.view().step {
-            Step::Photographs => photographs::picture(project, memory, ui, events),
+            Step::Photographs | Step::Calibrate => {
+                photographs::picture(project, memory, ui, events)
+            }
             Step::Features => features::picture(project, memory, ui),
             Step::Matches => matches::picture(project, ui, events),
             Step::TwoViews => two_views::picture(project, memory, ui),
             Step::Reconstruction | Step::Export => reconstruction::picture(project, memory, ui),
+            Step::Depth => depth::picture(project, memory, ui),
             Step::Measure => measure::picture(project, memory, ui, events),
         }
     }
@@ -255,25 +257,57 @@ impl<H: Host> App<H> {
     fn knobs(&mut self, ui: &mut Ui, events: &mut Vec<Event>) {
         let (project, memory) = (&self.project, &mut self.memory);
         let step = project.view().step;
-        let mut export = false;
+        let (mut export, mut explain) = (false, false);
+        let mut wish = None;
+        let has_book = self.host.has_book();
         ScrollArea::vertical()
             .id_salt(step)
             .auto_shrink(false)
             .show(ui, |ui| {
                 ui.add_space(6.0);
-                ui.heading(step.title());
+                ui.horizontal_wrapped(|ui| {
+                    ui.heading(step.title());
+                    if has_book && ui.button("What is this?").clicked() {
+                        explain = true;
+                    }
+                });
                 match step {
-                    Step::Photographs => photographs::knobs(project, memory, ui, events),
+                    Step::Photographs => wish = photographs::knobs(project, memory, ui, events),
+                    Step::Calibrate => wish = calibrate::knobs(project, memory, ui, events),
                     Step::Features => features::knobs(project, memory, ui, events),
                     Step::Matches => matches::knobs(project, memory, ui, events),
                     Step::TwoViews => two_views::knobs(project, memory, ui, events),
                     Step::Reconstruction => reconstruction::knobs(project, memory, ui, events),
+                    Step::Depth => depth::knobs(project, memory, ui, events),
                     Step::Measure => measure::knobs(project, memory, ui, events),
                     Step::Export => export = self::export(project, ui),
                 }
             });
+        if let Some(wish) = wish {
+            self.grant(wish);
+        }
+        if explain {
+            self.host.explain(step.about());
+        }
         if export && let Some(request) = self.project.export_request() {
             self.work.run(Errand::Export, &request, &mut self.host);
+        }
+    }
+
+    fn grant(&mut self, wish: Wish) {
+        match wish {
+            Wish::TakePhotographs => {
+                if !self.host.ask_for_camera() {
+                    self.work.news = Some("The Lab in a browser takes photographs.".to_owned());
+                }
+            }
+            Wish::SaveCamera => {
+                if let Some(text) = self.project.camera_json() {
+                    let saved = self.host.save("camera.json", text.into_bytes());
+                    let (Ok(sentence) | Err(sentence)) = saved;
+                    self.work.news = Some(sentence);
+                }
+            }
         }
     }
 }
@@ -288,7 +322,8 @@ fn export(project: &Project, ui: &mut Ui) -> bool {
     ui.label(
         "It holds images/ and sparse/0/ as COLMAP's text model, which other programs open; \
          points.ply, the points with their colors; reconstruction.json, as the command line prints \
-         it; and the command that does the same.",
+         it; and the command that does the same. With the depth of pairs also dense.ply and depth/, a \
+         PFM file each.",
     );
     ui.weak(match project.scale() {
         Some(_) => "Lengths are meters, by the length that you measured.",

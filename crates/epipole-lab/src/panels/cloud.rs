@@ -1,14 +1,17 @@
 //! Cameras and points in space: turned, moved, enlarged by mouse, fingers and keys.
 
 use super::look;
-use super::marks::{frustum, rays};
-use crate::project::{Key, Project};
+use super::marks::{frustum, rays, standing};
+use super::photo::reduced_rgb;
+use crate::project::{Given, Key, Project};
 use crate::tasks::Component;
 use egui::{
     ColorImage, Key as KeyName, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2,
 };
 use epipole_widgets::cloud::{Frame, Look, Orbit, Scene};
 use epipole_widgets::theme::{Role, Theme};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What the color of a point says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,6 +32,10 @@ struct Made {
     component: usize,
     coloring: Coloring,
     theme: Theme,
+    photographs: bool,
+    /// How many cameras there are while there are not all.
+    growing: Option<usize>,
+    dense: Vec<Key>,
 }
 
 /// What the last frame shows.
@@ -41,19 +48,48 @@ struct Drawn {
 }
 
 /// The view of a reconstruction, kept between frames.
-#[derive(Default)]
 pub(super) struct CloudView {
     pub(super) coloring: Coloring,
+    /// Whether frusta carry their photographs.
+    pub(super) photographs: bool,
     /// The point that was clicked.
     pub(super) point: Option<usize>,
     made: Option<Made>,
     orbit: Option<Orbit>,
     scene: Scene,
     num_fixed_lines: usize,
+    /// Photographs, small, for their frusta.
+    small: BTreeMap<Key, Small>,
     frame: Frame,
     texture: Option<TextureHandle>,
     drawn: Option<Drawn>,
 }
+
+/// Width and height, and the pixels.
+type Small = ([usize; 2], Arc<[u8]>);
+
+impl Default for CloudView {
+    fn default() -> Self {
+        Self {
+            coloring: Coloring::default(),
+            photographs: true,
+            point: None,
+            made: None,
+            orbit: None,
+            scene: Scene::default(),
+            num_fixed_lines: 0,
+            small: BTreeMap::new(),
+            frame: Frame::default(),
+            texture: None,
+            drawn: None,
+        }
+    }
+}
+
+/// The longer side of a photograph in the space, pixels.
+const SMALL_SIDE: u32 = 256;
+/// So many points of the dense depth of all pairs are shown.
+const MAX_DENSE: usize = 1_000_000;
 
 /// A frame of so many points is drawn while something moves.
 const MAX_MOVING: usize = 150_000;
@@ -61,8 +97,8 @@ const MAX_MOVING: usize = 150_000;
 impl CloudView {
     /// Shows the part that is looked at. Returns the point that was clicked, if one was.
     pub(super) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
-        let (Some(component), Some(key)) = (project.component(), project.key_of_reconstruction())
-        else {
+        let shown = project.component().or(project.growing());
+        let (Some(component), Some(key)) = (shown, project.key_of_reconstruction()) else {
             return None;
         };
         self.make(project, component, key, look::theme(ui));
@@ -100,6 +136,8 @@ impl CloudView {
         }
         let at = (response.interact_pointer_pos()? - rect.min) * pixels;
         let found = self.frame.pick(f64::from(at.x), f64::from(at.y), 6);
+        // Points of every pixel are seen from one pair, and that is all there is to say of them.
+        let found = found.filter(|point| *point < component.points.len());
         self.point = found;
         found
     }
@@ -125,14 +163,21 @@ impl CloudView {
             component: project.view().component,
             coloring: self.coloring,
             theme,
+            photographs: self.photographs,
+            growing: (project.component().is_none()).then(|| component.num_registered()),
+            dense: project.dense_pairs().iter().map(|(key, ..)| *key).collect(),
         };
         if self.made.as_ref() == Some(&made) {
             return;
         }
-        let same_place = self
-            .made
-            .as_ref()
-            .is_some_and(|before| before.key == made.key && before.component == made.component);
+        let same_place = self.made.as_ref().is_some_and(|before| {
+            (before.key, before.component, before.growing)
+                == (made.key, made.component, made.growing)
+        });
+        // While it grows it is seen from the same side.
+        let side = (self.made.as_ref())
+            .filter(|before| before.growing.is_some() && before.key == made.key)
+            .and(self.orbit);
         self.scene.points.clear();
         self.scene
             .points
@@ -144,6 +189,7 @@ impl CloudView {
                 };
                 (point.position.map(|x| x as f32), color)
             }));
+        self.add_dense(project);
         let mut sum = nalgebra::Vector3::zeros();
         for camera in component.cameras.iter().flatten() {
             let [_, _, cu, cv] = camera.intrinsics;
@@ -151,12 +197,17 @@ impl CloudView {
             sum += down.normalize();
         }
         if !same_place || self.orbit.is_none() {
-            self.orbit = Some(Orbit::around(&self.scene, sum.into()));
+            let mut orbit = Orbit::around(&self.scene, sum.into());
+            if let Some(before) = side {
+                (orbit.yaw_rad, orbit.pitch_rad) = (before.yaw_rad, before.pitch_rad);
+            }
+            self.orbit = Some(orbit);
             self.point = None;
         }
-        let reach = self.orbit.map_or(1.0, |orbit| orbit.distance) * 0.05;
+        let reach = self.orbit.map_or(1.0, |orbit| orbit.distance) * 0.06;
         let color = theme.color(Role::Series(1));
         self.scene.lines.clear();
+        self.scene.pictures.clear();
         for (photo, camera) in project.taking_part().iter().zip(&component.cameras) {
             if let (Some(camera), Some(size)) = (camera, project.camera(photo)) {
                 frustum(
@@ -166,11 +217,43 @@ impl CloudView {
                     reach,
                     color,
                 );
+                if self.photographs
+                    && let Some(small) = self.small(project, photo)
+                {
+                    let picture = standing(camera, (size.width, size.height), reach, small);
+                    self.scene.pictures.push(picture);
+                }
             }
         }
         self.num_fixed_lines = self.scene.lines.len();
         self.made = Some(made);
         self.drawn = None;
+    }
+
+    /// Adds the points of every pixel after those that photographs share.
+    fn add_dense(&mut self, project: &Project) {
+        let pairs = project.dense_pairs();
+        let all: f64 = (pairs.iter())
+            .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
+            .sum();
+        let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
+        for (.., pair) in pairs {
+            let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
+            self.scene.points.extend(pair.points(every).map(plain));
+        }
+    }
+
+    fn small(&mut self, project: &Project, photo: &Given) -> Option<Small> {
+        let key = project.key_of_photograph(photo);
+        if let Some(small) = self.small.get(&key) {
+            return Some(small.clone());
+        }
+        let pixels = project.photograph(photo)?;
+        let factor = pixels.width.max(pixels.height).div_ceil(SMALL_SIDE).max(1);
+        let (size, rgb) = reduced_rgb(pixels, factor);
+        let small = (size, rgb.into());
+        self.small.insert(key, small);
+        self.small.get(&key).cloned()
     }
 
     fn draw(

@@ -1,6 +1,7 @@
 //! What the Lab asks of the place where it runs: a window or a page.
 
-use crate::tasks::Blob;
+use super::About;
+use crate::tasks::{Blob, Branch};
 
 /// The number of a piece of work.
 pub type WorkId = u64;
@@ -10,6 +11,8 @@ pub type WorkId = u64;
 pub enum Report {
     /// How far a piece of work is, and what it does.
     Progress(WorkId, f32, String),
+    /// What a piece of work has so far.
+    SoFar(WorkId, Vec<u8>),
     /// A piece of work has come to its end.
     Done(WorkId, Result<Vec<u8>, String>),
 }
@@ -21,14 +24,31 @@ pub enum Arrival {
     Photographs(Vec<(String, Blob)>),
     /// A project.
     Project(Blob),
+    /// The parameters of an address: a step, a sample, knobs.
+    Link(Vec<(String, String)>),
+    /// A video of this number, which waits for [`Host::ask_for_frames`].
+    Video(u32),
+    /// Of a video of this number and name: some frames of each of its parts.
+    Frames(u32, String, Vec<Vec<Blob>>),
+    /// Nothing, and a sentence why; or how far it is.
+    News(String),
+}
+
+/// What a panel asks for that only the place where it runs can do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wish {
+    /// Give the reader a file with the calibrated camera.
+    SaveCamera,
+    /// Take photographs with the camera of the machine.
+    TakePhotographs,
 }
 
 /// A place where the Lab runs.
 pub trait Host {
     /// How many pieces of work can be done at once.
     fn capacity(&self) -> usize;
-    /// Starts a piece of work.
-    fn start(&mut self, work: WorkId, request: Vec<u8>);
+    /// Starts a piece of work, which needs the code of one branch.
+    fn start(&mut self, work: WorkId, branch: Branch, request: Vec<u8>);
     /// Ends a piece of work that nobody wants any more. It may be done all the same.
     fn cancel(&mut self, work: WorkId);
     /// What has been told since this was asked last.
@@ -39,8 +59,18 @@ pub trait Host {
     fn ask_for_photographs(&mut self) -> bool;
     /// Asks the reader for a project. False likewise.
     fn ask_for_project(&mut self) -> bool;
+    /// Lets the reader take photographs with the camera of the machine. False where there is no way.
+    fn ask_for_camera(&mut self) -> bool;
+    /// Cuts a video that has arrived into so many parts of equal length, and brings some frames of each.
+    fn ask_for_frames(&mut self, video: u32, num_parts: u32);
     /// Gives the reader a file.
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
     /// What is to be seen now, for whoever does not see it.
     fn say(&mut self, words: &str);
+    /// Shows the figure of the book that explains a step.
+    fn explain(&mut self, about: About);
+    /// Whether there is a book to show it from.
+    fn has_book(&self) -> bool;
+    /// The parameters that bring back what is to be seen now, for an address.
+    fn address(&mut self, link: &str);
 }

@@ -2,7 +2,8 @@
 
 use crate::project::Project;
 use crate::tasks::{CameraFound, Component};
-use epipole_widgets::cloud::Line;
+use epipole_widgets::cloud::{Line, Picture};
+use std::sync::Arc;
 
 /// The edges of a camera's view, so far out.
 pub(super) fn frustum(
@@ -29,6 +30,25 @@ pub(super) fn frustum(
             to,
             color,
         });
+    }
+}
+
+/// The pixels of a photograph where its camera's frustum ends.
+pub(super) fn standing(
+    camera: &CameraFound,
+    (width, height): (u32, u32),
+    reach: f64,
+    (size, rgb): ([usize; 2], Arc<[u8]>),
+) -> Picture {
+    let place = |pixel| camera.center() + camera.ray(pixel) * reach;
+    let corner = place([-0.5, -0.5]);
+    let side = |pixel| (place(pixel) - corner).map(|x| x as f32).into();
+    Picture {
+        corner: plain(&corner),
+        right: side([f64::from(width) - 0.5, -0.5]),
+        down: side([-0.5, f64::from(height) - 0.5]),
+        size: size.into(),
+        rgb,
     }
 }
 

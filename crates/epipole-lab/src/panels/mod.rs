@@ -1,9 +1,13 @@
 //! What is seen, in egui. A panel asks the project and sends it events; it computes nothing but layout.
 
+mod about;
 mod app;
+mod calibrate;
 mod cloud;
+mod depth;
 mod features;
 mod host;
+mod intake;
 mod knobs;
 mod look;
 mod marks;
@@ -12,8 +16,10 @@ mod measure;
 mod photo;
 mod photographs;
 mod reconstruction;
+mod steps;
 mod two_views;
 mod work;
 
+pub use about::About;
 pub use app::{App, prepare};
 pub use host::{Arrival, Host, Report, WorkId};

@@ -51,10 +51,15 @@ impl Pictures {
     }
 }
 
-/// Every block of so many pixels a side as their mean.
 fn reduced(photograph: &Photograph, factor: u32) -> ColorImage {
+    let (size, rgb) = reduced_rgb(photograph, factor);
+    ColorImage::from_rgb(size, &rgb)
+}
+
+/// Every block of so many pixels a side as their mean: width and height, and red, green, blue, row by row.
+pub(super) fn reduced_rgb(photograph: &Photograph, factor: u32) -> ([usize; 2], Vec<u8>) {
     let (width, height) = (photograph.width / factor, photograph.height / factor);
-    let mut pixels = Vec::with_capacity((width * height) as usize);
+    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
     for row in 0..height {
         for column in 0..width {
             let mut sum = [0_u32; 3];
@@ -67,11 +72,10 @@ fn reduced(photograph: &Photograph, factor: u32) -> ColorImage {
                     }
                 }
             }
-            let [r, g, b] = sum.map(|total| (total / (factor * factor)) as u8);
-            pixels.push(Color32::from_rgb(r, g, b));
+            pixels.extend(sum.map(|total| (total / (factor * factor)) as u8));
         }
     }
-    ColorImage::new([width as usize, height as usize], pixels)
+    ([width as usize, height as usize], pixels)
 }
 
 /// How a reader looks at a photograph.

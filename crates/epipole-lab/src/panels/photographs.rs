@@ -1,9 +1,10 @@
 //! The photographs: what they are, what became of them, which take part.
 
 use super::app::Memory;
+use super::host::Wish;
 use super::knobs;
 use super::look;
-use crate::project::{Event, Fate, FocalOrigin, Given, Project};
+use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project};
 use egui::{DragValue, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_widgets::theme::Role;
 
@@ -74,7 +75,13 @@ fn card(
 }
 
 /// Size, focal length, fate of the one that is looked at, and of all that are left out.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+pub(super) fn knobs(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) -> Option<Wish> {
+    let taken = ui.button("Take photographs…").clicked();
     if let Some(photo) = project.document().photo(project.view().photo) {
         one(project, ui, photo, events);
         ui.separator();
@@ -92,10 +99,14 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     }
     knobs::edit(project, memory, events, |settings| {
         let size = Slider::new(&mut settings.max_megapixels, 0.1..=12.0).logarithmic(true);
-        knobs::slider(ui, "Reduce to at most, megapixels", size.max_decimals(1))
+        let turned = knobs::slider(ui, "Reduce to at most, megapixels", size.max_decimals(1));
+        let frames = Slider::new(&mut settings.num_frames, 2..=MAX_FRAMES);
+        turned.max(knobs::slider(ui, "Frames of a video", frames))
     });
+    ui.weak("A video may stand for photographs: of so many equal parts, the sharpest frame of each is taken.");
     ui.weak("Nothing is uploaded: photographs stay on this machine.");
     knobs::book(ui, "What a photograph can tell", "rays.html");
+    taken.then_some(Wish::TakePhotographs)
 }
 
 fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
@@ -113,11 +124,12 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
         knobs::row(ui, "size", size);
         let origin = match project.focal_origin(photo) {
             Some(FocalOrigin::Typed) => "typed",
+            Some(FocalOrigin::Calibration) => "from the calibration, which also undid its lens",
             Some(FocalOrigin::File) => "from the file",
             _ => "guessed: 1.2 times the longer side",
         };
         let factor = f64::from(width) / f64::from(pixels.width.max(1));
-        let mut focal_px = camera.focal_px * factor;
+        let mut focal_px = camera.k[0] * factor;
         ui.horizontal_wrapped(|ui| {
             let label = ui.label("focal length, px");
             let field = DragValue::new(&mut focal_px)
@@ -131,6 +143,14 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
             }
         });
         ui.weak(origin);
+        if let Some(camera) = &project.document().camera
+            && camera.size != pixels.full_size
+        {
+            let (width, height) = camera.size;
+            ui.weak(format!(
+                "The calibrated camera is of {width} × {height} pixels, so it is not used here."
+            ));
+        }
         if photo.focal_px.is_some() && ui.button("Forget what I typed").clicked() {
             events.push(Event::Focal(photo.id, None));
         }

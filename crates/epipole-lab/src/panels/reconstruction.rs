@@ -11,7 +11,7 @@ use epipole_widgets::theme::Role;
 
 /// The space.
 pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
-    if project.component().is_none() {
+    if project.component().or(project.growing()).is_none() {
         ui.label(project.describe());
         return;
     }
@@ -41,6 +41,10 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             ui.radio_value(&mut memory.cloud.coloring, coloring, name);
         }
     });
+    ui.checkbox(
+        &mut memory.cloud.photographs,
+        "photographs in front of their cameras",
+    );
     match memory.cloud.coloring {
         Coloring::Photographs => {}
         Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),

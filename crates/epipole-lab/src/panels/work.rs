@@ -1,7 +1,8 @@
 //! Which pieces of work are under way: as many as the host can do, only what is wanted.
 
 use super::host::{Host, Report, WorkId};
-use crate::project::{About, Event, Project, Task};
+use super::intake;
+use crate::project::{About, Event, Project, Task, count};
 use crate::tasks::{Answer, Blob, Request};
 
 /// Work beside the project's own.
@@ -13,6 +14,8 @@ pub(super) enum Errand {
     Save,
     /// A project to open.
     Open,
+    /// The sharpest frames of the video of this number.
+    Frames(u32),
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -82,7 +85,7 @@ impl Work {
             share: 0.0,
             words: String::new(),
         });
-        host.start(self.last, request.to_bytes());
+        host.start(self.last, request.branch(), request.to_bytes());
     }
 
     /// Starts an errand, unless one of its kind is under way.
@@ -100,6 +103,15 @@ impl Work {
                 if let Some(running) = self.running.iter_mut().find(|running| running.id == id) {
                     running.share = share;
                     running.words = words;
+                }
+            }
+            Report::SoFar(id, bytes) => {
+                let of_task = |running: &Running| match &running.what {
+                    What::Task(task) if running.id == id => Some(task.key),
+                    _ => None,
+                };
+                if let Some(key) = self.running.iter().find_map(of_task) {
+                    project.so_far(key, &bytes);
                 }
             }
             Report::Done(id, result) => {
@@ -132,8 +144,15 @@ impl Work {
                 About::Matches(..) => "Matching pairs".to_owned(),
                 About::TwoViews(..) => "Judging pairs".to_owned(),
                 About::Reconstruction => "Reconstructing".to_owned(),
+                About::Depth(..) => "Depth of a pair".to_owned(),
+                About::Board(id) => {
+                    let board = project.document().board(id);
+                    format!("Board in {}", board.map_or("", |photo| &photo.name))
+                }
+                About::Calibration => "Calibrating".to_owned(),
             },
             What::Errand(Errand::Export | Errand::Save) => "Writing the file".to_owned(),
+            What::Errand(Errand::Frames(_)) => "Frames of a video".to_owned(),
             What::Errand(Errand::Open) => "Opening the project".to_owned(),
         };
         if !first.words.is_empty() {
@@ -167,6 +186,11 @@ fn finish(
         ) => {
             project.update(Event::OpenProject(saved, files));
             "The project is open.".to_owned()
+        }
+        (Errand::Frames(_), Ok(Answer::Frames(files))) => {
+            let words = format!("{} were taken from the video.", count(files.len(), "frame"));
+            intake::photographs(project, files);
+            words
         }
         (_, Ok(_)) => "an answer came that nobody asked for".to_owned(),
     }

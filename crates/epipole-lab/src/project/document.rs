@@ -1,7 +1,10 @@
 //! What a project is made of, and what undo brings back: photographs, knobs, measures.
 
 use super::keys::Key;
-use crate::tasks::{FeatureOptions, MatchOptions, PairOptions, Sample, SfmOptions, Source};
+use crate::tasks::{
+    BoardPattern, CalibrationOptions, DepthOptions, FeatureOptions, LensCamera, MatchOptions,
+    PairOptions, Sample, SfmOptions, Source,
+};
 use serde::{Deserialize, Serialize};
 
 /// A photograph's permanent number in its project.
@@ -50,6 +53,19 @@ pub struct Settings {
     pub sfm: SfmOptions,
     /// When focal lengths are refined.
     pub refine_focal: RefineFocal,
+    /// How the depth of pairs is found.
+    #[serde(default)]
+    pub depth: DepthOptions,
+    /// How the camera is calibrated.
+    #[serde(default)]
+    pub calibration: CalibrationOptions,
+    /// How many frames of a video become photographs.
+    #[serde(default = "usual_num_frames")]
+    pub num_frames: u32,
+}
+
+fn usual_num_frames() -> u32 {
+    20
 }
 
 impl Default for Settings {
@@ -61,9 +77,21 @@ impl Default for Settings {
             pairs: PairOptions::default(),
             sfm: SfmOptions::default(),
             refine_focal: RefineFocal::WhenGuessed,
+            depth: DepthOptions::default(),
+            calibration: CalibrationOptions::default(),
+            num_frames: usual_num_frames(),
         }
     }
 }
+
+/// The largest disparity that can be asked for, pixels.
+pub const MAX_DISPARITY_PX: i32 = 8192;
+/// As many frames as a video may give.
+pub const MAX_FRAMES: u32 = 60;
+/// As many columns and rows as a board may have.
+pub const MAX_MARKS: u32 = 100;
+/// The least and the greatest side of a square, meters.
+pub const SQUARES_M: [f64; 2] = [1e-4, 100.0];
 
 /// The value within the range, and the lowest for one that is not a number.
 fn within(value: f64, low: f64, high: f64) -> f64 {
@@ -80,6 +108,20 @@ impl Settings {
         self.matching.ratio = within(f64::from(self.matching.ratio), 0.3, 1.0) as f32;
         self.pairs.max_error_px = within(self.pairs.max_error_px, 0.1, 10.0);
         self.sfm.min_num_inliers = self.sfm.min_num_inliers.clamp(6, 200);
+        if let Some([low, high]) = &mut self.depth.range_px {
+            *low = (*low).clamp(0, MAX_DISPARITY_PX - 1);
+            *high = (*high).clamp(*low + 1, MAX_DISPARITY_PX.min(*low + 4095));
+        }
+        self.num_frames = self.num_frames.clamp(2, MAX_FRAMES);
+        let board = &mut self.calibration.board;
+        let fewest = match board.pattern {
+            BoardPattern::Chessboard => 3,
+            BoardPattern::Circles => 2,
+        };
+        board.columns = board.columns.clamp(fewest, MAX_MARKS);
+        board.rows = board.rows.clamp(3, MAX_MARKS);
+        let [least, most] = SQUARES_M;
+        self.calibration.square_m = within(self.calibration.square_m, least, most);
         self
     }
 }
@@ -111,12 +153,35 @@ pub struct Document {
     pub settings: Settings,
     /// What was measured.
     pub measures: Vec<Measure>,
+    /// Pairs whose depth is part of the cloud.
+    pub dense: Vec<(PhotoId, PhotoId)>,
+    /// Photographs of a board, in order.
+    pub boards: Vec<Given>,
+    /// The calibrated camera of those photographs that have its size.
+    pub camera: Option<LensCamera>,
 }
 
 impl Document {
     /// The photograph of this number.
     pub fn photo(&self, id: PhotoId) -> Option<&Given> {
         self.photos.iter().find(|photo| photo.id == id)
+    }
+
+    /// The photograph of a board of this number.
+    pub fn board(&self, id: PhotoId) -> Option<&Given> {
+        self.boards.iter().find(|photo| photo.id == id)
+    }
+
+    /// Both photographs, as they stand in the list.
+    pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&Given, &Given)> {
+        let place = |id| self.photos.iter().position(|photo| photo.id == id);
+        let (one, two) = (place(a)?, place(b)?);
+        (one != two).then(|| (&self.photos[one.min(two)], &self.photos[one.max(two)]))
+    }
+
+    /// Whether the depth of a pair is part of the cloud.
+    pub fn is_dense(&self, (a, b): (PhotoId, PhotoId)) -> bool {
+        self.dense.contains(&(a, b)) || self.dense.contains(&(b, a))
     }
 
     /// The same photograph earlier in the list, if there is one.

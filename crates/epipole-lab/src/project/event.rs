@@ -9,6 +9,8 @@ use crate::tasks::{Blob, Sample};
 pub enum Step {
     /// The photographs.
     Photographs,
+    /// Their camera, from photographs of a board.
+    Calibrate,
     /// Their features.
     Features,
     /// All pairs.
@@ -17,6 +19,8 @@ pub enum Step {
     TwoViews,
     /// Cameras and points.
     Reconstruction,
+    /// Every pixel of one pair.
+    Depth,
     /// Lengths.
     Measure,
     /// Files.
@@ -25,12 +29,14 @@ pub enum Step {
 
 impl Step {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Photographs,
+        Self::Calibrate,
         Self::Features,
         Self::Matches,
         Self::TwoViews,
         Self::Reconstruction,
+        Self::Depth,
         Self::Measure,
         Self::Export,
     ];
@@ -39,10 +45,12 @@ impl Step {
     pub fn title(self) -> &'static str {
         match self {
             Self::Photographs => "Photographs",
+            Self::Calibrate => "Calibrate",
             Self::Features => "Features",
             Self::Matches => "Matches",
             Self::TwoViews => "Two views",
             Self::Reconstruction => "Reconstruction",
+            Self::Depth => "Depth",
             Self::Measure => "Measure",
             Self::Export => "Export",
         }
@@ -54,15 +62,23 @@ impl Step {
 pub enum Event {
     /// Gave photographs: names and files.
     Add(Vec<(String, Blob)>),
-    /// Asked for a sample in place of everything.
+    /// Gave photographs of a board, likewise.
+    AddBoards(Vec<(String, Blob)>),
+    /// Asked for the sample of a board in place of all boards.
+    OpenBoards,
+    /// Removed all photographs of boards.
+    ClearBoards,
+    /// Made the camera that was found from boards that of the photographs of its size; or gave it up.
+    UseCalibration(bool),
+    /// Asked for a sample in place of all photographs.
     OpenSample(Sample),
     /// Opened a project in place of everything, with the names and bytes of its files.
     OpenProject(Saved, Vec<(String, Blob)>),
-    /// Removed a photograph.
+    /// Removed a photograph, which may be of a board.
     Remove(PhotoId),
-    /// Removed everything.
+    /// Removed all photographs, but for those of boards.
     Clear,
-    /// Left a photograph out, or took it in again.
+    /// Left a photograph out, or took it in again; it may be of a board.
     Exclude(PhotoId, bool),
     /// Typed a focal length, pixels of the full photograph, or took it back.
     Focal(PhotoId, Option<f64>),
@@ -76,13 +92,15 @@ pub enum Event {
     Length(usize, Option<f64>),
     /// Removed a measure.
     Forget(usize),
+    /// Took the depth of a pair into the cloud, or out of it.
+    Dense(PhotoId, PhotoId, bool),
     /// Took back the last change.
     Undo,
     /// Brought it back.
     Redo,
     /// Looks at a step.
     Show(Step),
-    /// Looks at a photograph.
+    /// Looks at a photograph, which may be of a board.
     Look(PhotoId),
     /// Looks at a pair.
     LookAtPair(PhotoId, PhotoId),

@@ -176,6 +176,11 @@ impl CameraFound {
         rotation.transpose() * Vector3::new((pixel[0] - cu) / fu, (pixel[1] - cv) / fv, 1.0)
     }
 
+    /// How far in front of the camera a place is, along its axis; negative behind it.
+    pub fn depth(&self, position: [f64; 3]) -> f64 {
+        in_camera(self, &Point3::from(position)).1.z
+    }
+
     /// The pixel that shows a place, with radial distortion; `None` behind the camera.
     pub fn project(&self, position: [f64; 3], distortion: [f64; 2]) -> Option<[f64; 2]> {
         let (_, p) = in_camera(self, &Point3::from(position));

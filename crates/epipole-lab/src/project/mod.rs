@@ -4,11 +4,15 @@
 //! State changes only by [`Project::update`] and [`Project::done`]. [`Project::wanted`] says what there
 //! is to compute, and whoever can compute asks [`Project::request`] for the bytes.
 
+mod calibration;
+mod calibration_words;
 mod document;
 mod event;
 mod fate;
 mod keys;
+mod link;
 mod measure;
+mod pairs;
 mod results;
 mod saved;
 mod stages;
@@ -16,7 +20,11 @@ mod update;
 mod wanted;
 mod words;
 
-pub use document::{Anchor, Document, Given, Measure, PhotoId, RefineFocal, Settings};
+pub use calibration::BoardFate;
+pub use document::{
+    Anchor, Document, Given, MAX_DISPARITY_PX, MAX_FRAMES, MAX_MARKS, Measure, PhotoId,
+    RefineFocal, SQUARES_M, Settings,
+};
 pub use event::{Event, Step};
 pub use fate::Fate;
 pub use keys::Key;
@@ -25,8 +33,10 @@ pub use results::Results;
 pub use saved::{Saved, SavedPhoto, VERSION};
 pub use stages::FocalOrigin;
 pub use wanted::{About, Task};
+#[cfg(feature = "panels")]
+pub(crate) use words::count;
 
-use crate::tasks::Answer;
+use crate::tasks::{Answer, Component, Reconstructed};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -41,6 +51,8 @@ pub struct View {
     pub pair: (PhotoId, PhotoId),
     /// The part of the reconstruction.
     pub component: usize,
+    /// The photograph of a board.
+    pub board: PhotoId,
 }
 
 /// Everything that the Lab knows.
@@ -53,6 +65,8 @@ pub struct Project {
     future: Vec<Document>,
     next_id: PhotoId,
     paused: bool,
+    /// What there is of the reconstruction that is on its way.
+    growing: Option<(Key, Reconstructed)>,
     /// How often anything has changed.
     revision: u64,
     /// What became of photographs, found out once for each revision: panels ask with every frame.
@@ -68,12 +82,14 @@ impl Default for Project {
                 photo: 0,
                 pair: (0, 0),
                 component: 0,
+                board: 0,
             },
             results: Results::default(),
             past: Vec::new(),
             future: Vec::new(),
             next_id: 0,
             paused: false,
+            growing: None,
             revision: 0,
             fates: RefCell::default(),
         }
@@ -116,6 +132,9 @@ impl Project {
     pub fn done(&mut self, key: Key, result: Result<Vec<u8>, String>) {
         self.revision += 1;
         let size = result.as_ref().map_or(0, Vec::len);
+        if self.growing.as_ref().is_some_and(|(of, _)| *of == key) {
+            self.growing = None;
+        }
         match result.and_then(|bytes| Answer::from_bytes(&bytes)) {
             Ok(answer) => {
                 if !self.results.keep(key, answer, size) {
@@ -127,6 +146,21 @@ impl Project {
         }
         let needed = self.needed();
         self.results.tidy(|key| needed.contains(&key));
+    }
+
+    /// Takes what there is of a reconstruction that is on its way. Anything else is left alone.
+    pub fn so_far(&mut self, key: Key, bytes: &[u8]) {
+        if let Ok(Answer::Reconstruction(found)) = Answer::from_bytes(bytes) {
+            // The revision stays: nothing that is to be computed has changed.
+            self.growing = Some((key, found));
+        }
+    }
+
+    /// Cameras and points of the reconstruction that is on its way.
+    pub fn growing(&self) -> Option<&Component> {
+        let (key, found) = self.growing.as_ref()?;
+        let wanted = self.reconstruction_key() == Some(*key) && self.reconstruction().is_none();
+        found.components.first().filter(|_| wanted)
     }
 
     /// Why a result is missing for good.
@@ -152,6 +186,18 @@ impl Project {
             keys.extend(self.two_views_key(first, second));
         }
         keys.extend(self.reconstruction_key());
+        keys.extend(
+            self.document
+                .boards
+                .iter()
+                .map(|photo| self.board_key(photo)),
+        );
+        keys.extend(self.calibration_key());
+        for pair in self.document.dense.iter().chain([&self.view.pair]) {
+            if let Some((first, second)) = self.document.pair(*pair) {
+                keys.extend(self.depth_key(first, second));
+            }
+        }
         keys
     }
 }

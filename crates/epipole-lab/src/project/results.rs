@@ -1,7 +1,9 @@
 //! Results, kept by the key of their inputs, so that undo is instant.
 
 use super::keys::Key;
-use crate::tasks::{Answer, Features, Match, Photograph, Reconstructed, TwoViews};
+use crate::tasks::{
+    Answer, BoardFound, Calibration, Dense, Features, Match, Photograph, Reconstructed, TwoViews,
+};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -18,6 +20,12 @@ pub(super) enum Kept {
     TwoViews(Rc<TwoViews>),
     /// Cameras and points.
     Reconstruction(Rc<Reconstructed>),
+    /// Every pixel of a pair.
+    Depth(Rc<Dense>),
+    /// A board in a photograph.
+    Board(Rc<BoardFound>),
+    /// A camera from boards.
+    Calibration(Rc<Calibration>),
 }
 
 /// Results that nobody has asked for lately go when all take more than this.
@@ -41,7 +49,10 @@ impl Results {
             Answer::Matches(answer) => Kept::Matches(Rc::new(answer)),
             Answer::TwoViews(answer) => Kept::TwoViews(Rc::new(answer)),
             Answer::Reconstruction(answer) => Kept::Reconstruction(Rc::new(answer)),
-            Answer::Archive(_) | Answer::Opened { .. } => return false,
+            Answer::Depth(answer) => Kept::Depth(Rc::new(answer)),
+            Answer::Board(answer) => Kept::Board(Rc::new(answer)),
+            Answer::Calibration(answer) => Kept::Calibration(Rc::new(answer)),
+            Answer::Archive(_) | Answer::Opened { .. } | Answer::Frames(_) => return false,
         };
         self.failed.remove(&key);
         self.age += 1;
@@ -124,6 +135,30 @@ impl Results {
     pub fn reconstruction(&self, key: Key) -> Option<&Rc<Reconstructed>> {
         match self.get(key)? {
             Kept::Reconstruction(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The depth of this name.
+    pub fn depth(&self, key: Key) -> Option<&Rc<Dense>> {
+        match self.get(key)? {
+            Kept::Depth(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The board of this name.
+    pub fn board(&self, key: Key) -> Option<&Rc<BoardFound>> {
+        match self.get(key)? {
+            Kept::Board(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The calibration of this name.
+    pub fn calibration(&self, key: Key) -> Option<&Rc<Calibration>> {
+        match self.get(key)? {
+            Kept::Calibration(found) => Some(found),
             _ => None,
         }
     }

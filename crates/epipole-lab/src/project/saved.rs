@@ -1,13 +1,14 @@
 //! What is written of a project beside its photographs.
 
 use super::Project;
-use super::document::{Anchor, Document, Measure, PhotoId, Settings, content_of};
-use super::update::unique_name;
-use crate::tasks::{Blob, Packed, Request, Sample, Source};
+use super::document::{Anchor, Document, Given, Measure, PhotoId, Settings};
+use crate::tasks::{Blob, LensCamera, Packed, Request, Sample, Source};
 use serde::{Deserialize, Serialize};
 
 /// The version that is written.
 pub const VERSION: u32 = 1;
+/// The folder of files of boards.
+const BOARDS: &str = "boards/";
 
 /// A project without its photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -20,6 +21,15 @@ pub struct Saved {
     pub photos: Vec<SavedPhoto>,
     /// What was measured; photographs are named by their place.
     pub measures: Vec<Measure>,
+    /// Pairs whose depth is part of the cloud, likewise.
+    #[serde(default)]
+    pub dense: Vec<(PhotoId, PhotoId)>,
+    /// Photographs of a board, in order. Their files are in a folder of their own.
+    #[serde(default)]
+    pub boards: Vec<SavedPhoto>,
+    /// The calibrated camera that is used.
+    #[serde(default)]
+    pub camera: Option<LensCamera>,
 }
 
 /// A photograph of a saved project.
@@ -33,6 +43,20 @@ pub struct SavedPhoto {
     pub excluded: bool,
     /// The focal length that the reader typed, pixels.
     pub focal_px: Option<f64>,
+}
+
+impl SavedPhoto {
+    fn of(photo: &Given) -> Self {
+        Self {
+            name: photo.name.clone(),
+            rendered: match photo.source {
+                Source::File(_) => None,
+                Source::Rendered(sample, index) => Some((sample, index)),
+            },
+            excluded: photo.excluded,
+            focal_px: photo.focal_px,
+        }
+    }
 }
 
 /// The measure with the photographs of its ends renumbered.
@@ -61,26 +85,24 @@ impl Project {
         let project = Saved {
             version: VERSION,
             settings: self.document.settings.clone(),
-            photos: (photos.iter())
-                .map(|photo| SavedPhoto {
-                    name: photo.name.clone(),
-                    rendered: match photo.source {
-                        Source::File(_) => None,
-                        Source::Rendered(sample, index) => Some((sample, index)),
-                    },
-                    excluded: photo.excluded,
-                    focal_px: photo.focal_px,
-                })
-                .collect(),
+            photos: photos.iter().map(SavedPhoto::of).collect(),
             measures: measures.filter_map(|m| renumbered(m, place)).collect(),
+            dense: (self.document.dense.iter())
+                .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
+                .collect(),
+            boards: self.document.boards.iter().map(SavedPhoto::of).collect(),
+            camera: self.document.camera.clone(),
         };
-        let packed = |photo: &super::Given| Packed {
-            name: photo.name.clone(),
+        let packed = |photo: &Given, folder: &str| Packed {
+            name: format!("{folder}{}", photo.name),
             source: photo.source.clone(),
             used: None,
         };
+        let boards = self.document.boards.iter();
         Request::Save {
-            photographs: photos.iter().map(packed).collect(),
+            photographs: (photos.iter().map(|photo| packed(photo, "")))
+                .chain(boards.map(|photo| packed(photo, BOARDS)))
+                .collect(),
             project,
         }
     }
@@ -93,32 +115,51 @@ impl Project {
         };
         let mut numbers = Vec::new();
         for photo in saved.photos {
-            let file = || {
-                let file = files.iter().find(|(name, _)| *name == photo.name)?;
-                Some(Source::File(file.1.clone()))
-            };
-            let source = match photo.rendered {
-                Some((sample, index)) => Some(Source::Rendered(sample, index)),
-                None => file(),
-            };
-            let Some(source) = source else {
-                numbers.push(None);
-                continue;
-            };
-            self.next_id += 1;
-            numbers.push(Some(self.next_id));
-            document.photos.push(super::Given {
-                id: self.next_id,
-                name: unique_name(&document, &photo.name),
-                content: content_of(&source),
-                source,
-                excluded: photo.excluded,
-                focal_px: photo.focal_px.filter(|f| f.is_finite() && *f > 0.0),
-            });
+            let given = self.restored_photo(&document.photos, photo, &files, "");
+            numbers.push(given.as_ref().map(|given| given.id));
+            document.photos.extend(given);
         }
+        for photo in saved.boards {
+            let given = self.restored_photo(&document.boards, photo, &files, BOARDS);
+            document.boards.extend(given);
+        }
+        document.camera = saved.camera.filter(LensCamera::is_finite);
         let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
         let measures = saved.measures.iter();
         document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
+        for (a, b) in saved.dense {
+            if let (Some(a), Some(b)) = (number(a), number(b))
+                && a != b
+                && !document.is_dense((a, b))
+            {
+                document.dense.push((a, b));
+            }
+        }
         document
+    }
+
+    /// A photograph of a list, with a new number; `None` if its file is missing.
+    fn restored_photo(
+        &mut self,
+        list: &[Given],
+        photo: SavedPhoto,
+        files: &[(String, Blob)],
+        folder: &str,
+    ) -> Option<Given> {
+        let source = match photo.rendered {
+            Some((sample, index)) => Source::Rendered(sample, index),
+            None => {
+                let is_its = |name: &str| name.strip_prefix(folder) == Some(&photo.name);
+                let file = files.iter().find(|(name, _)| is_its(name))?;
+                Source::File(file.1.clone())
+            }
+        };
+        let given = self.given(list, &photo.name, source);
+        self.next_id = given.id;
+        Some(Given {
+            excluded: photo.excluded,
+            focal_px: photo.focal_px.filter(|f| f.is_finite() && *f > 0.0),
+            ..given
+        })
     }
 }

@@ -3,7 +3,9 @@
 use super::Project;
 use super::document::{Given, PhotoId, RefineFocal};
 use super::keys::Key;
-use crate::tasks::{Calibrated, Features, Match, Photograph, Reconstructed, SfmOptions, TwoViews};
+use crate::tasks::{
+    Calibrated, Features, Match, Photograph, Reconstructed, SfmOptions, Source, TwoViews,
+};
 use std::rc::Rc;
 
 /// Where a focal length comes from.
@@ -11,6 +13,8 @@ use std::rc::Rc;
 pub enum FocalOrigin {
     /// The reader typed it.
     Typed,
+    /// The calibrated camera has it.
+    Calibration,
     /// The file tells it.
     File,
     /// 1.2 times the longer side.
@@ -18,13 +22,18 @@ pub enum FocalOrigin {
 }
 
 impl Project {
-    fn max_pixels(&self) -> u32 {
+    pub(super) fn max_pixels(&self) -> u32 {
         (self.document.settings.max_megapixels * 1e6).round() as u32
     }
 
     /// The name of a photograph's pixels.
     pub(super) fn photograph_key(&self, photo: &Given) -> Key {
-        Key::of(&("photograph", photo.content.0, self.max_pixels()))
+        // What is rendered has no lens to undo.
+        let camera = match photo.source {
+            Source::File(_) => self.document.camera.as_ref(),
+            Source::Rendered(..) => None,
+        };
+        Key::of(&("photograph", photo.content.0, self.max_pixels(), camera))
     }
 
     pub(super) fn features_key(&self, photo: &Given) -> Key {
@@ -38,12 +47,12 @@ impl Project {
     }
 
     pub(super) fn two_views_key(&self, first: &Given, second: &Given) -> Option<Key> {
-        let focals = (self.camera(first)?.focal_px, self.camera(second)?.focal_px);
+        let cameras = (self.camera(first)?.k, self.camera(second)?.k);
         let matches = self.matches_key(first, second).0;
         Some(Key::of(&(
             "two views",
             matches,
-            focals,
+            cameras,
             self.document.settings.pairs,
         )))
     }
@@ -56,7 +65,7 @@ impl Project {
         }
         let mut inputs = Vec::new();
         for photo in &photos {
-            inputs.push((self.features_key(photo).0, self.camera(photo)?.focal_px));
+            inputs.push((self.features_key(photo).0, self.camera(photo)?.k));
         }
         let matching = self.document.settings.matching;
         Some(Key::of(&(
@@ -102,20 +111,14 @@ impl Project {
         self.results.reconstruction(self.reconstruction_key()?)
     }
 
-    /// Size and focal length of a photograph, once it is there.
+    /// Size and intrinsics of a photograph, once it is there.
     pub fn camera(&self, photo: &Given) -> Option<Calibrated> {
-        let pixels = self.photograph(photo)?;
-        let (focal_px, _) = focal(photo, pixels);
-        Some(Calibrated {
-            width: pixels.width,
-            height: pixels.height,
-            focal_px,
-        })
+        Some(camera(photo, self.photograph(photo)?).0)
     }
 
     /// Where its focal length comes from.
     pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
-        Some(focal(photo, self.photograph(photo)?).1)
+        Some(camera(photo, self.photograph(photo)?).1)
     }
 
     /// The photographs that are neither left out, nor twice in the list, nor unreadable.
@@ -153,15 +156,23 @@ impl Project {
     }
 }
 
-/// The focal length of a photograph in its own pixels, and where it comes from.
-fn focal(photo: &Given, pixels: &Photograph) -> (f64, FocalOrigin) {
-    let factor = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
-    if let Some(focal_px) = photo.focal_px {
-        return (focal_px * factor, FocalOrigin::Typed);
+/// The intrinsics of a photograph in its own pixels, and where its focal length comes from.
+fn camera(photo: &Given, pixels: &Photograph) -> (Calibrated, FocalOrigin) {
+    let (width, height) = (pixels.width, pixels.height);
+    let factor = f64::from(width) / f64::from(pixels.full_size.0.max(1));
+    let centered = |focal_px| Calibrated::centered(width, height, focal_px);
+    let typed_px = photo.focal_px.map(|focal_px| focal_px * factor);
+    match (typed_px, pixels.k, pixels.focal_px) {
+        (Some(focal_px), Some([_, _, cu, cv]), _) => {
+            let k = [focal_px, focal_px, cu, cv];
+            (Calibrated { width, height, k }, FocalOrigin::Typed)
+        }
+        (Some(focal_px), None, _) => (centered(focal_px), FocalOrigin::Typed),
+        (None, Some(k), _) => (Calibrated { width, height, k }, FocalOrigin::Calibration),
+        (None, None, Some(focal_px)) => (centered(focal_px), FocalOrigin::File),
+        (None, None, None) => {
+            let longer = f64::from(width.max(height));
+            (centered(1.2 * longer), FocalOrigin::Guessed)
+        }
     }
-    if let Some(focal_px) = pixels.focal_px {
-        return (focal_px, FocalOrigin::File);
-    }
-    let longer = f64::from(pixels.width.max(pixels.height));
-    (1.2 * longer, FocalOrigin::Guessed)
 }

@@ -22,18 +22,25 @@ impl Project {
             Event::Pause(paused) => self.paused = paused,
             Event::Add(files) => self.add(files),
             Event::OpenSample(sample) => self.open_sample(sample),
+            Event::AddBoards(files) => self.add_boards(files),
+            Event::OpenBoards => self.open_boards(),
+            Event::ClearBoards => self.document.boards.clear(),
+            Event::UseCalibration(is_used) => self.use_calibration(is_used),
             Event::OpenProject(saved, files) => {
                 self.document = self.restored(saved, files);
                 self.view.step = Step::Photographs;
             }
             Event::Remove(id) => {
                 self.document.photos.retain(|photo| photo.id != id);
+                self.document.boards.retain(|photo| photo.id != id);
                 let gone = |m: &Measure| m.ends.iter().any(|end| end.photo == id);
                 self.document.measures.retain(|measure| !gone(measure));
+                self.document.dense.retain(|(a, b)| *a != id && *b != id);
             }
             Event::Clear => {
                 self.document.photos.clear();
                 self.document.measures.clear();
+                self.document.dense.clear();
                 self.view.step = Step::Photographs;
             }
             Event::Exclude(id, excluded) => {
@@ -67,6 +74,15 @@ impl Project {
                     self.document.measures.remove(index);
                 }
             }
+            Event::Dense(a, b, is_part) => {
+                let known = self.document.pair((a, b)).is_some();
+                self.document
+                    .dense
+                    .retain(|pair| *pair != (a, b) && *pair != (b, a));
+                if is_part && known {
+                    self.document.dense.push((a, b));
+                }
+            }
         }
         if self.document != before {
             self.remember(before);
@@ -75,7 +91,9 @@ impl Project {
     }
 
     fn photo_mut(&mut self, id: PhotoId) -> Option<&mut Given> {
-        self.document.photos.iter_mut().find(|photo| photo.id == id)
+        let document = &mut self.document;
+        let mut all = document.photos.iter_mut().chain(&mut document.boards);
+        all.find(|photo| photo.id == id)
     }
 
     fn remember(&mut self, before: Document) {
@@ -109,20 +127,27 @@ impl Project {
     }
 
     fn give(&mut self, name: &str, source: Source) {
-        self.next_id += 1;
-        self.document.photos.push(Given {
-            id: self.next_id,
-            name: unique_name(&self.document, name),
+        let given = self.given(&self.document.photos, name, source);
+        self.next_id = given.id;
+        self.document.photos.push(given);
+    }
+
+    /// A photograph with a number and a name that no other one of the list has.
+    pub(super) fn given(&self, list: &[Given], name: &str, source: Source) -> Given {
+        Given {
+            id: self.next_id + 1,
+            name: unique_name(list, name),
             content: content_of(&source),
             source,
             excluded: false,
             focal_px: None,
-        });
+        }
     }
 
     fn open_sample(&mut self, sample: Sample) {
         self.document.photos.clear();
         self.document.measures.clear();
+        self.document.dense.clear();
         for index in 0..sample.len() {
             self.give(&sample.name(index), Source::Rendered(sample, index));
         }
@@ -141,6 +166,8 @@ impl Project {
     fn look(&mut self, id: PhotoId) {
         if self.document.photo(id).is_some() {
             self.view.photo = id;
+        } else if self.document.board(id).is_some() {
+            self.view.board = id;
         }
     }
 
@@ -163,6 +190,9 @@ impl Project {
         if self.document.photo(self.view.photo).is_none() {
             self.view.photo = photos.first().map_or(0, |photo| photo.id);
         }
+        if self.document.board(self.view.board).is_none() {
+            self.view.board = (self.document.boards.first()).map_or(0, |photo| photo.id);
+        }
         let place = |id| photos.iter().position(|photo| photo.id == id);
         let (a, b) = self.view.pair;
         match (place(a), place(b)) {
@@ -182,7 +212,7 @@ impl Project {
 
 /// The name, without folders, and with a number if another photograph has it already. Endings do not
 /// count: an exported photograph may get another one.
-pub(super) fn unique_name(document: &Document, name: &str) -> String {
+pub(super) fn unique_name(list: &[Given], name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let clean: String = (name.chars())
         .map(|c| if c.is_control() { '_' } else { c })
@@ -198,10 +228,7 @@ pub(super) fn unique_name(document: &Document, name: &str) -> String {
     };
     let taken = |name: &str| {
         let stem = split(name).0;
-        document
-            .photos
-            .iter()
-            .any(|photo| split(&photo.name).0 == stem)
+        list.iter().any(|photo| split(&photo.name).0 == stem)
     };
     if !taken(name) {
         return name.to_owned();

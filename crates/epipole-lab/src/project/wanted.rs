@@ -1,8 +1,8 @@
 //! What there is to compute now, most urgent first.
 
-use super::Project;
 use super::document::{Given, PhotoId};
 use super::keys::Key;
+use super::{Project, Step};
 use crate::tasks::{Described, ImagePoints, Packed, PairOf, Request};
 
 /// Something to compute.
@@ -27,6 +27,12 @@ pub enum About {
     TwoViews(PhotoId, PhotoId),
     /// All.
     Reconstruction,
+    /// Every pixel of a pair.
+    Depth(PhotoId, PhotoId),
+    /// The board in a photograph.
+    Board(PhotoId),
+    /// The camera of all boards.
+    Calibration,
 }
 
 impl Project {
@@ -41,6 +47,12 @@ impl Project {
                 tasks.push(Task { key, about });
             }
         };
+        let of_boards = self.wanted_of_boards();
+        if self.view.step == Step::Calibrate {
+            for (key, about) in &of_boards {
+                want(*key, *about);
+            }
+        }
         for photo in &self.document.photos {
             want(self.photograph_key(photo), About::Photograph(photo.id));
         }
@@ -75,7 +87,16 @@ impl Project {
         if all_matched && let Some(key) = self.reconstruction_key() {
             want(key, About::Reconstruction);
         }
-        for (key, about) in judged {
+        // Every pixel of the pair that is looked at, and of those that are part of the cloud.
+        let looked_at = (self.view.step == Step::Depth).then_some(&self.view.pair);
+        for pair in looked_at.into_iter().chain(&self.document.dense) {
+            if let Some((first, second)) = self.document.pair(*pair)
+                && let Some(key) = self.depth_key(first, second)
+            {
+                want(key, About::Depth(first.id, second.id));
+            }
+        }
+        for (key, about) in judged.into_iter().chain(of_boards) {
             want(key, about);
         }
         tasks
@@ -87,8 +108,14 @@ impl Project {
         Some(match task.about {
             About::Photograph(id) => Request::Photograph {
                 source: self.document.photo(id)?.source.clone(),
-                max_pixels: (settings.max_megapixels * 1e6).round() as u32,
+                max_pixels: self.max_pixels(),
+                camera: self.document.camera.clone(),
             },
+            About::Board(id) => Request::Board {
+                source: self.document.board(id)?.source.clone(),
+                options: settings.calibration.board,
+            },
+            About::Calibration => self.calibration_request()?,
             About::Features(id) => Request::Features {
                 photograph: (**self.photograph(self.document.photo(id)?)?).clone(),
                 options: settings.features,
@@ -105,6 +132,9 @@ impl Project {
                     cameras: [self.camera(first)?, self.camera(second)?],
                     options: settings.pairs,
                 }
+            }
+            About::Depth(first, second) => {
+                self.depth_request(self.document.photo(first)?, self.document.photo(second)?)?
             }
             About::Reconstruction => Request::Reconstruction {
                 images: self.image_points()?,
@@ -181,6 +211,11 @@ impl Project {
             options: self.sfm_options(),
             features: self.document.settings.features,
             matching: self.document.settings.matching,
+            dense: (self.dense_pairs().into_iter())
+                .map(|(_, first, second, dense)| {
+                    (Self::pair_name(first, second), (**dense).clone())
+                })
+                .collect(),
         })
     }
 }

@@ -14,17 +14,19 @@ pub(crate) fn count(number: usize, what: &str) -> String {
 impl Project {
     /// What the step that is looked at shows now.
     pub fn describe(&self) -> String {
-        if self.document.photos.is_empty() {
+        if self.document.photos.is_empty() && self.view.step != Step::Calibrate {
             return "No photographs yet. Add two or more that show one thing from different places, or \
                     open a sample."
                 .to_owned();
         }
         let mut words = match self.view.step {
             Step::Photographs => self.photographs_words(),
+            Step::Calibrate => self.calibrate_words(),
             Step::Features => self.features_words(),
             Step::Matches => self.matches_words(),
             Step::TwoViews => self.two_views_words(),
             Step::Reconstruction => self.reconstruction_words(),
+            Step::Depth => self.depth_words(),
             Step::Measure => self.measure_words(),
             Step::Export => self.export_words(),
         };
@@ -139,7 +141,14 @@ impl Project {
         let Some(found) = self.reconstruction() else {
             return match self.taking_part().len() {
                 0 | 1 => self.photographs_words(),
-                _ => "Cameras and points are being looked for.".to_owned(),
+                _ => match self.growing() {
+                    Some(so_far) => format!(
+                        "Cameras and points are being looked for: {} and {} so far.",
+                        count(so_far.num_registered(), "camera"),
+                        count(so_far.points.len(), "point")
+                    ),
+                    None => "Cameras and points are being looked for.".to_owned(),
+                },
             };
         };
         let mut words = match found.components.get(self.view.component) {
@@ -165,6 +174,57 @@ impl Project {
             if let Some(photo) = self.document.photo(id) {
                 words.push_str(&format!(" {}: {}.", photo.name, self.fate_words(photo)));
             }
+        }
+        words
+    }
+
+    fn depth_words(&self) -> String {
+        let Some((first, second)) = self.document.pair(self.view.pair) else {
+            return "A pair needs two photographs.".to_owned();
+        };
+        let names = format!("{} and {}", first.name, second.name);
+        if self.reconstruction().is_none() {
+            return match self.reconstruction_failure() {
+                Some(why) => format!("{names}: nothing could be reconstructed: {why}."),
+                None => format!("{names}: the cameras are being looked for."),
+            };
+        }
+        if self.depth_key(first, second).is_none() {
+            return format!(
+                "{names}: depth needs the cameras of both, and one of them has none here."
+            );
+        }
+        if let Some(why) = self.depth_failure(first, second) {
+            return format!("{names}: {why}.");
+        }
+        let Some(found) = self.depth(first, second) else {
+            return format!("{names}: the depth of every pixel is being looked for.");
+        };
+        let mut words = format!(
+            "{names}: {:.0} % of {} pixels have a depth",
+            100.0 * found.density,
+            found.num_shown
+        );
+        if let Some([near, far]) = found.depth_range() {
+            let (scale, unit) = match self.scale() {
+                Some(scale) => (scale.meters_per_unit, "m"),
+                None => (1.0, "units"),
+            };
+            words.push_str(&format!(
+                ", from {:.3} to {:.3} {unit}",
+                near * scale,
+                far * scale
+            ));
+        }
+        words.push('.');
+        if found.factor > 1 {
+            words.push_str(&format!(
+                " Width and height were divided by {}: so many pixels and disparities are more than memory holds.",
+                found.factor
+            ));
+        }
+        if found.is_vertical {
+            words.push_str(" One camera stands above the other, so matches share a column.");
         }
         words
     }
@@ -206,11 +266,26 @@ impl Project {
 
     fn export_words(&self) -> String {
         match self.component() {
-            Some(component) => format!(
-                "Ready to save: {} and {}.",
-                count(component.num_registered(), "camera"),
-                count(component.points.len(), "point")
-            ),
+            Some(component) => {
+                let dense = self.dense_pairs().len();
+                let depth = match dense {
+                    0 => String::new(),
+                    _ => format!(" Every pixel's depth of {}.", count(dense, "pair")),
+                };
+                let mut words = format!(
+                    "Ready to save: {} and {}.{depth}",
+                    count(component.num_registered(), "camera"),
+                    count(component.points.len(), "point")
+                );
+                let waiting = self.document.dense.len().saturating_sub(dense);
+                if waiting > 0 {
+                    words.push_str(&format!(
+                        " Without the depth of {}, which is not there.",
+                        count(waiting, "pair")
+                    ));
+                }
+                words
+            }
             None => "There is no reconstruction to save yet.".to_owned(),
         }
     }

@@ -1,6 +1,6 @@
 //! What can be answered.
 
-use super::{Blob, Described};
+use super::{Blob, BoardFound, Calibration, Dense, Described};
 use crate::project::Saved;
 use serde::{Deserialize, Serialize};
 
@@ -15,9 +15,12 @@ pub struct Photograph {
     pub rgb: Blob,
     /// The focal length that the file tells, in pixels of this size.
     pub focal_px: Option<f64>,
+    /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as the calibrated
+    /// camera would show it without its distortion.
+    pub k: Option<[f64; 4]>,
     /// Width and height before it was reduced, upright.
     pub full_size: (u32, u32),
-    /// Whether its file shows just these pixels: neither reduced nor turned.
+    /// Whether its file shows just these pixels: neither reduced nor turned nor redrawn.
     pub as_given: bool,
 }
 
@@ -167,8 +170,16 @@ pub enum Answer {
     TwoViews(TwoViews),
     /// Of [`Request::Reconstruction`](super::Request::Reconstruction).
     Reconstruction(Reconstructed),
+    /// Of [`Request::Depth`](super::Request::Depth).
+    Depth(Dense),
+    /// Of [`Request::Board`](super::Request::Board).
+    Board(BoardFound),
+    /// Of [`Request::Calibration`](super::Request::Calibration).
+    Calibration(Calibration),
     /// Of [`Request::Export`](super::Request::Export) and [`Request::Save`](super::Request::Save).
     Archive(Blob),
+    /// Of [`Request::Frames`](super::Request::Frames): names and files.
+    Frames(Vec<(String, Blob)>),
     /// Of [`Request::Open`](super::Request::Open).
     Opened {
         /// The rest of the project.

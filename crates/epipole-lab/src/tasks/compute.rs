@@ -1,17 +1,32 @@
 //! The one door through which everything that takes long is computed.
 
-use super::{Answer, Progress, Request, features, matching, photograph, reconstruction, two_views};
-use crate::export;
+use super::{Answer, Branch, Progress, Request};
 
 /// Carries out a request.
 ///
 /// # Errors
-/// A sentence for people.
+/// A sentence for people; also if the code for it is in the other module of the Lab.
 pub fn compute(request: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, String> {
-    let answer = match Request::from_bytes(request)? {
-        Request::Photograph { source, max_pixels } => {
-            Answer::Photograph(photograph::photograph(&source, max_pixels)?)
-        }
+    let request = Request::from_bytes(request)?;
+    let answer = match request.branch() {
+        Branch::Vision => vision(request, progress)?,
+        Branch::Files => files(request, progress)?,
+    };
+    Ok(answer.to_bytes())
+}
+
+/// For a request that came to a module without the code for it, which is a fault of whoever asked.
+const ELSEWHERE: &str = "this computation belongs to the other module of the Lab";
+
+#[cfg(not(feature = "vision"))]
+fn vision(_request: Request, _progress: Progress<'_>) -> Result<Answer, String> {
+    Err(ELSEWHERE.to_owned())
+}
+
+#[cfg(feature = "vision")]
+fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
+    use super::{calibration, depth, features, matching, reconstruction, two_views};
+    Ok(match request {
         Request::Features {
             photograph,
             options,
@@ -33,6 +48,55 @@ pub fn compute(request: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, String
         } => Answer::Reconstruction(reconstruction::reconstruct(
             &images, &pairs, &options, progress,
         )?),
+        Request::Depth {
+            photographs,
+            cameras,
+            distortion,
+            points,
+            options,
+        } => {
+            let pair = depth::Pair {
+                photographs: &photographs,
+                cameras: &cameras,
+                distortion,
+                points: &points,
+            };
+            Answer::Depth(depth::depth(&pair, &options, progress)?)
+        }
+        Request::Calibration {
+            options,
+            size,
+            views,
+        } => Answer::Calibration(calibration::calibration(&options, size, &views, progress)?),
+        _ => return Err(ELSEWHERE.to_owned()),
+    })
+}
+
+#[cfg(not(feature = "files"))]
+fn files(_request: Request, _progress: Progress<'_>) -> Result<Answer, String> {
+    Err(ELSEWHERE.to_owned())
+}
+
+#[cfg(feature = "files")]
+fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
+    use super::{board, frames, photograph};
+    use crate::export;
+    Ok(match request {
+        Request::Photograph {
+            source,
+            max_pixels,
+            camera,
+        } => Answer::Photograph(photograph::photograph(
+            &source,
+            max_pixels,
+            camera.as_ref(),
+        )?),
+        Request::Board { source, options } => {
+            Answer::Board(board::board(&source, &options, progress)?)
+        }
+        Request::Frames { name, parts } => {
+            Answer::Frames(frames::sharpest(&name, parts, progress)?)
+        }
         Request::Export {
             images,
             photographs,
@@ -42,6 +106,7 @@ pub fn compute(request: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, String
             options,
             features,
             matching,
+            dense,
         } => Answer::Archive(
             export::reconstruction(&export::Order {
                 images: &images,
@@ -52,6 +117,7 @@ pub fn compute(request: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, String
                 options,
                 features,
                 matching,
+                dense: &dense,
             })?
             .into(),
         ),
@@ -63,6 +129,6 @@ pub fn compute(request: &[u8], progress: Progress<'_>) -> Result<Vec<u8>, String
             let (project, files) = export::open(&archive)?;
             Answer::Opened { project, files }
         }
-    };
-    Ok(answer.to_bytes())
+        _ => return Err(ELSEWHERE.to_owned()),
+    })
 }

@@ -1,9 +1,9 @@
 //! Features of a photograph.
 
+use super::convert::to_image;
 use super::{Described, Feature, FeatureKind, FeatureOptions, Features, Photograph};
-use epipole::feature::SiftNormalization;
+use epipole::feature::{self, Descriptors};
 use epipole::sfm::{Photo, PhotoOptions, photo_features};
-use image::RgbImage;
 
 /// Finds features just as `epipole sfm` does.
 ///
@@ -18,11 +18,11 @@ pub(super) fn features(
         image: to_image(photograph)?,
     };
     let mut how = PhotoOptions::default();
-    how.sift.max_features = options.max_features as usize;
-    how.sift.contrast_threshold = options.contrast;
-    how.sift.normalization = match options.kind {
-        FeatureKind::RootSift => SiftNormalization::Root,
-        FeatureKind::Sift => SiftNormalization::L2,
+    how.features.max_features = options.max_features as usize;
+    how.features.contrast_threshold = Some(options.contrast);
+    how.features.kind = match options.kind {
+        FeatureKind::RootSift => feature::FeatureKind::RootSift,
+        FeatureKind::Sift => feature::FeatureKind::Sift,
     };
     let found = photo_features(&photo, &how).map_err(|error| error.to_string())?;
     let list = (found.keypoints.iter().zip(&found.image.colors))
@@ -34,22 +34,13 @@ pub(super) fn features(
             color: *color,
         })
         .collect();
-    let values = found.descriptors.as_bytes().map(<[u8]>::to_vec);
+    let vectors = found.descriptors.as_vectors();
+    let values = vectors.and_then(Descriptors::as_bytes).map(<[u8]>::to_vec);
     Ok(Features {
         list,
         described: Described {
-            dimension: found.descriptors.dimension() as u32,
+            dimension: vectors.map_or(0, Descriptors::dimension) as u32,
             values: values.unwrap_or_default().into(),
         },
     })
-}
-
-/// The pixels as an image.
-pub(crate) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
-    RgbImage::from_raw(
-        photograph.width,
-        photograph.height,
-        photograph.rgb.0.to_vec(),
-    )
-    .ok_or_else(|| "the photograph did not arrive whole".to_owned())
 }

@@ -5,20 +5,36 @@
 
 mod answer;
 mod blob;
-#[cfg(feature = "compute")]
+#[cfg(feature = "files")]
+mod board;
+#[cfg(feature = "files")]
+mod board_sample;
+mod boards;
+#[cfg(feature = "vision")]
+mod calibration;
+#[cfg(any(feature = "vision", feature = "files"))]
 mod compute;
-#[cfg(feature = "compute")]
+#[cfg(any(feature = "vision", feature = "files"))]
+mod convert;
+mod dense;
+#[cfg(feature = "vision")]
+mod depth;
+#[cfg(feature = "vision")]
+mod depth_size;
+#[cfg(feature = "vision")]
 mod features;
-#[cfg(feature = "compute")]
+#[cfg(feature = "files")]
+mod frames;
+#[cfg(feature = "vision")]
 mod matching;
 mod options;
-#[cfg(feature = "compute")]
+#[cfg(feature = "files")]
 mod photograph;
-#[cfg(feature = "compute")]
+#[cfg(feature = "vision")]
 mod reconstruction;
 mod request;
 mod sample;
-#[cfg(feature = "compute")]
+#[cfg(feature = "vision")]
 mod two_views;
 
 pub use answer::{
@@ -26,20 +42,32 @@ pub use answer::{
     Reconstructed, Shows, TwoViews, ViewModel,
 };
 pub use blob::Blob;
-#[cfg(feature = "compute")]
-pub use compute::compute;
-pub use options::{FeatureKind, FeatureOptions, MatchOptions, PairOptions, SfmOptions};
-pub use request::{Calibrated, Described, ImagePoints, Packed, PairOf, Request, Source};
-pub use sample::Sample;
-#[cfg(feature = "compute")]
-pub(crate) use {
-    features::to_image,
-    reconstruction::{core_reconstruction, sfm_images},
+pub use boards::{
+    BoardFound, BoardOptions, BoardPattern, Calibration, CalibrationOptions, LensCamera, LensModel,
+    ViewFound,
 };
+#[cfg(any(feature = "vision", feature = "files"))]
+pub use compute::compute;
+#[cfg(feature = "files")]
+pub(crate) use convert::{core_reconstruction, sfm_images, to_image};
+pub use dense::Dense;
+pub use options::{
+    DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions, PairOptions, SfmOptions,
+};
+pub use request::{Branch, Calibrated, Described, ImagePoints, Packed, PairOf, Request, Source};
+pub use sample::Sample;
 
-/// How far a computation is: the share that is done, and what it does in a few words. Whoever hears
-/// of it ends the computation by [`std::ops::ControlFlow::Break`].
-pub type Progress<'a> = &'a mut dyn FnMut(f32, &str) -> std::ops::ControlFlow<()>;
+/// What a computation tells on its way.
+#[derive(Debug)]
+pub enum Told<'a> {
+    /// The share that is done, and what it does in a few words.
+    Share(f32, &'a str),
+    /// What there is so far: the bytes of an [`Answer`].
+    SoFar(Vec<u8>),
+}
+
+/// Hears of a computation, and ends it by [`std::ops::ControlFlow::Break`].
+pub type Progress<'a> = &'a mut dyn FnMut(Told<'_>) -> std::ops::ControlFlow<()>;
 
 /// A message as bytes.
 pub(crate) fn to_bytes<T: serde::Serialize>(message: &T) -> Vec<u8> {
@@ -73,6 +101,11 @@ impl Answer {
     /// # Errors
     /// A sentence, if they are none.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        postcard::from_bytes(bytes).map_err(|_| "the answer did not arrive whole".to_owned())
+        let broken = "the answer did not arrive whole";
+        match postcard::from_bytes(bytes) {
+            Ok(Self::Depth(pair)) if !pair.is_whole() => Err(broken.to_owned()),
+            Ok(answer) => Ok(answer),
+            Err(_) => Err(broken.to_owned()),
+        }
     }
 }

@@ -92,3 +92,36 @@ impl Default for SfmOptions {
         }
     }
 }
+
+/// How a rectified pair is matched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DepthMethod {
+    /// Semi-global matching.
+    SemiGlobal,
+    /// Block matching.
+    Block,
+}
+
+/// How the depth of every pixel is found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DepthOptions {
+    /// How rows are matched.
+    pub method: DepthMethod,
+    /// Give pixels without an answer that of the background beside them.
+    pub fill: bool,
+    /// The smallest and the largest disparity that is looked for, pixels of the photographs, the coarser ones where
+    /// they differ in size; none: what the
+    /// sparse points propose.
+    pub range_px: Option<[i32; 2]>,
+}
+
+impl Default for DepthOptions {
+    /// As `epipole stereo`, but for the range.
+    fn default() -> Self {
+        Self {
+            method: DepthMethod::SemiGlobal,
+            fill: false,
+            range_px: None,
+        }
+    }
+}

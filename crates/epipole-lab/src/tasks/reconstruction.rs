@@ -1,15 +1,13 @@
-//! Cameras and points from all photographs, and the way between plain messages and the core.
+//! Cameras and points from all photographs.
 
-use super::two_views::intrinsics;
+use super::convert::{intrinsics, sfm_images};
 use super::{
-    CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed, SfmOptions,
+    Answer, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed,
+    SfmOptions, Told,
 };
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
-use epipole::sfm::{
-    PairMatches, RadialDistortion, Reconstruction, ScenePoint, SfmImage, SfmInput, SfmProgress,
-    TrackElement,
-};
-use nalgebra::{Point2, Point3, Quaternion, Translation3, UnitQuaternion};
+use epipole::camera::Camera;
+use epipole::sfm::{PairMatches, Reconstruction, ScenePoint, SfmInput, SfmProgress};
+use std::cell::RefCell;
 
 /// Reconstructs just as `epipole sfm` does.
 ///
@@ -41,6 +39,7 @@ pub(super) fn reconstruct(
         seed: options.seed,
         ..epipole::sfm::SfmOptions::default()
     };
+    let progress = RefCell::new(progress);
     let mut costs = Vec::new();
     let mut observer = |step: &SfmProgress| {
         let (share, words) = match step {
@@ -67,9 +66,19 @@ pub(super) fn reconstruct(
                 return std::ops::ControlFlow::Continue(());
             }
         };
-        progress(share, &words)
+        (progress.borrow_mut())(Told::Share(share, &words))
     };
-    let found = epipole::sfm::reconstruct(&input, &how, &mut observer).map_err(sentence)?;
+    let mut watcher = |so_far: Reconstruction| {
+        let answer = Answer::Reconstruction(Reconstructed {
+            mean_error_px: vec![so_far.mean_reprojection_px(&input.images)],
+            components: vec![component(&so_far)],
+            costs: Vec::new(),
+        });
+        // Whoever has had enough says so with the next share.
+        let _ = (progress.borrow_mut())(Told::SoFar(answer.to_bytes()));
+    };
+    let found = epipole::sfm::reconstruct_watched(&input, &how, &mut observer, &mut watcher)
+        .map_err(sentence)?;
     if found.canceled {
         return Err("stopped".to_owned());
     }
@@ -81,22 +90,6 @@ pub(super) fn reconstruct(
         costs,
         mean_error_px,
     })
-}
-
-/// The photographs as the core has them.
-pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
-    let plain = |image: &ImagePoints| SfmImage {
-        name: image.name.clone(),
-        width: image.camera.width,
-        height: image.camera.height,
-        keypoints: image
-            .points
-            .iter()
-            .map(|p| Point2::new(p[0], p[1]))
-            .collect(),
-        colors: image.colors.clone(),
-    };
-    images.iter().map(plain).collect()
 }
 
 fn component(found: &Reconstruction) -> Component {
@@ -121,46 +114,4 @@ fn component(found: &Reconstruction) -> Component {
         distortion: [found.distortion.k1, found.distortion.k2],
         points: found.points.iter().map(point).collect(),
     }
-}
-
-/// A camera as the core has it, the same to the last bit.
-///
-/// # Errors
-/// A sentence, if its numbers are no camera's.
-pub(crate) fn core_camera(camera: &CameraFound) -> Result<Camera, String> {
-    let [fu, fv, cu, cv] = camera.intrinsics;
-    let [i, j, k, w] = camera.rotation;
-    let [x, y, z] = camera.translation;
-    Ok(Camera {
-        intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
-        cam_from_world: RigidTransform::from_parts(
-            Translation3::new(x, y, z),
-            UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
-        ),
-    })
-}
-
-/// A component as the core has it.
-///
-/// # Errors
-/// As [`core_camera`].
-pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstruction, String> {
-    let camera = |camera: &Option<CameraFound>| camera.as_ref().map(core_camera).transpose();
-    let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
-    let point = |point: &PointFound| ScenePoint {
-        position: Point3::from(point.position),
-        color: point.color,
-        track: point.track.iter().map(element).collect(),
-        error_px: point.error_px,
-    };
-    let [k1, k2] = component.distortion;
-    Ok(Reconstruction {
-        cameras: component
-            .cameras
-            .iter()
-            .map(camera)
-            .collect::<Result<_, _>>()?,
-        distortion: RadialDistortion { k1, k2 },
-        points: component.points.iter().map(point).collect(),
-    })
 }

@@ -1,7 +1,8 @@
 //! What can be asked.
 
 use super::{
-    Blob, FeatureOptions, MatchOptions, PairOptions, Photograph, Reconstructed, Sample, SfmOptions,
+    Blob, BoardOptions, CalibrationOptions, CameraFound, Dense, DepthOptions, FeatureOptions,
+    LensCamera, MatchOptions, PairOptions, Photograph, Reconstructed, Sample, SfmOptions,
 };
 use crate::project::Saved;
 use serde::{Deserialize, Serialize};
@@ -24,15 +25,33 @@ pub struct Described {
     pub values: Blob,
 }
 
-/// Intrinsics: the principal point is the middle of the photograph.
+/// The size and the intrinsics of a photograph.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Calibrated {
     /// Width, pixels.
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Focal length, pixels.
-    pub focal_px: f64,
+    /// Focal lengths and principal point, pixels.
+    pub k: [f64; 4],
+}
+
+impl Calibrated {
+    /// Square pixels, and the principal point in the middle.
+    pub fn centered(width: u32, height: u32, focal_px: f64) -> Self {
+        let middle = |side: u32| (f64::from(side) - 1.0) / 2.0;
+        Self {
+            width,
+            height,
+            k: [focal_px, focal_px, middle(width), middle(height)],
+        }
+    }
+
+    /// The focal length of a camera that is [centered](Self::centered).
+    pub fn centered_focal_px(&self) -> Option<f64> {
+        let centered = Self::centered(self.width, self.height, self.k[0]);
+        (*self == centered).then_some(self.k[0])
+    }
 }
 
 /// A photograph reduced to its keypoints.
@@ -40,7 +59,7 @@ pub struct Calibrated {
 pub struct ImagePoints {
     /// Its name.
     pub name: String,
-    /// Its size and focal length.
+    /// Its size and intrinsics.
     pub camera: Calibrated,
     /// Where its keypoints are, pixels.
     pub points: Vec<[f64; 2]>,
@@ -79,6 +98,24 @@ pub enum Request {
         source: Source,
         /// The largest number of pixels.
         max_pixels: u32,
+        /// If it is of this camera's size: redraw it as that would show it without its distortion.
+        camera: Option<LensCamera>,
+    },
+    /// Look for a board in a photograph of full size.
+    Board {
+        /// Where it comes from.
+        source: Source,
+        /// The board.
+        options: BoardOptions,
+    },
+    /// Calibrate a camera.
+    Calibration {
+        /// The board and the lens.
+        options: CalibrationOptions,
+        /// Width and height of all photographs, pixels.
+        size: (u32, u32),
+        /// The marks in each, none at all where the board was not found.
+        views: Vec<Vec<Option<[f64; 2]>>>,
     },
     /// Find features.
     Features {
@@ -114,6 +151,26 @@ pub enum Request {
         /// How.
         options: SfmOptions,
     },
+    /// Find the depth of every pixel of a pair.
+    Depth {
+        /// The pair.
+        photographs: [Photograph; 2],
+        /// Their cameras.
+        cameras: [CameraFound; 2],
+        /// Radial distortion of both.
+        distortion: [f64; 2],
+        /// Points that both show.
+        points: Vec<[f64; 3]>,
+        /// How.
+        options: DepthOptions,
+    },
+    /// Choose the sharpest frame of each part of a video.
+    Frames {
+        /// The video's name.
+        name: String,
+        /// Some frames of each part, as files of photographs.
+        parts: Vec<Vec<Blob>>,
+    },
     /// Write a reconstruction to a zip file.
     Export {
         /// The photographs, as they were reconstructed.
@@ -132,6 +189,8 @@ pub enum Request {
         features: FeatureOptions,
         /// How they were matched.
         matching: MatchOptions,
+        /// Names of pairs, and the depth of their pixels.
+        dense: Vec<(String, Dense)>,
     },
     /// Write photographs, as they were given, and settings to a zip file.
     Save {
@@ -145,4 +204,33 @@ pub enum Request {
         /// Its bytes.
         archive: Blob,
     },
+}
+
+/// Which code a request needs: the browser loads the one without the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Branch {
+    /// What is seen in photographs.
+    Vision,
+    /// What reads, renders and writes files, and what looks at photographs of full size.
+    Files,
+}
+
+impl Request {
+    /// Which code it needs.
+    pub fn branch(&self) -> Branch {
+        match self {
+            Self::Photograph { .. }
+            | Self::Board { .. }
+            | Self::Frames { .. }
+            | Self::Export { .. }
+            | Self::Save { .. }
+            | Self::Open { .. } => Branch::Files,
+            Self::Features { .. }
+            | Self::Matches { .. }
+            | Self::TwoViews { .. }
+            | Self::Reconstruction { .. }
+            | Self::Depth { .. }
+            | Self::Calibration { .. } => Branch::Vision,
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Rendered photographs: one set that works, and some that cannot, each with its reason.
+//! Rendered photographs: one set that works, and some that cannot, each with its reason; and one of a board.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,10 +13,12 @@ pub enum Sample {
     Alone,
     /// One photograph twice.
     Twice,
+    /// A chessboard, to calibrate a camera with.
+    Board,
 }
 
 impl Sample {
-    /// All of them.
+    /// All that can be reconstructed, or not.
     pub const ALL: [Self; 4] = [Self::Table, Self::Turned, Self::Alone, Self::Twice];
 
     /// What it is, in a few words.
@@ -26,6 +28,7 @@ impl Sample {
             Self::Turned => "A camera that only turned",
             Self::Alone => "One photograph alone",
             Self::Twice => "One photograph twice",
+            Self::Board => "A chessboard, ten photographs",
         }
     }
 
@@ -36,6 +39,7 @@ impl Sample {
             Self::Turned => 4,
             Self::Alone => 1,
             Self::Twice => 2,
+            Self::Board => 10,
         }
     }
 
@@ -51,6 +55,7 @@ impl Sample {
             Self::Turned => "turned",
             Self::Alone => "alone",
             Self::Twice => "twice",
+            Self::Board => "board",
         };
         format!("{place}-{}.png", index + 1)
     }

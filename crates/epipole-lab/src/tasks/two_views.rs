@@ -1,7 +1,7 @@
 //! What two photographs say about each other.
 
+use super::convert::intrinsics;
 use super::{Calibrated, PairOptions, Shows, TwoViews, ViewModel};
-use epipole::camera::Intrinsics;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
@@ -67,12 +67,6 @@ fn nothing(num_matches: usize) -> TwoViews {
         turn_deg: None,
         angle_deg: None,
     }
-}
-
-/// The intrinsics of a photograph.
-pub(super) fn intrinsics(camera: &Calibrated) -> Result<Intrinsics, String> {
-    Intrinsics::centered(camera.focal_px, camera.width, camera.height)
-        .map_err(|error| error.to_string())
 }
 
 fn rows(matrix: &Matrix3<f64>) -> [f64; 9] {

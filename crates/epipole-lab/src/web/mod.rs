@@ -4,5 +4,5 @@
 mod mirror;
 #[cfg(feature = "page")]
 mod page;
-#[cfg(feature = "worker")]
+#[cfg(any(feature = "vision-worker", feature = "files-worker"))]
 pub mod worker;

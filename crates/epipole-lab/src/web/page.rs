@@ -1,8 +1,8 @@
 //! What the page calls, and what it calls the page for.
 
 use super::mirror::Mirror;
-use crate::panels::{App, Arrival, Host, Report, WorkId, prepare};
-use crate::tasks::Blob;
+use crate::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use crate::tasks::{Blob, Branch};
 use eframe::web_sys::HtmlCanvasElement;
 use egui::accesskit::Action;
 use std::cell::RefCell;
@@ -18,17 +18,25 @@ extern "C" {
     #[wasm_bindgen(method, structural)]
     fn capacity(this: &Shell) -> u32;
     #[wasm_bindgen(method, structural)]
-    fn start(this: &Shell, work: f64, request: Vec<u8>);
+    fn start(this: &Shell, work: f64, branch: &str, request: Vec<u8>);
     #[wasm_bindgen(method, structural)]
     fn cancel(this: &Shell, work: f64);
     #[wasm_bindgen(method, structural, js_name = askForPhotographs)]
     fn ask_for_photographs(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForProject)]
     fn ask_for_project(this: &Shell);
+    #[wasm_bindgen(method, structural, js_name = askForCamera)]
+    fn ask_for_camera(this: &Shell);
+    #[wasm_bindgen(method, structural, js_name = askForFrames)]
+    fn ask_for_frames(this: &Shell, video: u32, num_parts: u32);
     #[wasm_bindgen(method, structural)]
     fn save(this: &Shell, name: &str, bytes: Vec<u8>);
     #[wasm_bindgen(method, structural)]
     fn say(this: &Shell, words: &str);
+    #[wasm_bindgen(method, structural)]
+    fn explain(this: &Shell, figure: &str, page: &str, title: &str);
+    #[wasm_bindgen(method, structural)]
+    fn address(this: &Shell, link: &str);
 }
 
 /// What came from outside and was not seen yet.
@@ -37,6 +45,7 @@ struct Inbox {
     reports: Vec<Report>,
     arrivals: Vec<Arrival>,
     photographs: Vec<(String, Blob)>,
+    parts: Vec<Vec<Blob>>,
     dark: Option<bool>,
     context: Option<egui::Context>,
 }
@@ -51,8 +60,12 @@ impl Host for Page {
         self.shell.capacity() as usize
     }
 
-    fn start(&mut self, work: WorkId, request: Vec<u8>) {
-        self.shell.start(work as f64, request);
+    fn start(&mut self, work: WorkId, branch: Branch, request: Vec<u8>) {
+        let branch = match branch {
+            Branch::Vision => "vision",
+            Branch::Files => "files",
+        };
+        self.shell.start(work as f64, branch, request);
     }
 
     fn cancel(&mut self, work: WorkId) {
@@ -77,6 +90,15 @@ impl Host for Page {
         true
     }
 
+    fn ask_for_camera(&mut self) -> bool {
+        self.shell.ask_for_camera();
+        true
+    }
+
+    fn ask_for_frames(&mut self, video: u32, num_parts: u32) {
+        self.shell.ask_for_frames(video, num_parts);
+    }
+
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
         self.shell.save(name, bytes);
         Ok(format!("{name} is saved."))
@@ -84,6 +106,18 @@ impl Host for Page {
 
     fn say(&mut self, words: &str) {
         self.shell.say(words);
+    }
+
+    fn explain(&mut self, about: About) {
+        self.shell.explain(about.figure, about.page, about.title);
+    }
+
+    fn has_book(&self) -> bool {
+        true
+    }
+
+    fn address(&mut self, link: &str) {
+        self.shell.address(link);
     }
 }
 
@@ -163,6 +197,12 @@ impl Lab {
         });
     }
 
+    /// Brings what a piece of work has so far.
+    #[wasm_bindgen(js_name = soFar)]
+    pub fn so_far(&self, work: f64, answer: Vec<u8>) {
+        self.receive(|inbox| inbox.reports.push(Report::SoFar(work as WorkId, answer)));
+    }
+
     /// Brings an answer.
     pub fn done(&self, work: f64, answer: Vec<u8>) {
         self.receive(|inbox| inbox.reports.push(Report::Done(work as WorkId, Ok(answer))));
@@ -191,6 +231,48 @@ impl Lab {
             let photographs = std::mem::take(&mut inbox.photographs);
             inbox.arrivals.push(Arrival::Photographs(photographs));
         });
+    }
+
+    /// A video has come, which waits to be asked for its frames.
+    pub fn video(&self, video: u32) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Video(video)));
+    }
+
+    /// Brings a frame of a part of a video, which is seen with the next [`Lab::frames`].
+    pub fn frame(&self, part: usize, bytes: Vec<u8>) {
+        let parts = &mut self.inbox.borrow_mut().parts;
+        if part >= parts.len() {
+            parts.resize(part + 1, Vec::new());
+        }
+        parts[part].push(bytes.into());
+    }
+
+    /// All frames of a video have come.
+    pub fn frames(&self, video: u32, name: String) {
+        self.receive(|inbox| {
+            let parts = std::mem::take(&mut inbox.parts);
+            inbox.arrivals.push(Arrival::Frames(video, name, parts));
+        });
+    }
+
+    /// No more frames of a video come, and those that came are forgotten.
+    #[wasm_bindgen(js_name = dropFrames)]
+    pub fn drop_frames(&self) {
+        self.inbox.borrow_mut().parts.clear();
+    }
+
+    /// Says how far something is, or why it came to nothing.
+    pub fn news(&self, sentence: String) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::News(sentence)));
+    }
+
+    /// Opens what the parameters of an address ask for: names and values by turns.
+    pub fn link(&self, parameters: Vec<String>) {
+        let pairs = parameters.chunks_exact(2);
+        let parameters = pairs
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect();
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Link(parameters)));
     }
 
     /// Brings a project.

@@ -1,6 +1,6 @@
 //! What a worker runs.
 
-use crate::tasks::compute;
+use crate::tasks::{Told, compute};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -17,6 +17,10 @@ extern "C" {
     /// Called with the share that is done, and what is being done.
     #[wasm_bindgen(method, structural)]
     fn progress(this: &Listener, share: f32, words: &str);
+
+    /// Called with what there is so far.
+    #[wasm_bindgen(method, structural, js_name = soFar)]
+    fn so_far(this: &Listener, answer: Vec<u8>);
 }
 
 /// Runs once when a worker has loaded the module.
@@ -44,8 +48,11 @@ pub fn take_panic() -> Option<String> {
 /// A sentence for the reader.
 #[wasm_bindgen(js_name = compute)]
 pub fn carry_out(request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
-    compute(request, &mut |share, words| {
-        listener.progress(share, words);
+    compute(request, &mut |told| {
+        match told {
+            Told::Share(share, words) => listener.progress(share, words),
+            Told::SoFar(bytes) => listener.so_far(bytes),
+        }
         ControlFlow::Continue(())
     })
 }

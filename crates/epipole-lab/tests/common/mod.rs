@@ -2,6 +2,9 @@
 
 #![allow(dead_code, reason = "each test uses some of it")]
 
+pub(crate) mod depth;
+pub(crate) mod growing;
+
 use epipole_lab::project::{Event, Project};
 use epipole_lab::tasks::{Answer, Request, Sample, compute};
 use std::ops::ControlFlow;
@@ -11,7 +14,7 @@ pub(crate) fn finish(project: &mut Project) -> usize {
     let mut count = 0;
     while let Some(task) = project.wanted().first().cloned() {
         let request = project.request(&task).expect("what is wanted can be asked");
-        let result = compute(&request.to_bytes(), &mut |_, _| ControlFlow::Continue(()));
+        let result = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()));
         project.done(task.key, result);
         count += 1;
     }
@@ -28,6 +31,6 @@ pub(crate) fn solved(sample: Sample) -> Project {
 
 /// The answer of a request.
 pub(crate) fn answer(request: &Request) -> Result<Answer, String> {
-    let bytes = compute(&request.to_bytes(), &mut |_, _| ControlFlow::Continue(()))?;
+    let bytes = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()))?;
     Answer::from_bytes(&bytes)
 }

@@ -1,0 +1,222 @@
+//! The board, the camera that it gives with its uncertainty, and the error of each photograph.
+
+use crate::panels::app::Memory;
+use crate::panels::host::Wish;
+use crate::panels::knobs::{self, Turned};
+use crate::panels::look;
+use crate::project::{BoardFate, Event, Given, MAX_MARKS, Project, SQUARES_M, Settings};
+use crate::tasks::{BoardPattern, Calibration, LensModel};
+use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
+use epipole_widgets::theme::Role;
+
+/// The board, the camera, each photograph.
+pub(in crate::panels) fn knobs(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) -> Option<Wish> {
+    let mut wish = None;
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Open the sample").clicked() {
+            events.push(Event::OpenBoards);
+        }
+        if ui.button("Take photographs…").clicked() {
+            wish = Some(Wish::TakePhotographs);
+        }
+        let any = !project.document().boards.is_empty();
+        let remove = egui::Button::new("Remove all");
+        if ui.add_enabled(any, remove).clicked() {
+            events.push(Event::ClearBoards);
+        }
+    });
+    board(project, memory, ui, events);
+    ui.separator();
+    let used = project.use_words();
+    if !used.is_empty() {
+        ui.label(used.trim());
+        if ui.button("Do not use it any more").clicked() {
+            events.push(Event::UseCalibration(false));
+        }
+    }
+    match project.calibration() {
+        Some(found) => camera(project, memory, found, ui, events, &mut wish),
+        None => drop(ui.label(project.calibrate_status())),
+    }
+    let current = project.document().board(project.view().board);
+    if let Some(given) = current {
+        ui.separator();
+        one(project, ui, given, events);
+    }
+    ui.separator();
+    ui.weak("The same by the command line:");
+    ui.label(egui::RichText::new(project.calibrate_command()).small());
+    knobs::book(ui, "What K is made of", "rays.html");
+    wish
+}
+
+/// Which board, and which lens.
+fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    knobs::edit(project, memory, events, |settings: &mut Settings| {
+        let options = &mut settings.calibration;
+        let mut turned = Turned::No;
+        ui.horizontal_wrapped(|ui| {
+            for (pattern, name) in [
+                (BoardPattern::Chessboard, "chessboard"),
+                (BoardPattern::Circles, "asymmetric circles"),
+            ] {
+                let radio = ui.radio_value(&mut options.board.pattern, pattern, name);
+                turned = turned.max(radio.changed().into());
+            }
+        });
+        let (marks, side) = match options.board.pattern {
+            BoardPattern::Chessboard => ("Inner corners:", "Side of a square, mm"),
+            BoardPattern::Circles => ("Disks:", "Distance of two rows, mm"),
+        };
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            ui.weak(marks);
+            for (name, value) in [
+                ("columns", &mut options.board.columns),
+                ("rows", &mut options.board.rows),
+            ] {
+                let field = DragValue::new(value).range(2..=MAX_MARKS);
+                turned = turned.max(number(ui, name, field));
+            }
+        });
+        let mut side_mm = 1e3 * options.square_m;
+        let [least, most] = SQUARES_M.map(|side_m| 1e3 * side_m);
+        let field = DragValue::new(&mut side_mm)
+            .range(least..=most)
+            .speed(0.1)
+            .max_decimals(3);
+        let moved = ui.horizontal(|ui| number(ui, side, field)).inner;
+        if moved != Turned::No {
+            // As a reader types it: 25 mm are 0.025 m, and no digit more.
+            options.square_m = (side_mm * 1e6).round() / 1e9;
+        }
+        turned = turned.max(moved);
+        ui.weak("Lens:");
+        ui.horizontal_wrapped(|ui| {
+            for (lens, name) in [
+                (LensModel::Brown, "usual (Brown)"),
+                (LensModel::Rational, "wide angle (rational)"),
+                (LensModel::Fisheye, "fisheye"),
+            ] {
+                let radio = ui.radio_value(&mut options.lens, lens, name);
+                turned = turned.max(radio.changed().into());
+            }
+        });
+        turned
+    });
+}
+
+fn number(ui: &mut Ui, name: &str, field: DragValue<'_>) -> Turned {
+    let label = ui.label(name);
+    let response = ui
+        .add(field.update_while_editing(false))
+        .labelled_by(label.id);
+    match (
+        response.dragged(),
+        response.drag_stopped() || response.changed(),
+    ) {
+        (true, _) => Turned::Held,
+        (false, done) => done.into(),
+    }
+}
+
+/// The camera that came of it.
+fn camera(
+    project: &Project,
+    memory: &mut Memory,
+    found: &Calibration,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+    wish: &mut Option<Wish>,
+) {
+    ui.horizontal_wrapped(|ui| {
+        let is_used = project.document().camera.as_ref() == Some(&found.camera);
+        let button = egui::Button::new("Use for my photographs");
+        if ui.add_enabled(!is_used, button).clicked() {
+            events.push(Event::UseCalibration(true));
+        }
+        if ui.button("Save camera.json").clicked() {
+            *wish = Some(Wish::SaveCamera);
+        }
+    });
+    knobs::row(ui, "error", format!("{:.3} px", found.rms_px));
+    knobs::row(
+        ui,
+        "reached by boards",
+        format!("{:.0} % of the picture", 100.0 * found.coverage),
+    );
+    ui.checkbox(&mut memory.board.all_marks, "marks of all photographs");
+    for warning in project.calibration_warnings() {
+        ui.colored_label(look::color(ui, Role::Outlier), format!("{warning}."));
+    }
+    let sure = |value: f64, deviation: f64| format!("{value:.2} ± {deviation:.2} px");
+    let rows = ["fu", "fv", "cu", "cv"];
+    for (n, name) in rows.into_iter().enumerate() {
+        knobs::row(ui, name, sure(found.camera.k[n], found.std_dev_k[n]));
+    }
+    let numbers = (found.camera.coefficients.iter()).zip(&found.std_dev_lens);
+    for (name, (value, deviation)) in found.camera.lens.coefficients().iter().zip(numbers) {
+        knobs::row(ui, name, format!("{value:.5} ± {deviation:.5}"));
+    }
+    errors(project, found, ui, events);
+}
+
+/// The error of each photograph as a bar; a click looks at it.
+fn errors(project: &Project, found: &Calibration, ui: &mut Ui, events: &mut Vec<Event>) {
+    let errors = found.views.iter().flatten().map(|view| view.rms_px);
+    let most = errors.fold(f64::MIN_POSITIVE, f64::max);
+    ui.weak("error of each photograph:");
+    for (given, view) in project.boards_taking_part().into_iter().zip(&found.views) {
+        let Some(view) = view else { continue };
+        let size = vec2(ui.available_width().min(280.0), 22.0);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let words = format!("{}: {:.3} px", given.name, view.rms_px);
+        let selected = project.view().board == given.id;
+        response
+            .widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words));
+        let share = (view.rms_px / most) as f32;
+        let bar = Rect::from_min_size(rect.min, vec2(share * rect.width(), rect.height()));
+        ui.painter().rect_filled(
+            bar.shrink2(vec2(0.0, 2.0)),
+            2.0,
+            look::color(ui, Role::Grid),
+        );
+        let ink = look::color(ui, Role::Ink);
+        let font = egui::FontId::proportional(13.0);
+        let at = rect.left_center() + vec2(6.0, 0.0);
+        ui.painter()
+            .text(at, egui::Align2::LEFT_CENTER, words, font, ink);
+        if selected || response.has_focus() {
+            let stroke = Stroke::new(1.5, look::color(ui, Role::Grip));
+            ui.painter()
+                .rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside);
+        }
+        if response.clicked() {
+            events.push(Event::Look(given.id));
+        }
+    }
+}
+
+/// The photograph that is looked at.
+fn one(project: &Project, ui: &mut Ui, given: &Given, events: &mut Vec<Event>) {
+    ui.strong(&given.name);
+    let words = project.board_words(given);
+    match project.board_fate(given) {
+        BoardFate::Found(_) | BoardFate::Open => ui.label(words),
+        _ => ui.colored_label(look::color(ui, Role::Outlier), words),
+    };
+    ui.horizontal_wrapped(|ui| {
+        let mut takes_part = !given.excluded;
+        if ui.checkbox(&mut takes_part, "takes part").changed() {
+            events.push(Event::Exclude(given.id, !takes_part));
+        }
+        if ui.button("Remove").clicked() {
+            events.push(Event::Remove(given.id));
+        }
+    });
+}

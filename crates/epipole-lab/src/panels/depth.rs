@@ -1,0 +1,324 @@
+//! One pair, rectified: rows under a ruler, and the depth of every pixel.
+
+use super::app::Memory;
+use super::knobs::{self, Turned};
+use super::{look, photo};
+use crate::project::{Event, Key, MAX_DISPARITY_PX, Project};
+use crate::tasks::{Dense, DepthMethod};
+use egui::{Color32, ColorImage, DragValue, Rect, Slider, TextureHandle, TextureOptions, Ui};
+use epipole_widgets::theme::{Role, Theme};
+
+/// The pictures of a pair, kept between frames.
+#[derive(Default)]
+pub(super) struct DepthView {
+    lens: photo::Lens,
+    /// The row of the ruler; the column, where matches share one.
+    row: u32,
+    /// The pixel of the first picture that was clicked.
+    probe: Option<[u32; 2]>,
+    made: Option<(Key, Theme)>,
+    textures: Vec<TextureHandle>,
+    range: Option<[f64; 2]>,
+}
+
+impl DepthView {
+    fn make(&mut self, ui: &Ui, key: Key, pair: &Dense) {
+        let theme = look::theme(ui);
+        if self.made == Some((key, theme)) {
+            return;
+        }
+        if self.made.is_none_or(|(before, _)| before != key) {
+            self.row = if pair.is_vertical {
+                pair.width / 2
+            } else {
+                pair.height / 2
+            };
+            self.probe = None;
+            self.range = pair.depth_range();
+        }
+        self.made = Some((key, theme));
+        let size = [pair.width as usize, pair.height as usize];
+        let images = [
+            ColorImage::from_rgb(size, &pair.left),
+            ColorImage::from_rgb(size, &pair.right),
+            heat(pair, self.range, theme),
+        ];
+        let names = ["rectified first", "rectified second", "depth"];
+        let load = |(image, name)| ui.ctx().load_texture(name, image, TextureOptions::LINEAR);
+        self.textures = images.into_iter().zip(names).map(load).collect();
+    }
+}
+
+/// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the background.
+fn heat(pair: &Dense, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
+    let none = look::of(theme, Role::Surface);
+    let pixels = (0..pair.height).flat_map(|v| (0..pair.width).map(move |u| (u, v)));
+    let color = |(u, v)| match (pair.depth(u, v), range) {
+        (Some(depth), Some(range)) => {
+            let [r, g, b] = theme.scale(nearness(depth, range));
+            Color32::from_rgb(r, g, b)
+        }
+        _ => none,
+    };
+    ColorImage::new(
+        [pair.width as usize, pair.height as usize],
+        pixels.map(color).collect(),
+    )
+}
+
+/// 0 for the far end of the range, 1 for the near one.
+fn nearness(depth: f64, [near, far]: [f64; 2]) -> f64 {
+    let all = 1.0 / near - 1.0 / far;
+    match all > 0.0 {
+        true => ((1.0 / depth - 1.0 / far) / all).clamp(0.0, 1.0),
+        false => 0.5,
+    }
+}
+
+/// Both rectified photographs with the ruler, and the depth.
+pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
+    let document = project.document();
+    let pair = document.pair(project.view().pair);
+    let found = pair.and_then(|(first, second)| {
+        Some((
+            project.depth_key(first, second)?,
+            project.depth(first, second)?,
+        ))
+    });
+    let Some((key, found)) = found else {
+        ui.label(project.describe());
+        return;
+    };
+    let view = &mut memory.depth;
+    view.make(ui, key, found);
+    let [first, second, depth] = rooms(ui.available_rect_before_wrap());
+    let names = match found.is_swapped {
+        false => pair,
+        true => pair.map(|(first, second)| (second, first)),
+    };
+    let names = names.map_or(["", ""], |(first, second)| {
+        [first.name.as_str(), second.name.as_str()]
+    });
+    let labels = [
+        format!("{}, rectified", names[0]),
+        format!("{}, rectified", names[1]),
+        "of every pixel: depth".to_owned(),
+    ];
+    let mut shown = Vec::new();
+    for ((rect, texture), label) in [first, second, depth]
+        .into_iter()
+        .zip(&view.textures)
+        .zip(&labels)
+    {
+        shown.push(photo::show(ui, rect, texture, &mut view.lens, label));
+    }
+    for (index, shown) in shown.iter().enumerate() {
+        if let Some([u, v]) = shown.clicked() {
+            let pixel = [(u + 0.5).max(0.0) as u32, (v + 0.5).max(0.0) as u32];
+            view.row = pixel[usize::from(!found.is_vertical)];
+            view.probe = (index != 1).then_some(pixel);
+        }
+    }
+    let grip = look::of(Theme::Dark, Role::Grip);
+    let row = f64::from(view.row);
+    let (right, bottom) = (f64::from(found.width) - 0.5, f64::from(found.height) - 0.5);
+    for shown in &shown {
+        match found.is_vertical {
+            true => shown.line(shown.at(row, -0.5), shown.at(row, bottom), grip),
+            false => shown.line(shown.at(-0.5, row), shown.at(right, row), grip),
+        }
+    }
+    if let Some([u, v]) = view.probe {
+        for index in [0, 2] {
+            shown[index].ring(shown[index].at(f64::from(u), f64::from(v)), 6.0, grip);
+        }
+        if let Some([u, v]) = found.matched(u, v) {
+            shown[1].ring(shown[1].at(u, v), 6.0, grip);
+        }
+    }
+}
+
+/// Rooms of the two photographs, beside each other so that rows agree, and of the depth below them; all below
+/// each other where there is no room.
+fn rooms(whole: Rect) -> [Rect; 3] {
+    let gap = 2.0;
+    let (above, below) = whole.split_top_bottom_at_fraction(0.45);
+    let (first, second) = above.split_left_right_at_fraction(0.5);
+    [first, second, below].map(|rect| rect.shrink(gap))
+}
+
+/// Which pair, how it is matched, and what a pixel says.
+pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    let (a, b) = project.view().pair;
+    let chosen1 = knobs::choose(project, ui, "First", a, Some(b));
+    let chosen2 = knobs::choose(project, ui, "Second", b, Some(a));
+    if chosen1.is_some() || chosen2.is_some() {
+        events.push(Event::LookAtPair(
+            chosen1.unwrap_or(a),
+            chosen2.unwrap_or(b),
+        ));
+    }
+    ui.label(project.describe());
+    let pair = project.document().pair((a, b));
+    let found = pair.and_then(|(first, second)| project.depth(first, second));
+    if let Some(found) = found {
+        let mut is_part = project.document().is_dense((a, b));
+        if ui
+            .checkbox(&mut is_part, "part of the cloud and of the export")
+            .changed()
+        {
+            events.push(Event::Dense(a, b, is_part));
+        }
+        legend(project, memory.depth.range, ui);
+        let most = if found.is_vertical {
+            found.width
+        } else {
+            found.height
+        }
+        .max(1)
+            - 1;
+        let name = if found.is_vertical {
+            "Column of the ruler"
+        } else {
+            "Row of the ruler"
+        };
+        knobs::slider(ui, name, Slider::new(&mut memory.depth.row, 0..=most));
+        pixel(project, memory.depth.probe, found, ui);
+    }
+    ui.separator();
+    let proposed = found.and_then(|found| found.proposed_px);
+    knobs::edit(project, memory, events, |settings| {
+        let options = &mut settings.depth;
+        let mut turned = Turned::No;
+        ui.horizontal_wrapped(|ui| {
+            for (method, name) in [
+                (DepthMethod::SemiGlobal, "semi-global"),
+                (DepthMethod::Block, "block matching"),
+            ] {
+                turned = turned.max(
+                    ui.radio_value(&mut options.method, method, name)
+                        .changed()
+                        .into(),
+                );
+            }
+        });
+        turned = turned.max(
+            ui.checkbox(&mut options.fill, "fill what has no answer")
+                .changed()
+                .into(),
+        );
+        turned.max(disparities(ui, &mut options.range_px, proposed))
+    });
+    knobs::book(ui, "Two eyes in a row", "stereo.html");
+}
+
+/// Which disparities are looked for.
+fn disparities(ui: &mut Ui, range_px: &mut Option<[i32; 2]>, proposed: Option<[i32; 2]>) -> Turned {
+    let mut as_proposed = range_px.is_none();
+    let mut turned = Turned::No;
+    let label = match proposed {
+        Some([low, high]) => format!("disparities as the points propose: {low} to {high} px"),
+        None => "disparities as the points propose".to_owned(),
+    };
+    if ui.checkbox(&mut as_proposed, label).changed() {
+        *range_px = match as_proposed {
+            true => None,
+            false => Some(proposed.unwrap_or([0, 63])),
+        };
+        turned = Turned::Done;
+    }
+    if let Some(range) = range_px {
+        for (end, name) in range
+            .iter_mut()
+            .zip(["Smallest disparity, px", "Largest disparity, px"])
+        {
+            ui.horizontal_wrapped(|ui| {
+                let label = ui.label(name);
+                let field = DragValue::new(end)
+                    .range(0..=MAX_DISPARITY_PX)
+                    .update_while_editing(false);
+                let response = ui.add(field).labelled_by(label.id);
+                turned = turned.max(
+                    match (
+                        response.dragged(),
+                        response.drag_stopped() || response.changed(),
+                    ) {
+                        (true, _) => Turned::Held,
+                        (false, done) => done.into(),
+                    },
+                );
+            });
+        }
+    }
+    turned
+}
+
+/// What the colors of the depth mean.
+fn legend(project: &Project, range: Option<[f64; 2]>, ui: &mut Ui) {
+    let Some([near, far]) = range else { return };
+    let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 12.0), egui::Sense::hover());
+    let words = format!(
+        "bright: {}, dark: {}, plain: no answer",
+        length(project, near),
+        length(project, far)
+    );
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+    let theme = look::theme(ui);
+    for n in 0..70 {
+        let strip = Rect::from_min_size(
+            rect.min + egui::vec2(4.0 * n as f32, 0.0),
+            egui::vec2(4.5, rect.height()),
+        );
+        let [r, g, b] = theme.scale(1.0 - f64::from(n) / 69.0);
+        ui.painter()
+            .rect_filled(strip, 0.0, Color32::from_rgb(r, g, b));
+    }
+    ui.weak(words);
+}
+
+fn length(project: &Project, units: f64) -> String {
+    match project.scale() {
+        Some(scale) => format!("{:.3} m", units * scale.meters_per_unit),
+        None => format!("{units:.3} units"),
+    }
+}
+
+/// What the pixel says that was clicked.
+fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, ui: &mut Ui) {
+    let Some([u, v]) = probe else {
+        ui.weak("Click a pixel: the same thing must be on the same line of the other photograph.");
+        return;
+    };
+    knobs::row(ui, "pixel", format!("({u}, {v})"));
+    match (found.disparity(u, v), found.depth(u, v)) {
+        (Some(disparity), Some(depth)) => {
+            knobs::row(ui, "disparity", format!("{disparity:.2} px"));
+            knobs::row(ui, "depth", length(project, depth));
+            // σ_Z = Z² σ_d / (f B), for half a pixel.
+            let step = depth * depth * 0.5 / (found.focal_px() * found.baseline);
+            knobs::row(ui, "half a pixel is", length(project, step));
+        }
+        (Some(disparity), None) => knobs::row(
+            ui,
+            "disparity",
+            format!("{disparity:.2} px: infinitely far"),
+        ),
+        _ => {
+            drop(ui.weak("No answer here: hidden from the other camera, too smooth, or ambiguous."))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_is_bright_and_far_is_dark() {
+        assert_eq!(nearness(1.0, [1.0, 3.0]), 1.0);
+        assert_eq!(nearness(3.0, [1.0, 3.0]), 0.0);
+        assert!((nearness(1.5, [1.0, 3.0]) - 0.5).abs() < 1e-12);
+        assert_eq!(nearness(9.0, [1.0, 3.0]), 0.0);
+        assert_eq!(nearness(2.0, [2.0, 2.0]), 0.5);
+    }
+}

@@ -1,0 +1,49 @@
+//! The steps to choose from: below each other, or in one row that scrolls where there is no room.
+
+use crate::project::{Event, Project, Step};
+use egui::scroll_area::ScrollBarVisibility;
+use egui::style::ScrollAnimation;
+use egui::{Align, Response, ScrollArea, Ui};
+
+/// Below each other.
+pub(super) fn column(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
+    for step in Step::ALL {
+        button(project, ui, step, events);
+    }
+}
+
+/// One row, in which the step that is looked at is brought to the middle, and one that the keyboard reaches into sight.
+///
+/// * `shown`: the step that is in the middle already: a reader may have moved the row since
+pub(super) fn row(
+    project: &Project,
+    shown: &mut Option<Step>,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) {
+    let current = project.view().step;
+    ScrollArea::horizontal()
+        .id_salt("steps")
+        .scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
+        .show(ui, |ui| {
+            ui.horizontal(|ui| {
+                for step in Step::ALL {
+                    let response = button(project, ui, step, events);
+                    let is_new = step == current && *shown != Some(step);
+                    if is_new || response.gained_focus() {
+                        let at_once = ScrollAnimation::none();
+                        response.scroll_to_me_animation(Some(Align::Center), at_once);
+                    }
+                }
+            });
+        });
+    *shown = Some(current);
+}
+
+fn button(project: &Project, ui: &mut Ui, step: Step, events: &mut Vec<Event>) -> Response {
+    let response = ui.selectable_label(project.view().step == step, step.title());
+    if response.clicked() {
+        events.push(Event::Show(step));
+    }
+    response
+}

@@ -1,0 +1,188 @@
+//! Boards and the camera that they give, in words, and as a file and a command for whoever calibrates elsewhere.
+
+use super::Project;
+use super::calibration::BoardFate;
+use super::document::Given;
+use super::words::count;
+use crate::tasks::{BoardPattern, Calibration, Source};
+
+impl Project {
+    /// What became of a photograph of a board, for people, and what would help.
+    pub fn board_words(&self, photo: &Given) -> String {
+        match self.board_fate(photo) {
+            BoardFate::Open => "in work".to_owned(),
+            BoardFate::Excluded => "left out by you".to_owned(),
+            BoardFate::Unreadable(why) => format!("cannot be read: {why}"),
+            BoardFate::NotFound(why) => why,
+            BoardFate::OtherSize((width, height), (most_width, most_height)) => format!(
+                "{width} × {height} pixels, the others {most_width} × {most_height}: a camera is calibrated for one size; \
+                 take it again in that of the others, or remove it"
+            ),
+            BoardFate::Found(marks) => match self.view_of(photo) {
+                Some(rms_px) => format!("{marks} marks, off by {rms_px:.2} px"),
+                None => format!("{marks} marks"),
+            },
+        }
+    }
+
+    /// The root mean square of the errors in a photograph, pixels.
+    pub fn view_of(&self, photo: &Given) -> Option<f64> {
+        let place = self.place_of_board(photo)?;
+        let views = &self.calibration()?.views;
+        Some((*views.get(place)?)?.rms_px)
+    }
+
+    pub(super) fn calibrate_words(&self) -> String {
+        let mut words = self.calibrate_status();
+        if let Some(found) = self.calibration() {
+            words.push_str(&self.camera_words(found));
+        }
+        words.push_str(&self.use_words());
+        for photo in &self.document.boards {
+            if !matches!(
+                self.board_fate(photo),
+                BoardFate::Found(_) | BoardFate::Open
+            ) {
+                words.push_str(&format!(" {}: {}.", photo.name, self.board_words(photo)));
+            }
+        }
+        words
+    }
+
+    /// How far the calibration is, and what would help if it comes to nothing.
+    pub fn calibrate_status(&self) -> String {
+        let boards = &self.document.boards;
+        if boards.is_empty() {
+            return "No photographs of a board yet. Print a chessboard, fix it to something flat, and take ten to twenty \
+                    photographs of it, turned by 30° to 45° about several axes, also at the edges of the picture. Or \
+                    open the sample."
+                .to_owned();
+        }
+        let fates: Vec<_> = boards.iter().map(|photo| self.board_fate(photo)).collect();
+        let all = count(boards.len(), "photograph");
+        let num_open = fates
+            .iter()
+            .filter(|fate| **fate == BoardFate::Open)
+            .count();
+        if num_open > 0 {
+            let looked = boards.len() - num_open;
+            return format!("The board is being looked for: {looked} of {all} looked through.");
+        }
+        let is_found = |fate: &&BoardFate| matches!(fate, BoardFate::Found(_));
+        let num_found = fates.iter().filter(is_found).count();
+        let mut words = format!("The board was found in {num_found} of {all}.");
+        match self.calibration_failure() {
+            Some(why) => words.push_str(&format!(" No camera came of it: {why}.")),
+            None if num_found < 2 => words.push_str(
+                " A camera needs two at least, and ten to twenty make it sure: turn the board by 30° to 45° about several \
+                 axes in between.",
+            ),
+            None if self.calibration().is_none() => words.push_str(" The lens is being fitted."),
+            None => {}
+        }
+        words
+    }
+
+    fn camera_words(&self, found: &Calibration) -> String {
+        let [fu, fv, ..] = found.camera.k;
+        let [su, sv, ..] = found.std_dev_k;
+        let mut words = format!(
+            " Focal lengths {fu:.1} ± {su:.1} and {fv:.1} ± {sv:.1} px, error {:.2} px; boards reach {:.0} % of the \
+             picture.",
+            found.rms_px,
+            100.0 * found.coverage
+        );
+        for warning in self.calibration_warnings() {
+            words.push_str(&format!(" {warning}."));
+        }
+        words
+    }
+
+    /// What makes the camera less sure than the errors say, a sentence each without its period.
+    pub fn calibration_warnings(&self) -> Vec<String> {
+        let Some(found) = self.calibration() else {
+            return Vec::new();
+        };
+        let boards = self.boards_taking_part();
+        let sentence = |(place, words): &(Option<u32>, String)| {
+            let photo = place.and_then(|place| boards.get(place as usize));
+            match photo {
+                Some(photo) => format!("{}: {words}", photo.name),
+                None => {
+                    let mut letters = words.chars();
+                    let first = letters.next().map(|c| c.to_uppercase().to_string());
+                    first.unwrap_or_default() + letters.as_str()
+                }
+            }
+        };
+        found.warnings.iter().map(sentence).collect()
+    }
+
+    /// Which photographs the camera is used for; nothing if it is not used.
+    pub fn use_words(&self) -> String {
+        let Some(camera) = &self.document.camera else {
+            return String::new();
+        };
+        let (width, height) = camera.size;
+        let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
+        let num_files = self.document.photos.iter().filter(is_file).count();
+        let of_it = self.of_size(camera.size).len();
+        let newer = match self.calibration() {
+            Some(found) if found.camera != *camera => {
+                " What the boards say now is something else: use it anew."
+            }
+            _ => "",
+        };
+        match num_files {
+            0 => format!(
+                " The camera is used for photographs of {width} × {height} pixels, of which there are none yet.{newer}"
+            ),
+            _ if of_it == 0 => format!(
+                " The camera is of {width} × {height} pixels, and none of your photographs is: calibrate at their \
+                 size.{newer}"
+            ),
+            _ => format!(
+                " The camera is used for {of_it} of {}, without the distortion of its lens.{newer}",
+                count(num_files, "photograph")
+            ),
+        }
+    }
+
+    /// The camera as `epipole calibrate -o` writes it, which `epipole undistort` reads; `None` without one.
+    pub fn camera_json(&self) -> Option<String> {
+        let found = self.calibration()?;
+        let camera = &found.camera;
+        let list = |numbers: &[f64]| {
+            let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+            format!("[{}]", numbers.join(", "))
+        };
+        let (width, height) = camera.size;
+        let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();
+        Some(format!(
+            "{{\n  \"image\": {{ \"width\": {width}, \"height\": {height} }},\n  \"k\": {},\n  \"distortion\": {{ \"model\": \
+             \"{}\", \"coefficients\": {} }},\n  \"rms_px\": {},\n  \"std_dev\": {},\n  \"coverage\": {}\n}}\n",
+            list(&camera.k),
+            camera.lens.name(),
+            list(&camera.coefficients),
+            found.rms_px,
+            list(&std_dev),
+            found.coverage
+        ))
+    }
+
+    /// The command that calibrates in the same way.
+    pub fn calibrate_command(&self) -> String {
+        let options = self.document.settings.calibration;
+        let pattern = match options.board.pattern {
+            BoardPattern::Chessboard => "",
+            BoardPattern::Circles => " --pattern circles",
+        };
+        format!(
+            "epipole calibrate boards/ --board {}x{}{pattern} --square-m {} --model {} -o camera.json",
+            options.board.columns,
+            options.board.rows,
+            options.square_m,
+            options.lens.name()
+        )
+    }
+}

@@ -1,0 +1,133 @@
+//! The way between plain messages and the core.
+
+#[cfg(feature = "vision")]
+use super::Calibrated;
+use super::{BoardOptions, BoardPattern};
+use super::{CameraFound, ImagePoints, Photograph};
+#[cfg(feature = "files")]
+use super::{Component, PointFound};
+#[cfg(feature = "files")]
+use super::{LensCamera, LensModel};
+#[cfg(feature = "files")]
+use epipole::calibration::CalibratedCamera;
+use epipole::calibration::{Board, Pattern};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
+#[cfg(feature = "files")]
+use epipole::camera::{Lens, LensKind};
+use epipole::sfm::SfmImage;
+#[cfg(feature = "files")]
+use epipole::sfm::{RadialDistortion, Reconstruction, ScenePoint, TrackElement};
+use image::RgbImage;
+#[cfg(feature = "files")]
+use nalgebra::Point3;
+use nalgebra::{Point2, Quaternion, Translation3, UnitQuaternion};
+
+/// The pixels as an image.
+pub(crate) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
+    RgbImage::from_raw(
+        photograph.width,
+        photograph.height,
+        photograph.rgb.0.to_vec(),
+    )
+    .ok_or_else(|| "the photograph did not arrive whole".to_owned())
+}
+
+#[cfg(feature = "vision")]
+/// The intrinsics of a photograph.
+pub(super) fn intrinsics(camera: &Calibrated) -> Result<Intrinsics, String> {
+    let [fu, fv, cu, cv] = camera.k;
+    Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())
+}
+
+/// The board.
+///
+/// # Errors
+/// A sentence, if it is none.
+pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board, String> {
+    let pattern = match options.pattern {
+        BoardPattern::Chessboard => Pattern::Chessboard,
+        BoardPattern::Circles => Pattern::AsymmetricCircles,
+    };
+    let (columns, rows) = (options.columns as usize, options.rows as usize);
+    Board::new(pattern, columns, rows, square_m).map_err(|error| error.to_string())
+}
+
+/// A calibrated camera.
+///
+/// # Errors
+/// A sentence, if its numbers are no camera's.
+#[cfg(feature = "files")]
+pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<CalibratedCamera, String> {
+    let kind = match camera.lens {
+        LensModel::Brown => LensKind::Brown,
+        LensModel::Rational => LensKind::Rational,
+        LensModel::Fisheye => LensKind::Fisheye,
+    };
+    let [fu, fv, cu, cv] = camera.k;
+    let sentence = |error: epipole::Error| error.to_string();
+    Ok(CalibratedCamera {
+        intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(sentence)?,
+        lens: Lens::from_coefficients(kind, &camera.coefficients).map_err(sentence)?,
+        width: camera.size.0,
+        height: camera.size.1,
+    })
+}
+
+/// The photographs as the core has them.
+pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
+    let plain = |image: &ImagePoints| SfmImage {
+        name: image.name.clone(),
+        width: image.camera.width,
+        height: image.camera.height,
+        keypoints: image
+            .points
+            .iter()
+            .map(|p| Point2::new(p[0], p[1]))
+            .collect(),
+        colors: image.colors.clone(),
+    };
+    images.iter().map(plain).collect()
+}
+
+/// A camera as the core has it, the same to the last bit.
+///
+/// # Errors
+/// A sentence, if its numbers are no camera's.
+pub(crate) fn core_camera(camera: &CameraFound) -> Result<Camera, String> {
+    let [fu, fv, cu, cv] = camera.intrinsics;
+    let [i, j, k, w] = camera.rotation;
+    let [x, y, z] = camera.translation;
+    Ok(Camera {
+        intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
+        cam_from_world: RigidTransform::from_parts(
+            Translation3::new(x, y, z),
+            UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
+        ),
+    })
+}
+
+#[cfg(feature = "files")]
+/// A component as the core has it.
+///
+/// # Errors
+/// As [`core_camera`].
+pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstruction, String> {
+    let camera = |camera: &Option<CameraFound>| camera.as_ref().map(core_camera).transpose();
+    let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
+    let point = |point: &PointFound| ScenePoint {
+        position: Point3::from(point.position),
+        color: point.color,
+        track: point.track.iter().map(element).collect(),
+        error_px: point.error_px,
+    };
+    let [k1, k2] = component.distortion;
+    Ok(Reconstruction {
+        cameras: component
+            .cameras
+            .iter()
+            .map(camera)
+            .collect::<Result<_, _>>()?,
+        distortion: RadialDistortion { k1, k2 },
+        points: component.points.iter().map(point).collect(),
+    })
+}

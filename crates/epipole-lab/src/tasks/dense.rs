@@ -1,0 +1,161 @@
+//! The depth of every pixel of a pair.
+
+use super::{Blob, CameraFound};
+use serde::{Deserialize, Serialize};
+
+/// A rectified pair and its disparities. The first picture is the one from the left or, if it is vertical, from
+/// above; what it shows is further left, or further up, in the second picture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Dense {
+    /// Width of both pictures, pixels.
+    pub width: u32,
+    /// Height of both pictures, pixels.
+    pub height: u32,
+    /// By how much photographs were reduced: 1, 2, 4 and so on.
+    pub factor: u32,
+    /// Whether matches share a column, not a row.
+    pub is_vertical: bool,
+    /// Whether the first picture is of the second photograph.
+    pub is_swapped: bool,
+    /// The camera of the first picture, without distortion.
+    pub camera: CameraFound,
+    /// Distance of the cameras, in units of the reconstruction.
+    pub baseline: f64,
+    /// The disparities that sparse points propose, pixels of the photographs.
+    pub proposed_px: Option<[i32; 2]>,
+    /// Those that were looked for.
+    pub range_px: [i32; 2],
+    /// How many pixels of the first picture its photograph shows: it stands turned, with a border.
+    pub num_shown: u32,
+    /// The share of them with an answer.
+    pub density: f64,
+    /// Disparities of the first picture, pixels of its own, NaN for none; four bytes each, least first.
+    pub disparity: Blob,
+    /// The first picture: red, green, blue, row by row.
+    pub left: Blob,
+    /// The second picture.
+    pub right: Blob,
+}
+
+impl Dense {
+    /// Whether there are as many numbers and colors as pixels.
+    pub fn is_whole(&self) -> bool {
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        let has = |bytes: &Blob, each: u64| pixels.checked_mul(each) == Some(bytes.len() as u64);
+        has(&self.disparity, 4) && has(&self.left, 3) && has(&self.right, 3)
+    }
+
+    /// The disparity of a pixel of the first picture, pixels; `None` where there is no answer.
+    pub fn disparity(&self, u: u32, v: u32) -> Option<f32> {
+        if u >= self.width || v >= self.height {
+            return None;
+        }
+        let at = 4 * (v as usize * self.width as usize + u as usize);
+        let bytes: [u8; 4] = self.disparity.get(at..at + 4)?.try_into().ok()?;
+        Some(f32::from_le_bytes(bytes)).filter(|d| d.is_finite())
+    }
+
+    /// The depth of a pixel, in units of the reconstruction, along the axis of the first picture's camera:
+    /// `Z = f B / d`. `None` where there is no answer, and at infinity.
+    pub fn depth(&self, u: u32, v: u32) -> Option<f64> {
+        let disparity = f64::from(self.disparity(u, v)?);
+        let depth = self.focal_px() * self.baseline / disparity;
+        (disparity > 0.0 && depth.is_finite()).then_some(depth)
+    }
+
+    /// The focal length along which disparities are measured, pixels.
+    pub fn focal_px(&self) -> f64 {
+        self.camera.intrinsics[usize::from(self.is_vertical)]
+    }
+
+    /// Where in the second picture a pixel of the first is seen.
+    pub fn matched(&self, u: u32, v: u32) -> Option<[f64; 2]> {
+        let disparity = f64::from(self.disparity(u, v)?);
+        let (u, v) = (f64::from(u), f64::from(v));
+        Some(match self.is_vertical {
+            true => [u, v - disparity],
+            false => [u - disparity, v],
+        })
+    }
+
+    /// The points of every n-th pixel along rows and columns, in the frame of the reconstruction, with their
+    /// colors.
+    pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
+        let (center, step) = (self.camera.center(), every.max(1) as usize);
+        let rows = (0..self.height).step_by(step);
+        let pixels = rows.flat_map(move |v| (0..self.width).step_by(step).map(move |u| (u, v)));
+        pixels.filter_map(move |(u, v)| {
+            let depth = self.depth(u, v)?;
+            let place = center + self.camera.ray([f64::from(u), f64::from(v)]) * depth;
+            let at = 3 * (v as usize * self.width as usize + u as usize);
+            let color = self.left.get(at..at + 3)?.try_into().ok()?;
+            Some((place.coords.into(), color))
+        })
+    }
+
+    /// The depths that all but the nearest and the farthest hundredth of pixels lie between; `None` without any.
+    pub fn depth_range(&self) -> Option<[f64; 2]> {
+        let pixels = (0..self.height).flat_map(|v| (0..self.width).map(move |u| (u, v)));
+        let mut depths: Vec<f64> = pixels.filter_map(|(u, v)| self.depth(u, v)).collect();
+        depths.sort_by(f64::total_cmp);
+        let last = depths.len().checked_sub(1)?;
+        let at = |share: f64| depths[(share * last as f64).round() as usize];
+        Some([at(0.01), at(0.99)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dense(is_vertical: bool) -> Dense {
+        let disparity = [2.0_f32, f32::NAN, 0.0, 4.0];
+        Dense {
+            width: 2,
+            height: 2,
+            factor: 1,
+            is_vertical,
+            is_swapped: false,
+            camera: CameraFound {
+                intrinsics: [100.0, 50.0, 0.0, 0.0],
+                rotation: [0.0, 0.0, 0.0, 1.0],
+                translation: [0.0, 0.0, 0.0],
+            },
+            baseline: 0.1,
+            proposed_px: None,
+            range_px: [0, 4],
+            num_shown: 4,
+            density: 0.75,
+            disparity: disparity
+                .iter()
+                .flat_map(|d| d.to_le_bytes())
+                .collect::<Vec<u8>>()
+                .into(),
+            left: (0..12).collect::<Vec<u8>>().into(),
+            right: vec![0; 12].into(),
+        }
+    }
+
+    #[test]
+    fn depth_is_focal_length_times_baseline_over_disparity() {
+        let pair = dense(false);
+        assert_eq!(pair.depth(0, 0), Some(5.0));
+        assert_eq!(pair.depth(1, 0), None);
+        assert_eq!(pair.depth(0, 1), None, "that is infinitely far");
+        assert_eq!(pair.depth(1, 1), Some(2.5));
+        assert_eq!(pair.depth(2, 0), None);
+        assert_eq!(pair.matched(1, 1), Some([-3.0, 1.0]));
+        assert_eq!(dense(true).matched(1, 1), Some([1.0, -3.0]));
+        assert_eq!(dense(true).depth(0, 0), Some(2.5));
+        let points: Vec<_> = pair.points(1).collect();
+        assert_eq!(
+            points,
+            [
+                ([0.0, 0.0, 5.0], [0, 1, 2]),
+                ([0.025, 0.05, 2.5], [9, 10, 11])
+            ]
+        );
+        assert_eq!(pair.points(2).count(), 1);
+        assert_eq!(pair.depth_range(), Some([2.5, 5.0]));
+    }
+}

@@ -1,0 +1,48 @@
+//! A reconstruction that is watched while it becomes more.
+
+use epipole_lab::project::{Event, Project, Step};
+use epipole_lab::tasks::{Told, compute};
+use std::ops::ControlFlow;
+
+/// Reconstructs anew with another seed, and looks at what there is after each photograph.
+pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
+    let mut settings = project.document().settings.clone();
+    settings.sfm.seed = 1;
+    project.update(Event::Set(settings));
+    project.update(Event::Show(Step::Reconstruction));
+    let wanted = project.wanted();
+    assert_eq!(wanted.len(), 1, "{wanted:?}");
+    let request = project.request(&wanted[0]).unwrap().to_bytes();
+    let mut steps = Vec::new();
+    let result = compute(&request, &mut |told| {
+        if let Told::SoFar(bytes) = told {
+            steps.push(bytes);
+        }
+        ControlFlow::Continue(())
+    });
+    assert!(project.growing().is_none());
+    let mut registered = Vec::new();
+    for bytes in &steps {
+        project.so_far(wanted[0].key, bytes);
+        assert!(project.component().is_none());
+        let growing = project.growing().unwrap();
+        assert!(!growing.points.is_empty());
+        registered.push(growing.num_registered());
+    }
+    assert_eq!(registered, [2, 3, 4, 5, 6, 7, 8, 9]);
+    assert!(
+        project.describe().contains("9 cameras"),
+        "{}",
+        project.describe()
+    );
+    // What belongs to other inputs, or to nothing, is not shown.
+    project.so_far(wanted[0].key, b"nothing");
+    assert!(project.growing().is_some());
+    project.update(Event::Undo);
+    assert!(project.growing().is_none());
+    project.update(Event::Redo);
+    project.done(wanted[0].key, result);
+    assert!(project.growing().is_none());
+    assert_eq!(project.component().unwrap().num_registered(), 9);
+    project.update(Event::Undo);
+}

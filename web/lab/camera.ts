@@ -1,0 +1,86 @@
+/** Photographs by the camera of the machine. */
+
+import { jpegOf } from "./video.js";
+
+function find<T extends HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found as T;
+}
+
+export class Camera {
+  readonly #dialog = find<HTMLDialogElement>("camera");
+  readonly #video = find<HTMLVideoElement>("camera-picture");
+  readonly #count = find("camera-count");
+  readonly #bring: (name: string, jpeg: Uint8Array) => void;
+  readonly #end: () => void;
+  #stream: MediaStream | undefined;
+  #taken = 0;
+  /** All that were ever taken: names go on counting. */
+  #total = 0;
+
+  /** `bring` gets every photograph, `end` says that all of one sitting have come. */
+  constructor(bring: (name: string, jpeg: Uint8Array) => void, end: () => void) {
+    this.#bring = bring;
+    this.#end = end;
+    find("camera-take").addEventListener("click", () => void this.#take());
+    find("camera-done").addEventListener("click", () => this.#dialog.close());
+    this.#dialog.addEventListener("close", () => this.#stop());
+  }
+
+  /** Opens the camera. Throws an `Error` whose message is a sentence for the reader. */
+  async open(): Promise<void> {
+    if (this.#dialog.open) return;
+    const media = navigator.mediaDevices as MediaDevices | undefined;
+    if (!media) throw new Error("This browser gives a page no camera, or only over https. Add photographs from files.");
+    try {
+      this.#stream = await media.getUserMedia({
+        video: { facingMode: "environment", width: { ideal: 3840 }, height: { ideal: 2160 } },
+        audio: false,
+      });
+    } catch (error) {
+      throw new Error(sentence(error));
+    }
+    this.#taken = 0;
+    this.#tell();
+    this.#video.srcObject = this.#stream;
+    this.#dialog.showModal();
+    await this.#video.play();
+  }
+
+  async #take(): Promise<void> {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [this.#video.videoWidth, this.#video.videoHeight];
+    // Before the first picture there is nothing to take.
+    if (!canvas.width) return;
+    const jpeg = await jpegOf(this.#video, canvas);
+    this.#total += 1;
+    this.#taken += 1;
+    this.#bring(`camera-${String(this.#total).padStart(2, "0")}.jpg`, jpeg);
+    this.#tell();
+  }
+
+  #tell(): void {
+    this.#count.textContent =
+      this.#taken === 0 ? "Take two or more, from a step aside each." : `${this.#taken} taken.`;
+  }
+
+  #stop(): void {
+    for (const track of this.#stream?.getTracks() ?? []) track.stop();
+    this.#stream = undefined;
+    this.#video.srcObject = null;
+    if (this.#taken > 0) this.#end();
+  }
+}
+
+function sentence(error: unknown): string {
+  const name = error instanceof Error ? error.name : "";
+  if (name === "NotAllowedError") {
+    return "The camera was refused. Allow it in the browser's settings for this page, or add photographs from files.";
+  }
+  if (name === "NotFoundError" || name === "OverconstrainedError") {
+    return "There is no camera on this machine. Add photographs from files.";
+  }
+  if (name === "NotReadableError") return "The camera does not answer; another program may have it.";
+  return "The camera could not be opened. Add photographs from files.";
+}

@@ -1,0 +1,60 @@
+/** The figure of the book that explains a step, beside the Lab; over it where there is no room. */
+
+function find<T extends HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found as T;
+}
+
+/** The folder of the book, as seen from this script. */
+const BOOK = new URL("../../", import.meta.url);
+
+/** The figures' elements under their stable name, loaded when a figure is asked for the first time. */
+const elements = () => import(new URL("embed/epipole.js", BOOK).href);
+
+export class FigureBeside {
+  readonly #aside = find("figure");
+  readonly #title = find("figure-title");
+  readonly #place = find("figure-place");
+  readonly #chapter = find<HTMLAnchorElement>("figure-chapter");
+  readonly #close = find("figure-close");
+  #back: HTMLElement | undefined;
+
+  constructor() {
+    this.#close.addEventListener("click", () => this.hide());
+    this.#aside.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && !event.defaultPrevented) this.hide();
+    });
+  }
+
+  async show(name: string, page: string, title: string): Promise<void> {
+    const active = document.activeElement;
+    if (this.#aside.hidden && active instanceof HTMLElement) this.#back = active;
+    this.#title.textContent = title;
+    this.#chapter.href = new URL(page, BOOK).href;
+    this.#aside.hidden = false;
+    document.body.dataset["figure"] = name;
+    this.#close.focus();
+    if (this.#place.firstElementChild?.getAttribute("name") === name) return;
+    this.#place.textContent = "The figure is being loaded …";
+    try {
+      await elements();
+    } catch (error) {
+      console.warn(error);
+      this.#place.textContent = "The figure could not be loaded. Its chapter has it, too.";
+      return;
+    }
+    // Another one may have been asked for meanwhile.
+    if (document.body.dataset["figure"] !== name) return;
+    const figure = document.createElement("epipole-figure");
+    figure.setAttribute("name", name);
+    this.#place.replaceChildren(figure);
+  }
+
+  hide(): void {
+    this.#aside.hidden = true;
+    delete document.body.dataset["figure"];
+    this.#place.replaceChildren();
+    this.#back?.focus();
+  }
+}
