@@ -2,7 +2,7 @@
 //
 // DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
 // makes them for the web. Out come index.js, worker.js, the modules beside them, figure.css and early.js
-// for trees that prerender.mjs writes, auto.js for pages that load no modules, react.js, custom-elements.json, and the types. (The book bundles the same sources itself, with names made
+// for trees that prerender.mjs writes, auto.js for pages that load no modules, react.js, custom-elements.json, the types, and what is due to others (THIRD-PARTY.txt). (The book bundles the same sources itself, with names made
 // of their content.)
 
 import { build } from "esbuild";
@@ -81,5 +81,6 @@ execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "type
   cwd: here,
   stdio: "inherit",
 });
+copyFileSync(join(here, "THIRD-PARTY.txt"), join(out, "THIRD-PARTY.txt"));
 copyFileSync(join(here, "react.d.ts"), join(out, "types/react.d.ts"));
 for (const name of ["auto", "script"]) writeFileSync(join(out, `types/${name}.d.ts`), "export {};\n");

@@ -14,8 +14,8 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 
 const here = dirname(fileURLToPath(import.meta.url));
-/** What a figure loads. */
-const FILES = ["index.js", "worker.js", "epipole-figures.wasm", "epipole-jobs.wasm"];
+/** What a figure loads, and what is due to those whose work is in it. */
+const FILES = ["index.js", "worker.js", "epipole-figures.wasm", "epipole-jobs.wasm", "THIRD-PARTY.txt"];
 
 function escape(text) {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");

@@ -1,5 +1,6 @@
 // Puts <epipole-figure> into a cell and keeps it and the model in Python equal. The scripts and modules come as
 // buffers of one message, once a page: what stands in a widget itself would be kept anew for every cell that runs.
+// Pages without a kernel have them inside (`INSIDE`), and a model that may hold no more than a name.
 
 const KEY = Symbol.for("epipole-figures");
 /** How long what changes is gathered before Python is told, milliseconds. */
@@ -62,7 +63,7 @@ async function render({ model, el }) {
   }
   const figure = document.createElement("epipole-figure");
   figure.setAttribute("name", model.get("name"));
-  for (const [key, value] of Object.entries(model.get("_look"))) {
+  for (const [key, value] of Object.entries(model.get("_look") ?? {})) {
     if (key === "height") figure.style.height = `${value}px`;
     else figure.setAttribute(key, value);
   }
@@ -75,8 +76,8 @@ async function render({ model, el }) {
     gathering = undefined;
     if (!same(sorted(figure.state), sorted(model.get("state")))) model.set("state", figure.state);
     if (!same(figure.readouts, model.get("readouts"))) model.set("readouts", figure.readouts);
-    const solved = [...new Set([...model.get("solved"), ...figure.solved])];
-    if (!same(solved, model.get("solved"))) model.set("solved", solved);
+    const solved = [...new Set([...(model.get("solved") ?? []), ...figure.solved])];
+    if (!same(solved, model.get("solved") ?? [])) model.set("solved", solved);
     if (figure.description !== model.get("description")) model.set("description", figure.description);
     model.save_changes();
   };
@@ -84,7 +85,7 @@ async function render({ model, el }) {
     if (ready) gathering ??= setTimeout(tell, GATHER_MS);
   };
   const follow = () => {
-    if (ready && !same(sorted(figure.state), sorted(model.get("state")))) void figure.restore(model.get("state"));
+    if (ready && !same(sorted(figure.state), sorted(model.get("state")))) void figure.restore(model.get("state") ?? {});
   };
   const hear = (message) => {
     if (message?.kind === "press") void figure.whenReady().then(() => figure.press(message.id));
@@ -92,7 +93,7 @@ async function render({ model, el }) {
   for (const type of ["epipole-change", "epipole-readout", "epipole-challenge"]) figure.addEventListener(type, later);
   model.on("change:state", follow);
   model.on("msg:custom", hear);
-  void figure.restore(model.get("state"), { solved: model.get("solved") }).then(() => {
+  void figure.restore(model.get("state") ?? {}, { solved: model.get("solved") ?? [] }).then(() => {
     figure.flush();
     ready = true;
     tell();

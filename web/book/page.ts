@@ -2,6 +2,7 @@
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
 import { startListings } from "./listings";
 import { startOperating } from "./operate";
+import { startPlaying } from "./play";
 import { makeScrollersReachable } from "./scrollers";
 import { settleSections } from "./sections";
 import { startSymbols } from "./symbols";
@@ -14,22 +15,41 @@ revealCurrentChapter();
 followSections();
 makeScrollersReachable();
 startOperating();
+startPlaying();
 startListings();
 startSymbols();
 
+/** A script of this page has not come, as after a new edition of the book: a sentence, once, and a way on. */
+function sayMissing(): void {
+  if (document.querySelector(".page-notice")) return;
+  const notice = document.createElement("p");
+  notice.className = "page-notice";
+  notice.setAttribute("role", "status");
+  const again = document.createElement("button");
+  again.type = "button";
+  again.textContent = "Load the page anew";
+  again.addEventListener("click", () => location.reload());
+  notice.append("A part of this page could not be loaded. ", again);
+  document.querySelector("main")?.prepend(notice);
+  notice.scrollIntoView({ block: "nearest" });
+}
+
 if (document.querySelector(".quiz, .progress, .small .solved")) {
-  void import("./quiz").then((quiz) => quiz.start());
+  void import("./quiz").then((quiz) => quiz.start(), sayMissing);
 }
 
 if (document.querySelector(".gallery")) {
-  void import("./gallery").then((gallery) => gallery.start());
+  void import("./gallery").then((gallery) => gallery.start(), sayMissing);
 }
 
 const button = document.querySelector<HTMLButtonElement>(".search-button");
 if (button) {
   button.hidden = false;
   const open = () =>
-    void import("./search").then((search) => search.open(button.dataset.index ?? "", button.dataset.root ?? ""));
+    void import("./search").then(
+      (search) => search.open(button.dataset.index ?? "", button.dataset.root ?? ""),
+      sayMissing,
+    );
   button.addEventListener("click", open);
   document.addEventListener("keydown", (event) => {
     if ((event.ctrlKey || event.metaKey) && !event.shiftKey && !event.altKey && event.key.toLowerCase() === "k") {

@@ -9,17 +9,21 @@ type Solved = Record<string, string>;
 function load(quiz: string): Solved {
   try {
     const stored: unknown = JSON.parse(localStorage.getItem(PREFIX + quiz) ?? "{}");
-    return typeof stored === "object" && stored !== null ? (stored as Solved) : {};
+    if (typeof stored !== "object" || stored === null || Array.isArray(stored)) return {};
+    // Whatever else may have come there, what counts has the form of a hash.
+    return Object.fromEntries(Object.entries(stored).filter(([, hash]) => typeof hash === "string"));
   } catch {
     return {};
   }
 }
 
-function save(quiz: string, solved: Solved): void {
+/** Says whether it is remembered; the page works all the same. */
+function save(quiz: string, solved: Solved): boolean {
   try {
     localStorage.setItem(PREFIX + quiz, JSON.stringify(solved));
+    return true;
   } catch {
-    // Not remembered; the page works all the same.
+    return false;
   }
 }
 
@@ -86,7 +90,9 @@ function prepare(form: HTMLFormElement, quiz: string): void {
     verdict.textContent = result.say;
     showReasons(form);
     if (result.right) {
-      save(quiz, { ...load(quiz), [id]: hash });
+      if (!save(quiz, { ...load(quiz), [id]: hash })) {
+        verdict.textContent += " This browser keeps nothing for this page, so it will not remember that.";
+      }
       if (solution) solution.open = true;
     }
   });

@@ -17,7 +17,10 @@ interface Hit {
 }
 
 const MAX_HITS = 20;
+/** An index that takes longer is slow enough to say so, milliseconds. */
+const SLOW_MS = 15_000;
 let sections: Promise<Section[]> | undefined;
+let asking = new AbortController();
 let dialog: HTMLDialogElement | undefined;
 
 const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
@@ -82,7 +85,21 @@ function excerpt(text: string, query: string): HTMLElement {
   return span;
 }
 
-function makeDialog(root: string): HTMLDialogElement {
+/** Asks for the index, in place of a request that is under way. */
+function fetchIndex(index: string): void {
+  asking.abort();
+  asking = new AbortController();
+  const asked = fetch(index, { signal: asking.signal }).then(async (response) => {
+    const all: unknown = response.ok ? await response.json() : undefined;
+    if (!Array.isArray(all)) throw new Error(`${response.status} for ${index}`);
+    return all as Section[];
+  });
+  // Who searches later asks anew.
+  asked.catch(() => sections === asked && (sections = undefined));
+  sections = asked;
+}
+
+function makeDialog(index: string, root: string): HTMLDialogElement {
   const made = document.createElement("dialog");
   made.className = "search-dialog";
   made.setAttribute("aria-label", "Search the book");
@@ -112,14 +129,32 @@ function makeDialog(root: string): HTMLDialogElement {
     const target = event.target;
     if (target === made || (target instanceof Element && target.closest("a"))) made.close();
   });
+  const offer = (sentence: string) => {
+    const again = document.createElement("button");
+    again.type = "button";
+    again.textContent = "Try again";
+    again.addEventListener("click", () => {
+      fetchIndex(index);
+      input.focus();
+      void update();
+    });
+    status.replaceChildren(`${sentence} `, again);
+    list.replaceChildren();
+  };
   const update = async () => {
     const query = input.value;
+    if (!sections) fetchIndex(index);
+    const waited = sections;
+    const late = setTimeout(() => offer("The index of the book is slow to come."), SLOW_MS);
     let hits: Hit[] = [];
     try {
-      hits = find((await sections) ?? [], query);
+      hits = find((await waited) ?? [], query);
     } catch {
-      status.textContent = "The index of the book could not be loaded.";
+      // Another request has taken its place, or this one is to be told.
+      if (!sections || sections === waited) offer("The index of the book could not be loaded.");
       return;
+    } finally {
+      clearTimeout(late);
     }
     if (query !== input.value) return;
     const found = hits.length === 0 ? "Nothing found." : `${hits.length} section${hits.length === 1 ? "" : "s"}`;
@@ -162,12 +197,8 @@ function makeDialog(root: string): HTMLDialogElement {
 }
 
 export function open(index: string, root: string): void {
-  sections ??= fetch(index).then((response) => {
-    if (!response.ok) throw new Error(response.statusText);
-    return response.json() as Promise<Section[]>;
-  });
-  sections.catch(() => (sections = undefined));
-  dialog ??= makeDialog(root);
+  if (!sections) fetchIndex(index);
+  dialog ??= makeDialog(index, root);
   if (!dialog.open) dialog.showModal();
   dialog.querySelector("input")?.select();
 }

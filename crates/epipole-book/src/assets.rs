@@ -1,6 +1,7 @@
 //! What the browser downloads beside the pages: styles, fonts, scripts and WebAssembly. Every name
-//! carries a hash of the content; `embed/epipole.js` is the one stable name, for other sites.
+//! carries a hash of the content; what is in `embed/` has stable names, for other sites.
 
+mod embed;
 mod fonts;
 mod lab;
 mod scripts;
@@ -146,10 +147,18 @@ pub(crate) fn make(
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
-    let license = read(&tools.modules.join("@fontsource/stix-two-math/LICENSE"))?;
-    assets
-        .files
-        .insert("licenses/OFL-STIX-Two.txt".to_owned(), license);
+    let licenses = [
+        (
+            "OFL-STIX-Two.txt",
+            tools.modules.join("@fontsource/stix-two-math/LICENSE"),
+        ),
+        ("THIRD-PARTY.txt", tools.project.join("web/THIRD-PARTY.txt")),
+    ];
+    for (name, source) in licenses {
+        assets
+            .files
+            .insert(format!("licenses/{name}"), read(&source)?);
+    }
     Ok(assets)
 }
 

@@ -271,11 +271,15 @@ fn figure(
         attributes: settings.iter().chain(&shown).cloned().collect(),
         sizes: posters.sizes.clone(),
     });
-    let attributes: String = settings
+    let mut attributes: String = settings
         .iter()
         .chain(&shown)
         .map(|(key, value)| format!(" {}=\"{}\"", escape(key), escape(value)))
         .collect();
+    if let Some(button) = setting(directive, "play") {
+        facts.check_names("controls", button)?;
+        attributes.push_str(&format!(" data-play=\"{}\"", escape(button)));
+    }
     // The first figure of a page may be in sight at once; the others can wait.
     let loading = match renderer.page.figures.len() {
         1 => "fetchpriority=\"high\"",

@@ -3,11 +3,14 @@
 //! The rest of the builder knows only the two traits here, so its tests can bring their own
 //! figures.
 
-use epipole_widgets::Snapshot;
 pub use epipole_widgets::contract::Aspect;
 use epipole_widgets::contract::WIDTHS;
 use epipole_widgets::gallery::{self, FIGURES};
 use epipole_widgets::theme::Theme;
+use epipole_widgets::{Answers, Snapshot};
+
+/// What figures have computed, kept while the builder runs.
+static ANSWERS: Answers = Answers::new();
 
 /// The room that a page has for a picture: figures lay themselves out for its width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,13 +148,14 @@ fn open(name: &str, settings: &[(String, String)]) -> Result<epipole_widgets::Fi
 impl Figure for Widget {
     fn snapshot(&self) -> Result<String, String> {
         let mut figure = open(&self.name, &self.settings)?;
-        figure.finish_job();
+        ANSWERS.finish(&mut figure);
         let width = f64::from(Room::Column.width());
         serde_json::to_string(&Snapshot::of(&figure, width)).map_err(|error| error.to_string())
     }
 
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {
         let mut figure = open(&self.name, &self.settings)?;
+        ANSWERS.finish(&mut figure);
         let mut draw = |theme| {
             let picture = figure
                 .draw_settled(f64::from(room.width()), f64::from(scale), theme)

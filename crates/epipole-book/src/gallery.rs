@@ -71,7 +71,7 @@ fn entry(renderer: &mut Renderer, name: &str, place: &Place) -> Result<String, S
          loading=\"lazy\" decoding=\"async\"></picture></epipole-figure>\n\
          <figcaption><code>{name}</code> {alt}</figcaption>\n</figure>\n\
          <p>{help} Its own page, for frames: <a class=\"own-page\" href=\"{root}{frame}\">{frame}</a>.</p>\n\
-         {snippet}{settings}{readouts}{buttons}</section>\n",
+         {snippet}{settings}{readouts}{buttons}{keys}</section>\n",
         title = escape(&title),
         panel = token("panel", &panel.to_string()),
         sources = posters.sources,
@@ -82,6 +82,7 @@ fn entry(renderer: &mut Renderer, name: &str, place: &Place) -> Result<String, S
         settings = settings_table(snapshot),
         readouts = readouts_table(snapshot),
         buttons = buttons(snapshot),
+        keys = keys(snapshot),
     ))
 }
 
@@ -202,4 +203,53 @@ fn buttons(snapshot: &Value) -> String {
         })
         .collect();
     table("What can be pressed", &["Name", "Label"], &rows)
+}
+
+/// What the keys do on what this figure has, as `web/src/picture.ts` takes them.
+fn keys(snapshot: &Value) -> String {
+    let has = |list: &str, what: &dyn Fn(&Value) -> bool| entries(snapshot, list).any(what);
+    let points = has("handles", &|_| true);
+    let removable = has("handles", &|handle| handle["removable"] == true);
+    let sliders = has("controls", &|control| words(control, "kind") == "slider");
+    let spaces = has("spaces", &|_| true);
+    let panels = snapshot["layout"]["panels"].as_array();
+    let clickable = panels
+        .into_iter()
+        .flatten()
+        .any(|panel| panel["clickable"] == true);
+    let mut rows = vec![("Tab", "to the next thing that can be operated, and out")];
+    if points || sliders {
+        rows.push((
+            "arrows",
+            "one step of the point or slider that has the focus",
+        ));
+    }
+    if points {
+        rows.push(("Shift and arrows", "a fifth of a step of the point"));
+    }
+    if points || sliders {
+        rows.push(("Page Up, Page Down", "several steps"));
+        rows.push(("Home, End", "as far as it goes"));
+    }
+    if removable {
+        rows.push(("Delete", "removes the point"));
+    }
+    if spaces {
+        rows.push((
+            "+, −",
+            "larger and smaller, on the point that turns the space",
+        ));
+    }
+    if clickable {
+        rows.push((
+            "Enter",
+            "clicks where the crosshair stands, which arrows move",
+        ));
+    }
+    rows.push(("Escape", "gives the focus back to the page"));
+    let rows: Vec<Vec<String>> = rows
+        .into_iter()
+        .map(|(key, deed)| vec![key.to_owned(), deed.to_owned()])
+        .collect();
+    table("Keys", &["Key", "What it does"], &rows)
 }

@@ -18,7 +18,9 @@ pub(crate) struct Instance {
 }
 
 /// What a figure's tag says to the builder and to the page; everything else is the figure's state.
-const WORDS_OF_THE_PAGE: [&str; 6] = ["id", "controls", "readouts", "goals", "claim", "page"];
+const WORDS_OF_THE_PAGE: [&str; 7] = [
+    "id", "controls", "readouts", "goals", "claim", "page", "play",
+];
 
 /// The settings of a directive that are the figure's own.
 pub(crate) fn own_settings(directive: &Directive) -> Vec<(String, String)> {

@@ -1,5 +1,6 @@
 //! Links and pictures: relative, and checked.
 
+use crate::assets::LAB_FOLDER;
 use crate::html::escape;
 use crate::markdown::Renderer;
 use crate::page::{Link, Page};
@@ -37,6 +38,9 @@ pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> S
             .last()
             .map(|link| link.written.clone())
             .unwrap_or_default();
+    }
+    if let Some(link) = to_the_lab(&own, path) {
+        return link;
     }
     let target = resolve_path(&own, path);
     if let Some(stem) = target.strip_suffix(".md") {
@@ -95,6 +99,17 @@ pub(crate) fn image(
         escape(written),
         escape(alternative)
     )
+}
+
+/// A link to the Lab, `lab/` with parameters or without: it is beside the book or, until it is built, a page that
+/// says so. Written out, so that no server needs to look for the page of a folder.
+fn to_the_lab(own: &str, written: &str) -> Option<String> {
+    let (path, parameters) = match written.find('?') {
+        Some(at) => written.split_at(at),
+        None => (written, ""),
+    };
+    let is_the_lab = resolve_path(own, path) == LAB_FOLDER && path.ends_with('/');
+    is_the_lab.then(|| format!("{path}index.html{parameters}"))
 }
 
 /// `https:`, `mailto:` and the like.
@@ -196,6 +211,25 @@ mod tests {
         assert_eq!(resolve_path("a.html", "b.md"), "b.md");
         assert_eq!(resolve_path("part/a.html", "../b.md"), "b.md");
         assert_eq!(resolve_path("part/a.html", "./c/d.md"), "part/c/d.md");
+    }
+
+    #[test]
+    fn links_to_the_lab_name_its_page() {
+        let link = |own, written| to_the_lab(own, written);
+        assert_eq!(link("a.html", "lab/"), Some("lab/index.html".to_owned()));
+        assert_eq!(
+            link("part/a.html", "../lab/?step=matches&ratio=0.8"),
+            Some("../lab/index.html?step=matches&ratio=0.8".to_owned())
+        );
+        for other in [
+            "lab",
+            "lab.md",
+            "lab/picture.png",
+            "part/lab/",
+            "?step=lab/",
+        ] {
+            assert_eq!(link("a.html", other), None, "{other}");
+        }
     }
 
     #[test]

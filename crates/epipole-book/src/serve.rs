@@ -2,11 +2,12 @@
 //! (types, compressed copies, the content policy, open access for embedding sites), watches the
 //! sources, and tells open pages to reload.
 
+use crate::assets::LAB_FOLDER;
 use crate::figures::Widgets;
 use crate::html::escape;
 use crate::problems::Problem;
 use crate::site::{Options, Outcome, build};
-use crate::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY};
+use crate::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;
@@ -103,13 +104,20 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
         .layer(from_fn(headers))
 }
 
+/// What the page at this path may load and do.
+fn policy_of(path: &str) -> &'static str {
+    let is_in = |folder: &str| path.contains(&format!("/{folder}/"));
+    // The pages of single figures are there for the frames of others.
+    match (is_in("embed"), is_in(LAB_FOLDER)) {
+        (true, _) => FRAME_POLICY,
+        (_, true) => LAB_POLICY,
+        _ => CONTENT_SECURITY_POLICY,
+    }
+}
+
 async fn headers(request: Request, next: Next) -> Response {
     let hashed = request.uri().path().contains("/assets/");
-    // The pages of single figures are there for the frames of others.
-    let policy = match request.uri().path().contains("/embed/") {
-        true => FRAME_POLICY,
-        false => CONTENT_SECURITY_POLICY,
-    };
+    let policy = policy_of(request.uri().path());
     let mut response = next.run(request).await.into_response();
     let caching = if hashed {
         "public, max-age=31536000, immutable"

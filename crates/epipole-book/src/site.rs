@@ -187,6 +187,9 @@ fn build_pages(
         "404.html".to_owned(),
         template.not_found(&summary.entries, &pages)?.into_bytes(),
     );
+    let stand_in = template.without_lab(&summary.entries, &pages)?;
+    files.insert(format!("{LAB_FOLDER}/index.html"), stand_in.into_bytes());
+    files.insert(format!("{LAB_FOLDER}/{STAND_IN}"), Vec::new());
     files.insert(
         "robots.txt".to_owned(),
         b"User-agent: *\nAllow: /\n".to_vec(),
@@ -468,6 +471,9 @@ fn progress_table(shared: &Shared) -> String {
     html
 }
 
+/// The mark of a folder with the page that stands where the Lab will be.
+const STAND_IN: &str = ".stand-in";
+
 /// Writes the site beside its place and then moves it there, so that a reader never sees half.
 fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {
     let next = out.with_extension("next");
@@ -482,7 +488,8 @@ fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {
     }
     // The Lab takes minutes to build, and a chapter's words seconds.
     let (lab, kept) = (out.join(LAB_FOLDER), next.join(LAB_FOLDER));
-    if lab.is_dir() && !kept.exists() {
+    if lab.is_dir() && !lab.join(STAND_IN).exists() {
+        remove(&kept)?;
         std::fs::rename(&lab, &kept)
             .with_context(|| format!("cannot keep the Lab at {}", lab.display()))?;
     }

@@ -1,6 +1,6 @@
 //! A page around its content: `web/theme/index.hbs` and what it may use.
 
-use crate::assets::Assets;
+use crate::assets::{Assets, LAB_FOLDER};
 use crate::html::path_to_root;
 use crate::page::Page;
 use crate::site::Entry;
@@ -10,17 +10,25 @@ use mdbook_driver::config::Config;
 use serde::Serialize;
 use std::path::Path;
 
+macro_rules! policy {
+    ($more:literal) => {
+        concat!(
+            "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; ",
+            "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; ",
+            "manifest-src 'self'; base-uri 'none'; form-action 'none'",
+            $more
+        )
+    };
+}
+
 /// What a page may load and do. Sent as a header by `serve`, and part of every page.
-pub const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self' \
-    'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; \
-    connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; \
-    form-action 'none'";
+pub const CONTENT_SECURITY_POLICY: &str = policy!("");
 
 /// The same for pages that stand in frames of other pages. In a page itself browsers would ignore the last part.
-pub const FRAME_POLICY: &str = "default-src 'none'; script-src 'self' \
-    'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; \
-    connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; \
-    form-action 'none'; frame-ancestors *";
+pub const FRAME_POLICY: &str = policy!("; frame-ancestors *");
+
+/// The same for the Lab, which also opens the reader's own videos.
+pub const LAB_POLICY: &str = policy!("; media-src blob:");
 
 /// The template and what is the same on all pages.
 pub(crate) struct Template<'a> {
@@ -225,6 +233,21 @@ impl<'a> Template<'a> {
             title: "Page not found".to_owned(),
             html: "<h1>There is no such page</h1>\n<p>The address may have changed. The contents \
                    and the search lead to every chapter.</p>\n"
+                .to_owned(),
+            ..Page::default()
+        };
+        self.page(&page, &Nav::new(entries, pages, pages.len() + 1))
+    }
+
+    /// What stands where the Lab will be until it is built: building it takes minutes, and the book links to it.
+    pub(crate) fn without_lab(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
+        let page = Page {
+            path: format!("{LAB_FOLDER}/index.html"),
+            title: "The Lab".to_owned(),
+            html: "<h1>The Lab</h1>\n<p>The Lab takes your own photographs all the way to a measured cloud of points. \
+                   It is not part of this copy of the book: whoever builds the book adds it with <code>make \
+                   lab</code>, which takes some minutes. The <a href=\"../index.html\">book</a> works \
+                   without it.</p>\n"
                 .to_owned(),
             ..Page::default()
         };

@@ -177,11 +177,45 @@ fn a_tiny_chapter_as_html() {
 fn the_lab_stays_where_it_is_when_the_book_is_built_again() {
     let book = Book::of_chapter("# A title\n\nWords.\n");
     book.must_build();
-    book.write("target/book/lab/index.html", "the Lab");
     book.write("target/book/old.html", "an old page");
+    // In place of the page that stands there until the Lab is built, with its mark.
+    fs::remove_dir_all(book.out().join("lab")).unwrap();
+    book.write("target/book/lab/index.html", "the Lab");
     book.must_build();
     assert_eq!(book.page("lab/index.html"), "the Lab");
     assert!(!book.out().join("old.html").exists());
+}
+
+#[test]
+fn links_to_the_lab_are_not_dead_while_there_is_no_lab() {
+    let book = Book::new(&[
+        ("SUMMARY.md", "- [One](part/one.md)\n"),
+        (
+            "part/one.md",
+            "# One\n\n[Try it](../lab/?step=matches&ratio=0.8).\n",
+        ),
+    ]);
+    for _ in 0..2 {
+        book.must_build();
+        let article = book.article("part/one.html");
+        assert!(
+            article.contains("href=\"../lab/index.html?step=matches&amp;ratio=0.8\""),
+            "{article}"
+        );
+        let contents = book.page("part/one.html");
+        assert!(
+            contents.contains("<a href=\"../lab/index.html\">"),
+            "{contents}"
+        );
+        let stand_in = book.page("lab/index.html");
+        assert!(stand_in.contains("make lab"), "{stand_in}");
+        assert!(
+            stand_in.contains("<a href=\"../part/one.html\">"),
+            "{stand_in}"
+        );
+    }
+    let book = Book::of_chapter("# One\n\n[Try it](lab/nothing.html).\n");
+    assert_eq!(book.problems().len(), 1);
 }
 
 #[test]
@@ -968,10 +1002,17 @@ fn the_gallery_shows_what_can_be_set_and_read() {
         "<code>size</code></th>",
         "<code>area</code></th><td>",
         "9 px²",
+        "<code>Page Up, Page Down</code>",
     ] {
         assert!(page.contains(part), "{part}: {page}");
     }
-    assert!(!page.contains("What can be pressed"), "{page}");
+    for absent in [
+        "What can be pressed",
+        "<code>Delete</code>",
+        "<code>Enter</code>",
+    ] {
+        assert!(!page.contains(absent), "{absent}: {page}");
+    }
 }
 
 /// The chapters of the book itself: file and text.

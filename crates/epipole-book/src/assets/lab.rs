@@ -1,8 +1,8 @@
-//! The Lab: a folder of the site with a page, its module, and that of its workers.
+//! The Lab: a folder of the site with a page, its module, and those of its workers.
 
 use super::{Assets, Tools, add_hashed, read, scripts, wasm};
 use crate::compress;
-use crate::template::CONTENT_SECURITY_POLICY;
+use crate::template::LAB_POLICY;
 use anyhow::{Context, Result};
 use std::path::Path;
 
@@ -16,13 +16,14 @@ pub(crate) const FOLDER: &str = "lab";
 pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let tools = Tools::find(project)?;
     let page = wasm::build(&tools, "epipole-lab", "page")?;
-    let worker = wasm::build(&tools, "epipole-lab", "worker")?;
+    let vision = wasm::build(&tools, "epipole-lab", "vision-worker")?;
+    let files = wasm::build(&tools, "epipole-lab", "files-worker")?;
     let mut assets = Assets::default();
-    let (css, script) = scripts::add_lab(&tools, (&page, &worker), &mut assets)?;
+    let (css, script) = scripts::add_lab(&tools, [&page, &vision, &files], &mut assets)?;
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     let icon = add_hashed(&mut assets.files, "icon", "svg", icon);
     let html = String::from_utf8(read(&tools.project.join("web/lab/index.html"))?)?
-        .replace("{{policy}}", CONTENT_SECURITY_POLICY)
+        .replace("{{policy}}", LAB_POLICY)
         .replace("{{icon}}", &icon)
         .replace("{{css}}", &css)
         .replace("{{script}}", &script);

@@ -1,7 +1,7 @@
 //! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
 
 use super::wasm::{Module, Modules};
-use super::{Assets, Tools, add_hashed, fonts, read};
+use super::{Assets, Tools, add_hashed, embed, fonts, read};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -73,20 +73,25 @@ pub(super) fn add_elements(
         define("EPIPOLE_WASM", &figures_wasm),
         define("EPIPOLE_JOBS_WASM", &jobs_wasm),
     ];
-    let worker = "web/src/worker.ts";
-    if tools.project.join(worker).is_file() {
-        let made = bundle(tools, worker, &borrowed(&flags), fast, assets)?;
-        let worker = made.get("worker").context("esbuild made no worker.js")?;
-        flags.push(define("EPIPOLE_WORKER", worker));
+    let source = "web/src/worker.ts";
+    let mut worker = None;
+    if tools.project.join(source).is_file() {
+        let made = bundle(tools, source, &borrowed(&flags), fast, assets)?;
+        let made = made.get("worker").context("esbuild made no worker.js")?;
+        flags.push(define("EPIPOLE_WORKER", made));
+        worker = Some(made.clone());
     }
     let made = bundle(tools, "web/src/index.ts", &borrowed(&flags), fast, assets)?;
     let elements = made
         .get("index")
         .context("esbuild made no script for the elements")?;
-    let embed = format!("export * from \"../{elements}\";\n");
-    assets
-        .files
-        .insert("embed/epipole.js".to_owned(), embed.into_bytes());
+    let parts = embed::Parts {
+        elements,
+        worker: worker.as_deref(),
+        figures: &figures_wasm,
+        jobs: &jobs_wasm,
+    };
+    embed::add(tools, &parts, assets)?;
     assets.elements = Some(elements.clone());
     let frame = bundle(tools, "web/book/frame.ts", &["--format=esm"], fast, assets)?;
     assets.frame = frame.get("frame").cloned();
@@ -98,22 +103,25 @@ pub(super) fn add_elements(
 /// The page of the Lab and its workers: style sheet and script.
 pub(super) fn add_lab(
     tools: &Tools,
-    (page, worker): (&Module, &Module),
+    [page, vision, files]: [&Module; 3],
     assets: &mut Assets,
 ) -> Result<(String, String)> {
     let mut add =
         |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
     let page_wasm = add("lab-page", &page.wasm);
-    let worker_wasm = add("lab-worker", &worker.wasm);
+    let vision_wasm = add("lab-vision", &vision.wasm);
+    let files_wasm = add("lab-files", &files.wasm);
     let define = |name: &str, path: &str| {
         format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
     };
     let mut flags = vec![
         "--format=esm".to_owned(),
         format!("--alias:epipole-lab-page={}", page.glue.display()),
-        format!("--alias:epipole-lab-worker={}", worker.glue.display()),
+        format!("--alias:epipole-lab-vision={}", vision.glue.display()),
+        format!("--alias:epipole-lab-files={}", files.glue.display()),
         define("LAB_PAGE_WASM", &page_wasm),
-        define("LAB_WORKER_WASM", &worker_wasm),
+        define("LAB_VISION_WASM", &vision_wasm),
+        define("LAB_FILES_WASM", &files_wasm),
     ];
     let made = bundle(tools, "web/lab/worker.ts", &borrowed(&flags), false, assets)?;
     let worker = made.get("worker").context("esbuild made no worker.js")?;

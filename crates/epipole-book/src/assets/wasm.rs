@@ -5,7 +5,7 @@
 
 use super::{Tools, read};
 use anyhow::{Context, Result};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -33,6 +33,26 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
     })
 }
 
+/// A setting of cargo by which the paths of this machine stay out of the modules, where panics name the file that
+/// they come from: the same source gives the same bytes wherever it is built. Cargo joins it to what
+/// `.cargo/config.toml` says.
+fn without_paths(project: &Path) -> String {
+    let home = std::env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    let packages = home.map(|home| (home.join("registry").join("src"), "registry"));
+    let flags: Vec<String> = packages
+        .into_iter()
+        .chain([(project.to_path_buf(), "epipole")])
+        .map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()))
+        .map(|flag| format!("{flag:?}"))
+        .collect();
+    format!(
+        "target.wasm32-unknown-unknown.rustflags=[{}]",
+        flags.join(", ")
+    )
+}
+
 /// Builds one module: a package with one of its features.
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     let target = super::target_folder(&tools.project);
@@ -46,6 +66,8 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
             "web",
             "--quiet",
         ])
+        .arg("--config")
+        .arg(without_paths(&tools.project))
         .current_dir(&tools.project)
         .stdout(Stdio::null())
         .status()
@@ -63,7 +85,7 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
     let folder = tools.work.join("bindgen");
     let name = match package {
         "epipole-web" => format!("epipole_{feature}"),
-        other => format!("{}_{feature}", other.replace('-', "_")),
+        other => format!("{other}_{feature}").replace('-', "_"),
     };
     Bindgen::new()
         .input_path(&built)
@@ -78,4 +100,17 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         wasm: read(&folder.join(format!("{name}_bg.wasm")))?,
         glue: folder.join(format!("{name}.js")),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_of_this_machine_are_named_anew() {
+        let setting = without_paths(Path::new("/a place/epipole"));
+        assert!(setting.starts_with("target.wasm32-unknown-unknown.rustflags=["));
+        assert!(setting.contains("\"--remap-path-prefix=/a place/epipole=epipole\""));
+        assert!(setting.contains("registry"));
+    }
 }
