@@ -8,12 +8,12 @@ PYTHON := $(VENV)/bin/python
 # The tools of other sites, and the packages that they install.
 HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
-BOOK := cargo run --quiet --bin epipole-book --
+BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-engines test-hosts monkey python bench bless bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-engines test-hosts test-reproducible monkey python bench audit bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: setup-build setup-test ## installs what building and testing need
 
@@ -26,16 +26,16 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-engines, test-hosts, monkey
+test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-engines, test-hosts, test-reproducible, monkey
 
-check: setup-build ## format, lints and types, without running anything
+check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
-	cargo clippy --quiet --workspace --all-targets -- -D warnings
+	cargo clippy --locked --quiet --workspace --all-targets -- -D warnings
 	cd web && npm run --silent check
-	@command -v cargo-deny >/dev/null && cargo deny --log-level error check licenses bans sources || echo "skipped: cargo deny is not installed"
+	node tests/tools/supply.mjs
 
 test-rust: setup-build ## unit tests, documentation tests, Rust listings, figures, layers
-	cargo test --workspace
+	cargo test --locked --workspace
 
 test-listings: setup-test ## the Python listings and the notebooks of the chapters
 	$(PYTHON) tests/listings/run.py
@@ -49,7 +49,7 @@ test-browser: setup ## the book and the figures in a real browser
 test-lab: setup ## the Lab in a real browser, after building it
 	$(BOOK) build
 	$(BOOK) lab
-	cd tests/browser && LAB=1 npx playwright test lab
+	cd tests/browser && LAB=1 npx playwright test 'lab\.spec'
 
 test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
 	@tests/tools/engines.sh
@@ -61,19 +61,29 @@ monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS
 	cd tests/browser && SEED=$(SEED) MONKEY_SECONDS=$(MONKEY_SECONDS) npx playwright test monkey
 
 test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
+	@tests/tools/jekyll.sh
 	$(BOOK) build
 	tests/browser/hosts/prepare.sh
 	cd tests/browser && npx playwright test --config hosts.config.mjs
 
+test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
+	tests/tools/reproducible.sh
+
 python: setup-build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
 	$(BOOK) build
 	tests/browser/hosts/prepare.sh
+
+audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
+	@tests/tools/audit.sh
 
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
+
+bless-licenses: setup-build ## lists anew what we ship that is not ours; read the difference before you commit it
+	node tests/tools/supply.mjs --bless
 
 bless-listings: setup-test ## records anew what the listings print; read the difference before you commit it
 	$(PYTHON) tests/listings/run.py --bless

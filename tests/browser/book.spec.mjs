@@ -1,22 +1,11 @@
 // Every page of the book, as it is served: under a sub-path, under its own strict policy.
 
 import { readdirSync } from "node:fs";
-import { expect, expectAccessible, listen, ready, test as base } from "./fixtures.mjs";
+import { expect, expectAccessible, listen, ready, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
+import { kept, leaving, listenIn } from "./privacy.mjs";
 
 const pages = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
-
-const test = base.extend({
-  library: [
-    async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
-      await use(`${server.origin}/course`);
-      await server.close();
-    },
-    { scope: "worker" },
-  ],
-});
 
 /** Brings every figure of a page to life. */
 async function wake(page) {
@@ -27,12 +16,16 @@ async function wake(page) {
 
 for (const name of pages) {
   test.describe(name, () => {
-    test("its figures come to life, and the console is silent", async ({ page, library }) => {
+    test("its figures come to life, the console is silent, and nothing is asked of others or kept", async ({ page, library }) => {
+      const requests = listenIn(page.context());
       await page.goto(`${library}/${name}`);
       await expect(page.locator("h1")).toHaveCount(1);
       const figures = await wake(page);
       for (const notice of await figures.locator(".notice").all()) await expect(notice).toBeHidden();
       await page.waitForLoadState("networkidle");
+      expect(requests.length).toBeGreaterThan(3);
+      expect(leaving(requests, new URL(library).origin)).toEqual([]);
+      expect(await kept(page)).toEqual({ keys: [], besides: [] });
     });
 
     test("without script it has everything to read and to see", async ({ browser, library }) => {

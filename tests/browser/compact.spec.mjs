@@ -4,6 +4,8 @@ import { serve } from "./server.mjs";
 import { expect, expectAccessible, figures, middle, settled, SLIDER, test, told } from "./fixtures.mjs";
 import { script } from "./places.mjs";
 
+test.use({ shared: true });
+
 /** A slide of reveal.js, and little more than a thumbnail. */
 const SIZES = [[960, 700], [400, 300]];
 /** How much of the smaller of width and height of its home the picture takes at least. */

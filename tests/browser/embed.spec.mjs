@@ -1,9 +1,9 @@
 // A page of someone else embeds a figure by a script tag alone.
 
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { expect, plain, ready, test, told } from "./fixtures.mjs";
-import { here, script } from "./places.mjs";
+import { book, here, script } from "./places.mjs";
 import { serve } from "./server.mjs";
 
 const name = plain;
@@ -160,13 +160,16 @@ test("neither keys nor whoever holds a slider or a handle reach the page", async
       document.addEventListener(type, (event) => window.heard.push(`${type} ${event.key ?? ""}`));
     }
   });
-  await figure.locator("input[type=range]").first().focus();
+  const slider = figure.locator("input[type=range]").first();
+  await slider.focus();
   for (const key of [" ", "ArrowRight", "a", "b", "Enter", "Home"]) await page.keyboard.press(key);
-  const box = await figure.locator("input[type=range]").first().boundingBox();
-  await page.mouse.move(box.x + box.width / 3, box.y + box.height / 2);
+  // Hovering waits until the slider stands still: what the keys have done may move it.
+  await slider.hover();
   await page.mouse.down();
+  const box = await slider.boundingBox();
+  expect(await slider.evaluate((input) => input.matches(":active"))).toBe(true);
   await page.evaluate(() => (window.heard = window.heard.filter((event) => !event.startsWith("pointer"))));
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 5 });
+  await page.mouse.move(box.x + box.width / 3, box.y + box.height / 2, { steps: 5 });
   await page.mouse.up();
   expect(await page.evaluate(() => window.heard)).toEqual([]);
   await page.keyboard.press("Escape");
@@ -213,5 +216,71 @@ test(`nothing is loaded for ${name} before it nears the reader`, async ({ page, 
   expect(modules).toEqual([]);
   await ready(page.locator("epipole-figure"));
   expect(modules.length).toBe(1);
+  await other.close();
+});
+
+test("one version can be asked for, with the hashes of its scripts", async ({ page, library, complaints }) => {
+  const versions = readdirSync(join(book, "embed"), { withFileTypes: true }).filter((entry) => entry.isDirectory());
+  expect(versions).toHaveLength(1);
+  const folder = `${library}/embed/${versions[0].name}`;
+  const { version, integrity } = await (await page.request.get(`${folder}/integrity.json`)).json();
+  expect(folder.endsWith(`/embed/${version}`)).toBe(true);
+  const scripts = Object.fromEntries(
+    Object.entries(integrity)
+      .filter(([path]) => path.endsWith(".js"))
+      .map(([path, hash]) => [`${library}/${path}`, hash]),
+  );
+  const entry = `${folder}/epipole.js`;
+  expect(Object.keys(scripts)).toContain(entry);
+  const pageOf = (hashes) => `<!doctype html><title>A course</title>
+<script type="importmap">${JSON.stringify({ integrity: hashes })}</script>
+<script type="module" src="${entry}" integrity="${hashes[entry]}" crossorigin="anonymous"></script>
+<epipole-figure name="${name}"></epipole-figure>`;
+  let hashes = scripts;
+  const other = await serve({ mounts: { "": () => pageOf(hashes) }, policy: false });
+  await page.goto(other.origin);
+  await ready(page.locator("epipole-figure"));
+  // A script that is another one is not run.
+  const elements = Object.keys(scripts).find((path) => /\/index-/.test(path));
+  hashes = { ...scripts, [elements]: scripts[entry] };
+  expect(complaints).toEqual([]);
+  await page.goto(other.origin);
+  await expect.poll(() => complaints.join()).toContain("integrity");
+  expect(await page.evaluate(() => customElements.get("epipole-figure"))).toBe(undefined);
+  complaints.length = 0;
+  await other.close();
+});
+
+test("the widget needs no kernel and no other file", async ({ page }) => {
+  const html = `<!doctype html><title>Notes</title><div id="here"></div><script type="module">
+import widget from "/embed/widget.js";
+// The least that a page which shows anywidgets has for them.
+const state = { name: "ransac-race", state: { points: "20" } };
+const hears = new EventTarget();
+const model = {
+  get: (key) => state[key],
+  set(key, value) { state[key] = value; hears.dispatchEvent(new Event("change:" + key)); },
+  save_changes() {},
+  on: (type, heard) => hears.addEventListener(type, heard),
+  off: (type, heard) => hears.removeEventListener(type, heard),
+};
+globalThis.model = model;
+globalThis.leave = await widget.render({ model, el: document.querySelector("#here") });
+</script>`;
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url()));
+  const other = await serve({ mounts: { embed: join(book, "embed"), "": () => html }, policy: false });
+  await page.goto(other.origin);
+  const figure = page.locator("epipole-figure");
+  await ready(figure);
+  await expect.poll(() => page.evaluate(() => Object.keys(globalThis.model.get("readouts") ?? {}).length)).toBeGreaterThan(0);
+  expect((await told(figure)).state).toEqual({ points: "20" });
+  await page.evaluate(() => globalThis.model.set("state", { points: "30" }));
+  await expect.poll(async () => (await told(figure)).state).toEqual({ points: "30" });
+  await figure.evaluate((element) => element.apply({ points: 40 }));
+  await expect.poll(() => page.evaluate(() => globalThis.model.get("state"))).toEqual({ points: "40" });
+  await page.evaluate(() => globalThis.leave());
+  await expect(figure).toHaveCount(0);
+  expect(asked.filter((url) => !url.startsWith("blob:"))).toEqual([`${other.origin}/`, `${other.origin}/embed/widget.js`]);
   await other.close();
 });

@@ -2,6 +2,8 @@
 
 import { SLIDER, change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
 
+test.use({ shared: true });
+
 test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
 });
@@ -9,244 +11,193 @@ test("there are figures to test", () => {
 /** Their handle is held to a slanted line: going with the pointer down, it may go a little to the side. */
 const SLANTED = ["same-picture"];
 
+test("without script there are poster and caption", async ({ browser, site }) => {
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  for (const { name } of figures) {
+    await page.goto(`${site}/figures?figure=${name}`);
+    await expect(page.getByRole("img", { name: `Poster of ${name}` })).toBeVisible();
+    await expect(page.getByText(`Caption of ${name}.`)).toBeVisible();
+  }
+  await context.close();
+});
+
 for (const { name, title, help } of figures) {
   test.describe(name, () => {
-    test("draws its first frame and says what it is", async ({ page, open }) => {
+    test("is drawn, told, set by sliders and keys, reset, and saved", async ({ page, open }) => {
       const figure = await open(page, [name]);
-      const canvas = figure.locator("canvas");
-      await expect(canvas).toBeVisible();
-      await expect(figure.locator("slot").first()).toBeHidden();
-      await expect(figure.locator(".title")).toHaveText(title);
-      const root = figure.locator(".root");
-      await expect(root).toHaveAccessibleName(title);
-      await expect(root).toHaveAccessibleDescription(help);
-      const { description } = await told(figure);
-      await expect(canvas).toHaveAccessibleName(description);
-      const colors = await canvas.evaluate((element) => {
-        const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
-        return new Set(new Uint32Array(data.buffer)).size;
-      });
-      expect(colors, "different colors in the frame").toBeGreaterThan(8);
-    });
-
-    test("a mouse drags a handle, and where it took hold stays", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      await hear(figure, "epipole-change", "epipole-readout");
-      const at = await gripOf(figure);
-      test.skip(!at, "a figure without handles");
-      await page.mouse.move(at.x + 4, at.y + 4);
-      await page.mouse.down();
-      // Where handles crowd, the nearest is taken.
-      const id = await figure.evaluate((element) => element.shadowRoot.activeElement.dataset.handle);
-      const grip = figure.locator(`[data-handle="${id}"]`);
-      const before = await grip.getAttribute("aria-valuetext");
-      const from = await middle(grip);
-      // Towards the middle of the picture, where there is room.
-      const stage = await figure.locator("canvas").boundingBox();
-      const away = (place, low, size) => (place < low + size / 2 ? 36 : -36);
-      const [dx, dy] = [away(from.x, stage.x, stage.width), away(from.y, stage.y, stage.height)];
-      await page.mouse.move(at.x + 4 + dx / 2, at.y + 4 + dy / 2);
-      await page.mouse.move(at.x + 4 + dx, at.y + 4 + dy);
-      await page.mouse.up();
-      await expect.poll(() => heard(figure)).not.toEqual([]);
-      expect(await grip.getAttribute("aria-valuetext")).not.toBe(before);
-      const to = await middle(grip);
-      const [movedX, movedY] = [to.x - from.x, to.y - from.y];
-      // A handle may be held to one direction, or to its range; it never jumps under the pointer.
-      for (const [is, want] of [[movedX, dx], [movedY, dy]]) {
-        if (!SLANTED.includes(name)) expect(is * Math.sign(want)).toBeGreaterThanOrEqual(-1.5);
-        expect(Math.abs(is)).toBeLessThanOrEqual(Math.abs(want) + 1.5);
-      }
-      expect(movedX * dx + movedY * dy).toBeGreaterThan(0);
-      expect(Math.hypot(movedX, movedY)).toBeGreaterThan(10);
-    });
-
-    test("the keys alone reach and move everything", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      const grip = (await gripOf(figure))?.grip;
-      const focused = () =>
-        figure.evaluate((element) => {
-          const at = element.shadowRoot.activeElement;
-          return at && (at.dataset.handle ?? at.id ?? at.textContent);
+      const asked = await told(figure);
+      await test.step("draws its first frame and says what it is", async () => {
+        const canvas = figure.locator("canvas");
+        await expect(canvas).toBeVisible();
+        await expect(figure.locator("slot").first()).toBeHidden();
+        await expect(figure.locator(".title")).toHaveText(title);
+        const root = figure.locator(".root");
+        await expect(root).toHaveAccessibleName(title);
+        await expect(root).toHaveAccessibleDescription(help);
+        const { description } = await told(figure);
+        await expect(canvas).toHaveAccessibleName(description);
+        const colors = await canvas.evaluate((element) => {
+          const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+          return new Set(new Uint32Array(data.buffer)).size;
         });
-      // Tab comes to every stop once, and out again.
-      await page.locator("#before a").focus();
-      const stops = [];
-      for (let presses = 0; presses < 80; presses += 1) {
+        expect(colors, "different colors in the frame").toBeGreaterThan(8);
+      });
+
+      await test.step("the live region says what the figure shows, once it rests", async () => {
+        const live = figure.locator("[aria-live]");
+        await expect(live).toHaveCount(1);
+        await expect(live).toHaveAttribute("aria-live", "polite");
+        await expect(live).toHaveText("");
+        await change(page, figure, 6);
+        const { description } = await told(figure);
+        // The last key may still be on its way when we ask.
+        const says = () =>
+          figure.evaluate((element) => {
+            const { textContent } = element.shadowRoot.querySelector("[aria-live]");
+            return textContent !== "" && textContent.includes(element.description);
+          });
+        await expect.poll(says, { message: description }).toBe(true);
+      });
+
+      await test.step("a native slider sets a parameter, with its value in words", async () => {
+        const slider = figure.locator(SLIDER).first();
+        if ((await slider.count()) === 0) return;
+        await hear(figure, "epipole-change");
+        await slider.focus();
+        const before = await slider.getAttribute("aria-valuetext");
+        await page.keyboard.press("ArrowRight");
+        await expect(slider).not.toHaveAttribute("aria-valuetext", before);
+        const words = await slider.getAttribute("aria-valuetext");
+        await expect(figure.locator(".slider output").first()).toHaveText(words);
+        await expect.poll(() => heard(figure)).not.toEqual([]);
+      });
+
+      await test.step("the keys alone reach and move everything", async () => {
+        const grip = (await gripOf(figure))?.grip;
+        const focused = () =>
+          figure.evaluate((element) => {
+            const at = element.shadowRoot.activeElement;
+            return at && (at.dataset.handle ?? at.id ?? at.textContent);
+          });
+        // Tab comes to every stop once, and out again.
+        await page.locator("#before a").focus();
+        const stops = [];
+        for (let presses = 0; presses < 80; presses += 1) {
+          await page.keyboard.press("Tab");
+          const kind = await figure.evaluate((element) => {
+            const at = element.shadowRoot.activeElement;
+            return at ? at.getAttribute("role") ?? at.type ?? at.localName : null;
+          });
+          if (kind === null) break;
+          stops.push(kind);
+        }
+        expect(stops.length).toBeLessThan(80);
+        const has = async (native) => (await figure.locator(`${native}:visible`).count()) > 0;
+        const native = (await has(SLIDER)) ? "range" : (await has("input[type=radio]")) ? "radio" : "select-one";
+        // A crosshair stands for the handles of a figure that is only clicked; some have neither.
+        const held = (await figure.locator(".grip, .crosshair").count()) > 0 ? ["slider"] : [];
+        expect(stops, "a handle, a native input and a button").toEqual(
+          expect.arrayContaining([...held, native, "button"]),
+        );
+        if (!grip) return;
+
+        await grip.focus();
+        const id = await focused();
+        const value = () => grip.getAttribute("aria-valuetext");
+        const scroll = await page.evaluate(() => scrollY);
+        const seen = new Set([await value()]);
+        for (const key of ["ArrowRight", "ArrowUp", "PageDown", "PageUp", "Home", "End", "ArrowLeft"]) {
+          await page.keyboard.press(key);
+          await figure.evaluate((element) => element.flush());
+          seen.add(await value());
+        }
+        expect(seen.size, "places that the keys reached").toBeGreaterThanOrEqual(3);
+        expect(await focused()).toBe(id);
+        expect(await page.evaluate(() => scrollY), "arrows do not scroll the page").toBe(scroll);
         await page.keyboard.press("Tab");
-        const kind = await figure.evaluate((element) => {
-          const at = element.shadowRoot.activeElement;
-          return at ? at.getAttribute("role") ?? at.type ?? at.localName : null;
-        });
-        if (kind === null) break;
-        stops.push(kind);
-      }
-      expect(stops.length).toBeLessThan(80);
-      const has = async (native) => (await figure.locator(`${native}:visible`).count()) > 0;
-      const native = (await has(SLIDER)) ? "range" : (await has("input[type=radio]")) ? "radio" : "select-one";
-      // A crosshair stands for the handles of a figure that is only clicked; some have neither.
-      const held = (await figure.locator(".grip, .crosshair").count()) > 0 ? ["slider"] : [];
-      expect(stops, "a handle, a native input and a button").toEqual(
-        expect.arrayContaining([...held, native, "button"]),
-      );
-      if (!grip) return;
-
-      await grip.focus();
-      const id = await focused();
-      const value = () => grip.getAttribute("aria-valuetext");
-      const scroll = await page.evaluate(() => scrollY);
-      const seen = new Set([await value()]);
-      for (const key of ["ArrowRight", "ArrowUp", "PageDown", "PageUp", "Home", "End", "ArrowLeft"]) {
-        await page.keyboard.press(key);
-        await figure.evaluate((element) => element.flush());
-        seen.add(await value());
-      }
-      expect(seen.size, "places that the keys reached").toBeGreaterThanOrEqual(3);
-      expect(await focused()).toBe(id);
-      expect(await page.evaluate(() => scrollY), "arrows do not scroll the page").toBe(scroll);
-      await page.keyboard.press("Tab");
-      expect(await focused()).not.toBe(id);
-    });
-
-    test("a native slider sets a parameter, with its value in words", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      const slider = figure.locator(SLIDER).first();
-      test.skip((await slider.count()) === 0, "a figure without sliders");
-      await hear(figure, "epipole-change");
-      await slider.focus();
-      const before = await slider.getAttribute("aria-valuetext");
-      await page.keyboard.press("ArrowRight");
-      await expect(slider).not.toHaveAttribute("aria-valuetext", before);
-      const words = await slider.getAttribute("aria-valuetext");
-      await expect(figure.locator(".slider output").first()).toHaveText(words);
-      await expect.poll(() => heard(figure)).not.toEqual([]);
-    });
-
-    test("the live region says what the figure shows, once it rests", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      const live = figure.locator("[aria-live]");
-      await expect(live).toHaveCount(1);
-      await expect(live).toHaveAttribute("aria-live", "polite");
-      await expect(live).toHaveText("");
-      await change(page, figure, 6);
-      const { description } = await told(figure);
-      // The last key may still be on its way when we ask.
-      const says = () =>
-        figure.evaluate((element) => {
-          const { textContent } = element.shadowRoot.querySelector("[aria-live]");
-          return textContent !== "" && textContent.includes(element.description);
-        });
-      await expect.poll(says, { message: description }).toBe(true);
-    });
-
-    test("a permalink restores the state", async ({ page, open, context, complaints }) => {
-      const figure = await open(page, [name]);
-      await change(page, figure, 2);
-      const grip = (await gripOf(figure))?.grip;
-      await grip?.focus();
-      for (const key of grip ? ["ArrowLeft", "ArrowDown"] : []) await page.keyboard.press(key);
-      await settled(figure);
-      const before = await told(figure);
-      expect(Object.keys(before.state).length).toBeGreaterThan(0);
-      const link = await figure.evaluate((element) => element.permalink);
-      expect(link).toContain("#fig-1");
-
-      const other = await context.newPage();
-      listen(other, complaints);
-      await other.goto(link);
-      const again = other.locator("epipole-figure");
-      await ready(again);
-      await expect.poll(() => told(again)).toEqual(before);
-      await expect(again.locator(".notice")).toBeHidden();
-    });
-
-    test("Reset returns to what the page asks for", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      const before = await told(figure);
-      const grip = (await gripOf(figure))?.grip;
-      await grip?.focus();
-      if (grip) await page.keyboard.press("ArrowLeft");
-      else await change(page, figure);
-      expect(await told(figure)).not.toEqual(before);
-      await figure.getByRole("button", { name: "Reset", exact: true }).click();
-      await expect.poll(() => told(figure)).toEqual(before);
-    });
-
-    test("the picture is saved as a PNG at twice the size of its layout", async ({ page, open }) => {
-      const figure = await open(page, [name]);
-      const waiting = page.waitForEvent("download");
-      await figure.getByRole("button", { name: "Save image" }).click();
-      const download = await waiting;
-      expect(download.suggestedFilename()).toBe(`${name}.png`);
-      const chunks = [];
-      for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-      const bytes = Buffer.concat(chunks);
-      expect(bytes.subarray(1, 4).toString()).toBe("PNG");
-      const room = await figure.locator(".picture").evaluate((picture) => picture.clientWidth - 32);
-      expect(bytes.readUInt32BE(16)).toBe(2 * layoutWidth(room));
-    });
-
-    test("without script there are poster and caption", async ({ browser, site }) => {
-      const context = await browser.newContext({ javaScriptEnabled: false });
-      const page = await context.newPage();
-      await page.goto(`${site}/figures?figure=${name}`);
-      await expect(page.getByRole("img", { name: `Poster of ${name}` })).toBeVisible();
-      await expect(page.getByText(`Caption of ${name}.`)).toBeVisible();
-      await context.close();
-    });
-
-    test("a finger drags a handle, and scrolls the page from anywhere else", async ({
-      browser,
-      open,
-      complaints,
-    }) => {
-      const context = await browser.newContext({
-        viewport: { width: 360, height: 640 },
-        deviceScaleFactor: 2,
-        hasTouch: true,
-        isMobile: true,
+        expect(await focused()).not.toBe(id);
       });
-      const page = await context.newPage();
-      listen(page, complaints);
-      const figure = await open(page, [name]);
-      await figure.locator("canvas").scrollIntoViewIfNeeded();
-      const at = await gripOf(figure);
-      if (!at) await context.close();
-      test.skip(!at, "a figure without handles");
-      const { grip, x, y } = at;
-      const id = await grip.getAttribute("data-handle");
-      const before = await grip.getAttribute("aria-valuetext");
-      const scroll = await page.evaluate(() => scrollY);
-      const stage = await figure.locator("canvas").boundingBox();
-      const towards = (from, low, size) => (from < low + size / 2 ? 8 : -8);
-      const [dx, dy] = [towards(x, stage.x, stage.width), towards(y, stage.y, stage.height)];
-      const touch = await context.newCDPSession(page);
-      const send = (type, ...points) =>
-        touch.send("Input.dispatchTouchEvent", {
-          type,
-          touchPoints: points.map(([px, py]) => ({ x: px, y: py })),
-        });
-      await send("touchStart", [x, y]);
-      for (let step = 1; step <= 5; step += 1) await send("touchMove", [x + step * dx, y + step * dy]);
-      await send("touchEnd");
-      const moved = figure.locator(`[data-handle="${id}"]`);
-      await expect(moved).not.toHaveAttribute("aria-valuetext", before);
-      expect(await page.evaluate(() => scrollY), "the page stays while a handle moves").toBe(scroll);
 
-      const top = await page.evaluate(() => {
-        scrollTo(0, 0);
-        return scrollY;
+      await test.step("Reset returns to what the page asks for", async () => {
+        const grip = (await gripOf(figure))?.grip;
+        await grip?.focus();
+        if (grip) await page.keyboard.press("ArrowLeft");
+        else await change(page, figure);
+        expect(await told(figure)).not.toEqual(asked);
+        await figure.getByRole("button", { name: "Reset", exact: true }).click();
+        await expect.poll(() => told(figure)).toEqual(asked);
       });
-      const title = await figure.locator(".head").boundingBox();
-      const start = Math.min(title.y + title.height / 2, 600);
-      await send("touchStart", [100, start]);
-      for (let step = 1; step <= 10; step += 1) await send("touchMove", [100, start - 15 * step]);
-      await send("touchEnd");
-      await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(top);
-      await context.close();
+
+      await test.step("the picture is saved as a PNG at twice the size of its layout", async () => {
+        const waiting = page.waitForEvent("download");
+        await figure.getByRole("button", { name: "Save image" }).click();
+        const download = await waiting;
+        expect(download.suggestedFilename()).toBe(`${name}.png`);
+        const chunks = [];
+        for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+        const bytes = Buffer.concat(chunks);
+        expect(bytes.subarray(1, 4).toString()).toBe("PNG");
+        const room = await figure.locator(".picture").evaluate((picture) => picture.clientWidth - 32);
+        expect(bytes.readUInt32BE(16)).toBe(2 * layoutWidth(room));
+      });
     });
 
-    test("a phone 360 px wide needs no sideways scroll", async ({ browser, open, complaints }) => {
+    test("goes with the mouse, and comes back by its permalink", async ({ page, open, context, complaints }) => {
+      const figure = await open(page, [name]);
+      await test.step("a mouse drags a handle, and where it took hold stays", async () => {
+        await hear(figure, "epipole-change", "epipole-readout");
+        const at = await gripOf(figure);
+        if (!at) return;
+        await page.mouse.move(at.x + 4, at.y + 4);
+        await page.mouse.down();
+        // Where handles crowd, the nearest is taken.
+        const id = await figure.evaluate((element) => element.shadowRoot.activeElement.dataset.handle);
+        const grip = figure.locator(`[data-handle="${id}"]`);
+        const before = await grip.getAttribute("aria-valuetext");
+        const from = await middle(grip);
+        // Towards the middle of the picture, where there is room.
+        const stage = await figure.locator("canvas").boundingBox();
+        const away = (place, low, size) => (place < low + size / 2 ? 36 : -36);
+        const [dx, dy] = [away(from.x, stage.x, stage.width), away(from.y, stage.y, stage.height)];
+        await page.mouse.move(at.x + 4 + dx / 2, at.y + 4 + dy / 2);
+        await page.mouse.move(at.x + 4 + dx, at.y + 4 + dy);
+        await page.mouse.up();
+        await expect.poll(() => heard(figure)).not.toEqual([]);
+        expect(await grip.getAttribute("aria-valuetext")).not.toBe(before);
+        const to = await middle(grip);
+        const [movedX, movedY] = [to.x - from.x, to.y - from.y];
+        // A handle may be held to one direction, or to its range; it never jumps under the pointer.
+        for (const [is, want] of [[movedX, dx], [movedY, dy]]) {
+          if (!SLANTED.includes(name)) expect(is * Math.sign(want)).toBeGreaterThanOrEqual(-1.5);
+          expect(Math.abs(is)).toBeLessThanOrEqual(Math.abs(want) + 1.5);
+        }
+        expect(movedX * dx + movedY * dy).toBeGreaterThan(0);
+        expect(Math.hypot(movedX, movedY)).toBeGreaterThan(10);
+      });
+
+      await test.step("a permalink restores the state", async () => {
+        await change(page, figure, 2);
+        const grip = (await gripOf(figure))?.grip;
+        await grip?.focus();
+        for (const key of grip ? ["ArrowLeft", "ArrowDown"] : []) await page.keyboard.press(key);
+        await settled(figure);
+        const before = await told(figure);
+        expect(Object.keys(before.state).length).toBeGreaterThan(0);
+        const link = await figure.evaluate((element) => element.permalink);
+        expect(link).toContain("#fig-1");
+
+        const other = await context.newPage();
+        listen(other, complaints);
+        await other.goto(link);
+        const again = other.locator("epipole-figure");
+        await ready(again);
+        await expect.poll(() => told(again)).toEqual(before);
+        await expect(again.locator(".notice")).toBeHidden();
+      });
+    });
+
+    test("goes with a finger on a phone 360 px wide", async ({ browser, open, complaints }) => {
       const context = await browser.newContext({
         viewport: { width: 360, height: 740 },
         deviceScaleFactor: 3,
@@ -256,19 +207,57 @@ for (const { name, title, help } of figures) {
       const page = await context.newPage();
       listen(page, complaints);
       const figure = await open(page, [name]);
-      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
-      const small = await figure.evaluate((element) => {
-        const targets = element.shadowRoot.querySelectorAll("button, input[type=range], select, .toggle");
-        return [...targets]
-          .filter((target) => target.checkVisibility() && !target.closest(".chooser"))
-          .map((target) => [target.textContent, target.getBoundingClientRect()])
-          .filter(([, box]) => box.height < 44 || box.width < 44)
-          .map(([text, box]) => `${text}: ${box.width} × ${box.height}`);
+      await test.step("a phone 360 px wide needs no sideways scroll", async () => {
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+        const small = await figure.evaluate((element) => {
+          const targets = element.shadowRoot.querySelectorAll("button, input[type=range], select, .toggle");
+          return [...targets]
+            .filter((target) => target.checkVisibility() && !target.closest(".chooser"))
+            .map((target) => [target.textContent, target.getBoundingClientRect()])
+            .filter(([, box]) => box.height < 44 || box.width < 44)
+            .map(([text, box]) => `${text}: ${box.width} × ${box.height}`);
+        });
+        expect(small, "targets smaller than 44 px").toEqual([]);
+        const canvas = figure.locator("canvas");
+        const [pixels, width] = await canvas.evaluate((c) => [c.width, c.clientWidth]);
+        expect(Math.abs(pixels - 2 * width), "two device pixels to a CSS pixel at most").toBeLessThanOrEqual(2);
       });
-      expect(small, "targets smaller than 44 px").toEqual([]);
-      const canvas = figure.locator("canvas");
-      const [pixels, width] = await canvas.evaluate((c) => [c.width, c.clientWidth]);
-      expect(Math.abs(pixels - 2 * width), "two device pixels to a CSS pixel at most").toBeLessThanOrEqual(2);
+
+      await test.step("a finger drags a handle, and scrolls the page from anywhere else", async () => {
+        await figure.locator("canvas").scrollIntoViewIfNeeded();
+        const at = await gripOf(figure);
+        if (!at) return;
+        const { grip, x, y } = at;
+        const id = await grip.getAttribute("data-handle");
+        const before = await grip.getAttribute("aria-valuetext");
+        const scroll = await page.evaluate(() => scrollY);
+        const stage = await figure.locator("canvas").boundingBox();
+        const towards = (from, low, size) => (from < low + size / 2 ? 8 : -8);
+        const [dx, dy] = [towards(x, stage.x, stage.width), towards(y, stage.y, stage.height)];
+        const touch = await context.newCDPSession(page);
+        const send = (type, ...points) =>
+          touch.send("Input.dispatchTouchEvent", {
+            type,
+            touchPoints: points.map(([px, py]) => ({ x: px, y: py })),
+          });
+        await send("touchStart", [x, y]);
+        for (let step = 1; step <= 5; step += 1) await send("touchMove", [x + step * dx, y + step * dy]);
+        await send("touchEnd");
+        const moved = figure.locator(`[data-handle="${id}"]`);
+        await expect(moved).not.toHaveAttribute("aria-valuetext", before);
+        expect(await page.evaluate(() => scrollY), "the page stays while a handle moves").toBe(scroll);
+
+        const top = await page.evaluate(() => {
+          scrollTo(0, 0);
+          return scrollY;
+        });
+        const title = await figure.locator(".head").boundingBox();
+        const start = Math.min(title.y + title.height / 2, 700);
+        await send("touchStart", [100, start]);
+        for (let step = 1; step <= 10; step += 1) await send("touchMove", [100, start - 15 * step]);
+        await send("touchEnd");
+        await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(top);
+      });
       await context.close();
     });
 

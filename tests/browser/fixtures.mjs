@@ -3,8 +3,8 @@
 import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect } from "@playwright/test";
 import { join } from "node:path";
-import { figurePage, made } from "./pages.mjs";
-import { bindings, elements, here, loadBindings, root } from "./places.mjs";
+import { figurePage, made, shareAnswers } from "./pages.mjs";
+import { bindings, book, elements, here, loadBindings, root } from "./places.mjs";
 import { serve } from "./server.mjs";
 
 const module = await loadBindings();
@@ -40,6 +40,16 @@ const test = base.extend({
     { scope: "worker" },
   ],
 
+  /** The book as it is served: under a sub-path, under its own policy. */
+  library: [
+    async ({}, use) => {
+      const server = await serve({ mounts: { course: book } });
+      await use(`${server.origin}/course`);
+      await server.close();
+    },
+    { scope: "worker" },
+  ],
+
   /** Errors that a test expects: `complaints.length = 0` forgives them. */
   complaints: async ({}, use) => {
     const complaints = [];
@@ -52,9 +62,15 @@ const test = base.extend({
     await use(page);
   },
 
+  /** Whether pages share what their figures compute, in tests that have something else in mind. */
+  shared: [false, { option: true }],
+
   /** Opens a page with figures: `open(page, ["ransac-race outliers=0.4"], { theme: "dark" })`. */
-  open: async ({ site }, use) => {
+  open: async ({ site, shared }, use) => {
+    const sharing = new WeakSet();
     await use(async (page, names, options = {}) => {
+      if (shared && !sharing.has(page)) await shareAnswers(page);
+      sharing.add(page);
       const query = new URLSearchParams(names.map((name) => ["figure", name]));
       for (const [key, value] of Object.entries(options.query ?? {})) query.set(key, value);
       await page.goto(`${site}/figures?${query}${options.more ?? ""}`);
@@ -74,7 +90,8 @@ const COLOR_RULES = ["color-contrast", "link-in-text-block"];
 
 /** Expects that axe finds nothing wrong: with `colors`, looking at nothing but these. */
 export async function expectAccessible(page, { colors = false } = {}) {
-  const axe = new AxeBuilder({ page });
+  // Not in a page of its own for each answer, which takes longer than the rules: there are no foreign frames here.
+  const axe = new AxeBuilder({ page }).setLegacyMode(true);
   if (colors) axe.withRules(COLOR_RULES);
   const { violations } = await axe.analyze();
   expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);

@@ -1,19 +1,7 @@
 // The pages of single figures that the book has for frames, and the page of all figures.
 
-import { expect, figures, ready, settled, test as base, told } from "./fixtures.mjs";
+import { expect, figures, ready, settled, test, told } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
-
-const test = base.extend({
-  library: [
-    async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
-      await use(`${server.origin}/course`);
-      await server.close();
-    },
-    { scope: "worker" },
-  ],
-});
 
 test.skip(!book, "these are pages of the book");
 

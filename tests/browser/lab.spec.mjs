@@ -8,15 +8,22 @@ import { chromium } from "@playwright/test";
 import { launchOptions } from "./chromium.mjs";
 import { expect, expectAccessible, listen, test as base } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
+import { POLICY, serve } from "./server.mjs";
 
 // WebGL on the processor: there may be no graphics card.
-const args = [...launchOptions.args, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const args = [
+  ...launchOptions.args,
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  // A camera that shows a test picture, and that is allowed.
+  "--use-fake-device-for-media-stream",
+  "--use-fake-ui-for-media-stream",
+];
 
 const test = base.extend({
   library: [
     async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
+      const server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:` });
       await use(`${server.origin}/course`);
       await server.close();
     },
@@ -92,10 +99,179 @@ test("one's own files take the place of the sample; what is no photograph is tol
   await lab.locator("#photographs").setInputFiles([broken]);
   await expect(said(lab)).toContainText("broken.jpg: cannot be read", { timeout: 30_000 });
   await press(lab, "button", "Undo");
+  // Two presses between two frames would be one.
+  await expect(said(lab)).toContainText("No photographs yet");
   await press(lab, "button", "Undo");
   await press(lab, "button", "Reconstruction");
   await solved(lab);
 });
+
+test("a link opens a step with its knobs, and tells what it does not know", async ({ lab, library }) => {
+  await lab.goto(`${library}/lab/index.html?step=matches&ratio=0.7&color=red`);
+  await expect(said(lab)).toContainText('The Lab knows no "color".', { timeout: 30_000 });
+  await expect(said(lab)).toContainText("pairs share enough matches");
+  await expect.poll(() => new URL(lab.url()).search).toBe("?step=matches&ratio=0.7");
+  await press(lab, "button", "Two views");
+  await expect.poll(() => new URL(lab.url()).search).toBe("?step=two-views&ratio=0.7");
+});
+
+test("the links of the book to the Lab name what there is", async ({ lab, library }) => {
+  const links = new Set();
+  for (const page of ["connections.html", "sfm.html", "index.html"]) {
+    await lab.goto(`${library}/${page}`);
+    for (const href of await lab.locator('a[href*="lab/index.html"]').evaluateAll((all) => all.map((a) => a.href))) {
+      links.add(href);
+    }
+  }
+  expect(links.size).toBeGreaterThan(3);
+  for (const href of links) {
+    await lab.goto(href);
+    await expect(said(lab)).not.toBeEmpty({ timeout: 30_000 });
+    await expect(said(lab)).not.toContainText("knows no");
+    await expect(said(lab)).not.toContainText("has no value");
+  }
+});
+
+test("every step is explained by a figure of the book, which runs beside it", async ({ lab, library }) => {
+  await solved(lab);
+  const aside = lab.getByRole("complementary");
+  for (const step of ["Photographs", "Calibrate", "Features", "Matches", "Two views", "Reconstruction", "Depth", "Measure", "Export"]) {
+    await press(lab, "button", step);
+    // The next frame shows the step, and asks for its figure.
+    const name = step.toLowerCase().replace(" ", "-");
+    await expect.poll(() => new URL(lab.url()).searchParams.get("step")).toBe(name);
+    await press(lab, "button", "What is this?");
+    await expect(aside).toBeVisible();
+    const figure = aside.locator("epipole-figure");
+    await expect(figure.locator("canvas").first()).toBeVisible({ timeout: 60_000 });
+    const chapter = await aside.getByRole("link", { name: "Read the chapter" }).getAttribute("href");
+    const text = await (await fetch(chapter)).text();
+    const shown = await figure.getAttribute("name");
+    expect(chapter.startsWith(library)).toBe(true);
+    expect(text, `${chapter} has ${shown}`).toContain(`<epipole-figure name="${shown}"`);
+  }
+  await expectAccessible(lab);
+  await lab.keyboard.press("Escape");
+  await expect(aside).toBeHidden();
+});
+
+test("every pixel of a pair gets a depth, which becomes part of the files", async ({ lab }) => {
+  await solved(lab);
+  await press(lab, "button", "Depth");
+  await expect(said(lab)).toContainText(/table-1\.png and table-2\.png: \d+ % of \d+ pixels have a depth/, { timeout: 90_000 });
+  await press(lab, "checkbox", "part of the cloud and of the export");
+  await press(lab, "button", "Reconstruction");
+  await press(lab, "button", "Export");
+  await expect(said(lab)).toContainText("Every pixel's depth of 1 pair.");
+  const [download] = await Promise.all([
+    lab.waitForEvent("download"),
+    press(lab, "button", "Save reconstruction.zip"),
+  ]);
+  const bytes = await read(download);
+  for (const name of ["dense.ply", "depth/table-1_table-2.pfm", "depth/table-1_table-2.png"]) {
+    expect(bytes.includes(name), name).toBe(true);
+  }
+});
+
+test("photographs of a board give a camera, which is saved and used", async ({ lab }) => {
+  await solved(lab);
+  await press(lab, "button", "Calibrate");
+  await expect(said(lab)).toContainText("No photographs of a board yet");
+  await press(lab, "button", "Open the sample");
+  await expect(said(lab)).toContainText("The board was found in 9 of 10 photographs. Focal lengths 5", { timeout: 90_000 });
+  await expect(said(lab)).toContainText("board-10.png: a grid of");
+  const [download] = await Promise.all([
+    lab.waitForEvent("download"),
+    press(lab, "button", "Save camera.json"),
+  ]);
+  expect(download.suggestedFilename()).toBe("camera.json");
+  const camera = JSON.parse((await read(download)).toString());
+  expect(Math.abs(camera.k[0] - 520)).toBeLessThan(1);
+  expect(camera.image).toEqual({ width: 640, height: 480 });
+  await press(lab, "button", "Use for my photographs");
+  await expect(said(lab)).toContainText("used for photographs of 640 × 480 pixels");
+  await press(lab, "button", "Undo");
+  await expect(said(lab)).not.toContainText("used for photographs");
+  // What is chosen now is of a board.
+  const folder = mkdtempSync(join(tmpdir(), "lab-"));
+  const broken = join(folder, "broken.jpg");
+  writeFileSync(broken, Buffer.from([0xff, 0xd8, 0xff, 0, 1, 2]));
+  await lab.locator("#photographs").setInputFiles([broken]);
+  await expect(said(lab)).toContainText("found in 0 of 1 photograph", { timeout: 30_000 });
+  await expect(said(lab)).toContainText("broken.jpg: cannot be read");
+});
+
+test("a video becomes photographs, and one that is none is told", async ({ lab }) => {
+  await solved(lab);
+  // In a page that has nothing else to do.
+  const studio = await lab.context().newPage();
+  const buffer = Buffer.from(await studio.evaluate(recorded), "base64");
+  await studio.close();
+  expect(buffer.length).toBeGreaterThan(10_000);
+  await press(lab, "button", "Photographs");
+  await lab.locator("#photographs").setInputFiles([{ name: "walk.webm", mimeType: "video/webm", buffer }]);
+  await expect(said(lab)).toContainText("20 frames were taken from the video.", { timeout: 90_000 });
+  await expect(said(lab)).toContainText("20 photographs.");
+  const broken = { name: "broken.mp4", mimeType: "video/mp4", buffer: Buffer.from("no video") };
+  await lab.locator("#photographs").setInputFiles([broken]);
+  await expect(said(lab)).toContainText("broken.mp4 cannot be read as a video here", { timeout: 30_000 });
+  await expect(said(lab)).toContainText("20 photographs.");
+});
+
+test("the camera takes photographs once it is allowed, and says so where it is not", async ({ lab }) => {
+  await solved(lab);
+  await press(lab, "button", "Photographs");
+  await lab.evaluate(() => {
+    const media = navigator.mediaDevices;
+    window.allowed = media.getUserMedia.bind(media);
+    media.getUserMedia = () => Promise.reject(new DOMException("no", "NotAllowedError"));
+  });
+  await press(lab, "button", "Take photographs…");
+  await expect(said(lab)).toContainText("The camera was refused.", { timeout: 30_000 });
+  await lab.evaluate(() => (navigator.mediaDevices.getUserMedia = window.allowed));
+  await press(lab, "button", "Take photographs…");
+  const dialog = lab.getByRole("dialog", { name: "Take photographs" });
+  await expect(dialog).toBeVisible();
+  for (const count of [1, 2]) {
+    await expect.poll(() => lab.locator("#camera-picture").evaluate((video) => video.videoWidth)).toBeGreaterThan(0);
+    await dialog.getByRole("button", { name: "Take a photograph" }).click();
+    await expect(dialog.getByRole("status")).toHaveText(`${count} taken.`);
+  }
+  await expectAccessible(lab);
+  await dialog.getByRole("button", { name: "Done" }).click();
+  await expect(dialog).toBeHidden();
+  await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
+});
+
+/** In the page: a video of a pattern that moves, in base 64. It lasts until the encoder has something to show. */
+async function recorded() {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [320, 240];
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: "video/webm" });
+  const chunks = [];
+  let size = 0;
+  recorder.ondataavailable = ({ data }) => {
+    chunks.push(data);
+    size += data.size;
+  };
+  const stopped = new Promise((resolve) => (recorder.onstop = resolve));
+  recorder.start(200);
+  const begun = performance.now();
+  for (let time = 0; time < 2000 || (size < 100_000 && time < 20_000); time = performance.now() - begun) {
+    for (let n = 0; n < 300; n += 1) {
+      context.fillStyle = `hsl(${(n * 47) % 360} 60% ${20 + ((n * 31) % 60)}%)`;
+      context.fillRect((n * 71 + time / 20) % 320, (n * 37) % 240, 24, 18);
+    }
+    await new Promise((resolve) => setTimeout(resolve, 30));
+  }
+  recorder.stop();
+  await stopped;
+  const bytes = new Uint8Array(await new Blob(chunks).arrayBuffer());
+  let text = "";
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return btoa(text);
+}
 
 test("Escape and Tab leave the canvas, and axe finds nothing wrong", async ({ lab }) => {
   await solved(lab);

@@ -1,19 +1,7 @@
 // Listings: tabs, the choice over the whole book, copying, and what is there without a script and on paper.
 
-import { expect, test as base } from "./fixtures.mjs";
+import { expect, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
-
-const test = base.extend({
-  library: [
-    async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
-      await use(`${server.origin}/course`);
-      await server.close();
-    },
-    { scope: "worker" },
-  ],
-});
 
 test.skip(!book, "the book is not what is tested");
 

@@ -1,14 +1,16 @@
 // A reader sees what the hand does: picture, numbers and controls share the screen, and nothing jumps.
 
 import { expect, expectAccessible, figures, layoutWidth, listen, ready, settled, test } from "./fixtures.mjs";
+import { prepare } from "./pages.mjs";
 import { loadBindings } from "./places.mjs";
+
+test.use({ shared: true });
 
 const { Figure } = await loadBindings();
 
 /** What a reader needs to see at once. */
 const CORE = [".sheet", ".under", ".panel > .main", ".panel > .inputs"];
 const HIGHEST_PX = 640;
-const WIDE = { query: { wide: "1" } };
 const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 
 /** From the top of the highest to the bottom of the lowest of the parts that are to be seen, CSS pixels. */
@@ -22,14 +24,6 @@ function height(figure, parts) {
   }, parts);
 }
 
-/** How much of the picture is on the screen, 0 to 1. */
-function seen(figure) {
-  return figure.evaluate((element) => {
-    const box = element.shadowRoot.querySelector(".sheet").getBoundingClientRect();
-    return (Math.min(box.bottom, innerHeight) - Math.max(box.top, 0)) / box.height;
-  });
-}
-
 /** Which width a picture is laid out for, given the room of a page of the tests. */
 function widthOf(name, viewport) {
   const host = Math.min(viewport - 32, 1120);
@@ -39,44 +33,36 @@ function widthOf(name, viewport) {
   return layoutWidth(room);
 }
 
+/** The controls that are used on a phone without the whole picture being seen: in the page, as there are many. */
+function hiding(figure) {
+  return figure.evaluate(async (element) => {
+    document.body.style.paddingBottom = "1500px";
+    const shown = () => {
+      const box = element.shadowRoot.querySelector(".sheet").getBoundingClientRect();
+      return (Math.min(box.bottom, innerHeight) - Math.max(box.top, 0)) / box.height > 0.999;
+    };
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    const found = [];
+    for (const control of element.shadowRoot.querySelectorAll(":is(.under, .panel) :is(input, select, button, summary)")) {
+      if (!control.checkVisibility({ visibilityProperty: true })) continue;
+      scrollTo(0, 0);
+      control.focus();
+      await frame();
+      if (!shown()) found.push(control.outerHTML);
+      // A reader may scroll on: as long as the control is to be seen, so is the picture.
+      for (const lower of [80, 160, 240]) {
+        scrollBy(0, lower);
+        const box = control.getBoundingClientRect();
+        const hit = element.shadowRoot.elementFromPoint(box.x + box.width / 2, box.y + 2);
+        if ((hit === control || control.contains(hit)) && !shown()) found.push(`${lower} px on: ${control.outerHTML}`);
+      }
+    }
+    return found;
+  });
+}
+
 for (const { name } of figures) {
   test.describe(name, () => {
-    for (const [across, down] of [[1280, 720], [1024, 768]]) {
-      test(`at ${across} × ${down} picture, numbers and first controls share the screen`, async ({ page, open }) => {
-        await page.setViewportSize({ width: across, height: down });
-        const figure = await open(page, [name], WIDE);
-        await settled(figure);
-        expect(await height(figure, CORE)).toBeLessThanOrEqual(HIGHEST_PX);
-        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(across);
-      });
-    }
-
-    test("on a phone the whole picture stays while a control is used", async ({ browser, open, complaints }) => {
-      const context = await browser.newContext(PHONE);
-      const page = await context.newPage();
-      listen(page, complaints);
-      const figure = await open(page, [name]);
-      await page.evaluate(() => (document.body.style.paddingBottom = "1500px"));
-      const controls = figure.locator(":is(.under, .panel) :is(input, select, button, summary)");
-      for (const control of await controls.all()) {
-        if (!(await control.isVisible())) continue;
-        await page.evaluate(() => scrollTo(0, 0));
-        await control.focus();
-        expect(await seen(figure), await control.evaluate((element) => element.outerHTML)).toBeGreaterThan(0.999);
-        // A reader may scroll on: as long as the control is to be seen, so is the picture.
-        for (const lower of [80, 160, 240]) {
-          await page.evaluate((by) => scrollBy(0, by), lower);
-          const hit = await control.evaluate((element) => {
-            const box = element.getBoundingClientRect();
-            const found = element.getRootNode().elementFromPoint(box.x + box.width / 2, box.y + 2);
-            return found === element || element.contains(found);
-          });
-          if (hit) expect(await seen(figure)).toBeGreaterThan(0.999);
-        }
-      }
-      await context.close();
-    });
-
     test("320 px wide, and enlarged to 200 %, nothing has to be scrolled sideways", async ({ browser, open, complaints }) => {
       for (const options of [
         { viewport: { width: 320, height: 640 } },
@@ -101,7 +87,8 @@ for (const { name } of figures) {
       }
     });
 
-    test("nothing moves from the poster to the living figure, and axe finds nothing wrong", async ({ browser, open, complaints }) => {
+    test("poster and living figure fill the same places of one screen, and axe finds nothing wrong", async ({ browser, open, complaints }) => {
+      prepare(name);
       for (const options of [{ viewport: { width: 1280, height: 720 } }, { viewport: { width: 1024, height: 768 } }, PHONE]) {
         const context = await browser.newContext(options);
         const page = await context.newPage();
@@ -153,6 +140,10 @@ for (const { name } of figures) {
         expectSame(await places(), before);
         expect(await page.evaluate(() => window.shifts)).toEqual([]);
         await expectAccessible(page);
+        const { width, height: down } = options.viewport;
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+        if (options === PHONE) expect(await hiding(figure)).toEqual([]);
+        else expect(await height(figure, CORE), `at ${width} × ${down}`).toBeLessThanOrEqual(HIGHEST_PX);
         await context.close();
       }
     });

@@ -2,20 +2,8 @@
 // figures the room they need.
 
 import { readdirSync } from "node:fs";
-import { expect, ready, test as base } from "./fixtures.mjs";
+import { expect, ready, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
-
-const test = base.extend({
-  library: [
-    async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
-      await use(`${server.origin}/course`);
-      await server.close();
-    },
-    { scope: "worker" },
-  ],
-});
 
 const chapters = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
 const WIDTHS = [320, 390, 500, 600, 768, 900, 1024, 1200, 1280, 1440, 1920];

@@ -14,13 +14,56 @@ const { build } = await import(`${root}/web/node_modules/esbuild/lib/main.js`);
 await build({ entryPoints: [`${root}/web/src/early.ts`], outdir: made, bundle: true, format: "iife" });
 const prerender = await prerenderer();
 
-/** A figure as the book writes it for readers whose script has not come: poster and stand-in. */
-function standIn(name, attributes, width) {
+/** What figures have computed, by name and key of the question: many pages ask the same. */
+const answers = new Map();
+
+/** What a figure of this name waits for under this key. Figures that ask nothing but their one question share its key. */
+function answerOf(name, key, request) {
+  const asked = `${name} ${key}`;
+  if (!answers.has(asked)) answers.set(asked, compute(name, request, { progress: () => {} }));
+  return answers.get(asked);
+}
+
+/** A figure that has computed what it wants. */
+function settledFigure(name, attributes) {
   const figure = new Figure(name);
   figure.apply(Object.entries(attributes).flat());
   for (let key = figure.job_key(); key !== undefined; key = figure.job_key()) {
-    figure.job_done(key, compute(name, figure.job_request(), { progress: () => {} }));
+    figure.job_done(key, answerOf(name, key, figure.job_request()));
   }
+  return figure;
+}
+
+/** Computes what a page of such a figure needs, which takes seconds: before somebody waits for the page. */
+export function prepare(name) {
+  settledFigure(name, {}).free();
+}
+
+/**
+ * Lets the figures of a page share their answers with those of other pages, by a worker that asks this process. The
+ * answers are those that their own worker would find; tests of how that comes, works and ends leave it alone.
+ */
+export async function shareAnswers(page) {
+  await page.route(/\/answers\?/, async (route) => {
+    const query = new URL(route.request().url()).searchParams;
+    try {
+      const answer = answerOf(query.get("name"), query.get("key"), new Uint8Array(route.request().postDataBuffer() ?? []));
+      await route.fulfill({ body: Buffer.from(answer), contentType: "application/octet-stream" });
+    } catch (problem) {
+      await route.fulfill({ status: 422, body: String(problem) });
+    }
+  });
+  const body = `addEventListener("message", async ({ data: { name, key, request } }) => {
+  const response = await fetch("/answers?" + new URLSearchParams({ name, key }), { method: "POST", body: request });
+  if (!response.ok) return postMessage({ key, problem: await response.text() });
+  postMessage({ key, result: new Uint8Array(await response.arrayBuffer()) });
+});`;
+  await page.route(/\/worker[^/]*\.js$/, (route) => route.fulfill({ body, contentType: "text/javascript" }));
+}
+
+/** A figure as the book writes it for readers whose script has not come: poster and stand-in. */
+function standIn(name, attributes, width) {
+  const figure = settledFigure(name, attributes);
   const { title, help } = known.find((entry) => entry.name === name);
   const snapshot = JSON.parse(figure.snapshot(width));
   const heightAt = (across) => JSON.parse(figure.snapshot(across)).layout.height;

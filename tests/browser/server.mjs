@@ -4,7 +4,7 @@ import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { extname, join, normalize } from "node:path";
 
-const TYPES = {
+export const TYPES = {
   ".html": "text/html; charset=utf-8",
   ".js": "text/javascript; charset=utf-8",
   ".mjs": "text/javascript; charset=utf-8",
@@ -17,25 +17,28 @@ const TYPES = {
 };
 
 /** What the pages of the book allow themselves, and no more. */
-const POLICY =
+export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
   "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
 
 /**
  * Serves folders: `mounts` maps the first part of a path to a folder or to a function that returns
- * HTML for the rest of the address. `policy: false` is a page of someone else, who has none.
+ * HTML for the rest of the address, or answers by itself and returns nothing. `policy: false` is a page of someone
+ * else, who has none; `more` are further headers of every answer.
  */
-export async function serve({ mounts, policy = POLICY, port = 0 }) {
+export async function serve({ mounts, policy = POLICY, more = {}, port = 0 }) {
   const server = createServer(async (request, response) => {
     const url = new URL(request.url, "http://localhost");
     const [, first = "", ...rest] = url.pathname.split("/");
     const mount = mounts[first];
-    const headers = { "Access-Control-Allow-Origin": "*", "Cache-Control": "no-store" };
+    const headers = { "Access-Control-Allow-Origin": "*", "Cache-Control": "no-store", ...more };
     if (policy) headers["Content-Security-Policy"] = policy;
     try {
       if (typeof mount === "function") {
+        const page = await mount(url, response);
+        if (page === undefined) return;
         response.writeHead(200, { ...headers, "Content-Type": TYPES[".html"] });
-        response.end(await mount(url));
+        response.end(page);
         return;
       }
       if (!mount) throw new Error("no such place");
@@ -52,6 +55,10 @@ export async function serve({ mounts, policy = POLICY, port = 0 }) {
   await new Promise((resolve) => server.listen(port, "127.0.0.1", resolve));
   return {
     origin: `http://127.0.0.1:${server.address().port}`,
-    close: () => new Promise((resolve) => server.close(resolve)),
+    close: () => {
+      // Some answers never end.
+      server.closeAllConnections();
+      return new Promise((resolve) => server.close(resolve));
+    },
   };
 }

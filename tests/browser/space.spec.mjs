@@ -4,6 +4,8 @@ import { Buffer } from "node:buffer";
 import { expect, figures, layoutWidth, listen, ready, settled, test, told } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";
 
+test.use({ shared: true });
+
 const { Figure } = await loadBindings();
 const spaces = figures
   .map(({ name }) => [name, JSON.parse(new Figure(name).snapshot(760)).spaces[0]])

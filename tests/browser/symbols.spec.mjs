@@ -1,19 +1,7 @@
 // Letters of the prose that figures draw: one color, and a light in the nearest figure that has them.
 
-import { expect, ready, test as base } from "./fixtures.mjs";
+import { expect, ready, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { serve } from "./server.mjs";
-
-const test = base.extend({
-  library: [
-    async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
-      await use(`${server.origin}/course`);
-      await server.close();
-    },
-    { scope: "worker" },
-  ],
-});
 
 test.skip(!book, "the book is not what is tested");
 
@@ -97,4 +85,17 @@ test("what no figure draws lights nothing, and without a script letters are plai
   await expect(plain.locator('.symbols [data-symbol="p"]')).toBeVisible();
   await expect(plain.locator(".symbols [role=button]")).toHaveCount(0);
   await context.close();
+});
+
+test("other chapters light their letters as well", async ({ page, library }) => {
+  for (const [chapter, name, letters] of [["stereo", "rectify", ["p", "p'"]], ["triangulation", "triangulate", ["X"]]]) {
+    await page.goto(`${library}/${chapter}.html`);
+    const figure = page.locator(`epipole-figure[name=${name}]`).first();
+    await ready(figure);
+    for (const letter of letters) {
+      await page.locator(`.symbols [data-symbol="${letter}"]`).focus();
+      await expect.poll(async () => (await light(page.locator("epipole-figure[data-lit]").first())).map(({ kind }) => kind)).toEqual(["circle"]);
+      await page.keyboard.press("Escape");
+    }
+  }
 });

@@ -9,12 +9,5 @@ missing firefox-esr && missing firefox && [ -z "${FIREFOX:-}" ] && wanted="$want
 missing WebKitWebDriver && wanted="$wanted webkit2gtk-driver"
 missing Xvfb && wanted="$wanted xvfb"
 [ -z "$wanted" ] && exit
-command -v apt-get >/dev/null 2>&1 || {
-    echo "missing:$wanted; install them with your system's packages" >&2
-    exit 1
-}
-echo "installing$wanted for the tests of engines" >&2
-sudo=
-[ "$(id -u)" = 0 ] || sudo="sudo -n"
 # shellcheck disable=SC2086
-{ $sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq $wanted; } >&2
+"$(dirname "$0")/apt.sh" "the tests of engines" $wanted

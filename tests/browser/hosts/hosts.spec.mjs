@@ -1,7 +1,7 @@
 // Figures in the pages of others: built by each host's own tool from the recipe that we give, and dragged.
 
 import { execFile, spawn } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
@@ -160,6 +160,74 @@ test("Sphinx with MyST", async ({ page, book, strangers }) => {
   await follows(race(page), choose("dark"), choose("light"));
   await page.goto(`${server.origin}/stereo.html`);
   await answers(map(page));
+  await server.close();
+});
+
+test("Hugo", async ({ page, book, strangers }) => {
+  const folder = folderOf("hugo", book);
+  await tool(folder, join(python, "hugo"), "--quiet", "--panicOnWarning");
+  const server = await fileServer(join(folder, "public"));
+  await visit(page, `${server.origin}/`, strangers);
+  await operate(page, race(page));
+  const { darken, lighten } = dark(page);
+  await follows(race(page), darken, lighten);
+  await page.getByRole("link", { name: "stereo", exact: true }).click();
+  await answers(map(page));
+  await server.close();
+});
+
+test("Jekyll", async ({ page, book, strangers }) => {
+  const folder = folderOf("jekyll", book);
+  await tool(folder, "jekyll", "build", "--quiet", "--disable-disk-cache");
+  const server = await fileServer(join(folder, "_site"));
+  await visit(page, `${server.origin}/`, strangers);
+  await operate(page, race(page));
+  const { darken, lighten } = dark(page);
+  await follows(race(page), darken, lighten);
+  await page.getByRole("link", { name: "stereo", exact: true }).click();
+  await answers(map(page));
+  await server.close();
+});
+
+test("mdBook", async ({ page, book, strangers }) => {
+  const folder = folderOf("mdbook", book);
+  await tool(root, "cargo", "run", "--locked", "--quiet", "--example", "mdbook", "--", folder);
+  const server = await fileServer(join(folder, "book"));
+  await visit(page, `${server.origin}/fitting.html`, strangers);
+  await operate(page, race(page));
+  const choose = (theme) => async () => {
+    await page.locator("#mdbook-theme-toggle, #theme-toggle").first().click();
+    await page.getByRole("menuitem", { name: theme, exact: true }).click();
+    await page.keyboard.press("Escape");
+  };
+  await choose("Light")();
+  await follows(race(page), choose("Coal"), choose("Light"));
+  await page.keyboard.press("ArrowRight");
+  await page.waitForURL(/stereo\.html/);
+  await answers(map(page));
+  await server.close();
+});
+
+test("Docusaurus", async ({ page, book, strangers }) => {
+  test.slow(true, "it builds its pages for the browser and for the server");
+  const folder = folderOf("docusaurus", book);
+  const modules = join(folder, "node_modules");
+  mkdirSync(modules, { recursive: true });
+  for (const name of readdirSync(tools)) if (!name.startsWith(".")) symlinkSync(join(tools, name), join(modules, name));
+  mkdirSync(join(modules, "@epipole"));
+  cpSync(join(work, "package"), join(modules, "@epipole/figures"), { recursive: true });
+  await tool(folder, npx("docusaurus"), "build");
+  const server = await fileServer(join(folder, "build"), "/course/");
+  await visit(page, `${server.origin}/course/`, strangers);
+  await operate(page, race(page));
+  const choose = (theme) => () => page.evaluate((name) => (document.documentElement.dataset.theme = name), theme);
+  await choose("light")();
+  await follows(race(page), choose("dark"), choose("light"));
+  // There and back without loading a page.
+  await page.getByRole("main").getByRole("link", { name: "stereo", exact: true }).click();
+  await answers(map(page));
+  await page.getByRole("main").getByRole("link", { name: "fitting", exact: true }).click();
+  await operate(page, race(page));
   await server.close();
 });
 

@@ -1,0 +1,110 @@
+// The pages of the book where storage fails, and where their own scripts and the index of the search do not come:
+// the page works, a sentence says what it cannot do, and there is a way on.
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { expect, test } from "./fixtures.mjs";
+import { book } from "./places.mjs";
+import { POLICY, serve, TYPES } from "./server.mjs";
+
+test.skip(!book, "the book is not what is tested");
+
+/** The book, with `site.fails` for the files that are not there, and `site.stuck` for those that never come. */
+async function library() {
+  const site = { fails: undefined, stuck: undefined };
+  const course = async (url, response) => {
+    const path = decodeURIComponent(url.pathname.slice("/course/".length));
+    if (site.stuck?.test(path)) return;
+    response.setHeader("Content-Security-Policy", POLICY);
+    if (site.fails?.test(path)) return void response.writeHead(404).end();
+    const bytes = readFileSync(join(book, path));
+    response.writeHead(200, { "Content-Type": TYPES[path.slice(path.lastIndexOf("."))] ?? "text/plain" }).end(bytes);
+  };
+  return Object.assign(site, await serve({ mounts: { course } }));
+}
+
+/** What may be wrong with what a browser keeps. */
+const STORES = {
+  forbidden: () => {
+    Object.defineProperty(window, "localStorage", {
+      get: () => {
+        throw new DOMException("not here", "SecurityError");
+      },
+    });
+  },
+  "full of rubbish": () => {
+    const quizzes = ['[1,{"a":null},"right"]', '{"a":1,"b":null,"__proto__":{"c":"d"},"e":["f"]}', "\0"];
+    Storage.prototype.getItem = (key) => (key.includes("quiz") ? quizzes[key.length % quizzes.length] : '{"light');
+    Storage.prototype.setItem = () => {
+      throw new DOMException("no room", "QuotaExceededError");
+    };
+  },
+};
+
+for (const [what, spoil] of Object.entries(STORES)) {
+  test(`where storage is ${what}, pages work and say what they cannot remember`, async ({ page }) => {
+    const site = await library();
+    await page.addInitScript(spoil);
+    await page.setViewportSize({ width: 1400, height: 900 });
+    await page.goto(`${site.origin}/course/connections.html`);
+    const root = page.locator("html");
+    await page.locator(".theme-button").click();
+    await expect(root).toHaveAttribute("data-theme", "dark");
+    await page.locator(".fold-button").click();
+    await expect(root).toHaveAttribute("data-contents", "folded");
+    const tab = page.getByRole("tab", { name: "Rust" }).first();
+    await tab.click();
+    await expect(tab).toHaveAttribute("aria-selected", "true");
+    const form = page.locator("form.question", { has: page.locator("input[data-answer]") }).first();
+    await expect(form.locator(".verdict")).toBeEmpty();
+    const answer = form.locator("input[data-answer]");
+    await answer.fill(await answer.getAttribute("data-answer"));
+    await form.locator("button[type=submit], .question-actions button").first().click();
+    await expect(form.locator(".verdict")).toHaveText(/^Right. This browser keeps nothing/);
+
+    await page.goto(`${site.origin}/course/progress.html`);
+    for (const cell of await page.locator(".progress .solved").all()) await expect(cell).toHaveText("0");
+    await page.locator(".reset-progress").click();
+    await site.close();
+  });
+}
+
+test("a script of the page that does not come, and an index that does not, are told and asked for again", async ({ page, complaints }) => {
+  const site = await library();
+  await page.addInitScript(() => {
+    // A quarter of a minute passes in less than a second.
+    const real = window.setTimeout;
+    window.setTimeout = (work, delay, ...more) => real(work, delay === 15_000 ? 500 : delay, ...more);
+  });
+  const search = page.locator(".search-button");
+  const notice = page.locator(".page-notice");
+  site.fails = /assets\/(quiz|search|gallery)-.*\.js/;
+  await page.goto(`${site.origin}/course/connections.html`);
+  await expect(notice).toContainText("A part of this page could not be loaded.");
+  await search.click();
+  await expect(notice).toHaveCount(1);
+  site.fails = undefined;
+  await notice.getByRole("button", { name: "Load the page anew" }).click();
+  await expect(page.locator(".question-actions").first()).toBeVisible();
+  await expect(notice).toHaveCount(0);
+
+  const status = page.locator(".search-status");
+  const input = page.getByRole("searchbox");
+  site.fails = /assets\/search-.*\.json/;
+  await search.click();
+  await input.fill("epipole");
+  await expect(status).toContainText("could not be loaded");
+  site.fails = undefined;
+  site.stuck = /assets\/search-.*\.json/;
+  await status.getByRole("button", { name: "Try again" }).click();
+  await expect(status).toContainText("is slow to come");
+  await expect(input).toBeFocused();
+  site.stuck = undefined;
+  await status.getByRole("button", { name: "Try again" }).click();
+  await expect(page.locator(".search-results a").first()).toBeVisible();
+  await expect(status).toContainText("section");
+  // The browser itself reports the missing files.
+  expect(complaints.filter((text) => !/404/.test(text))).toEqual([]);
+  complaints.length = 0;
+  await site.close();
+});
