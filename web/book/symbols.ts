@@ -56,7 +56,7 @@ export function startSymbols(): void {
   for (const letter of document.querySelectorAll<HTMLElement>(".symbols [data-symbol]")) {
     letter.tabIndex = 0;
     letter.setAttribute("role", "button");
-    const spoken = (letter.dataset.symbol ?? "").replace("ℓ", "l").replace("'", " prime");
+    const spoken = (letter.dataset.letter ?? "").replace("ℓ", "l").replace("'", " prime");
     letter.setAttribute("aria-label", `${spoken}, ${letter.nextElementSibling?.textContent ?? ""}`);
     letter.addEventListener("focus", () => light(letter));
     letter.addEventListener("blur", end);

@@ -9,8 +9,10 @@ use crate::source::Source;
 
 /// A letter that figures know.
 struct Symbol {
-    /// As a chapter and the figures write it.
+    /// As a chapter writes it.
     name: &'static str,
+    /// As the figures write it: a pixel and its homogeneous vector are the same place in a picture.
+    drawn: &'static str,
     latex: &'static str,
     /// Which color it has.
     role: &'static str,
@@ -26,7 +28,7 @@ const LINE: &str = "<path d=\"M1 13L15 3\"/>";
 const RING: &str =
     "<circle cx=\"8\" cy=\"8\" r=\"5.5\" fill=\"none\"/><circle cx=\"8\" cy=\"8\" r=\"1\"/>";
 
-const SYMBOLS: [Symbol; 8] = [
+const SYMBOLS: [Symbol; 10] = [
     symbol("P", "P", "point", "a point of the world", DIAMOND),
     symbol("X", "X", "point", "a point of the world", DIAMOND),
     symbol("p", "p", "pixel", "its pixel in image 1", DISK),
@@ -37,6 +39,20 @@ const SYMBOLS: [Symbol; 8] = [
         "its pixel in image 2, the match",
         SQUARE,
     ),
+    Symbol {
+        drawn: "p",
+        ..symbol("x", "x", "pixel", "a pixel of image 1, as (u, v, 1)", DISK)
+    },
+    Symbol {
+        drawn: "p'",
+        ..symbol(
+            "x'",
+            "x'",
+            "match",
+            "its match in image 2, as (u′, v′, 1)",
+            SQUARE,
+        )
+    },
     symbol("ℓ", "\\ell", "line", "an epipolar line in image 1", LINE),
     symbol("ℓ'", "\\ell'", "line", "the epipolar line in image 2", LINE),
     symbol("e", "e", "epipole", "the epipole in image 1", RING),
@@ -52,6 +68,7 @@ const fn symbol(
 ) -> Symbol {
     Symbol {
         name,
+        drawn: name,
         latex,
         role,
         meaning,
@@ -94,7 +111,8 @@ pub(crate) fn list(names: &[String]) -> Result<String, String> {
             ));
         };
         rows.push_str(&format!(
-            "<li><span data-symbol=\"{name}\" data-role=\"{role}\"><svg viewBox=\"0 0 16 16\" aria-hidden=\"true\">{mark}</svg>{math}</span> <span class=\"meaning\">{meaning}</span></li>\n",
+            "<li><span data-symbol=\"{drawn}\" data-letter=\"{name}\" data-role=\"{role}\"><svg viewBox=\"0 0 16 16\" aria-hidden=\"true\">{mark}</svg>{math}</span> <span class=\"meaning\">{meaning}</span></li>\n",
+            drawn = escape(symbol.drawn),
             name = escape(symbol.name),
             role = symbol.role,
             mark = symbol.mark,
@@ -113,6 +131,8 @@ pub(crate) fn list(names: &[String]) -> Result<String, String> {
 pub(crate) fn mark(html: &str, names: &[String]) -> String {
     const LEAF: &str = "<mi>";
     const PRIME: &str = "<mi>′</mi>";
+    /// What a prime and a transposition become: the letter itself stands before.
+    const PRIME_TRANSPOSED: &str = "<msup><mi>′</mi><mi>⊤</mi></msup>";
     let mut marked = String::with_capacity(html.len());
     let mut rest = html;
     while let Some(at) = rest.find(LEAF) {
@@ -121,17 +141,17 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
         };
         let letter = &rest[at + LEAF.len()..at + LEAF.len() + length];
         let mut end = at + LEAF.len() + length + "</mi>".len();
-        let is_primed = rest[end..].starts_with(PRIME);
-        let name = match is_primed {
-            true => format!("{letter}'"),
-            false => letter.to_owned(),
+        let prime = [PRIME, PRIME_TRANSPOSED]
+            .into_iter()
+            .find(|prime| rest[end..].starts_with(prime));
+        let name = match prime {
+            Some(_) => format!("{letter}'"),
+            None => letter.to_owned(),
         };
-        if is_primed {
-            end += PRIME.len();
-        }
+        end += prime.map_or(0, str::len);
         let (before, after) = (&rest[..at], &rest[end..]);
-        // With an index, or with a prime that carries an exponent, it is a letter of another kind.
-        let is_other = ["<msub>", "<msubsup>"]
+        // With an index, an accent, or with a prime that carries an exponent, it is a letter of another kind.
+        let is_other = ["<msub>", "<msubsup>", "<mover>", "<mover accent=\"true\">"]
             .iter()
             .any(|tag| before.ends_with(tag))
             || ["<msup>", "<msub>"].iter().any(|tag| {
@@ -143,11 +163,14 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
         marked.push_str(before);
         let whole = &rest[at..end];
         match symbol {
-            Some(Symbol { name, role, .. }) => {
-                let attributes = format!("data-symbol=\"{}\" data-role=\"{role}\"", escape(name));
-                marked.push_str(&match is_primed {
-                    true => format!("<mrow {attributes}>{whole}</mrow>"),
-                    false => whole.replacen(LEAF, &format!("<mi {attributes}>"), 1),
+            Some(Symbol { drawn, role, .. }) => {
+                let attributes = format!("data-symbol=\"{}\" data-role=\"{role}\"", escape(drawn));
+                marked.push_str(&match prime {
+                    Some(PRIME_TRANSPOSED) => format!(
+                        "<msup><mrow {attributes}><mi>{letter}</mi>{PRIME}</mrow><mi>⊤</mi></msup>"
+                    ),
+                    Some(_) => format!("<mrow {attributes}>{whole}</mrow>"),
+                    None => whole.replacen(LEAF, &format!("<mi {attributes}>"), 1),
                 });
             }
             None => marked.push_str(whole),
@@ -177,12 +200,19 @@ mod tests {
         assert_eq!(marked("P' = R P + t", &["P", "p"]), ["P"]);
         assert_eq!(marked("P_1 + p_2'^2 + e^x", &["P", "p"]), [""; 0]);
         assert_eq!(marked("F e = 0, F^\\top e' = 0", &["e", "e'"]), ["e", "e'"]);
+        assert_eq!(marked("\\hat x = T x", &["x"]), ["p"]);
+        assert_eq!(marked("x'^\\top F x = 0", &["x", "x'"]), ["p'", "p"]);
     }
 
     #[test]
     fn the_list_names_each_letter() {
         let html = list(&["P".to_owned(), "ℓ'".to_owned()]).unwrap();
         assert!(html.contains("a point of the world") && html.contains("data-role=\"line\""));
+        let pixel = list(&["x".to_owned()]).unwrap();
+        assert!(
+            pixel.contains("data-symbol=\"p\" data-letter=\"x\""),
+            "{pixel}"
+        );
         let message = list(&["Q".to_owned()]).unwrap_err();
         assert!(
             message.contains("unknown symbol \"Q\"; known: P, X"),

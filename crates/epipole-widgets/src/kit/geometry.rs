@@ -62,7 +62,6 @@ pub(crate) fn symbols(
     pixels: [Option<Point2<f64>>; 2],
     geometry: Option<&Geometry>,
 ) -> Vec<Symbol> {
-    let point = |name, panel, pixel: &Point2<f64>| Symbol::point(name, panel, pixel.x, pixel.y);
     let finite = |epipole: &Epipole| match epipole {
         Epipole::Finite(pixel) => Some(*pixel),
         Epipole::AtInfinity(_) => None,
@@ -70,26 +69,49 @@ pub(crate) fn symbols(
     let [epipole1, epipole2] = geometry.map_or([None; 2], |geometry| {
         [&geometry.epipole1, &geometry.epipole2].map(finite)
     });
-    let places = [
-        ("p", "first", pixels[0]),
-        ("p'", "second", pixels[1]),
-        ("e", "first", epipole1),
-        ("e'", "second", epipole2),
-    ];
-    let mut symbols: Vec<Symbol> = places
-        .iter()
-        .filter_map(|(name, panel, pixel)| Some(point(name, panel, pixel.as_ref()?)))
-        .collect();
     let line2 = geometry.and_then(|geometry| geometry.line2(pixels[0].as_ref()?));
-    if let Some(line) = line2 {
+    let epipoles = [("e", "first", epipole1), ("e'", "second", epipole2)];
+    match_symbols(pixels, line2)
+        .into_iter()
+        .chain(epipoles.into_iter().filter_map(point_symbol))
+        .collect()
+}
+
+/// The letters of a pixel, its match, and the line that it gives in the panel `second`, as far as they are there.
+pub(crate) fn match_symbols(
+    [pixel1, pixel2]: [Option<Point2<f64>>; 2],
+    line2: Option<Line2>,
+) -> Vec<Symbol> {
+    let line2 = line2.map(|line| {
         let foot = line.nearest(&Point2::origin());
-        symbols.push(Symbol {
+        Symbol {
             name: "ℓ'",
             panel: "second",
             mark: Mark::Line((foot.x, foot.y), (-line.b, line.a)),
-        });
-    }
-    symbols
+        }
+    });
+    [("p", "first", pixel1), ("p'", "second", pixel2)]
+        .into_iter()
+        .filter_map(point_symbol)
+        .chain(line2)
+        .collect()
+}
+
+/// The letters of one of many matches: the one whose pixel is nearest to the middle of photograph 1.
+pub(crate) fn symbols_of_one(
+    matches: impl Iterator<Item = [Point2<f64>; 2]>,
+    (width, height): (u32, u32),
+) -> Vec<Symbol> {
+    let middle = Point2::new(f64::from(width), f64::from(height)) * 0.5;
+    let off = |[pixel1, _]: &[Point2<f64>; 2]| (pixel1 - middle).norm_squared();
+    let nearest = matches.min_by(|a, b| off(a).total_cmp(&off(b)));
+    nearest.map_or_else(Vec::new, |pixels| match_symbols(pixels.map(Some), None))
+}
+
+fn point_symbol(
+    (name, panel, pixel): (&'static str, &'static str, Option<Point2<f64>>),
+) -> Option<Symbol> {
+    pixel.map(|pixel| Symbol::point(name, panel, pixel.x, pixel.y))
 }
 
 #[cfg(test)]
@@ -106,14 +128,27 @@ mod tests {
         let pixel2 = on_line.nearest(&Point2::new(300.0, 200.0));
         let found = symbols([Some(pixel1), Some(pixel2)], Some(&geometry));
         let names: Vec<_> = found.iter().map(|symbol| symbol.name).collect();
-        assert_eq!(names, ["p", "p'", "e", "e'", "ℓ'"]);
-        let Mark::Line(start, direction) = found[4].mark else {
-            panic!("{:?}", found[4]);
+        assert_eq!(names, ["p", "p'", "ℓ'", "e", "e'"]);
+        let Mark::Line(start, direction) = found[2].mark else {
+            panic!("{:?}", found[2]);
         };
         let (dx, dy) = (pixel2.x - start.0, pixel2.y - start.1);
         assert!((dx * direction.1 - dy * direction.0).abs() < 1e-6);
         let alone = symbols([Some(pixel1), None], None);
         assert_eq!(alone, [Symbol::point("p", "first", 200.0, 150.0)]);
         assert!(symbols([None; 2], None).is_empty());
+    }
+
+    #[test]
+    fn of_many_matches_the_one_in_the_middle_has_the_letters() {
+        let pair = |u, v| [Point2::new(u, v), Point2::new(u + 9.0, v)];
+        let all = [pair(10.0, 10.0), pair(60.0, 45.0), pair(90.0, 95.0)];
+        let found = symbols_of_one(all.into_iter(), (100, 100));
+        let expected = [
+            Symbol::point("p", "first", 60.0, 45.0),
+            Symbol::point("p'", "second", 69.0, 45.0),
+        ];
+        assert_eq!(found, expected);
+        assert!(symbols_of_one(std::iter::empty(), (100, 100)).is_empty());
     }
 }

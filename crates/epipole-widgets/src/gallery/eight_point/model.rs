@@ -7,8 +7,9 @@ use super::estimate::{Estimate, line2};
 use super::question::{Answer, Question};
 use crate::contract::{
     Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Settings, Slider, Symbol, Toggle,
 };
+use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, Question as _, carry_out};
@@ -151,6 +152,13 @@ impl Model for EightPoint {
 
     fn handles(&self) -> Vec<Handle> {
         vec![self.probe.handle(PHOTO_SIZE, 4.0)]
+    }
+
+    /// Those of the probe.
+    fn symbols(&self) -> Vec<Symbol> {
+        let estimate = self.estimate().ok();
+        let line = estimate.and_then(|found| line2(&found.fundamental, &self.probe()));
+        match_symbols([Some(self.probe()), self.probe_match()], line)
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

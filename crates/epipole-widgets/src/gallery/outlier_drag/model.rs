@@ -1,10 +1,11 @@
 //! Matches of the still life, the first of them dragged to a wrong place.
 
-use super::fit::{Fit, Led, led_away};
+use super::fit::{Fit, Led, led_away, line2};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
-    format_number, round_to_digits,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
+    Toggle, format_number, round_to_digits,
 };
+use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{Match, Matches, cameras};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
@@ -150,6 +151,16 @@ impl Model for OutlierDrag {
             digits: DIGITS,
             removable: false,
         }]
+    }
+
+    /// Those of the wrong match.
+    fn symbols(&self) -> Vec<Symbol> {
+        let Ok(state) = self.state() else {
+            return Vec::new();
+        };
+        let (pixel1, pixel2) = state.wrong;
+        let line2 = line2(&state.fit.fundamental, &pixel1);
+        match_symbols([Some(pixel1), Some(pixel2)], line2)
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

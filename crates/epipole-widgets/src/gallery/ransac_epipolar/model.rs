@@ -7,8 +7,9 @@ use super::question::{Answer, Match, Question, STILL_LIFE_SIZE};
 use super::votes::Votes;
 use crate::contract::{
     Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    PhotoSlot, Problem, Settings, Slider, Toggle, Value,
+    PhotoSlot, Problem, Settings, Slider, Symbol, Toggle, Value,
 };
+use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
@@ -235,6 +236,17 @@ impl Model for RansacEpipolar {
 
     fn handles(&self) -> Vec<Handle> {
         vec![self.probe.handle(self.sizes()[0], 4.0)]
+    }
+
+    /// Those of one of the elected matches.
+    fn symbols(&self) -> Vec<Symbol> {
+        let best = self.votes().and_then(Votes::best);
+        let elected = best.into_iter().flat_map(|best| {
+            let matches = self.matches().into_iter().zip(&best.is_inlier);
+            matches.filter_map(|(found, is_inlier)| is_inlier.then_some(found))
+        });
+        let pixels = elected.map(|found| [found.pixel1(), found.pixel2()]);
+        symbols_of_one(pixels, self.sizes()[0])
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

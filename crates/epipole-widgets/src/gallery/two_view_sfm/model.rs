@@ -4,8 +4,9 @@ use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
     FileOffer, Handle, Job, JobResult, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space,
-    Value, format_number,
+    Symbol, Value, format_number,
 };
+use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
 use crate::kit::picture::{Own, Picture};
 use crate::kit::question::{Asked, carry_out};
@@ -285,6 +286,16 @@ impl Model for TwoViewSfm {
 
     fn handles(&self) -> Vec<Handle> {
         self.orbit.handles().into()
+    }
+
+    /// Those of one of the inliers, once matches are there to be seen.
+    fn symbols(&self) -> Vec<Symbol> {
+        let shown = (self.stage() > Stage::Detect).then(|| self.answer());
+        let (Some(answer), Some(picture)) = (shown.flatten(), self.picture(0)) else {
+            return Vec::new();
+        };
+        let inliers = answer.matches_that(true).map(|pair| answer.pixels(pair));
+        symbols_of_one(inliers, picture.size())
     }
 
     fn spaces(&self) -> &'static [Space] {
