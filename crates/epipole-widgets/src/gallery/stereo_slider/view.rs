@@ -1,7 +1,9 @@
-//! Both photographs, depth over disparity below them, and the view from above beside.
+//! Both photographs, the match magnified in a corner, depth over disparity below them, and the view from above beside.
 
 mod from_above;
+mod magnifier;
 
+use self::magnifier::Magnifier;
 use super::model::{DEPTH_RANGE_M, StereoSlider};
 use super::rig::{ERROR_PX, Measured, Rig, Sight};
 use super::words::NO_BASELINE;
@@ -127,6 +129,7 @@ impl StereoSliderView {
             Err(error) => return refuse(canvas, panels, &error),
         };
         let arrangement = rig.ball_in_world().coords.into();
+        let mut magnifier = None;
         for index in 0..2 {
             let rect = panels[index].rect;
             let said = title(index, sights[index], pixels[index].x, rect.width);
@@ -137,7 +140,10 @@ impl StereoSliderView {
             canvas.label(place, &said, TextStyle::new(Role::Ink, TEXT));
             let photo = &mut self.photos[index];
             match photo.picture(&scene, &cameras[index], arrangement, PHOTO_SIZE) {
-                Ok(picture) => canvas.photograph(rect, picture),
+                Ok(picture) => {
+                    canvas.photograph(rect, picture);
+                    magnifier = Magnifier::over(picture, &pixels[index]);
+                }
                 Err(error) => return refuse(canvas, panels, &error),
             }
         }
@@ -164,6 +170,11 @@ impl StereoSliderView {
                     Sight::Hidden(_) => canvas.hollow_marker(place, MARKER, shape, role, true),
                 }
             });
+        }
+        // Of the right photograph, which is the last.
+        if let Some(magnifier) = magnifier.filter(|_| rig.measured().is_some()) {
+            let place = panels[1].canvas_from_world((pixels[1].x, pixels[1].y));
+            magnifier.draw(panels[1].rect, place, canvas);
         }
     }
 }
