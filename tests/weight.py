@@ -116,6 +116,8 @@ def group(mangled):
         return f"kit {match.group(1)}"
     if match := re.search(r"epipole_widgets::(\w+)", text):
         return f"figures' {match.group(1)}"
+    if match := re.search(r"epipole_canvas::(\w+)", text):
+        return f"drawing {match.group(1)}"
     if match := re.search(r"\bepipole::(\w+)", text):
         return f"core {match.group(1)}"
     if match := re.search(r"\b(core::fmt|core::num|alloc::fmt)\b", text):

@@ -35,7 +35,7 @@ const SCRIPTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "w
 /** Fonts: npm packages that the builder cuts, and the one inside the figures. */
 const FONTS = [
   ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"],
-  ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-widgets/assets/EpipoleFigureSans-OFL.txt"],
+  ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"],
 ];
 
 function cargo(...args) {

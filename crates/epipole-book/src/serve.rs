@@ -39,6 +39,7 @@ const WATCHED: &[&str] = &[
     "web/theme",
     "web/book",
     "crates/epipole/src",
+    "crates/epipole-canvas/src",
     "crates/epipole-widgets/src",
     "crates/epipole-web/src",
 ];

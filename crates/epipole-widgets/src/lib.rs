@@ -16,31 +16,14 @@
 //! # Ok(()) }
 //! ```
 
-#[cfg(feature = "figures")]
-pub mod canvas;
-pub mod cloud;
-#[cfg(feature = "figures")]
 pub mod contract;
-#[cfg(feature = "figures")]
 mod figure;
-#[cfg(feature = "figures")]
-mod font;
-#[cfg(feature = "figures")]
 pub mod gallery;
-#[cfg(feature = "figures")]
 mod kit;
-#[cfg(feature = "figures")]
 pub mod pointing;
-#[cfg(feature = "figures")]
 mod snapshot;
-#[cfg(feature = "figures")]
 mod stage;
-pub mod theme;
 
-#[cfg(feature = "figures")]
+pub use epipole_canvas::{canvas, theme};
 pub use figure::{Answers, ChallengeStatus, Figure, POSTER_WIDTH};
-#[cfg(feature = "figures")]
 pub use snapshot::Snapshot;
-
-/// The font of the figures: a subset of IBM Plex Sans, as TrueType.
-pub static FONT: &[u8] = include_bytes!("../assets/EpipoleFigureSans.ttf");

@@ -8,8 +8,8 @@ use crate::tasks::Component;
 use egui::{
     ColorImage, Key as KeyName, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2,
 };
-use epipole_widgets::cloud::{Frame, Look, Orbit, Scene};
-use epipole_widgets::theme::{Role, Theme};
+use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
+use epipole_canvas::theme::{Role, Theme};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@ use super::{look, photo};
 use crate::project::{Event, Key, MAX_DISPARITY_PX, Project};
 use crate::tasks::{Dense, DepthMethod};
 use egui::{Color32, ColorImage, DragValue, Rect, Slider, TextureHandle, TextureOptions, Ui};
-use epipole_widgets::theme::{Role, Theme};
+use epipole_canvas::theme::{Role, Theme};
 
 /// The pictures of a pair, kept between frames.
 #[derive(Default)]

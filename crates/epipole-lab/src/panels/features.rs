@@ -6,7 +6,7 @@ use super::{look, photo};
 use crate::project::{Event, Project};
 use crate::tasks::{Feature, FeatureKind};
 use egui::{Shape, Slider, Stroke, Ui};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// So many features are drawn, the strongest.
 const MAX_DRAWN: usize = 1500;
@@ -33,7 +33,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     }
     let stroke = Stroke::new(
         1.0,
-        look::of(epipole_widgets::theme::Theme::Dark, Role::Inlier),
+        look::of(epipole_canvas::theme::Theme::Dark, Role::Inlier),
     );
     let mut shapes = Vec::new();
     for feature in found.list.iter().take(MAX_DRAWN) {
@@ -48,7 +48,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     shown.add(shapes);
     if let Some(feature) = memory.feature.and_then(|index| found.list.get(index)) {
         let radius = (2.0 * feature.scale_px * shown.scale()).max(6.0);
-        let color = look::of(epipole_widgets::theme::Theme::Dark, Role::Grip);
+        let color = look::of(epipole_canvas::theme::Theme::Dark, Role::Grip);
         shown.ring(shown.at(feature.u, feature.v), radius, color);
     }
 }

@@ -1,14 +1,14 @@
 //! Font and colors: those of the figures.
 
 use egui::{Color32, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Visuals};
-use epipole_widgets::theme::{Role, Theme};
+use epipole_canvas::theme::{Role, Theme};
 use std::sync::Arc;
 
 /// Sets font, sizes and colors, once.
 pub(super) fn set(context: &egui::Context) {
     let mut fonts = FontDefinitions::empty();
     let name = "Epipole Figure Sans".to_owned();
-    let bytes: &'static [u8] = epipole_widgets::FONT;
+    let bytes: &'static [u8] = epipole_canvas::FONT;
     fonts
         .font_data
         .insert(name.clone(), Arc::new(FontData::from_static(bytes)));

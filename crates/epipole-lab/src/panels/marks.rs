@@ -2,7 +2,7 @@
 
 use crate::project::Project;
 use crate::tasks::{CameraFound, Component};
-use epipole_widgets::cloud::{Line, Picture};
+use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
 /// The edges of a camera's view, so far out.

@@ -6,7 +6,7 @@ use super::look;
 use crate::project::{Event, Given, Project, Step};
 use crate::tasks::Shows;
 use egui::{Align2, Color32, FontId, Rect, ScrollArea, Sense, Slider, Ui, pos2, vec2};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// The table of pairs.
 pub(super) fn picture(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {

@@ -5,7 +5,7 @@ use super::knobs;
 use super::look;
 use crate::project::{Event, Measure, Project};
 use egui::{DragValue, Stroke, Ui};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// The space, with what was measured.
 pub(super) fn picture(

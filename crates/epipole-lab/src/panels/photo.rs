@@ -7,7 +7,7 @@ use egui::{
     Color32, ColorImage, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, TextureHandle,
     TextureOptions, Ui, Vec2, pos2, vec2,
 };
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 use std::collections::BTreeMap;
 
 /// The pictures that the screen holds.

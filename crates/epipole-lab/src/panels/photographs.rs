@@ -6,7 +6,7 @@ use super::knobs;
 use super::look;
 use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project};
 use egui::{DragValue, ScrollArea, Sense, Slider, Ui, vec2};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// Width of a small picture, points.
 const SMALL: f32 = 176.0;

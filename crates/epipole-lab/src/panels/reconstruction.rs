@@ -7,7 +7,7 @@ use super::look;
 use super::marks::sights;
 use crate::project::{Event, Project, RefineFocal};
 use egui::{Slider, Ui};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// The space.
 pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {

@@ -6,7 +6,7 @@ use super::{look, photo};
 use crate::project::{Event, Project};
 use crate::tasks::ViewModel;
 use egui::{Rect, Slider, Ui, vec2};
-use epipole_widgets::theme::{Role, Theme};
+use epipole_canvas::theme::{Role, Theme};
 
 /// So many matches are drawn.
 const MAX_DRAWN: usize = 400;

@@ -1,5 +1,7 @@
 //! What can go wrong between a reader and a figure, in sentences.
 
+use epipole_canvas::canvas::BadSize;
+
 /// Why a figure could not do what it was asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -33,15 +35,8 @@ pub enum Problem {
         expected: String,
     },
     /// The picture cannot be drawn at this size.
-    #[error(
-        "a picture of {width} by {height} pixels cannot be drawn; both sides must be 1 to 8192"
-    )]
-    BadSize {
-        /// Width in device pixels.
-        width: f64,
-        /// Height in device pixels.
-        height: f64,
-    },
+    #[error(transparent)]
+    BadSize(#[from] BadSize),
     /// A computation in another place, such as a worker of the page, ended with this sentence.
     #[error("{sentence}")]
     Elsewhere {

@@ -1,7 +1,7 @@
 //! From a figure to pixels.
 
 use super::Figure;
-use crate::canvas::{Canvas, Picture};
+use crate::canvas::{BadSize, Canvas, Picture};
 use crate::contract::{Aspect, Layout, Problem};
 use crate::theme::Theme;
 
@@ -22,7 +22,7 @@ impl Figure {
     /// [`Problem::BadSize`] for a picture without pixels, or too large.
     pub fn draw(&mut self, width: f64, scale: f64, theme: Theme) -> Result<&Picture, Problem> {
         if !(1.0..=Canvas::MAX_SIDE).contains(&width) {
-            return Err(Problem::BadSize { width, height: 0.0 });
+            return Err(BadSize { width, height: 0.0 }.into());
         }
         let layout = self.stage.layout(width);
         let buffer = std::mem::take(&mut self.picture);

@@ -7,7 +7,7 @@ use crate::panels::look;
 use crate::project::{BoardFate, Event, Given, MAX_MARKS, Project, SQUARES_M, Settings};
 use crate::tasks::{BoardPattern, Calibration, LensModel};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
-use epipole_widgets::theme::Role;
+use epipole_canvas::theme::Role;
 
 /// The board, the camera, each photograph.
 pub(in crate::panels) fn knobs(

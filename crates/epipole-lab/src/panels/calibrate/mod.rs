@@ -9,7 +9,7 @@ use super::{look, photo};
 use crate::project::{BoardFate, Event, Given, Project};
 use crate::tasks::BoardFound;
 use egui::{Rect, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
-use epipole_widgets::theme::{Role, Theme};
+use epipole_canvas::theme::{Role, Theme};
 
 /// Width of a small picture, points.
 const SMALL: f32 = 112.0;

@@ -1,7 +1,7 @@
 //! Lines and areas cut at the sides of a rectangle.
 
 use super::Place;
-use crate::contract::Rect;
+use crate::Rect;
 
 /// The part of a segment inside a rectangle.
 ///

@@ -24,7 +24,7 @@ pub use picture::Picture;
 pub use style::{Align, Dash, Shape, Stroke, TextStyle};
 pub use text::{paragraph_height, text_width};
 
-use crate::contract::{Problem, Rect};
+use crate::Rect;
 use crate::theme::{Rgb, Role, Theme};
 use clip::clip_polygon;
 use coverage::Coverage;
@@ -34,6 +34,16 @@ use tiny_skia::{Color, Pixmap};
 
 /// A place on the picture, CSS pixels.
 pub type Place = (f64, f64);
+
+/// The picture cannot be drawn at this size.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("a picture of {width} by {height} pixels cannot be drawn; both sides must be 1 to 8192")]
+pub struct BadSize {
+    /// Width in device pixels.
+    pub width: f64,
+    /// Height in device pixels.
+    pub height: f64,
+}
 
 /// A picture being drawn.
 pub struct Canvas {
@@ -53,16 +63,16 @@ impl Canvas {
     /// with the background. `buffer` is reused if it fits.
     ///
     /// # Errors
-    /// [`Problem::BadSize`] if a side has no pixels, too many, or is not finite.
+    /// [`BadSize`] if a side has no pixels, too many, or is not finite.
     pub fn new(
         width: f64,
         height: f64,
         scale: f64,
         theme: Theme,
         buffer: Picture,
-    ) -> Result<Self, Problem> {
+    ) -> Result<Self, BadSize> {
         let (device_width, device_height) = ((width * scale).round(), (height * scale).round());
-        let bad = Problem::BadSize {
+        let bad = BadSize {
             width: device_width,
             height: device_height,
         };
@@ -248,7 +258,7 @@ mod tests {
         ] {
             let canvas = Canvas::new(width, height, scale, Theme::Light, Picture::default());
             assert!(
-                matches!(canvas, Err(Problem::BadSize { .. })),
+                matches!(canvas, Err(BadSize { .. })),
                 "{width} {height} {scale}"
             );
         }

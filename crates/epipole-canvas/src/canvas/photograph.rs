@@ -1,7 +1,7 @@
 //! Photographs, scaled to where they are shown.
 
 use super::Canvas;
-use crate::contract::Rect;
+use crate::Rect;
 use image::RgbImage;
 use std::ops::Range;
 

@@ -4,7 +4,7 @@ use super::clip::clip_segment;
 use super::coverage::Coverage;
 use super::strokes::Cap;
 use super::{Canvas, Dash, Place, Stroke};
-use crate::contract::Rect;
+use crate::Rect;
 use crate::theme::Role;
 
 /// By how much a casing is wider than its line, CSS pixels.

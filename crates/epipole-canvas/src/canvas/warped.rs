@@ -186,8 +186,8 @@ fn area(corners: &[Place; 4]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Rect;
     use crate::canvas::Picture;
-    use crate::contract::Rect;
     use crate::theme::{Role, Theme};
     use image::Rgb;
 

@@ -1,7 +1,7 @@
 //! Lines and paragraphs of text.
 
 use super::{Align, Canvas, Place, TextStyle, glyphs};
-use crate::contract::Rect;
+use crate::Rect;
 use crate::font::{self, CAP_HEIGHT};
 use crate::theme::Role;
 

@@ -85,8 +85,8 @@ fn fingerprint(photograph: &RgbImage) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use crate::Rect;
     use crate::canvas::{Canvas, Picture};
-    use crate::contract::Rect;
     use crate::theme::Theme;
     use image::{Rgb, RgbImage};
 

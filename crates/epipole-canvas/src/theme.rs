@@ -126,7 +126,7 @@ impl Theme {
 }
 
 /// The color at a share of the way from one to another.
-pub(crate) fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
+pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
     std::array::from_fn(|channel| {
         let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
         (a + (b - a) * share).round() as u8

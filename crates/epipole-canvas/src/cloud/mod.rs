@@ -4,7 +4,7 @@
 //! without a search. No figure uses this room, so a page of figures does not carry it.
 //!
 //! ```
-//! use epipole_widgets::cloud::{Frame, Look, Orbit, Scene};
+//! use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 //! let scene = Scene { points: vec![([0.0, 0.0, 0.0], [255, 0, 0])], ..Scene::default() };
 //! let orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);
 //! let mut frame = Frame::default();

@@ -1,0 +1,30 @@
+//! What the figures of Epipole are drawn with, on the processor.
+//!
+//! [`canvas`] has every mark that a figure can make, [`theme`] its colors, [`cloud`] points and cameras in space.
+//! Nothing here knows what a figure is. Equal calls give equal bits on every machine.
+//!
+//! ```
+//! # fn main() -> Result<(), epipole_canvas::canvas::BadSize> {
+//! use epipole_canvas::canvas::{Canvas, Picture, Stroke};
+//! use epipole_canvas::theme::{Role, Theme};
+//! let mut canvas = Canvas::new(80.0, 60.0, 2.0, Theme::Light, Picture::default())?;
+//! canvas.line((10.0, 10.0), (70.0, 50.0), Stroke::solid(Role::Ink, 2.0));
+//! let picture = canvas.finish();
+//! assert_eq!((picture.width(), picture.height()), (160, 120));
+//! # Ok(()) }
+//! ```
+
+#[cfg(feature = "canvas")]
+pub mod canvas;
+pub mod cloud;
+#[cfg(feature = "canvas")]
+mod font;
+#[cfg(feature = "canvas")]
+mod rect;
+pub mod theme;
+
+#[cfg(feature = "canvas")]
+pub use rect::Rect;
+
+/// The font of the figures: a subset of IBM Plex Sans, as TrueType.
+pub static FONT: &[u8] = include_bytes!("../assets/EpipoleFigureSans.ttf");

@@ -1,0 +1,58 @@
+//! Where on a picture something is drawn.
+
+use serde::Serialize;
+
+/// An axis-parallel rectangle in CSS pixels, origin at the picture's top left corner, y down.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rect {
+    /// Left edge.
+    pub x: f64,
+    /// Top edge.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Rect {
+    /// A rectangle from its top left corner and size.
+    pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self {
+            x,
+            y,
+            width,
+            height,
+        }
+    }
+
+    /// Right edge.
+    pub fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    /// Bottom edge.
+    pub fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+
+    /// The middle.
+    pub fn center(&self) -> (f64, f64) {
+        (self.x + self.width / 2.0, self.y + self.height / 2.0)
+    }
+
+    /// Whether a point is inside or on the edge.
+    pub fn contains(&self, (x, y): (f64, f64)) -> bool {
+        (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
+    }
+
+    /// The rectangle without a margin on every side; never of negative size.
+    pub fn inset(&self, margin: f64) -> Self {
+        Self::new(
+            self.x + margin,
+            self.y + margin,
+            (self.width - 2.0 * margin).max(0.0),
+            (self.height - 2.0 * margin).max(0.0),
+        )
+    }
+}
