@@ -15,7 +15,7 @@ use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{
-    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, Unique, ransac_with,
+    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
 };
 use crate::{Error, Result};
 use core::ops::ControlFlow;
@@ -120,6 +120,10 @@ impl Estimator for EssentialEstimator {
 
     fn num_data(&self) -> usize {
         self.matches.len()
+    }
+
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
     }
 
     fn max_models(&self) -> usize {
@@ -248,22 +252,6 @@ impl Estimator for EssentialEstimator {
     fn inliers(&self, pose: &RelativePose, max_error_px: f64, inliers: &mut Vec<usize>) {
         let judge = self.lenses.judge(pose, max_error_px);
         in_front::inliers(&self.pixels, &judge, max_error_px, inliers);
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_lines(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 

@@ -8,7 +8,7 @@ use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -178,6 +178,10 @@ impl Estimator for FocalEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn max_models(&self) -> usize {
         MAX_SOLUTIONS
     }
@@ -241,22 +245,6 @@ impl Estimator for FocalEstimator {
 
     fn inliers(&self, model: &PoseWithFocal, max_error_px: f64, inliers: &mut Vec<usize>) {
         sampson::inliers(&self.pixels, &model.pose.fundamental, max_error_px, inliers);
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_lines(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 

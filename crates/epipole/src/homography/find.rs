@@ -5,7 +5,7 @@ use super::refine::{refine_in_frame, to_frame, to_pixels};
 use super::sums;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -109,6 +109,10 @@ impl Estimator for HomographyEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
         if self.matches.have_shared_pixel(sample) {
             return;
@@ -158,22 +162,6 @@ impl Estimator for HomographyEstimator {
 
     fn inliers(&self, model: &Matrix3<f64>, max_error_px: f64, inliers: &mut Vec<usize>) {
         sums::inliers(&self.pixels, model, max_error_px, inliers);
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 

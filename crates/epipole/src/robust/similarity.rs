@@ -1,6 +1,6 @@
 //! Similarities of the plane: turn, scale, shift.
 
-use super::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use super::{Estimator, MatchSet, RansacOptions, RansacReport, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -155,6 +155,10 @@ impl Estimator for SimilarityEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Similarity2>) {
         if self.matches.have_shared_pixel(sample) {
             return;
@@ -172,27 +176,6 @@ impl Estimator for SimilarityEstimator {
 
     fn refine(&mut self, _: &Similarity2, inliers: &[usize], _: f64) -> Option<Similarity2> {
         fit(inliers.len(), |i| self.matches.pair(inliers[i]))
-    }
-
-    fn support(&self, model: &Similarity2, max_error_px: f64, cost_limit: f64) -> Support {
-        self.matches
-            .support(|i| self.error_sq(model, i), max_error_px, cost_limit)
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -106,6 +106,10 @@ impl Estimator for RotationEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
         if !self.matches.have_shared_pixel(sample) {
             models.extend(self.align(sample));
@@ -124,22 +128,6 @@ impl Estimator for RotationEstimator {
         let homography = self.homography(rotation);
         let error_sq = |i| self.transfer_error_sq(rotation, &homography, i);
         self.matches.support(error_sq, max_error_px, cost_limit)
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 
