@@ -6,7 +6,7 @@ use super::five_point::{pose_in_front, solve};
 use super::in_front::{self, Lenses};
 use super::other_motion::other_motion_of_plane;
 use super::plane_recovery::PlaneRecovery;
-use super::refine::{RaysInFrame, refine_pose_in_frame};
+use super::refine_pose::{RaysInFrame, refine_pose_in_frame};
 use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;

@@ -3,7 +3,7 @@
 use super::coordinates::{CommonFrame, Coordinates};
 use super::find_fundamental::refuse_collinear;
 use super::five_point::pose_in_front;
-use super::refine::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
+use super::refine_focal::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
 use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
 use crate::camera::Intrinsics;
