@@ -208,7 +208,7 @@ fn files_of_matches_that_say_nothing_are_refused() {
         (
             "homography",
             "# only a comment\n1 2 3 4".to_owned(),
-            "needs at least 4, but there are only 1",
+            "needs at least 4, but there is only 1",
         ),
         ("homography", same.clone(), "error"),
         ("fundamental", same, "error"),
