@@ -53,10 +53,12 @@ pub use image;
 /// The points and matrices that functions take and return.
 pub use nalgebra;
 
-pub use absolute_pose::find_absolute_pose;
-pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
+pub use absolute_pose::estimate_absolute_pose;
+pub use epipolar::{
+    decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
+};
 pub use error::Error;
-pub use homography::find_homography;
+pub use homography::estimate_homography;
 pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].

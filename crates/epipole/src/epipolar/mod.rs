@@ -9,9 +9,9 @@ mod eight_point;
 mod eight_rays;
 mod epipoles;
 mod essential;
-mod find_essential;
-mod find_fundamental;
-mod find_with_focal;
+mod estimate_essential;
+mod estimate_fundamental;
+mod estimate_pose_and_focal;
 mod five_point;
 mod focal_lengths;
 mod from_cameras;
@@ -38,11 +38,14 @@ pub use eight_rays::essential_8point;
 pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
 pub use essential::{SelectedPose, decompose_essential, project_to_essential, select_pose};
-pub use find_essential::{
-    EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
+pub use estimate_essential::{
+    EssentialEstimator, estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
 };
-pub use find_fundamental::{FundamentalEstimator, find_fundamental};
-pub use find_with_focal::{FocalEstimator, PoseWithFocal, estimate_relative_pose_with_focal};
+pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
+pub use estimate_pose_and_focal::{
+    FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
+    estimate_relative_pose_and_focal_with,
+};
 pub use five_point::essential_5point;
 pub use focal_lengths::focal_lengths_from_fundamental;
 pub(crate) use from_cameras::share_center;

@@ -1,7 +1,7 @@
 //! E and the relative pose from matches of which many are wrong.
 
 use super::coordinates::{CommonFrame, Coordinates};
-use super::find_fundamental::refuse_collinear;
+use super::estimate_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
 use super::in_front::{self, Lenses};
 use super::other_motion::other_motion_of_plane;
@@ -373,7 +373,7 @@ pub fn estimate_relative_pose_with(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::{essential_from_motion, find_essential};
+/// use epipole::epipolar::{essential_from_motion, estimate_essential};
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
 /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
@@ -384,14 +384,14 @@ pub fn estimate_relative_pose_with(
 ///     p1.push(k.project(&x)?);
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
-/// let report = find_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
 /// let truth = essential_from_motion(&cam2_from_cam1)?;
 /// assert_eq!(report.num_inliers, 40);
 /// assert!((report.model - truth).norm() < 1e-5);
 /// # Ok(()) }
 /// ```
 #[doc(alias = "findEssentialMat")]
-pub fn find_essential(
+pub fn estimate_essential(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     k1: &Intrinsics,

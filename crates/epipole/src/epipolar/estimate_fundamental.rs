@@ -269,7 +269,7 @@ impl Estimator for FundamentalEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::epipolar::find_fundamental;
+/// use epipole::epipolar::estimate_fundamental;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::Point2;
 /// // A step to the right: each point keeps its row and moves by its own disparity. Every fourth
@@ -279,13 +279,13 @@ impl Estimator for FundamentalEstimator {
 ///     let wrong = if i % 4 == 0 { 40.0 + i as f64 } else { 0.0 };
 ///     Point2::new(p.x - (5 + i * 13 % 31) as f64, p.y + wrong)
 /// }).collect();
-/// let report = find_fundamental(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_fundamental(&p1, &p2, &RansacOptions::default())?;
 /// assert_eq!(report.num_inliers, 45);
 /// assert!(report.model[(2, 2)].abs() < 1e-6);
 /// # Ok(()) }
 /// ```
 #[doc(alias = "findFundamentalMat")]
-pub fn find_fundamental(
+pub fn estimate_fundamental(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
