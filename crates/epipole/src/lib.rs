@@ -54,6 +54,8 @@ pub use image;
 pub use nalgebra;
 
 pub use absolute_pose::estimate_absolute_pose;
+/// The list that minimal solvers return: zero or more models, on the stack.
+pub use arrayvec::ArrayVec;
 pub use epipolar::{
     decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
 };

@@ -183,7 +183,9 @@ fn essential_matrices_of_few_and_of_many_rays() {
                     let five = |rays: &[Vector3<f64>]| core::array::from_fn(|i| rays[i]);
                     essential_5point(&five(&rays1), &five(&rays2))
                 }
-                _ => vec![essential_8point(&rays1, &rays2).unwrap()],
+                _ => [essential_8point(&rays1, &rays2).unwrap()]
+                    .into_iter()
+                    .collect(),
             };
             let off = |e: &&Matrix3<f64>| same_up_to_sign(e, &truth);
             let nearest = solutions

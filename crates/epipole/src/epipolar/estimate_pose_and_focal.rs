@@ -14,6 +14,7 @@ use crate::robust::{
     Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
 };
 use crate::{Error, Result};
+use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -72,7 +73,6 @@ pub struct FocalEstimator {
     centers: [Point2<f64>; 2],
     centers_in_frame: FocalCenters,
     reach_px: f64,
-    found: Vec<EssentialWithFocal>,
 }
 
 /// Focal lengths that are looked at, as multiples of the reach of the pixels.
@@ -121,7 +121,6 @@ impl FocalEstimator {
             pixels,
             frame,
             centers,
-            found: Vec::with_capacity(MAX_SOLUTIONS),
         })
     }
 
@@ -198,9 +197,9 @@ impl Estimator for FocalEstimator {
         let pairs: [_; 6] = core::array::from_fn(|i| self.matches.pair(sample[i]));
         let about1 = pairs.map(|(p1, _)| p1 - self.centers[0].coords);
         let about2 = pairs.map(|(_, p2)| p2 - self.centers[1].coords);
-        self.found.clear();
-        solve(&about1, &about2, &mut self.found);
-        for solution in &self.found {
+        let mut found = ArrayVec::<EssentialWithFocal, MAX_SOLUTIONS>::new();
+        solve(&about1, &about2, &mut found);
+        for solution in &found {
             if !self.is_usable(solution.focal_px) {
                 continue;
             }
