@@ -4,6 +4,7 @@
 //!
 //! | room | what it holds |
 //! |---|---|
+//! | [`progress`] | how far a long computation is, and whether it goes on |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
@@ -41,6 +42,7 @@ pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod prelude;
+pub mod progress;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
