@@ -63,7 +63,8 @@ pub enum ThresholdKind {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RansacOptions {
-    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0. 1.
+    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
+    /// own, the unit of its errors. 1.
     pub max_error_px: f64,
     /// Where the threshold comes from. Given.
     pub threshold: ThresholdKind,

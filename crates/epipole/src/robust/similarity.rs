@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point2};
 
 /// The map `u' = a u − b v + tu`, `v' = b u + a v + tv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Similarity2 {
+pub struct PlaneSimilarity {
     /// Scale times the cosine of the turn.
     pub a: f64,
     /// Scale times the sine of the turn.
@@ -17,7 +17,7 @@ pub struct Similarity2 {
     pub tv: f64,
 }
 
-impl Similarity2 {
+impl PlaneSimilarity {
     /// Where a point goes.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::new(
@@ -69,7 +69,7 @@ impl Similarity2 {
 /// assert_eq!((s.a, s.b, s.tu, s.tv), (0.0, 2.0, 5.0, 5.0));
 /// # Ok(()) }
 /// ```
-pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Similarity2> {
+pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<PlaneSimilarity> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
     if matches.len() < 2 {
         return Err(Error::TooFew {
@@ -87,7 +87,7 @@ pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Resul
 fn fit(
     num_matches: usize,
     pair: impl Fn(usize) -> (Point2<f64>, Point2<f64>),
-) -> Option<Similarity2> {
+) -> Option<PlaneSimilarity> {
     let share = 1.0 / num_matches as f64;
     let (mut m1, mut m2) = (Point2::origin(), Point2::origin());
     for i in 0..num_matches {
@@ -108,7 +108,7 @@ fn fit(
         return None;
     }
     let (a, b) = (real / size_sq, imaginary / size_sq);
-    let similarity = Similarity2 {
+    let similarity = PlaneSimilarity {
         a,
         b,
         tu: m2.x - (a * m1.x - b * m1.y),
@@ -137,7 +137,7 @@ impl SimilarityEstimator {
 }
 
 impl Estimator for SimilarityEstimator {
-    type Model = Similarity2;
+    type Model = PlaneSimilarity;
 
     fn name(&self) -> &'static str {
         "a similarity from matches"
@@ -159,7 +159,7 @@ impl Estimator for SimilarityEstimator {
         Some(&self.matches)
     }
 
-    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Similarity2>) {
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<PlaneSimilarity>) {
         if self.matches.have_shared_pixel(sample) {
             return;
         }
@@ -168,13 +168,18 @@ impl Estimator for SimilarityEstimator {
             .extend(fit(2, |i| self.matches.pair(sample[i])).filter(|s| s.a != 0.0 || s.b != 0.0));
     }
 
-    fn error_sq(&self, similarity: &Similarity2, index: usize) -> f64 {
+    fn error_sq(&self, similarity: &PlaneSimilarity, index: usize) -> f64 {
         let (p1, p2) = self.matches.pair(index);
         let off = similarity.apply(&p1) - p2;
         off.x * off.x + off.y * off.y
     }
 
-    fn refine(&mut self, _: &Similarity2, inliers: &[usize], _: f64) -> Option<Similarity2> {
+    fn refine(
+        &mut self,
+        _: &PlaneSimilarity,
+        inliers: &[usize],
+        _: f64,
+    ) -> Option<PlaneSimilarity> {
         fit(inliers.len(), |i| self.matches.pair(inliers[i]))
     }
 }
@@ -202,7 +207,7 @@ pub fn estimate_similarity(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
-) -> Result<RansacReport<Similarity2>> {
+) -> Result<RansacReport<PlaneSimilarity>> {
     ransac(
         SimilarityEstimator::new(MatchSet::new(pixels1, pixels2)?),
         options,
@@ -216,9 +221,9 @@ mod tests {
     use crate::math::random::Random;
 
     /// COLMAP's ransac test in the plane: 1000 matches, the first 400 of them wrong.
-    fn problem(seed: u64) -> (Similarity2, Vec<Point2<f64>>, Vec<Point2<f64>>) {
+    fn problem(seed: u64) -> (PlaneSimilarity, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let mut random = Random::new(seed);
-        let truth = Similarity2 {
+        let truth = PlaneSimilarity {
             a: 1.5,
             b: -0.7,
             tu: 100.0,
