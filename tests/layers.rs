@@ -32,6 +32,7 @@ const RESERVED: &[(&str, &[&str])] = &[
 
 /// The rooms of the core: each may use those before it.
 const ROOMS: &[&str] = &[
+    "progress",
     "math",
     "optim",
     "imaging",

@@ -7,11 +7,11 @@
 #![allow(unsafe_code, reason = "exported names must not be mangled")]
 #![allow(unreachable_pub, reason = "exports have no other user")]
 
-use epipole::epipolar::find_fundamental;
+use epipole::epipolar::estimate_fundamental;
 use epipole::feature::{
     Descriptors, Neighbors, StructureTensorOptions, Window, harris_response, nearest_two,
 };
-use epipole::homography::find_homography;
+use epipole::homography::estimate_homography;
 use epipole::imaging::{
     Border, DerivativeFilter, Gradient, GrayImage32, derivative_into, gaussian_kernel,
     gray_from_values, separable_filter, sobel,
@@ -143,11 +143,11 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         HOMOGRAPHY => {
             let [pixels1, pixels2] = &room.matches;
-            room.found = find_homography(pixels1, pixels2, &RansacOptions::default())?.model;
+            room.found = estimate_homography(pixels1, pixels2, &RansacOptions::default())?.model;
         }
         FUNDAMENTAL => {
             let [pixels1, pixels2] = &room.matches;
-            room.found = find_fundamental(pixels1, pixels2, &RansacOptions::default())?.model;
+            room.found = estimate_fundamental(pixels1, pixels2, &RansacOptions::default())?.model;
         }
         SEMI_GLOBAL => {
             let [left, right] = &room.pair;

@@ -11,6 +11,7 @@ use epipole::feature::{
     AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
     detect_features_with_progress, match_any_descriptors,
 };
+use std::ops::ControlFlow;
 
 /// The kinds of feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -86,7 +87,11 @@ impl FeatureArguments {
         let progress = Progress::new(context, "features");
         let watch = &mut |share: f32| {
             progress.set(f64::from(share));
-            !interrupt::requested()
+            if interrupt::requested() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         };
         Ok(detect_features_with_progress(
             &photo.gray(),

@@ -1,7 +1,7 @@
 //! Cameras that only turned, or hardly moved: E and F mean nothing then, though they fit.
 
 use epipole::camera::Intrinsics;
-use epipole::homography::find_homography;
+use epipole::homography::estimate_homography;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{ExplainingTurn, TwoViewOptions, find_explaining_turn};
 use nalgebra::Point2;
@@ -73,7 +73,7 @@ pub(crate) fn left_open(
         max_iterations: ransac.max_iterations.min(MAX_SAMPLES),
         ..*ransac
     };
-    let num_explained = find_homography(&in1, &in2, &options).ok()?.num_inliers;
+    let num_explained = estimate_homography(&in1, &in2, &options).ok()?.num_inliers;
     nearly_all(num_explained).then(|| {
         format!(
             "a homography explains {num_explained} of the {count} inliers: they show a plane, or the camera \

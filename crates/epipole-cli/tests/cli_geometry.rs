@@ -11,7 +11,7 @@ use epipole::camera::{Camera, RigidTransform};
 use epipole::epipolar::{fundamental_from_cameras, symmetric_epipolar_px};
 use epipole::math::random::Random;
 use epipole::robust::num_trials_without_replacement;
-use epipole::synthetic::{Scene, Structure, Transfer, TwoViewOptions, TwoViewProblem};
+use epipole::synthetic::{Scene, Structure, Transfer, TwoViewProblem, TwoViewProblemOptions};
 use nalgebra::{Matrix3, Point2, Vector3};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -21,12 +21,12 @@ const K: &str = "600,600,319.5,239.5";
 
 /// Matches of which two in five are wrong.
 fn problem(structure: Structure) -> TwoViewProblem {
-    TwoViewProblem::new(&TwoViewOptions {
+    TwoViewProblem::new(&TwoViewProblemOptions {
         num_points: 250,
         structure,
         outlier_fraction: 0.4,
         seed: 5,
-        ..TwoViewOptions::default()
+        ..TwoViewProblemOptions::default()
     })
     .unwrap()
 }
@@ -208,7 +208,7 @@ fn files_of_matches_that_say_nothing_are_refused() {
         (
             "homography",
             "# only a comment\n1 2 3 4".to_owned(),
-            "needs at least 4, but there are only 1",
+            "needs at least 4, but there is only 1",
         ),
         ("homography", same.clone(), "error"),
         ("fundamental", same, "error"),

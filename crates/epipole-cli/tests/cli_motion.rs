@@ -251,7 +251,7 @@ fn photographs_that_do_not_fit_together_are_refused() {
     let empty = folder.file("empty");
     let missing = folder.file("missing.png");
     for (files, expected) in [
-        (vec![path(&photo)], "needs at least 2, but there are only 1"),
+        (vec![path(&photo)], "needs at least 2, but there is only 1"),
         (
             vec![path(&photo), path(&back)],
             "no two photographs show enough of the same thing",

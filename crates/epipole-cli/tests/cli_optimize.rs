@@ -8,12 +8,12 @@ use common::{Folder, fails, json, numbers, path};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::sfm::{BalCamera, BalProblem, Observation};
-use epipole::synthetic::{MultiViewOptions, MultiViewProblem};
+use epipole::synthetic::{MultiViewProblem, MultiViewProblemOptions};
 use nalgebra::{Point2, Vector3};
 use serde_json::Value;
 
 /// A made world in the conventions of the format: cameras look along −z, v points up.
-fn problem(options: &MultiViewOptions) -> BalProblem {
+fn problem(options: &MultiViewProblemOptions) -> BalProblem {
     let world = MultiViewProblem::new(options).unwrap();
     let flip = Vector3::new(1.0, -1.0, -1.0);
     let cameras = world.cameras.iter().map(|camera| {
@@ -64,7 +64,7 @@ fn disturb(problem: &mut BalProblem) {
 #[test]
 fn exact_observations_are_explained_exactly() {
     let folder = Folder::new("ba-exact");
-    let mut problem = problem(&MultiViewOptions::default());
+    let mut problem = problem(&MultiViewProblemOptions::default());
     assert!(
         problem.cost(RobustLoss::Trivial) < 1e-12,
         "the conventions agree"
@@ -98,10 +98,10 @@ fn exact_observations_are_explained_exactly() {
 #[test]
 fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let folder = Folder::new("ba-noise");
-    let options = MultiViewOptions {
+    let options = MultiViewProblemOptions {
         noise_px: 0.5,
         seed: 3,
-        ..MultiViewOptions::default()
+        ..MultiViewProblemOptions::default()
     };
     let file = folder.write("noise.txt", &problem(&options).to_text());
     let result = json(&["ba", path(&file)]);
@@ -111,7 +111,7 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let ratio = result["final_cost"].as_f64().unwrap() / (0.5 * 0.25 * freedom);
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 
-    let wild = MultiViewOptions {
+    let wild = MultiViewProblemOptions {
         outlier_fraction: 0.05,
         ..options
     };

@@ -10,7 +10,9 @@ use epipole::homography::homography_4point;
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
 use epipole::triangulation::triangulate_dlt_all;
-use epipole::{estimate_relative_pose, find_absolute_pose, find_fundamental, find_homography};
+use epipole::{
+    estimate_absolute_pose, estimate_fundamental, estimate_homography, estimate_relative_pose,
+};
 use nalgebra::{Point2, Point3, Vector3};
 
 struct Scene {
@@ -117,21 +119,21 @@ fn robust(c: &mut Criterion) {
     let s = scene(2, 1000, 0.6, false);
     let k = s.left.intrinsics;
     group.bench_function("F 1000, 40 % outliers", |b| {
-        b.iter(|| find_fundamental(&s.p1, &s.p2, &options()))
+        b.iter(|| estimate_fundamental(&s.p1, &s.p2, &options()))
     });
     group.bench_function("E 1000, 40 % outliers", |b| {
         b.iter(|| estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options()))
     });
     group.bench_function("P3P 1000, 40 % outliers", |b| {
-        b.iter(|| find_absolute_pose(&s.points, &s.p2, &k, &options()))
+        b.iter(|| estimate_absolute_pose(&s.points, &s.p2, &k, &options()))
     });
     let plane = scene(3, 1000, 0.6, true);
     group.bench_function("H 1000, 40 % outliers", |b| {
-        b.iter(|| find_homography(&plane.p1, &plane.p2, &options()))
+        b.iter(|| estimate_homography(&plane.p1, &plane.p2, &options()))
     });
     let few = scene(4, 200, 0.7, false);
     group.bench_function("F 200, 30 % outliers", |b| {
-        b.iter(|| find_fundamental(&few.p1, &few.p2, &options()))
+        b.iter(|| estimate_fundamental(&few.p1, &few.p2, &options()))
     });
     group.finish();
 }

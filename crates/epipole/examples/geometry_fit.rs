@@ -14,7 +14,7 @@ mod clock;
 use clock::now;
 use epipole::camera::Intrinsics;
 use epipole::robust::{RansacOptions, RansacReport};
-use epipole::{estimate_relative_pose, find_fundamental, find_homography};
+use epipole::{estimate_fundamental, estimate_homography, estimate_relative_pose};
 use nalgebra::{Matrix3, Point2};
 use std::array::from_fn;
 use std::error::Error;
@@ -58,7 +58,7 @@ fn fit(p: &Problem) -> epipole::Result<RansacReport<Vec<f64>>> {
     let (a, b, options) = (&p.pixels1, &p.pixels2, &p.options);
     let rows_of = |m: Matrix3<f64>| m.transpose().as_slice().to_vec();
     Ok(match p.kind {
-        0 => find_fundamental(a, b, options)?.map(rows_of),
+        0 => estimate_fundamental(a, b, options)?.map(rows_of),
         1 => {
             let [fu, fv, cu, cv] = p.intrinsics;
             let k = Intrinsics::new(fu, fv, cu, cv)?;
@@ -67,7 +67,7 @@ fn fit(p: &Problem) -> epipole::Result<RansacReport<Vec<f64>>> {
                 (0..12).map(|i| m[(i / 4, i % 4)]).collect()
             })
         }
-        _ => find_homography(a, b, options)?.map(rows_of),
+        _ => estimate_homography(a, b, options)?.map(rows_of),
     })
 }
 

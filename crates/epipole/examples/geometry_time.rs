@@ -14,7 +14,9 @@ use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point
 use epipole::homography::homography_4point;
 use epipole::robust::RansacOptions;
 use epipole::triangulation::triangulate_dlt_all;
-use epipole::{estimate_relative_pose, find_absolute_pose, find_fundamental, find_homography};
+use epipole::{
+    estimate_absolute_pose, estimate_fundamental, estimate_homography, estimate_relative_pose,
+};
 use nalgebra::{Point2, Point3, Rotation3, Vector3};
 use std::array::from_fn;
 use std::error::Error;
@@ -76,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let Some(p) = read(folder, "general", index)? else {
             break;
         };
-        let (ms, found) = time(|| find_fundamental(&p.pixels1, &p.pixels2, &options));
+        let (ms, found) = time(|| estimate_fundamental(&p.pixels1, &p.pixels2, &options));
         print("F RANSAC", index, ms, &flat(&found?.model));
         let (ms, found) = time(|| estimate_relative_pose(&p.pixels1, &p.pixels2, &k, &k, &options));
         print(
@@ -85,14 +87,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             ms,
             &rows_of(&found?.model.cam2_from_cam1()),
         );
-        let (ms, found) = time(|| find_absolute_pose(&p.points, &p.pixels2, &k, &options));
+        let (ms, found) = time(|| estimate_absolute_pose(&p.points, &p.pixels2, &k, &options));
         print("P3P RANSAC", index, ms, &rows_of(&found?.model));
     }
     for index in 0.. {
         let Some(p) = read(folder, "planar", index)? else {
             break;
         };
-        let (ms, found) = time(|| find_homography(&p.pixels1, &p.pixels2, &options));
+        let (ms, found) = time(|| estimate_homography(&p.pixels1, &p.pixels2, &options));
         print("H RANSAC", index, ms, &flat(&found?.model));
     }
     let clean = read(folder, "clean", 0)?.ok_or("no clean-0.f64")?;

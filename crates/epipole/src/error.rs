@@ -7,7 +7,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// Fewer data than the computation needs.
-    #[error("{what} needs at least {needed}, but there are only {got}")]
+    #[error("{what} needs at least {needed}, but {}", only(*.got))]
     TooFew {
         /// What was asked for, with its unit of counting, such as "a fundamental matrix from matches".
         what: &'static str,
@@ -97,6 +97,15 @@ pub enum Error {
     },
 }
 
+/// That there are so few, in words.
+fn only(count: usize) -> String {
+    match count {
+        0 => "there are none".to_owned(),
+        1 => "there is only 1".to_owned(),
+        _ => format!("there are only {count}"),
+    }
+}
+
 /// A number without hundreds of zeros.
 fn brief(value: f64) -> String {
     let size = value.abs();
@@ -109,7 +118,24 @@ fn brief(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::brief;
+    use super::{Error, brief};
+
+    #[test]
+    fn few_data_are_counted_in_good_english() {
+        for (got, end) in [
+            (0, "but there are none"),
+            (1, "but there is only 1"),
+            (6, "but there are only 6"),
+        ] {
+            let error = Error::TooFew {
+                what: "a fundamental matrix from matches",
+                needed: 7,
+                got,
+            };
+            let whole = format!("a fundamental matrix from matches needs at least 7, {end}");
+            assert_eq!(error.to_string(), whole);
+        }
+    }
 
     #[test]
     fn numbers_are_brief() {

@@ -4,6 +4,7 @@
 //!
 //! | room | what it holds |
 //! |---|---|
+//! | [`progress`] | how far a long computation is, and whether it goes on |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
@@ -41,6 +42,7 @@ pub mod imaging;
 pub mod math;
 pub mod optim;
 pub mod prelude;
+pub mod progress;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
@@ -53,10 +55,14 @@ pub use image;
 /// The points and matrices that functions take and return.
 pub use nalgebra;
 
-pub use absolute_pose::find_absolute_pose;
-pub use epipolar::{decompose_essential, estimate_relative_pose, find_essential, find_fundamental};
+pub use absolute_pose::estimate_absolute_pose;
+/// The list that minimal solvers return: zero or more models, on the stack.
+pub use arrayvec::ArrayVec;
+pub use epipolar::{
+    decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
+};
 pub use error::Error;
-pub use homography::find_homography;
+pub use homography::estimate_homography;
 pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].

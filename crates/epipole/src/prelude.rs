@@ -9,19 +9,20 @@
 //! ```
 
 pub use crate::Error;
-pub use crate::absolute_pose::find_absolute_pose;
+pub use crate::absolute_pose::estimate_absolute_pose;
 pub use crate::calibration::{
     Board, CalibrationOptions, Pattern, calibrate, calibrate_rig, find_board,
 };
 pub use crate::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, RigidTransform};
 pub use crate::epipolar::{
-    decompose_essential, estimate_relative_pose, find_essential, find_fundamental, sampson_px,
+    decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
+    sampson_px,
 };
 pub use crate::feature::{
     FeatureKind, FeatureOptions, Keypoint, MatchOptions, SiftOptions, detect_features, detect_sift,
     match_any_descriptors, match_descriptors, refine_corners,
 };
-pub use crate::homography::{find_homography, transfer};
+pub use crate::homography::{estimate_homography, transfer};
 #[cfg(feature = "decode")]
 pub use crate::imaging::{DecodeOptions, decode_gray, decode_rgb};
 pub use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray, rgb_to_gray_f32};

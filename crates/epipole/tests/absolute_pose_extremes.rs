@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::absolute_pose::{
-    find_absolute_pose, pose_dlt, refine_absolute_pose, reprojection_error_px,
+    estimate_absolute_pose, pose_dlt, refine_absolute_pose, reprojection_error_px,
 };
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::math::random::Random;
@@ -133,7 +133,7 @@ fn robust_estimation_does_not_depend_on_where_the_origin_is() {
             };
             let found = |shift: &Vector3<f64>| {
                 let points = scene.points(shift, 1.0);
-                find_absolute_pose(&points, &scene.pixels, &scene.intrinsics, &options).unwrap()
+                estimate_absolute_pose(&points, &scene.pixels, &scene.intrinsics, &options).unwrap()
             };
             let near = found(&Vector3::zeros());
             let shift = Vector3::new(5e5, 5e6, 1.5e6);

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::absolute_pose::{find_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
+use epipole::absolute_pose::{estimate_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     RelativePose, essential_5point, essential_8point, essential_from_motion, refine_relative_pose,
@@ -234,9 +234,9 @@ proptest! {
         prop_assert!(pose_error(&order, &before, 5.0) < 1e-7);
 
         let options = RansacOptions { max_error_px: 4.0, seed, ..RansacOptions::default() };
-        let before = find_absolute_pose(&points, &pixels, &k, &options).unwrap();
-        let after = find_absolute_pose(&moved, &pixels, &k, &options).unwrap();
-        let order = find_absolute_pose(
+        let before = estimate_absolute_pose(&points, &pixels, &k, &options).unwrap();
+        let after = estimate_absolute_pose(&moved, &pixels, &k, &options).unwrap();
+        let order = estimate_absolute_pose(
             &rotated(&points, places), &rotated(&pixels, places), &k, &options,
         ).unwrap();
         prop_assert_eq!(after.num_inliers, before.num_inliers);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_with_focal};
+use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, RansacReport};
 use epipole::{Error, estimate_relative_pose};
@@ -59,7 +59,7 @@ impl Scene {
     fn estimate(&self) -> RansacReport<PoseWithFocal> {
         let middle = self.k.principal_point();
         let options = RansacOptions::default();
-        estimate_relative_pose_with_focal(&self.p1, &self.p2, &middle, &middle, &options).unwrap()
+        estimate_relative_pose_and_focal(&self.p1, &self.p2, &middle, &middle, &options).unwrap()
     }
 
     fn error_deg(&self, found: &RigidTransform) -> f64 {
@@ -149,8 +149,7 @@ fn it_is_said_where_the_focal_length_is_open() {
         }
         let middle = k.principal_point();
         let options = RansacOptions::default();
-        let found =
-            estimate_relative_pose_with_focal(&p1, &p2, &middle, &middle, &options).unwrap();
+        let found = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &options).unwrap();
         let open =
             (found.model.focal_std_px).is_none_or(|std_px| std_px > 0.1 * found.model.focal_px);
         assert!(
@@ -168,7 +167,7 @@ fn bad_input_is_refused() {
     let middle = scene.k.principal_point();
     let options = RansacOptions::default();
     let find = |p1: &[Point2<f64>], p2: &[Point2<f64>], c: &Point2<f64>| {
-        estimate_relative_pose_with_focal(p1, p2, c, c, &options)
+        estimate_relative_pose_and_focal(p1, p2, c, c, &options)
     };
     let few = find(&scene.p1[..5], &scene.p2[..5], &middle);
     assert!(matches!(few, Err(Error::TooFew { needed: 6, .. })));

@@ -9,7 +9,7 @@ use epipole::camera::Intrinsics;
 use epipole::epipolar::{fundamental_8point, sampson_px, symmetric_epipolar_px};
 use epipole::homography::transfer_error_px;
 use epipole::robust::RansacOptions;
-use epipole::{estimate_relative_pose, find_fundamental, find_homography};
+use epipole::{estimate_fundamental, estimate_homography, estimate_relative_pose};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The folder of real data, if it is here.
@@ -100,7 +100,7 @@ fn annotated_epipolar_geometry() {
         let (a1, a2) = m.with(|label| label == 1.0);
         let over_seeds = (0..SEEDS)
             .map(|seed| {
-                let f = find_fundamental(&t1, &t2, &options(1.0, seed))
+                let f = estimate_fundamental(&t1, &t2, &options(1.0, seed))
                     .unwrap()
                     .model;
                 median(
@@ -127,7 +127,7 @@ fn labelled_scenes_fundamental() {
     for name in ["barrsmith", "elderhalla", "hartley", "library", "napiera"] {
         let m = load(&data.join(format!("correspondences/adelaide/{name}.txt")));
         for seed in 0..SEEDS {
-            let f = find_fundamental(&m.p1, &m.p2, &options(1.5, seed))
+            let f = estimate_fundamental(&m.p1, &m.p2, &options(1.5, seed))
                 .unwrap()
                 .model;
             let share = |labelled: bool| {
@@ -162,7 +162,7 @@ fn annotated_homographies() {
         let (a1, a2) = m.with(|label| label == 1.0);
         let over_seeds = (0..SEEDS)
             .map(|seed| {
-                let h = find_homography(&t1, &t2, &options(3.0, seed))
+                let h = estimate_homography(&t1, &t2, &options(3.0, seed))
                     .unwrap()
                     .model;
                 let squares: Vec<f64> = a1
@@ -189,7 +189,7 @@ fn extreme_viewpoints() {
         let m = load(&data.join(format!("correspondences/evd/{name}.txt")));
         let (a1, a2) = m.with(|label| label == 1.0);
         for seed in 0..SEEDS {
-            let h = find_homography(&m.p1, &m.p2, &options(3.0, seed))
+            let h = estimate_homography(&m.p1, &m.p2, &options(3.0, seed))
                 .unwrap()
                 .model;
             let fits: Vec<f64> = a1

@@ -439,7 +439,9 @@ fn work_can_be_watched_and_stopped() {
             shares.push(share);
             ControlFlow::Continue(())
         };
-        let watched = matcher.compute_with(&left, &right, &mut watch).unwrap();
+        let watched = matcher
+            .compute_with_progress(&left, &right, &mut watch)
+            .unwrap();
         assert_eq!(watched, matcher.compute(&left, &right).unwrap());
         assert!(shares.len() > 3);
         assert!(shares.is_sorted() && shares.iter().all(|s| (0.0..=1.0).contains(s)));
@@ -453,12 +455,13 @@ fn work_can_be_watched_and_stopped() {
                     ControlFlow::Continue(())
                 }
             };
-            let stopped = matcher.compute_with(&left, &right, &mut stop);
+            let stopped = matcher.compute_with_progress(&left, &right, &mut stop);
             assert_eq!(stopped, Err(Error::Canceled));
             assert_eq!(calls, stop_at + 1);
         }
     }
-    let stopped = StereoBm::default().compute_with(&left, &right, &mut |_| ControlFlow::Break(()));
+    let stopped =
+        StereoBm::default().compute_with_progress(&left, &right, &mut |_| ControlFlow::Break(()));
     assert_eq!(stopped, Err(Error::Canceled));
 }
 

@@ -6,11 +6,11 @@ use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{decompose_essential, select_pose};
 use epipole::math::random::Random;
 use epipole::robust::{
-    LineEstimator, RansacOptions, RansacReport, StopReason, ThresholdKind, find_similarity, ransac,
-    ransac_with,
+    LineEstimator, RansacOptions, RansacReport, StopReason, ThresholdKind, estimate_similarity,
+    ransac, ransac_with,
 };
 use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
-use epipole::{Error, estimate_relative_pose, find_fundamental, find_homography};
+use epipole::{Error, estimate_fundamental, estimate_homography, estimate_relative_pose};
 use nalgebra::{Matrix3, Point2, Point3, UnitQuaternion, Vector3};
 use std::ops::ControlFlow;
 
@@ -109,7 +109,7 @@ impl Scene {
     }
 
     fn fundamental(&self, options: &RansacOptions) -> Outcome {
-        let report = find_fundamental(&self.p1, &self.p2, options).unwrap();
+        let report = estimate_fundamental(&self.p1, &self.p2, options).unwrap();
         let essential = self.k.matrix().transpose() * report.model * self.k.matrix();
         let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
             let kept = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
@@ -124,7 +124,7 @@ impl Scene {
 
     /// The error is the mean of the four corners', in pixels.
     fn homography(&self, options: &RansacOptions) -> Outcome {
-        let report = find_homography(&self.p1, &self.p2, options).unwrap();
+        let report = estimate_homography(&self.p1, &self.p2, options).unwrap();
         let turn = self.motion.rotation.to_rotation_matrix().into_inner();
         let rays = turn - self.motion.translation.vector * self.plane.transpose();
         let truth = self.k.matrix() * rays * self.k.inverse_matrix();
@@ -248,7 +248,7 @@ fn no_guess_of_the_threshold_matters() {
             max_error_px,
             ..from_noise()
         };
-        find_fundamental(&scene.p1, &scene.p2, &options).unwrap()
+        estimate_fundamental(&scene.p1, &scene.p2, &options).unwrap()
     };
     let first = find(0.25);
     for max_error_px in [1.0, 3.0, 10.0] {
@@ -260,7 +260,7 @@ fn no_guess_of_the_threshold_matters() {
 #[test]
 fn inliers_are_within_the_threshold_found() {
     let scene = scene(2, 0.4, 0.7, false);
-    let report = find_fundamental(&scene.p1, &scene.p2, &from_noise()).unwrap();
+    let report = estimate_fundamental(&scene.p1, &scene.p2, &from_noise()).unwrap();
     for (i, inlier) in report.inliers.iter().enumerate() {
         let error_px = epipole::epipolar::sampson_px(&report.model, &scene.p1[i], &scene.p2[i]);
         assert_eq!(error_px < report.max_error_px, *inlier);
@@ -296,7 +296,7 @@ fn two_views_share_the_threshold_of_the_fundamental_matrix() {
 #[test]
 fn exact_matches_have_a_threshold_above_zero() {
     let s = scene(3, 0.3, 0.0, false);
-    let report = find_fundamental(&s.p1, &s.p2, &from_noise()).unwrap();
+    let report = estimate_fundamental(&s.p1, &s.p2, &from_noise()).unwrap();
     // A wrong match that happens to lie within it may add a little.
     assert!((0.05..0.055).contains(&report.max_error_px));
     assert!(report.inliers[75..].iter().all(|inlier| *inlier));
@@ -311,27 +311,27 @@ fn exact_matches_have_a_threshold_above_zero() {
 fn bad_input_is_refused_and_never_gives_a_strange_threshold() {
     let options = from_noise();
     let few = scene(4, 0.0, 0.5, false);
-    let refused = find_fundamental(&few.p1[..6], &few.p2[..6], &options);
+    let refused = estimate_fundamental(&few.p1[..6], &few.p2[..6], &options);
     assert!(matches!(refused, Err(Error::TooFew { .. })));
     let same = vec![Point2::new(3.0, 4.0); 50];
-    assert!(find_fundamental(&same, &same, &options).is_err());
-    assert!(find_homography(&same, &same, &options).is_err());
+    assert!(estimate_fundamental(&same, &same, &options).is_err());
+    assert!(estimate_homography(&same, &same, &options).is_err());
     let sane = |px: f64| (0.05..1000.0).contains(&px);
     // As many as a sample, and one more: nothing is left over to tell the noise from.
     for count in [7, 8, 9, 12] {
-        if let Ok(report) = find_fundamental(&few.p1[..count], &few.p2[..count], &options) {
+        if let Ok(report) = estimate_fundamental(&few.p1[..count], &few.p2[..count], &options) {
             assert!(sane(report.max_error_px), "{count}");
         }
     }
     for count in [2, 3, 4] {
         let (p1, p2) = (&few.p1[..count], &few.p2[..count]);
-        if let Ok(report) = find_similarity(p1, p2, &options) {
+        if let Ok(report) = estimate_similarity(p1, p2, &options) {
             assert!(sane(report.max_error_px), "{count}");
         }
     }
     // Nothing but wrong matches.
     let nothing = scene(5, 1.0, 0.0, false);
-    let report = find_fundamental(&nothing.p1, &nothing.p2, &options).unwrap();
+    let report = estimate_fundamental(&nothing.p1, &nothing.p2, &options).unwrap();
     assert!(sane(report.max_error_px) && report.could_be_chance());
 }
 

@@ -6,7 +6,7 @@ use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     decompose_essential, essential_5point, essential_8point, essential_from_fundamental,
-    essential_from_motion, find_essential, sampson_sq, select_pose,
+    essential_from_motion, estimate_essential, sampson_sq, select_pose,
 };
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
@@ -183,7 +183,9 @@ fn essential_matrices_of_few_and_of_many_rays() {
                     let five = |rays: &[Vector3<f64>]| core::array::from_fn(|i| rays[i]);
                     essential_5point(&five(&rays1), &five(&rays2))
                 }
-                _ => vec![essential_8point(&rays1, &rays2).unwrap()],
+                _ => [essential_8point(&rays1, &rays2).unwrap()]
+                    .into_iter()
+                    .collect(),
             };
             let off = |e: &&Matrix3<f64>| same_up_to_sign(e, &truth);
             let nearest = solutions
@@ -211,7 +213,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
             let pair = Pair::new(&mut Random::new(1000 + seed), num_matches);
             let [p1, p2] = &pair.pixels;
             let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
-            let report = find_essential(p1, p2, &k1, &k2, &options(seed)).unwrap();
+            let report = estimate_essential(p1, p2, &k1, &k2, &options(seed)).unwrap();
             let truth = essential_from_motion(&pair.motion()).unwrap();
             let error = same_up_to_sign(&report.model, &truth);
             assert!(error < 1e-4, "{num_matches} matches, {seed}: {error}");

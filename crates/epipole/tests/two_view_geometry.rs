@@ -9,13 +9,13 @@ use epipole::epipolar::{
 };
 use epipole::homography::{homography_from_motion, transfer, transfer_error_px};
 use epipole::math::random::Random;
-use epipole::robust::{RansacOptions, RansacReport, SamplerKind, StopReason, find_similarity};
+use epipole::robust::{RansacOptions, RansacReport, SamplerKind, StopReason, estimate_similarity};
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
 };
 use epipole::{
-    Error, estimate_relative_pose, estimate_two_view, find_absolute_pose, find_fundamental,
-    find_homography,
+    Error, estimate_absolute_pose, estimate_fundamental, estimate_homography,
+    estimate_relative_pose, estimate_two_view,
 };
 use nalgebra::{Matrix3, Point2, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -152,7 +152,7 @@ fn a_hundred_exact_pairs() {
         assert!(direction_error(&motion, &truth) < 1e-6, "{seed}");
         assert_eq!(report.num_inliers, 50);
 
-        let f = find_fundamental(&s.p1, &s.p2, &options(seed))
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed))
             .unwrap()
             .model;
         let e = essential_from_fundamental(&f, k1, k2).unwrap();
@@ -273,17 +273,17 @@ fn chance_is_no_pair() {
             let uncalibrated = estimate_two_view(&a, &b, &choice).unwrap();
             assert_eq!(uncalibrated.configuration, Configuration::Degenerate);
             assert!(
-                find_fundamental(&a, &b, &choice.ransac)
+                estimate_fundamental(&a, &b, &choice.ransac)
                     .unwrap()
                     .could_be_chance()
             );
             assert!(
-                find_homography(&a, &b, &choice.ransac)
+                estimate_homography(&a, &b, &choice.ransac)
                     .unwrap()
                     .could_be_chance()
             );
             assert!(
-                find_similarity(&a, &b, &choice.ransac)
+                estimate_similarity(&a, &b, &choice.ransac)
                     .unwrap()
                     .could_be_chance()
             );
@@ -291,7 +291,7 @@ fn chance_is_no_pair() {
                 .iter()
                 .map(|p| Point3::new(p.x / 100.0, p.y / 100.0, random.uniform(4.0, 9.0)))
                 .collect();
-            let pose = find_absolute_pose(&points, &b, &k, &choice.ransac);
+            let pose = estimate_absolute_pose(&points, &b, &k, &choice.ransac);
             assert!(pose.is_err() || pose.unwrap().could_be_chance());
         }
     }
@@ -358,7 +358,7 @@ fn a_dominant_plane_does_not_mislead() {
             let pair = cameras(&mut random);
             let shape = Shape::Mostly(share_on_plane);
             let s = scene(&mut random, pair, shape, count, share_true, noise_px);
-            let report = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+            let report = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
             let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
             // Points anywhere in space, not only those that were matched.
             let mut errors: Vec<f64> = (0..200)
@@ -399,7 +399,7 @@ fn forward_motion() {
         let motion = pose.model.cam2_from_cam1();
         assert!(rotation_error(&motion, &s.motion()) < 0.002, "{seed}");
         assert!(direction_error(&motion, &s.motion()) < 0.01, "{seed}");
-        let f = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
         // 210 are true, with noise of 0.3 px in each coordinate.
         assert!(f.num_inliers > 180);
         // Points anywhere in space, not only those that were matched.
@@ -444,7 +444,7 @@ fn no_motion_and_almost_none() {
                     RigidTransform::rotation(Vector3::new(0.0, yaw, 0.0)) * pair.1.cam_from_world;
                 let s = scene(&mut random, pair, Shape::Volume, 150, 0.8, noise_px);
                 let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-                for report in [find_fundamental(&s.p1, &s.p2, &options(1))] {
+                for report in [estimate_fundamental(&s.p1, &s.p2, &options(1))] {
                     match report {
                         Ok(report) => assert!(report.model.iter().all(|x| x.is_finite())),
                         Err(error) => assert!(!error.to_string().is_empty()),
@@ -485,8 +485,8 @@ fn duplicates_count_once() {
             p2.push(s.p2[i]);
         }
     }
-    let once = find_fundamental(&s.p1, &s.p2, &options(1)).unwrap();
-    let often = find_fundamental(&p1, &p2, &options(1)).unwrap();
+    let once = estimate_fundamental(&s.p1, &s.p2, &options(1)).unwrap();
+    let often = estimate_fundamental(&p1, &p2, &options(1)).unwrap();
     assert_eq!(once.model, often.model);
     assert_eq!(once.num_inliers, often.num_unique_inliers);
     assert_eq!(once.inliers, often.inliers[..100]);
@@ -494,7 +494,7 @@ fn duplicates_count_once() {
     // Seven different matches in many copies are seven matches.
     let few: Vec<_> = s.p1[..6].iter().cycle().take(60).copied().collect();
     assert!(matches!(
-        find_fundamental(&few, &few, &options(1)),
+        estimate_fundamental(&few, &few, &options(1)),
         Err(Error::TooFew { got: 6, .. })
     ));
 }
@@ -579,11 +579,11 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
     };
     let mut errors = Vec::new();
     let mut note = |result: Result<(), Error>| errors.push(result.err());
-    note(find_fundamental(p1, p2, &budget).map(|r| {
+    note(estimate_fundamental(p1, p2, &budget).map(|r| {
         check_epipolar(&r.model);
         check_report(&r, &budget, &errors_px(&|a, b| sampson_px(&r.model, a, b)));
     }));
-    note(find_homography(p1, p2, &budget).map(|r| {
+    note(estimate_homography(p1, p2, &budget).map(|r| {
         check_unit(&r.model);
         check_report(
             &r,
@@ -603,7 +603,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
             &errors_px(&|a, b| sampson_px(&pose.fundamental, a, b)),
         );
     }));
-    note(find_similarity(p1, p2, &budget).map(|r| {
+    note(estimate_similarity(p1, p2, &budget).map(|r| {
         let matrix = r.model.matrix();
         assert!(matrix.iter().all(|x| x.is_finite()), "{matrix}");
         check_report(
@@ -612,7 +612,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
             &errors_px(&|a, b| (r.model.apply(a) - b).norm()),
         );
     }));
-    note(find_absolute_pose(&points, p2, &k, &budget).map(|r| {
+    note(estimate_absolute_pose(&points, p2, &k, &budget).map(|r| {
         check_rotation(r.model.rotation.to_rotation_matrix().matrix());
         let center = r.model.inverse().translation.vector;
         assert!(center.iter().all(|x| x.is_finite()), "{center}");
@@ -704,14 +704,14 @@ fn a_match_beyond_all_images_is_left_out() {
                 assert_eq!(inliers, expected, "{far}");
             };
             let (with, without) = (
-                find_fundamental(&p1, &p2, &options).unwrap(),
-                find_fundamental(&s.p1, &s.p2, &options).unwrap(),
+                estimate_fundamental(&p1, &p2, &options).unwrap(),
+                estimate_fundamental(&s.p1, &s.p2, &options).unwrap(),
             );
             assert_eq!(with.model, without.model);
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                find_homography(&p1, &p2, &options).unwrap(),
-                find_homography(&s.p1, &s.p2, &options).unwrap(),
+                estimate_homography(&p1, &p2, &options).unwrap(),
+                estimate_homography(&s.p1, &s.p2, &options).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
@@ -720,8 +720,8 @@ fn a_match_beyond_all_images_is_left_out() {
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                find_similarity(&p1, &p2, &options).unwrap(),
-                find_similarity(&s.p1, &s.p2, &options).unwrap(),
+                estimate_similarity(&p1, &p2, &options).unwrap(),
+                estimate_similarity(&s.p1, &s.p2, &options).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
@@ -752,11 +752,11 @@ fn nothing_but_outliers() {
         max_iterations: 2000,
         ..RansacOptions::default()
     };
-    let report = find_fundamental(&a, &b, &options).unwrap();
+    let report = estimate_fundamental(&a, &b, &options).unwrap();
     assert!(report.num_inliers < 30);
     assert_eq!(report.stop, StopReason::Exhausted);
     assert!(report.required_iterations > 100_000);
-    let report = find_homography(&a, &b, &options).unwrap();
+    let report = estimate_homography(&a, &b, &options).unwrap();
     assert!(report.num_inliers < 15);
 }
 
@@ -781,7 +781,7 @@ fn a_good_order_saves_samples() {
                 max_iterations: 100_000,
                 ..options(seed)
             };
-            find_fundamental(p1, p2, &options).unwrap()
+            estimate_fundamental(p1, p2, &options).unwrap()
         };
         for (count, sampler) in drawn
             .iter_mut()
@@ -826,7 +826,7 @@ fn a_crowded_pixel_has_few_votes() {
             }
         }
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-        let f = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
         let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
         for inliers in [&f.inliers, &e.inliers] {
             let found = inliers.iter().zip(&s.truth).filter(|(a, b)| **a && **b);
@@ -846,7 +846,7 @@ fn a_crowded_pixel_has_few_votes() {
     ];
     let points =
         |list: &[f64]| -> Vec<_> { list.chunks(2).map(|p| Point2::new(p[0], p[1])).collect() };
-    let report = find_fundamental(&points(&u), &points(&v), &RansacOptions::default());
+    let report = estimate_fundamental(&points(&u), &points(&v), &RansacOptions::default());
     assert!(
         matches!(report, Err(Error::NoConsensus { .. })),
         "{report:?}"
@@ -861,14 +861,17 @@ fn equal_seeds_give_equal_bits() {
     let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
     let mut different = 0;
     for seed in 0..5 {
-        let one = find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
-        assert_eq!(one, find_fundamental(&s.p1, &s.p2, &options(seed)).unwrap());
+        let one = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        assert_eq!(
+            one,
+            estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap()
+        );
         let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
         assert_eq!(
             e,
             estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap()
         );
-        let other = find_fundamental(&s.p1, &s.p2, &options(seed + 100)).unwrap();
+        let other = estimate_fundamental(&s.p1, &s.p2, &options(seed + 100)).unwrap();
         different += usize::from(other.model != one.model);
     }
     assert!(different > 0);
@@ -899,7 +902,7 @@ proptest! {
         let again = fundamental_from_cameras(&moved(&s.cam1), &moved(&s.cam2)).unwrap();
         prop_assert!(same_up_to_sign(&truth, &again) < 1e-9);
 
-        let find = |p1: &Points, p2: &Points| find_fundamental(p1, p2, &options(seed)).unwrap();
+        let find = |p1: &Points, p2: &Points| estimate_fundamental(p1, p2, &options(seed)).unwrap();
         let f = find(&s.p1, &s.p2);
         let fits = |f: &Matrix3<f64>, p1: &Points, p2: &Points| {
             p1.iter().zip(p2).map(|(a, b)| sampson_px(f, a, b)).fold(0.0, f64::max)
@@ -910,7 +913,7 @@ proptest! {
         prop_assert!(fits(&swapped.model.transpose(), &s.p1, &s.p2) < 1e-5);
 
         let scaled = |p: &Points| -> Points { p.iter().map(|q| q * factor).collect() };
-        let large = find_fundamental(
+        let large = estimate_fundamental(
             &scaled(&s.p1),
             &scaled(&s.p2),
             &RansacOptions { max_error_px: factor, ..options(seed) },
@@ -941,8 +944,8 @@ proptest! {
             .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
             .collect();
         let p2: Points = p1.iter().map(|p| transfer(&h, p).unwrap()).collect();
-        let there = find_homography(&p1, &p2, &options(seed)).unwrap().model;
-        let back = find_homography(&p2, &p1, &options(seed)).unwrap().model;
+        let there = estimate_homography(&p1, &p2, &options(seed)).unwrap().model;
+        let back = estimate_homography(&p2, &p1, &options(seed)).unwrap().model;
         prop_assert!(same_up_to_sign(&there, &h) < 1e-7);
         prop_assert!(same_up_to_sign(&(there * back), &Matrix3::identity()) < 1e-6);
     }

@@ -14,7 +14,8 @@ use epipole::homography::transfer_error_px;
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, SamplerKind, ScoreKind};
 use epipole::{
-    Result, estimate_relative_pose, find_absolute_pose, find_fundamental, find_homography,
+    Result, estimate_absolute_pose, estimate_fundamental, estimate_homography,
+    estimate_relative_pose,
 };
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
@@ -163,7 +164,7 @@ fn fundamental_matrices() {
             let scene = scene(&mut random, Shape::Cube, 2000, share, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
-                let report = find_fundamental(p1, p2, options)?;
+                let report = estimate_fundamental(p1, p2, options)?;
                 let pairs = p1.iter().zip(p2);
                 let errors = pairs.map(|(a, b)| sampson_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
@@ -215,7 +216,7 @@ fn homographies() {
             let scene = scene(&mut random, Shape::Plane, 1500, share, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
-                let report = find_homography(p1, p2, options)?;
+                let report = estimate_homography(p1, p2, options)?;
                 let pairs = p1.iter().zip(p2);
                 let errors = pairs.map(|(a, b)| transfer_error_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
@@ -238,7 +239,7 @@ fn absolute_poses() {
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let pixels = &scene.pixels[1];
                 let intrinsics = scene.cameras[1].intrinsics;
-                let report = find_absolute_pose(&scene.points, pixels, &intrinsics, options)?;
+                let report = estimate_absolute_pose(&scene.points, pixels, &intrinsics, options)?;
                 let camera = Camera {
                     intrinsics,
                     cam_from_world: report.model,

@@ -102,14 +102,14 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
                 num_disparities,
                 ..StereoSgm::default()
             };
-            matcher.compute_with(&left, &right, &mut watch)?
+            matcher.compute_with_progress(&left, &right, &mut watch)?
         }
         Method::Bm => {
             let matcher = StereoBm {
                 num_disparities,
                 ..StereoBm::default()
             };
-            matcher.compute_with(&left, &right, &mut watch)?
+            matcher.compute_with_progress(&left, &right, &mut watch)?
         }
     };
     drop(progress);

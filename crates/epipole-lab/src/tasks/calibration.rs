@@ -35,7 +35,7 @@ pub(super) fn calibration(
         },
         ..epipole::calibration::CalibrationOptions::default()
     };
-    let mut watch = |share| progress(Told::Share(share, "fitting the lens")).is_continue();
+    let mut watch = |share| progress(Told::Share(share, "fitting the lens"));
     let found = calibrate_with_progress(&board, &views, size, &how, &mut watch);
     let found = found.map_err(|error| match error {
         epipole::Error::Canceled => "stopped".to_owned(),

@@ -10,7 +10,6 @@ use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
 use epipole::synthetic::Transfer;
 use image::RgbImage;
 use nalgebra::Point2;
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 /// Size of the rendered photographs, pixels.
@@ -84,7 +83,7 @@ pub(crate) fn detect(
     let mut features = |photograph: &RgbImage, done: f64| {
         let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
         detect_sift_with_progress(&gray, &options, &mut |share| {
-            progress(done + 0.5 * f64::from(share)) == ControlFlow::Continue(())
+            progress(done + 0.5 * f64::from(share))
         })
     };
     Ok([

@@ -4,6 +4,7 @@ use super::refine::rigid;
 use super::sides::polish;
 use crate::camera::RigidTransform;
 use crate::math::polynomial::cubic_roots;
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// The poses, at most four, from which three known points are seen along three rays.
@@ -42,7 +43,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 pub fn pose_p3p(
     rays: &[Vector3<f64>; 3],
     points_in_world: &[Point3<f64>; 3],
-) -> Vec<RigidTransform> {
+) -> ArrayVec<RigidTransform, 4> {
     let mut solutions = [(Matrix3::zeros(), Vector3::zeros()); 4];
     let count = solve(
         &rays.map(|ray| ray.normalize()),

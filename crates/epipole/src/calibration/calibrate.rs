@@ -12,6 +12,7 @@ use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
 use crate::camera::{Intrinsics, LensKind, RigidTransform};
 use crate::optim::{Iteration, Termination};
+use crate::progress::Progress;
 use crate::{Error, Result};
 use nalgebra::Point3;
 use std::ops::ControlFlow;
@@ -111,13 +112,15 @@ pub fn calibrate(
     size: (u32, u32),
     options: &CalibrationOptions,
 ) -> Result<Calibration> {
-    calibrate_with_progress(board, views, size, options, &mut |_| true)
+    calibrate_with_progress(board, views, size, options, &mut |_| {
+        ControlFlow::Continue(())
+    })
 }
 
 /// [`calibrate`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: called after each step of refinement with the share of the starts that are done, in [0, 1]; it
-///   returns whether to go on
+/// * `progress`: hears, after each step of refinement, of the share of the starts that are done, and says whether
+///   to go on
 ///
 /// # Errors
 /// As [`calibrate`], and [`Error::Canceled`] if `progress` said so.
@@ -125,9 +128,11 @@ pub fn calibrate(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::calibration::{Board, Pattern, calibrate_with_progress};
+/// use std::ops::ControlFlow;
 /// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
 /// let views = [None, None];
-/// let stopped = calibrate_with_progress(&board, &views, (640, 480), &Default::default(), &mut |_| false);
+/// let stop = &mut |_| ControlFlow::Break(());
+/// let stopped = calibrate_with_progress(&board, &views, (640, 480), &Default::default(), stop);
 /// assert_eq!(stopped.map(drop), Err(epipole::Error::Canceled));
 /// # Ok(()) }
 /// ```
@@ -136,9 +141,9 @@ pub fn calibrate_with_progress(
     views: &[Option<BoardView>],
     (width, height): (u32, u32),
     options: &CalibrationOptions,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<Calibration> {
-    if !progress(0.0) {
+    if progress(0.0).is_break() {
         return Err(Error::Canceled);
     }
     let size = (width, height);
@@ -165,10 +170,7 @@ pub fn calibrate_with_progress(
     let num_starts = starts.len() as f32;
     for (index, start) in starts.into_iter().enumerate() {
         let share = index as f32 / num_starts;
-        let mut watch = |_: &Iteration| match progress(share) {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
-        };
+        let mut watch = |_: &Iteration| progress(share);
         match refine_from(board, &given, start, size, options, &problem, &mut watch) {
             Err(Error::Canceled) => return Err(Error::Canceled),
             Ok((cost, state)) => {
@@ -436,7 +438,11 @@ mod tests {
                 calibrate_with_progress(&board(), &views, (640, 480), &options, &mut |share| {
                     assert!((last..=1.0).contains(&share));
                     (calls, last) = (calls + 1, share);
-                    calls <= most
+                    if calls <= most {
+                        ControlFlow::Continue(())
+                    } else {
+                        ControlFlow::Break(())
+                    }
                 });
             (found, calls)
         };

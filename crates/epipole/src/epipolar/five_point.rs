@@ -9,6 +9,7 @@ use self::resolvent::Resolvent;
 use super::essential::{bearing_row, rotations_and_direction, signed_depths};
 use crate::math::null_space::null_space;
 use crate::math::real_roots::real_roots;
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Vector3};
 
 /// The essential matrices, at most ten, that five pairs of rays satisfy exactly; unit Frobenius norm.
@@ -45,11 +46,14 @@ use nalgebra::{Matrix3, Vector3};
 /// }
 /// # Ok(()) }
 /// ```
-pub fn essential_5point(rays1: &[Vector3<f64>; 5], rays2: &[Vector3<f64>; 5]) -> Vec<Matrix3<f64>> {
+pub fn essential_5point(
+    rays1: &[Vector3<f64>; 5],
+    rays2: &[Vector3<f64>; 5],
+) -> ArrayVec<Matrix3<f64>, 10> {
     let unit = |rays: &[Vector3<f64>; 5]| rays.map(|ray| ray.normalize());
     let mut solutions = [Matrix3::zeros(); 10];
     let count = solve(&unit(rays1), &unit(rays2), &mut solutions);
-    solutions[..count].to_vec()
+    solutions.into_iter().take(count).collect()
 }
 
 /// Another orthonormal basis of the same space: the mirror image in a plane that is askew to everything.

@@ -92,7 +92,7 @@ fn first_focal_sq(f: &Matrix3<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{essential_from_motion, find_fundamental, fundamental_from_essential};
+    use super::super::{essential_from_motion, estimate_fundamental, fundamental_from_essential};
     use super::*;
     use crate::camera::{Intrinsics, RigidTransform};
     use crate::math::random::Random;
@@ -194,7 +194,7 @@ mod tests {
                 p2 + n2
             });
         }
-        let report = find_fundamental(&pixels1, &pixels2, &RansacOptions::default()).unwrap();
+        let report = estimate_fundamental(&pixels1, &pixels2, &RansacOptions::default()).unwrap();
         let places = [k1.principal_point(), k2.principal_point()];
         let [f1, f2] =
             focal_lengths_from_fundamental(&report.model, &places[0], &places[1]).unwrap();

@@ -9,9 +9,9 @@ mod eight_point;
 mod eight_rays;
 mod epipoles;
 mod essential;
-mod find_essential;
-mod find_fundamental;
-mod find_with_focal;
+mod estimate_essential;
+mod estimate_fundamental;
+mod estimate_pose_and_focal;
 mod five_point;
 mod focal_lengths;
 mod from_cameras;
@@ -22,6 +22,8 @@ mod normalize;
 mod other_motion;
 mod plane_recovery;
 mod refine;
+mod refine_focal;
+mod refine_pose;
 mod relative_pose;
 mod sampson;
 mod seven_point;
@@ -36,11 +38,14 @@ pub use eight_rays::essential_8point;
 pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
 pub use essential::{SelectedPose, decompose_essential, project_to_essential, select_pose};
-pub use find_essential::{
-    EssentialEstimator, estimate_relative_pose, estimate_relative_pose_with, find_essential,
+pub use estimate_essential::{
+    EssentialEstimator, estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
 };
-pub use find_fundamental::{FundamentalEstimator, find_fundamental};
-pub use find_with_focal::{FocalEstimator, PoseWithFocal, estimate_relative_pose_with_focal};
+pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
+pub use estimate_pose_and_focal::{
+    FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
+    estimate_relative_pose_and_focal_with,
+};
 pub use five_point::essential_5point;
 pub use focal_lengths::focal_lengths_from_fundamental;
 pub(crate) use from_cameras::share_center;
@@ -50,8 +55,9 @@ pub use from_cameras::{
 };
 pub use lines::{epipolar_line1, epipolar_line2};
 pub use normalize::Normalization;
+pub use refine::refine_fundamental;
 pub(crate) use refine::scaled as scaled_loss;
-pub use refine::{refine_fundamental, refine_relative_pose};
+pub use refine_pose::refine_relative_pose;
 pub use relative_pose::RelativePose;
 pub use seven_point::{epipolar_row, fundamental_7point};
 pub use six_point::{EssentialWithFocal, essential_6point};

@@ -4,6 +4,7 @@ use super::Normalization;
 use super::from_cameras::unit_norm;
 use crate::math::null_space::null_space;
 use crate::math::polynomial::cubic_roots;
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2};
 
 /// The row of the linear system `row · f = 0` that one match gives, with f the nine entries of F
@@ -69,14 +70,14 @@ pub fn epipolar_row(x1: &Point2<f64>, x2: &Point2<f64>) -> [f64; 9] {
 pub fn fundamental_7point(
     pixels1: &[Point2<f64>; 7],
     pixels2: &[Point2<f64>; 7],
-) -> Vec<Matrix3<f64>> {
+) -> ArrayVec<Matrix3<f64>, 3> {
     let is_repeated =
         |i: usize| (0..i).any(|j| pixels1[i] == pixels1[j] && pixels2[i] == pixels2[j]);
     if (1..7).any(is_repeated) {
-        return Vec::new();
+        return ArrayVec::new();
     }
     let (Ok(n1), Ok(n2)) = (Normalization::new(pixels1), Normalization::new(pixels2)) else {
-        return Vec::new();
+        return ArrayVec::new();
     };
     let rows =
         core::array::from_fn(|i| epipolar_row(&n1.apply(&pixels1[i]), &n2.apply(&pixels2[i])));

@@ -7,6 +7,7 @@ use self::pencil::Pencil;
 use self::roots::roots_within;
 use super::essential::bearing_row;
 use crate::math::null_space::null_space;
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Matrix4, Point2, Vector3, Vector4};
 
 /// An essential matrix and the focal length of the cameras that share it.
@@ -64,8 +65,8 @@ pub fn essential_6point(
     pixels2: &[Point2<f64>; 6],
     principal1: &Point2<f64>,
     principal2: &Point2<f64>,
-) -> Vec<EssentialWithFocal> {
-    let mut solutions = Vec::new();
+) -> ArrayVec<EssentialWithFocal, MAX_SOLUTIONS> {
+    let mut solutions = ArrayVec::new();
     solve(
         &pixels1.map(|p| p - principal1.coords),
         &pixels2.map(|p| p - principal2.coords),
@@ -78,7 +79,7 @@ pub fn essential_6point(
 pub(crate) fn solve(
     about1: &[Point2<f64>; 6],
     about2: &[Point2<f64>; 6],
-    solutions: &mut Vec<EssentialWithFocal>,
+    solutions: &mut ArrayVec<EssentialWithFocal, MAX_SOLUTIONS>,
 ) {
     // A unit in which focal lengths are about 1, and all entries of rows alike.
     let size_sq =
@@ -231,7 +232,7 @@ mod tests {
     }
 
     impl Problem {
-        fn solutions(&self) -> Vec<EssentialWithFocal> {
+        fn solutions(&self) -> ArrayVec<EssentialWithFocal, MAX_SOLUTIONS> {
             let c = self.k.principal_point();
             essential_6point(&self.p1, &self.p2, &c, &c)
         }

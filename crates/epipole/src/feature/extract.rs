@@ -7,8 +7,10 @@ use super::{
     match_hamming, refine_corners,
 };
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
+use crate::progress::Progress;
 use crate::{Error, Result};
 use image::RgbImage;
+use std::ops::ControlFlow;
 
 /// Which features to look for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -181,13 +183,12 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 /// # Ok(()) }
 /// ```
 pub fn detect_features(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
-    detect_features_with_progress(image, options, &mut |_| true)
+    detect_features_with_progress(image, options, &mut |_| ControlFlow::Continue(()))
 }
 
 /// [`detect_features`] that reports how far it is and can be stopped, where that takes long: for SIFT.
 ///
-/// * `progress`: called now and then with the share of the work that is done, in [0, 1]; it
-///   returns whether to go on
+/// * `progress`: hears of the share of the work that is done, and says whether to go on
 ///
 /// # Errors
 /// As [`detect_features`], and [`Error::Canceled`] if `progress` said so.
@@ -196,14 +197,16 @@ pub fn detect_features(image: &GrayImage32, options: &FeatureOptions) -> Result<
 ///
 /// ```
 /// use epipole::feature::{FeatureOptions, detect_features_with_progress};
+/// use std::ops::ControlFlow;
 /// let image = epipole::imaging::GrayImage32::new(64, 64);
-/// let stopped = detect_features_with_progress(&image, &FeatureOptions::default(), &mut |_| false);
+/// let stop = &mut |_| ControlFlow::Break(());
+/// let stopped = detect_features_with_progress(&image, &FeatureOptions::default(), stop);
 /// assert_eq!(stopped, Err(epipole::Error::Canceled));
 /// ```
 pub fn detect_features_with_progress(
     image: &GrayImage32,
     options: &FeatureOptions,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<AnyFeatures> {
     match options.kind {
         FeatureKind::Sift | FeatureKind::RootSift => {

@@ -1,5 +1,6 @@
 //! H from four matches.
 
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The homography that maps four points to four points, unit Frobenius norm.
@@ -9,7 +10,7 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// * `pixels1`, `pixels2`: matching pixels
 ///
-/// Returns `None` if three of the points of an image lie on one line, or for NaN.
+/// Returns a list like every minimal solver: of one, or of none if three of the points of an image lie on one line, or for NaN.
 ///
 /// Source: Heckbert 1989, "Fundamentals of texture mapping and image warping", §2.2.3; Semple &
 /// Kneebone 1952.
@@ -19,14 +20,20 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// use nalgebra::Point2;
 /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Point2::new(u, v));
 /// let kite = [(0.0, 0.0), (2.0, 0.0), (3.0, 3.0), (0.0, 2.0)].map(|(u, v)| Point2::new(u, v));
-/// let h = homography_4point(&square, &kite).expect("no three points in line");
+/// let solutions = homography_4point(&square, &kite);
+/// assert_eq!(solutions.len(), 1); // no three points in line
+/// let h = solutions[0];
 /// let corner = transfer(&h, &Point2::new(1.0, 1.0)).expect("a finite point");
 /// assert!((corner - Point2::new(3.0, 3.0)).norm() < 1e-12);
 /// ```
 pub fn homography_4point(
     pixels1: &[Point2<f64>; 4],
     pixels2: &[Point2<f64>; 4],
-) -> Option<Matrix3<f64>> {
+) -> ArrayVec<Matrix3<f64>, 1> {
+    about_middles(pixels1, pixels2).into_iter().collect()
+}
+
+fn about_middles(pixels1: &[Point2<f64>; 4], pixels2: &[Point2<f64>; 4]) -> Option<Matrix3<f64>> {
     // The origin is moved to the middle, so that the cross products do not cancel.
     let center =
         |p: &[Point2<f64>; 4]| (p[0].coords + p[1].coords + p[2].coords + p[3].coords) * 0.25;
@@ -137,6 +144,7 @@ mod tests {
             let truth = truth / truth.norm();
             found += usize::from(
                 homography_4point(&p1, &p2)
+                    .first()
                     .is_some_and(|h| (h - truth).norm().min((h + truth).norm()) < 1e-6),
             );
         }
@@ -148,15 +156,12 @@ mod tests {
     fn three_in_line_have_none() {
         let p = [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 5.0)].map(|(u, v)| Point2::new(u, v));
         let q = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Point2::new(u, v));
-        assert_eq!(homography_4point(&p, &q), None);
-        assert_eq!(homography_4point(&q, &p), None);
-        assert_eq!(homography_4point(&[q[0]; 4], &[q[1]; 4]), None);
-        assert_eq!(
-            homography_4point(&[Point2::new(f64::NAN, 0.0); 4], &q),
-            None
-        );
+        let not_a_number = [Point2::new(f64::NAN, 0.0); 4];
+        for (p1, p2) in [(p, q), (q, p), ([q[0]; 4], [q[1]; 4]), (not_a_number, q)] {
+            assert!(homography_4point(&p1, &p2).is_empty());
+        }
         let far = q.map(|p| Point2::new(p.x + 3000.0, p.y + 2000.0));
-        let h = homography_4point(&far, &q).unwrap();
+        let h = homography_4point(&far, &q)[0];
         assert!((transfer(&h, &far[2]).unwrap() - q[2]).norm() < 1e-9);
     }
 }

@@ -4,7 +4,7 @@
 //! `x2 ∝ H x1` for matching pixels. H has unit Frobenius norm.
 
 mod decompose;
-mod find;
+mod estimate;
 mod four_point;
 mod linear;
 mod refine;
@@ -12,7 +12,7 @@ mod sampson;
 mod sums;
 
 pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
-pub use find::{HomographyEstimator, find_homography};
+pub use estimate::{HomographyEstimator, estimate_homography};
 pub use four_point::homography_4point;
 pub use linear::{fit_homography, transfer, transfer_error_px, transfer_error_sq};
 pub use refine::refine_homography;

@@ -3,7 +3,7 @@
 
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{
-    Iteration, Linearization, LmOptions, LmReport, Step, System, minimize,
+    DampedStep, Iteration, Linearization, LmOptions, LmReport, System, minimize,
 };
 use super::loss::RobustLoss;
 use crate::{Error, Result};
@@ -90,7 +90,7 @@ impl System for DenseSystem<'_> {
         }
     }
 
-    fn solve(&mut self, damping: f64) -> Option<Step> {
+    fn solve(&mut self, damping: f64) -> Option<DampedStep> {
         // min ‖ [J; √(λD)] δ + [r; 0] ‖ by QR.
         let (m, n) = self.jacobian.shape();
         let mut stacked = DMatrix::zeros(m + n, n);
@@ -112,7 +112,7 @@ impl System for DenseSystem<'_> {
             norm_sq += delta[j] * delta[j];
         }
         self.delta = delta;
-        Some(Step {
+        Some(DampedStep {
             predicted_decrease: 0.5 * predicted,
             norm: norm_sq.sqrt(),
         })

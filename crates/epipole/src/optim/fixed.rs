@@ -1,7 +1,7 @@
 //! Problems whose number of parameters is known when compiling: no allocation.
 
 use super::levenberg_marquardt::{
-    Iteration, Linearization, LmOptions, LmReport, Step, System, minimize,
+    DampedStep, Iteration, Linearization, LmOptions, LmReport, System, minimize,
 };
 use super::loss::RobustLoss;
 use crate::Result;
@@ -148,7 +148,7 @@ impl<const P: usize, F: FixedProblem<P>> System for FixedSystem<'_, P, F> {
         }
     }
 
-    fn solve(&mut self, damping: f64) -> Option<Step> {
+    fn solve(&mut self, damping: f64) -> Option<DampedStep> {
         let mut lower = self.normal.hessian;
         for i in 0..P {
             lower[(i, i)] += damping * damping_scale(lower[(i, i)]);
@@ -165,7 +165,7 @@ impl<const P: usize, F: FixedProblem<P>> System for FixedSystem<'_, P, F> {
             norm_sq += delta[i] * delta[i];
         }
         self.delta = delta;
-        Some(Step {
+        Some(DampedStep {
             predicted_decrease: 0.5 * predicted,
             norm: norm_sq.sqrt(),
         })

@@ -1,7 +1,7 @@
 //! Problems on a graph: each residual joins two vertices.
 
 use super::fixed::damping_scale;
-use super::levenberg_marquardt::{Linearization, Step, System};
+use super::levenberg_marquardt::{DampedStep, Linearization, System};
 use super::loss::RobustLoss;
 use super::parallel::{for_each, sum};
 use super::sparse::BlockCholesky;
@@ -131,7 +131,7 @@ impl<const D: usize, G: GraphProblem<D>> System for GraphSystem<'_, D, G> {
         }
     }
 
-    fn solve(&mut self, damping: f64) -> Option<Step> {
+    fn solve(&mut self, damping: f64) -> Option<DampedStep> {
         let damping = damping.max(LEAST_DAMPING);
         self.factor.clear();
         for (vertex, block) in self.diagonal.iter().enumerate() {
@@ -167,7 +167,7 @@ impl<const D: usize, G: GraphProblem<D>> System for GraphSystem<'_, D, G> {
                 norm_sq += delta[i] * delta[i];
             }
         }
-        Some(Step {
+        Some(DampedStep {
             predicted_decrease: 0.5 * predicted,
             norm: norm_sq.sqrt(),
         })

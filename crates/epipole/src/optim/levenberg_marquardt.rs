@@ -17,7 +17,7 @@ pub trait System {
     /// Solves `(JᵀJ + λ D) δ = −Jᵀr` for the last linearization and keeps δ, where λ is `damping`
     /// and D the diagonal of `JᵀJ`, kept away from 0. `None` if the matrix is not positive
     /// definite.
-    fn solve(&mut self, damping: f64) -> Option<Step>;
+    fn solve(&mut self, damping: f64) -> Option<DampedStep>;
 
     /// Writes `from ⊞ δ` into `into`.
     fn step(&self, from: &Self::Parameters, into: &mut Self::Parameters);
@@ -40,7 +40,7 @@ pub struct Linearization {
 
 /// A solution of the damped normal equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct DampedStep {
     /// How much the quadratic model says the cost will decrease: `½ δᵀ(λ D δ − Jᵀr)`.
     pub predicted_decrease: f64,
     /// The length of δ.

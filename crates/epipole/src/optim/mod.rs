@@ -30,7 +30,7 @@ pub(crate) use fixed::is_positive_definite;
 pub use fixed::{FixedProblem, NormalEquations, minimize_fixed};
 pub use graph::{EdgeTerms, GraphProblem, GraphSystem};
 pub use levenberg_marquardt::{
-    Iteration, Linearization, LmOptions, LmReport, Step, System, Termination, minimize,
+    DampedStep, Iteration, Linearization, LmOptions, LmReport, System, Termination, minimize,
 };
 pub use loss::RobustLoss;
 pub use schur::{BundleProblem, BundleStep, ObservationTerms, SchurSystem};

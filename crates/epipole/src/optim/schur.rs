@@ -5,7 +5,7 @@
 
 use super::cholesky;
 use super::fixed::damping_scale;
-use super::levenberg_marquardt::{Linearization, Step, System};
+use super::levenberg_marquardt::{DampedStep, Linearization, System};
 use super::loss::RobustLoss;
 use super::parallel::{for_each, sum};
 
@@ -570,7 +570,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
         }
     }
 
-    fn solve(&mut self, damping: f64) -> Option<Step> {
+    fn solve(&mut self, damping: f64) -> Option<DampedStep> {
         let damping = damping.max(LEAST_DAMPING);
         self.invert_point_blocks(damping);
         self.reduce(damping);
@@ -581,7 +581,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
         cholesky::solve(&self.reduced, size, &mut self.right);
         self.substitute_back();
         let (predicted_decrease, norm_sq) = self.measure(damping);
-        Some(Step {
+        Some(DampedStep {
             predicted_decrease,
             norm: norm_sq.sqrt(),
         })

@@ -1,6 +1,6 @@
 //! What a problem must tell the loop.
 
-use super::Unique;
+use super::{MatchSet, Unique};
 use crate::math::random::Random;
 
 /// How well the data support a model.
@@ -16,7 +16,8 @@ pub struct Support {
 /// A problem that [`Ransac`](super::Ransac) can solve.
 ///
 /// Data are addressed by index, `0..num_data()`, and are all different; errors are in pixels.
-/// An estimator keeps the buffers it needs, so that no call in the loop allocates.
+/// An estimator keeps the buffers it needs, so that no call in the loop allocates. One whose data are a
+/// [`MatchSet`] names it by [`matches`](Estimator::matches), and is done with repeated matches and crowds.
 ///
 /// ```
 /// use epipole::robust::{Estimator, RansacOptions, ransac};
@@ -57,6 +58,12 @@ pub trait Estimator {
 
     /// Data there are.
     fn num_data(&self) -> usize;
+
+    /// The matches that the data are, in the same order, if they are matches between two images. How likely
+    /// they fit by chance, how much each of them counts and which were given twice then follows from them.
+    fn matches(&self) -> Option<&MatchSet> {
+        None
+    }
 
     /// In how many dimensions a datum can miss a model: 1 where the error is the distance from a line, 2
     /// where it is that from a point.
@@ -135,6 +142,9 @@ pub trait Estimator {
 
     /// How well the data support a model. May stop once the cost exceeds `cost_limit`.
     fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
+        if let Some(matches) = self.matches() {
+            return matches.support(|i| self.error_sq(model, i), max_error_px, cost_limit);
+        }
         let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
         let mut support = Support {
             cost: 0.0,
@@ -169,22 +179,82 @@ pub trait Estimator {
     /// where that is known: for [`RansacReport::log10_false_alarms`](super::RansacReport). Asked once, at
     /// the beginning.
     fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let _ = max_error_px;
-        None
+        let matches = self.matches()?;
+        Some(match self.codimension() {
+            1 => matches.chance_near_lines(max_error_px),
+            _ => matches.chance_near_point2(max_error_px),
+        })
     }
 
     /// The cost of a model that nothing fits: one for each datum, unless some count less.
     fn num_votes(&self) -> f64 {
-        self.num_data() as f64
+        let count = || self.num_data() as f64;
+        self.matches().map_or_else(count, MatchSet::num_votes)
     }
 
     /// How many of these data can be right at the same time, at most; may allocate.
     fn num_distinct(&self, inliers: &[usize]) -> usize {
-        inliers.len()
+        let count = || inliers.len();
+        (self.matches()).map_or_else(count, |matches| matches.num_distinct(inliers))
     }
 
     /// How the indices relate to the data that the caller gave, if repetitions were left out.
     fn unique(&self) -> Option<&Unique> {
-        None
+        self.matches().map(MatchSet::unique)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{RansacOptions, ransac};
+    use super::*;
+    use nalgebra::{Point2, Vector2};
+
+    /// Shifts from matches, with no more than what has to be said.
+    struct Shifts(MatchSet);
+
+    #[rustfmt::skip]
+    impl Estimator for Shifts {
+        type Model = Vector2<f64>;
+        fn name(&self) -> &'static str { "a shift from matches" }
+        fn sample_size(&self) -> usize { 1 }
+        fn codimension(&self) -> usize { 2 }
+        fn num_data(&self) -> usize { self.0.len() }
+        fn matches(&self) -> Option<&MatchSet> { Some(&self.0) }
+        fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
+            let (p1, p2) = self.0.pair(sample[0]);
+            models.push(p2 - p1);
+        }
+        fn error_sq(&self, shift: &Self::Model, index: usize) -> f64 {
+            let (p1, p2) = self.0.pair(index);
+            (p2 - p1 - shift).norm_squared()
+        }
+        fn refine(&mut self, _: &Self::Model, _: &[usize], _: f64) -> Option<Self::Model> { None }
+    }
+
+    #[test]
+    fn matches_bring_their_votes_repetitions_and_chances() {
+        // Twenty matches move by (7, 2); thirty more lead to one pixel, and one is given forty times.
+        let at = |i: usize| Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
+        let shift = Vector2::new(7.0, 2.0);
+        let mut pixels1: Vec<_> = (0..50).map(at).collect();
+        let moved = |i: usize| if i < 20 { at(i) + shift } else { at(3) };
+        let mut pixels2: Vec<_> = (0..50).map(moved).collect();
+        pixels1.extend([Point2::new(1.0, 1.0); 40]);
+        pixels2.extend([Point2::new(300.0, 1.0); 40]);
+        let set = MatchSet::new(&pixels1, &pixels2).unwrap();
+        let shifts = Shifts(set);
+        assert_eq!(shifts.num_data(), 51);
+        assert!((shifts.num_votes() - 23.0).abs() < 1e-12);
+        assert_eq!(shifts.num_distinct(&[20, 21, 22]), 1);
+        // A crowd is two votes, however many it has.
+        let support = shifts.support(&shift, 1.0, f64::INFINITY);
+        assert!(support.num_inliers == 20 && (support.cost - 3.0).abs() < 1e-12);
+        let chance = shifts.chance(1.0).unwrap();
+        assert!(chance > 0.0 && chance < 1e-4, "{chance}");
+        let report = ransac(shifts, &RansacOptions::default()).unwrap();
+        assert_eq!(report.model, shift);
+        assert_eq!((report.inliers.len(), report.num_inliers), (90, 20));
+        assert!(!report.could_be_chance());
     }
 }

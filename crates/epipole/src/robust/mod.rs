@@ -41,6 +41,6 @@ pub use options::{
     Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason, ThresholdKind,
 };
 pub use run::{ransac, ransac_with};
-pub use similarity::{Similarity2, SimilarityEstimator, find_similarity, fit_similarity};
+pub use similarity::{PlaneSimilarity, SimilarityEstimator, estimate_similarity, fit_similarity};
 pub use step::{Step, Trial};
 pub use unique::Unique;

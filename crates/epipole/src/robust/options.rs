@@ -63,7 +63,8 @@ pub enum ThresholdKind {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RansacOptions {
-    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0. 1.
+    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
+    /// own, the unit of its errors. 1.
     pub max_error_px: f64,
     /// Where the threshold comes from. Given.
     pub threshold: ThresholdKind,
@@ -217,7 +218,7 @@ impl<M> RansacReport<M> {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::find_fundamental;
+    /// use epipole::estimate_fundamental;
     /// use epipole::math::random::Random;
     /// use epipole::robust::RansacOptions;
     /// use nalgebra::Point2;
@@ -226,7 +227,7 @@ impl<M> RansacReport<M> {
     ///     (0..100).map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0))).collect()
     /// };
     /// // Matches without any rhyme or reason; some of them agree nevertheless.
-    /// let report = find_fundamental(&anywhere(), &anywhere(), &RansacOptions::default())?;
+    /// let report = estimate_fundamental(&anywhere(), &anywhere(), &RansacOptions::default())?;
     /// assert!(report.num_inliers > 7 && report.could_be_chance());
     /// # Ok(()) }
     /// ```

@@ -1,12 +1,12 @@
 //! Similarities of the plane: turn, scale, shift.
 
-use super::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use super::{Estimator, MatchSet, RansacOptions, RansacReport, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
 /// The map `u' = a u − b v + tu`, `v' = b u + a v + tv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Similarity2 {
+pub struct PlaneSimilarity {
     /// Scale times the cosine of the turn.
     pub a: f64,
     /// Scale times the sine of the turn.
@@ -17,7 +17,7 @@ pub struct Similarity2 {
     pub tv: f64,
 }
 
-impl Similarity2 {
+impl PlaneSimilarity {
     /// Where a point goes.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::new(
@@ -69,7 +69,7 @@ impl Similarity2 {
 /// assert_eq!((s.a, s.b, s.tu, s.tv), (0.0, 2.0, 5.0, 5.0));
 /// # Ok(()) }
 /// ```
-pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Similarity2> {
+pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<PlaneSimilarity> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
     if matches.len() < 2 {
         return Err(Error::TooFew {
@@ -87,7 +87,7 @@ pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Resul
 fn fit(
     num_matches: usize,
     pair: impl Fn(usize) -> (Point2<f64>, Point2<f64>),
-) -> Option<Similarity2> {
+) -> Option<PlaneSimilarity> {
     let share = 1.0 / num_matches as f64;
     let (mut m1, mut m2) = (Point2::origin(), Point2::origin());
     for i in 0..num_matches {
@@ -108,7 +108,7 @@ fn fit(
         return None;
     }
     let (a, b) = (real / size_sq, imaginary / size_sq);
-    let similarity = Similarity2 {
+    let similarity = PlaneSimilarity {
         a,
         b,
         tu: m2.x - (a * m1.x - b * m1.y),
@@ -137,7 +137,7 @@ impl SimilarityEstimator {
 }
 
 impl Estimator for SimilarityEstimator {
-    type Model = Similarity2;
+    type Model = PlaneSimilarity;
 
     fn name(&self) -> &'static str {
         "a similarity from matches"
@@ -155,7 +155,11 @@ impl Estimator for SimilarityEstimator {
         self.matches.len()
     }
 
-    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Similarity2>) {
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<PlaneSimilarity>) {
         if self.matches.have_shared_pixel(sample) {
             return;
         }
@@ -164,35 +168,19 @@ impl Estimator for SimilarityEstimator {
             .extend(fit(2, |i| self.matches.pair(sample[i])).filter(|s| s.a != 0.0 || s.b != 0.0));
     }
 
-    fn error_sq(&self, similarity: &Similarity2, index: usize) -> f64 {
+    fn error_sq(&self, similarity: &PlaneSimilarity, index: usize) -> f64 {
         let (p1, p2) = self.matches.pair(index);
         let off = similarity.apply(&p1) - p2;
         off.x * off.x + off.y * off.y
     }
 
-    fn refine(&mut self, _: &Similarity2, inliers: &[usize], _: f64) -> Option<Similarity2> {
+    fn refine(
+        &mut self,
+        _: &PlaneSimilarity,
+        inliers: &[usize],
+        _: f64,
+    ) -> Option<PlaneSimilarity> {
         fit(inliers.len(), |i| self.matches.pair(inliers[i]))
-    }
-
-    fn support(&self, model: &Similarity2, max_error_px: f64, cost_limit: f64) -> Support {
-        self.matches
-            .support(|i| self.error_sq(model, i), max_error_px, cost_limit)
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
     }
 }
 
@@ -205,21 +193,21 @@ impl Estimator for SimilarityEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::robust::{RansacOptions, find_similarity};
+/// use epipole::robust::{RansacOptions, estimate_similarity};
 /// use nalgebra::Point2;
 /// let p1 = [(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (5.0, 5.0)].map(|(u, v)| Point2::new(u, v));
 /// let mut p2 = p1.map(|p| Point2::new(p.x + 3.0, p.y));
 /// p2[3] = Point2::new(50.0, -20.0);
-/// let report = find_similarity(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_similarity(&p1, &p2, &RansacOptions::default())?;
 /// assert_eq!(report.inliers, [true, true, true, false]);
 /// assert!((report.model.tu - 3.0).abs() < 1e-12);
 /// # Ok(()) }
 /// ```
-pub fn find_similarity(
+pub fn estimate_similarity(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
-) -> Result<RansacReport<Similarity2>> {
+) -> Result<RansacReport<PlaneSimilarity>> {
     ransac(
         SimilarityEstimator::new(MatchSet::new(pixels1, pixels2)?),
         options,
@@ -233,9 +221,9 @@ mod tests {
     use crate::math::random::Random;
 
     /// COLMAP's ransac test in the plane: 1000 matches, the first 400 of them wrong.
-    fn problem(seed: u64) -> (Similarity2, Vec<Point2<f64>>, Vec<Point2<f64>>) {
+    fn problem(seed: u64) -> (PlaneSimilarity, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let mut random = Random::new(seed);
-        let truth = Similarity2 {
+        let truth = PlaneSimilarity {
             a: 1.5,
             b: -0.7,
             tu: 100.0,
@@ -274,13 +262,13 @@ mod tests {
                         score,
                         ..RansacOptions::default()
                     };
-                    let report = find_similarity(&p1, &p2, &options).unwrap();
+                    let report = estimate_similarity(&p1, &p2, &options).unwrap();
                     let wrong = (report.inliers.iter().enumerate())
                         .filter(|&(i, &inlier)| inlier != (i >= 400))
                         .count();
                     assert_eq!(wrong, 0, "seed {seed} {sampler:?} {score:?} {report:?}");
                     assert!((report.model.matrix() - truth.matrix()).norm() < 1e-6);
-                    assert_eq!(find_similarity(&p1, &p2, &options).unwrap(), report);
+                    assert_eq!(estimate_similarity(&p1, &p2, &options).unwrap(), report);
                 }
             }
         }
@@ -290,13 +278,13 @@ mod tests {
     fn degenerate_matches_are_refused() {
         let options = RansacOptions::default();
         let same = vec![Point2::new(1.0, 1.0); 5];
-        assert!(find_similarity(&same, &same, &options).is_err());
+        assert!(estimate_similarity(&same, &same, &options).is_err());
         assert!(fit_similarity(&same, &same).is_err());
         assert!(fit_similarity(&[], &[]).is_err());
         let spread: Vec<_> = (0..5).map(|i| Point2::new(f64::from(i), 0.0)).collect();
         assert!(fit_similarity(&same, &spread).is_err());
         assert!(matches!(
-            find_similarity(&same, &spread, &options),
+            estimate_similarity(&same, &spread, &options),
             Err(Error::NoConsensus { .. })
         ));
     }

@@ -48,7 +48,7 @@ pub struct ClosedPath {
 ///
 /// Source: Horn 1987 and Umeyama 1991 on samples; Mur-Artal, Montiel & Tardós 2015, "ORB-SLAM",
 /// §VII (its use for loops).
-pub fn find_similarity_of_points(
+pub fn estimate_similarity_of_points(
     from: &[Point3<f64>],
     to: &[Point3<f64>],
     max_distance: f64,
@@ -407,11 +407,11 @@ mod tests {
         for point in to.iter_mut().step_by(3) {
             *point += Vector3::from_fn(|_, _| 3.0 * random.normal());
         }
-        let (found, inliers) = find_similarity_of_points(&from, &to, 0.05, 1).unwrap();
+        let (found, inliers) = estimate_similarity_of_points(&from, &to, 0.05, 1).unwrap();
         assert!((found.scaling() - 1.7).abs() < 1e-9);
         assert_eq!(inliers.iter().filter(|inlier| **inlier).count(), 40);
-        assert!(find_similarity_of_points(&from, &to, 0.0, 1).is_err());
-        assert!(find_similarity_of_points(&from[..2], &to[..2], 0.1, 1).is_err());
+        assert!(estimate_similarity_of_points(&from, &to, 0.0, 1).is_err());
+        assert!(estimate_similarity_of_points(&from[..2], &to[..2], 0.1, 1).is_err());
     }
 
     #[test]

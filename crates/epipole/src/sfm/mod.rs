@@ -47,7 +47,7 @@ pub use incremental::{
     reconstruct_verified, reconstruct_watched,
 };
 pub use loop_closure::{
-    ClosedPath, LoopClosure, LoopMotion, close_loops, find_similarity_of_points,
+    ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };
 pub use odometry::{
     OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,

@@ -6,7 +6,7 @@ use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
-use crate::homography::find_homography;
+use crate::homography::estimate_homography;
 use crate::robust::RansacOptions;
 use crate::two_view::TwoViewOptions;
 use crate::{Error, Result};
@@ -127,7 +127,7 @@ pub(super) fn verify_pair(
     };
     // The share that makes two views planar makes a pair flat.
     let share = TwoViewOptions::default().max_homography_share;
-    let is_flat = find_homography(&chosen(&pixels1), &chosen(&pixels2), &few)
+    let is_flat = estimate_homography(&chosen(&pixels1), &chosen(&pixels2), &few)
         .is_ok_and(|flat| flat.num_inliers as f64 > share * matches.len() as f64);
     Some(VerifiedPair {
         pair: PairMatches { matches, ..*pair },

@@ -5,8 +5,9 @@ use super::clean::{close_gaps, remove_speckles};
 use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
 use super::winner::{Selector, Tests};
-use super::work::{Progress, Strips};
+use super::work::Strips;
 use crate::math::simd::dispatched;
+use crate::progress::Progress;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;
@@ -97,7 +98,7 @@ impl StereoBm {
     /// pictures, [`Error::OutOfRange`] for an option outside its range or a window larger than
     /// the picture.
     pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
-        self.compute_with(left, right, &mut |_| ControlFlow::Continue(()))
+        self.compute_with_progress(left, right, &mut |_| ControlFlow::Continue(()))
     }
 
     /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest
@@ -118,7 +119,7 @@ impl StereoBm {
     ///
     /// # Errors
     /// As [`StereoBm::compute`], and [`Error::Canceled`].
-    pub fn compute_with(
+    pub fn compute_with_progress(
         &self,
         left: &GrayImage,
         right: &GrayImage,

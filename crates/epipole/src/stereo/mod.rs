@@ -35,4 +35,3 @@ pub use rectify::{
 };
 pub use rectify_uncalibrated::{UncalibratedRectification, rectify_uncalibrated};
 pub use semi_global::{StereoPaths, StereoSgm};
-pub use work::Progress;

@@ -6,7 +6,8 @@ use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
 use super::winner::{Selector, Tests};
-use super::work::{Progress, Reporter, alone, in_two};
+use super::work::{Reporter, alone, in_two};
+use crate::progress::Progress;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::{ControlFlow, Range};
@@ -120,7 +121,7 @@ impl StereoSgm {
     /// pictures, [`Error::OutOfRange`] for an option outside its range or a volume (pixels ×
     /// disparities) too large for memory.
     pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
-        self.compute_with(left, right, &mut |_| ControlFlow::Continue(()))
+        self.compute_with_progress(left, right, &mut |_| ControlFlow::Continue(()))
     }
 
     /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest
@@ -141,7 +142,7 @@ impl StereoSgm {
     ///
     /// # Errors
     /// As [`StereoSgm::compute`], and [`Error::Canceled`].
-    pub fn compute_with(
+    pub fn compute_with_progress(
         &self,
         left: &GrayImage,
         right: &GrayImage,

@@ -1,12 +1,9 @@
 //! Dividing work between threads, telling how far it is, and stopping it.
 
+use crate::progress::Progress;
 use crate::{Error, Result};
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Told the share of the work done, 0 to 1, from time to time and on the caller's thread; the
-/// answer [`ControlFlow::Break`] cancels.
-pub type Progress<'a> = &'a mut dyn FnMut(f32) -> ControlFlow<()>;
 
 /// What a worker calls as it goes on: reports to the caller, or only learns of cancellation.
 pub(super) struct Reporter<'a> {

@@ -40,6 +40,6 @@ pub use reproject::{Moved, Reprojected};
 pub use scene::{Hit, Scene, Transfer};
 pub use still_life::still_life_camera;
 pub use worlds::{
-    MultiViewOptions, MultiViewProblem, Observation, Path, Structure, TwoViewOptions,
-    TwoViewProblem,
+    MultiViewProblem, MultiViewProblemOptions, Path, Sighting, Structure, TwoViewProblem,
+    TwoViewProblemOptions,
 };

@@ -15,9 +15,9 @@ use crate::epipolar::{
     FundamentalEstimator, RelativePose, estimate_relative_pose_with, sampson_px,
 };
 #[cfg(doc)]
-use crate::epipolar::{estimate_relative_pose, find_fundamental};
+use crate::epipolar::{estimate_fundamental, estimate_relative_pose};
 #[cfg(doc)]
-use crate::homography::find_homography;
+use crate::homography::estimate_homography;
 use crate::homography::{HomographyEstimator, homography_sampson_px};
 #[cfg(doc)]
 use crate::robust::RansacOptions;
@@ -90,7 +90,7 @@ pub struct TwoViewReport {
 /// camera only turned.
 ///
 /// # Errors
-/// As [`TwoViewOptions::check`], and as [`find_fundamental`] and [`find_homography`] if neither finds a
+/// As [`TwoViewOptions::check`], and as [`estimate_fundamental`] and [`estimate_homography`] if neither finds a
 /// model.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
@@ -203,7 +203,7 @@ pub fn estimate_two_view_with(
 /// motions do equally well.
 ///
 /// # Errors
-/// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`find_homography`] if no model
+/// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if no model
 /// is found.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.

@@ -13,6 +13,6 @@ pub use choice::{
     estimate_two_view_calibrated_with, estimate_two_view_with,
 };
 pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
-pub use rotation::{RotationEstimator, find_rotation};
+pub use rotation::{RotationEstimator, estimate_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};

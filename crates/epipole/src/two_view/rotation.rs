@@ -3,7 +3,7 @@
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -106,6 +106,10 @@ impl Estimator for RotationEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
         if !self.matches.have_shared_pixel(sample) {
             models.extend(self.align(sample));
@@ -125,22 +129,6 @@ impl Estimator for RotationEstimator {
         let error_sq = |i| self.transfer_error_sq(rotation, &homography, i);
         self.matches.support(error_sq, max_error_px, cost_limit)
     }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
-    }
 }
 
 /// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera that did not move:
@@ -159,7 +147,7 @@ impl Estimator for RotationEstimator {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::Intrinsics;
 /// use epipole::robust::RansacOptions;
-/// use epipole::two_view::find_rotation;
+/// use epipole::two_view::estimate_rotation;
 /// use nalgebra::{Matrix3, Point2};
 /// // Rolled by a quarter turn about the optical axis: (x, y) from the middle goes to (−y, x).
 /// let k = Intrinsics::new(600.0, 600.0, 300.0, 300.0)?;
@@ -169,13 +157,13 @@ impl Estimator for RotationEstimator {
 /// for i in (0..40).step_by(4) {
 ///     p2[i].x += 90.0;
 /// }
-/// let report = find_rotation(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default())?;
 /// assert_eq!(report.num_inliers, 30);
 /// let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
 /// assert!((report.model - quarter).norm() < 1e-9);
 /// # Ok(()) }
 /// ```
-pub fn find_rotation(
+pub fn estimate_rotation(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     k1: &Intrinsics,
@@ -206,7 +194,7 @@ mod tests {
                 (p, Point2::new(q.x + off, q.y - 0.5 * off))
             })
             .unzip();
-        let report = find_rotation(&p1, &p2, &k, &k, &RansacOptions::default()).unwrap();
+        let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default()).unwrap();
         assert!((report.model - truth).norm() < 1e-9);
         assert_eq!(report.num_inliers, 66);
         // A crowd of matches that lead to one pixel counts as it does for a homography.
@@ -222,8 +210,8 @@ mod tests {
             max_error_px: 60.0,
             ..RansacOptions::default()
         };
-        let report = find_rotation(&p1, &p2, &k, &k, &options).unwrap();
-        let h = crate::homography::find_homography(&p1, &p2, &options).unwrap();
+        let report = estimate_rotation(&p1, &p2, &k, &k, &options).unwrap();
+        let h = crate::homography::estimate_homography(&p1, &p2, &options).unwrap();
         assert!((report.model - truth).norm() < 0.05, "{}", report.model);
         let in_crowd = report.inliers[100..].iter().filter(|is| **is).count();
         assert!(in_crowd > 1);
@@ -233,6 +221,6 @@ mod tests {
             of_turn + 1 == in_crowd || of_turn == in_crowd,
             "{of_turn} {of_h} {in_crowd}"
         );
-        assert!(find_rotation(&p1[..1], &p2[..1], &k, &k, &RansacOptions::default()).is_err());
+        assert!(estimate_rotation(&p1[..1], &p2[..1], &k, &k, &RansacOptions::default()).is_err());
     }
 }

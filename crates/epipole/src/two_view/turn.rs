@@ -1,7 +1,7 @@
 //! Cameras that only turned: E and F mean nothing then, though they fit.
 
 use super::TwoViewOptions;
-use super::rotation::find_rotation;
+use super::rotation::estimate_rotation;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::robust::{RansacOptions, RansacReport};
 use crate::{Error, Result};
@@ -128,7 +128,7 @@ pub fn find_explaining_turn(
         max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
         ..options.in_two_dimensions()
     };
-    let report = match find_rotation(&in1, &in2, k1, k2, &ransac) {
+    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac) {
         Ok(report) => report,
         Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
         Err(error) => return Err(error),

@@ -4,11 +4,13 @@ use super::Arguments;
 use crate::camera::centered;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::photo::Photo;
 use epipole::camera::Intrinsics;
-use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_with_focal};
-use epipole::robust::{RansacOptions, RansacReport};
+use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal_with};
+use epipole::robust::{RansacOptions, RansacReport, Trial};
 use nalgebra::Point2;
+use std::ops::ControlFlow;
 
 /// Samples of six matches, at most: each takes as long as ten of five.
 const MAX_SAMPLES: usize = 2000;
@@ -46,7 +48,15 @@ pub(super) fn intrinsics(
             && !report.could_be_chance()
             && report.model.tells_focal()
     };
-    let found = estimate_relative_pose_with_focal(pixels1, pixels2, &middle, &middle, &ransac);
+    let watch = |_: &Trial<'_, PoseWithFocal>| {
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let found =
+        estimate_relative_pose_and_focal_with(pixels1, pixels2, &middle, &middle, &ransac, watch);
     let Some(PoseWithFocal {
         focal_px,
         focal_std_px: Some(std_px),

@@ -159,7 +159,7 @@ impl Question {
                     matcher.min_texture = 0.0;
                     matcher.speckle_size = 0;
                 }
-                matcher.compute_with(left, right, progress)
+                matcher.compute_with_progress(left, right, progress)
             }
             Method::SemiGlobal => {
                 let mut matcher = StereoSgm {
@@ -171,7 +171,7 @@ impl Question {
                     matcher.uniqueness_percent = 0;
                     matcher.speckle_size = 0;
                 }
-                matcher.compute_with(left, right, progress)
+                matcher.compute_with_progress(left, right, progress)
             }
         }
     }

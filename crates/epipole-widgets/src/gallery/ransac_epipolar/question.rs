@@ -8,7 +8,6 @@ use epipole::Error;
 use epipole::feature::{Features, MatchOptions, match_descriptors_with_progress};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 /// Size of the rendered photographs, pixels.
@@ -121,7 +120,7 @@ fn find_matches(
         &first.descriptors,
         &second.descriptors,
         &any_ratio,
-        &mut |share| progress(f64::from(share)) == ControlFlow::Continue(()),
+        &mut |share| progress(f64::from(share)),
     )?;
     let mut matches: Vec<Match> = Vec::with_capacity(found.len());
     for found in &found {

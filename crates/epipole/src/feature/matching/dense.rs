@@ -7,6 +7,7 @@ use super::floats::Floats;
 use super::integers::Integers;
 use super::{Descriptors, Found, Neighbors, parallel};
 use crate::feature::descriptors::Values;
+use crate::progress::Progress;
 use crate::{Error, Result};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -19,7 +20,7 @@ const REPORT: usize = 1024;
 pub(super) fn search(
     first: &Descriptors,
     second: &Descriptors,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<Found> {
     if first.dimension() != second.dimension() {
         return Err(Error::SizeMismatch {
@@ -28,7 +29,7 @@ pub(super) fn search(
             second: second.dimension(),
         });
     }
-    if !progress(0.0) {
+    if progress(0.0).is_break() {
         return Err(Error::Canceled);
     }
     if first.is_empty() || second.is_empty() {
@@ -72,7 +73,7 @@ fn gather<D: Distance>(
     num_rows: usize,
     num_columns: usize,
     scan: impl Fn(&Range<usize>) -> Scanned<D> + Sync + Send,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<Found> {
     let root = |squared: D| squared.into().sqrt();
     let mut rows = Vec::with_capacity(num_rows);
@@ -95,7 +96,7 @@ fn gather<D: Distance>(
                 }
             }
         }
-        if !progress(group.end as f32 / num_rows as f32) {
+        if progress(group.end as f32 / num_rows as f32).is_break() {
             return Err(Error::Canceled);
         }
     }

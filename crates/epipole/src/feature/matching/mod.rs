@@ -7,7 +7,9 @@ mod hamming;
 mod integers;
 
 use super::{Descriptors, parallel};
+use crate::progress::Progress;
 use crate::{Error, Result};
+use std::ops::ControlFlow;
 
 pub use hamming::{BinaryDescriptors, match_hamming, nearest_two_hamming};
 
@@ -91,7 +93,7 @@ impl Neighbors {
 /// # Ok(()) }
 /// ```
 pub fn nearest_two(first: &Descriptors, second: &Descriptors) -> Result<Vec<Neighbors>> {
-    Ok(dense::search(first, second, &mut |_| true)?.rows)
+    Ok(dense::search(first, second, &mut |_| ControlFlow::Continue(()))?.rows)
 }
 
 /// The entries of a list nearest to one descriptor, by Euclidean distance: their indices and
@@ -163,13 +165,12 @@ pub fn match_descriptors(
     second: &Descriptors,
     options: &MatchOptions,
 ) -> Result<Vec<Match>> {
-    match_descriptors_with_progress(first, second, options, &mut |_| true)
+    match_descriptors_with_progress(first, second, options, &mut |_| ControlFlow::Continue(()))
 }
 
 /// [`match_descriptors`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: called with the share of the work that is done, in [0, 1]; it returns whether to
-///   go on
+/// * `progress`: hears of the share of the work that is done, and says whether to go on
 ///
 /// # Errors
 /// As [`match_descriptors`], and [`Error::Canceled`] if `progress` said so.
@@ -177,9 +178,11 @@ pub fn match_descriptors(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{Descriptors, MatchOptions, match_descriptors_with_progress};
+/// use std::ops::ControlFlow;
 /// let list = Descriptors::from_bytes(1, vec![1, 2])?;
 /// let options = MatchOptions::default();
-/// let stopped = match_descriptors_with_progress(&list, &list, &options, &mut |_| false);
+/// let stop = &mut |_| ControlFlow::Break(());
+/// let stopped = match_descriptors_with_progress(&list, &list, &options, stop);
 /// assert_eq!(stopped, Err(epipole::Error::Canceled));
 /// # Ok(()) }
 /// ```
@@ -187,7 +190,7 @@ pub fn match_descriptors_with_progress(
     first: &Descriptors,
     second: &Descriptors,
     options: &MatchOptions,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<Vec<Match>> {
     check(options)?;
     let found = dense::search(first, second, progress)?;

@@ -11,12 +11,14 @@ use super::keypoint::Keypoint;
 use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
+use crate::progress::Progress;
 use crate::{Error, Result};
 pub use describe::{describe_sift, sift_directions};
 use descriptor::Samples;
 use extrema::Extremum;
 pub use layers::{ScaleOctave, ScaleSpace, scale_space};
 use scale_space::{Octave, OctaveGrid};
+use std::ops::ControlFlow;
 
 /// How the 128 sums of a SIFT descriptor are scaled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -119,33 +121,34 @@ pub struct Features {
 /// # Ok(()) }
 /// ```
 pub fn detect_sift(image: &GrayImage32, options: &SiftOptions) -> Result<Features> {
-    detect_sift_with_progress(image, options, &mut |_| true)
+    detect_sift_with_progress(image, options, &mut |_| ControlFlow::Continue(()))
 }
 
 /// [`detect_sift`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: called now and then with the share of the work that is done, in [0, 1]; it
-///   returns whether to go on
+/// * `progress`: hears of the share of the work that is done, and says whether to go on
 ///
 /// # Errors
 /// As [`detect_sift`], and [`Error::Canceled`] if `progress` said so.
 ///
 /// ```
 /// use epipole::feature::{SiftOptions, detect_sift_with_progress};
+/// use std::ops::ControlFlow;
 /// let image = epipole::imaging::GrayImage32::new(64, 64);
-/// let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |_| false);
+/// let stop = &mut |_| ControlFlow::Break(());
+/// let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), stop);
 /// assert_eq!(stopped, Err(epipole::Error::Canceled));
 /// ```
 pub fn detect_sift_with_progress(
     image: &GrayImage32,
     options: &SiftOptions,
-    progress: &mut dyn FnMut(f32) -> bool,
+    progress: Progress<'_>,
 ) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
     let mut tell = |share: f64| match progress(share.min(1.0) as f32) {
-        true => Ok(()),
-        false => Err(Error::Canceled),
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Canceled),
     };
     tell(0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();

@@ -201,7 +201,7 @@ fn progress_rises_and_can_stop_the_work() {
     let mut shares = Vec::new();
     let all = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |share| {
         shares.push(share);
-        true
+        ControlFlow::Continue(())
     });
     assert!(shares.len() > 4 && shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
     assert_eq!(
@@ -211,7 +211,11 @@ fn progress_rises_and_can_stop_the_work() {
     let mut calls = 0;
     let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |_| {
         calls += 1;
-        calls < 3
+        if calls < 3 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     });
     assert_eq!((stopped, calls), (Err(Error::Canceled), 3));
 }

@@ -9,7 +9,7 @@ use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
 use super::two_view_start::{VerifiedPair, pair_ransac};
-use crate::absolute_pose::find_absolute_pose;
+use crate::absolute_pose::estimate_absolute_pose;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::{Point2, Point3};
@@ -297,7 +297,7 @@ impl Builder<'_> {
         };
         let intrinsics = self.intrinsics[image];
         // Without consensus the image is not registered, and may be later.
-        let found = find_absolute_pose(&positions, &pixels, &intrinsics, &ransac).ok()?;
+        let found = estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac).ok()?;
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }

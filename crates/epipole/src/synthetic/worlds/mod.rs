@@ -6,8 +6,8 @@
 mod multi_view;
 mod two_view;
 
-pub use multi_view::{MultiViewOptions, MultiViewProblem, Observation, Path};
-pub use two_view::{TwoViewOptions, TwoViewProblem};
+pub use multi_view::{MultiViewProblem, MultiViewProblemOptions, Path, Sighting};
+pub use two_view::{TwoViewProblem, TwoViewProblemOptions};
 
 use crate::camera::{Camera, Intrinsics};
 use crate::math::random::Random;

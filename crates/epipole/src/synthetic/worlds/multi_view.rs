@@ -27,7 +27,7 @@ pub enum Path {
 
 /// What a [`MultiViewProblem`] shall be like.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MultiViewOptions {
+pub struct MultiViewProblemOptions {
     /// Number of cameras, at least 2.
     pub num_cameras: usize,
     /// Number of points; each is seen by at least two cameras.
@@ -46,7 +46,7 @@ pub struct MultiViewOptions {
     pub seed: u64,
 }
 
-impl Default for MultiViewOptions {
+impl Default for MultiViewProblemOptions {
     /// Eight cameras on an arc of a radian, 200 points of a cube, exact.
     fn default() -> Self {
         Self {
@@ -67,7 +67,7 @@ impl Default for MultiViewOptions {
 
 /// A point seen by a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observation {
+pub struct Sighting {
     /// Index of the camera.
     pub camera: usize,
     /// Index of the point.
@@ -86,7 +86,7 @@ pub struct MultiViewProblem {
     /// The true points, in the world.
     pub points: Vec<Point3<f64>>,
     /// All observations: by point, and of one point by camera.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<Sighting>,
 }
 
 impl MultiViewProblem {
@@ -98,8 +98,8 @@ impl MultiViewProblem {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::synthetic::{MultiViewOptions, MultiViewProblem};
-    /// let problem = MultiViewProblem::new(&MultiViewOptions::default())?;
+    /// use epipole::synthetic::{MultiViewProblemOptions, MultiViewProblem};
+    /// let problem = MultiViewProblem::new(&MultiViewProblemOptions::default())?;
     /// // The whole cube is in every picture.
     /// assert_eq!(problem.observations.len(), 8 * 200);
     /// let seen = problem.observations[17];
@@ -107,7 +107,7 @@ impl MultiViewProblem {
     /// assert_eq!(exact, seen.pixel);
     /// # Ok(()) }
     /// ```
-    pub fn new(options: &MultiViewOptions) -> Result<Self> {
+    pub fn new(options: &MultiViewProblemOptions) -> Result<Self> {
         if options.num_cameras < 2 {
             return Err(Error::TooFew {
                 what: "a problem of several views",
@@ -175,7 +175,7 @@ impl MultiViewProblem {
         let observations = exact
             .into_iter()
             .zip(is_inlier)
-            .map(|((camera, point, pixel), is_inlier)| Observation {
+            .map(|((camera, point, pixel), is_inlier)| Sighting {
                 camera,
                 point,
                 pixel: if is_inlier {
@@ -208,7 +208,7 @@ impl MultiViewProblem {
     }
 }
 
-fn cameras(options: &MultiViewOptions) -> Result<Vec<Camera>> {
+fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
     let up = Vector3::new(0.0, -1.0, 0.0);
     let num = options.num_cameras as f64;
     match options.path {
@@ -281,12 +281,12 @@ mod tests {
 
     #[test]
     fn tracks_partition_the_observations() {
-        let options = MultiViewOptions {
+        let options = MultiViewProblemOptions {
             visible_fraction: 0.6,
             noise_px: 0.4,
             outlier_fraction: 0.1,
             seed: 5,
-            ..MultiViewOptions::default()
+            ..MultiViewProblemOptions::default()
         };
         let problem = MultiViewProblem::new(&options).unwrap();
         let tracks = problem.tracks();
@@ -314,12 +314,12 @@ mod tests {
 
     #[test]
     fn a_full_circle_has_no_camera_twice() {
-        let options = MultiViewOptions {
+        let options = MultiViewProblemOptions {
             path: Path::Arc {
                 radius_m: 4.0,
                 span_rad: std::f64::consts::TAU,
             },
-            ..MultiViewOptions::default()
+            ..MultiViewProblemOptions::default()
         };
         let problem = MultiViewProblem::new(&options).unwrap();
         let centers: Vec<_> = problem
@@ -336,13 +336,13 @@ mod tests {
 
     #[test]
     fn cameras_on_a_line_look_ahead() {
-        let options = MultiViewOptions {
+        let options = MultiViewProblemOptions {
             num_cameras: 3,
             path: Path::Line {
                 distance_m: 6.0,
                 spacing_m: 0.5,
             },
-            ..MultiViewOptions::default()
+            ..MultiViewProblemOptions::default()
         };
         let problem = MultiViewProblem::new(&options).unwrap();
         let center = problem.cameras[2].center_in_world();
@@ -352,25 +352,25 @@ mod tests {
 
     #[test]
     fn senseless_options_are_refused() {
-        let good = MultiViewOptions::default();
+        let good = MultiViewProblemOptions::default();
         for bad in [
-            MultiViewOptions {
+            MultiViewProblemOptions {
                 num_cameras: 1,
                 ..good
             },
-            MultiViewOptions {
+            MultiViewProblemOptions {
                 visible_fraction: 0.0,
                 ..good
             },
-            MultiViewOptions {
+            MultiViewProblemOptions {
                 outlier_fraction: -0.1,
                 ..good
             },
-            MultiViewOptions {
+            MultiViewProblemOptions {
                 noise_px: f64::INFINITY,
                 ..good
             },
-            MultiViewOptions {
+            MultiViewProblemOptions {
                 path: Path::Line {
                     distance_m: 6.0,
                     spacing_m: 900.0,

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Point3, Vector3};
 
 /// What a [`TwoViewProblem`] shall be like.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TwoViewOptions {
+pub struct TwoViewProblemOptions {
     /// Number of matches, inliers and outliers together.
     pub num_points: usize,
     /// Where the points lie, around the world's origin.
@@ -25,7 +25,7 @@ pub struct TwoViewOptions {
     pub seed: u64,
 }
 
-impl Default for TwoViewOptions {
+impl Default for TwoViewProblemOptions {
     /// A hundred exact matches of a cube of 2 m, seen from 5 m with a baseline of 1 m.
     fn default() -> Self {
         Self {
@@ -67,8 +67,8 @@ impl TwoViewProblem {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::synthetic::{TwoViewOptions, TwoViewProblem};
-    /// let options = TwoViewOptions { outlier_fraction: 0.3, ..TwoViewOptions::default() };
+    /// use epipole::synthetic::{TwoViewProblemOptions, TwoViewProblem};
+    /// let options = TwoViewProblemOptions { outlier_fraction: 0.3, ..TwoViewProblemOptions::default() };
     /// let problem = TwoViewProblem::new(&options)?;
     /// assert_eq!(problem.is_inlier.iter().filter(|inlier| **inlier).count(), 70);
     /// // Without noise an inlier's pixels are the projections of its point.
@@ -76,7 +76,7 @@ impl TwoViewProblem {
     /// assert_eq!(problem.camera2.project(&problem.points[i])?, problem.pixels2[i]);
     /// # Ok(()) }
     /// ```
-    pub fn new(options: &TwoViewOptions) -> Result<Self> {
+    pub fn new(options: &TwoViewProblemOptions) -> Result<Self> {
         let half = options.structure.half_side_m();
         check(
             "the half side of the structure",
@@ -180,11 +180,11 @@ mod tests {
 
     #[test]
     fn inliers_fulfill_the_epipolar_constraint_and_outliers_do_not() {
-        let options = TwoViewOptions {
+        let options = TwoViewProblemOptions {
             num_points: 400,
             outlier_fraction: 0.25,
             seed: 3,
-            ..TwoViewOptions::default()
+            ..TwoViewProblemOptions::default()
         };
         let problem = TwoViewProblem::new(&options).unwrap();
         let (camera1, camera2) = (&problem.camera1, &problem.camera2);
@@ -212,11 +212,11 @@ mod tests {
 
     #[test]
     fn the_noise_has_its_size_and_the_seed_decides() {
-        let options = TwoViewOptions {
+        let options = TwoViewProblemOptions {
             num_points: 2000,
             noise_px: 0.5,
             seed: 8,
-            ..TwoViewOptions::default()
+            ..TwoViewProblemOptions::default()
         };
         let problem = TwoViewProblem::new(&options).unwrap();
         let sum_sq: f64 = (0..2000)
@@ -227,15 +227,15 @@ mod tests {
             .sum();
         assert!(((sum_sq / 4000.0).sqrt() - 0.5).abs() < 0.02);
         assert_eq!(problem, TwoViewProblem::new(&options).unwrap());
-        let other = TwoViewOptions { seed: 9, ..options };
+        let other = TwoViewProblemOptions { seed: 9, ..options };
         assert_ne!(problem, TwoViewProblem::new(&other).unwrap());
     }
 
     #[test]
     fn a_turning_camera_stays_in_its_place() {
-        let options = TwoViewOptions {
+        let options = TwoViewProblemOptions {
             baseline_m: 0.0,
-            ..TwoViewOptions::default()
+            ..TwoViewProblemOptions::default()
         };
         let problem = TwoViewProblem::new(&options).unwrap();
         let moved = problem.camera2.center_in_world() - problem.camera1.center_in_world();
@@ -245,21 +245,21 @@ mod tests {
 
     #[test]
     fn senseless_options_are_refused() {
-        let good = TwoViewOptions::default();
+        let good = TwoViewProblemOptions::default();
         for bad in [
-            TwoViewOptions {
+            TwoViewProblemOptions {
                 noise_px: f64::NAN,
                 ..good
             },
-            TwoViewOptions {
+            TwoViewProblemOptions {
                 outlier_fraction: 1.5,
                 ..good
             },
-            TwoViewOptions {
+            TwoViewProblemOptions {
                 baseline_m: -1.0,
                 ..good
             },
-            TwoViewOptions {
+            TwoViewProblemOptions {
                 distance_m: 0.0,
                 ..good
             },
@@ -268,13 +268,13 @@ mod tests {
         }
         // A tiny thing seen from the far end of the world is still one pixel, not an error.
         assert!(
-            TwoViewProblem::new(&TwoViewOptions {
+            TwoViewProblem::new(&TwoViewProblemOptions {
                 distance_m: 1e4,
                 ..good
             })
             .is_ok()
         );
-        let empty = TwoViewOptions {
+        let empty = TwoViewProblemOptions {
             num_points: 0,
             ..good
         };

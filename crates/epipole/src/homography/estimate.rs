@@ -5,7 +5,7 @@ use super::refine::{refine_in_frame, to_frame, to_pixels};
 use super::sums;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -109,6 +109,10 @@ impl Estimator for HomographyEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
         if self.matches.have_shared_pixel(sample) {
             return;
@@ -159,22 +163,6 @@ impl Estimator for HomographyEstimator {
     fn inliers(&self, model: &Matrix3<f64>, max_error_px: f64, inliers: &mut Vec<usize>) {
         sums::inliers(&self.pixels, model, max_error_px, inliers);
     }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_point2(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
-    }
 }
 
 /// The homography that most matches agree on, unit Frobenius norm.
@@ -194,7 +182,7 @@ impl Estimator for HomographyEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::homography::find_homography;
+/// use epipole::homography::estimate_homography;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::Point2;
 /// // A shift by (5, 3); every fourth match is wrong.
@@ -202,13 +190,13 @@ impl Estimator for HomographyEstimator {
 /// let p2: Vec<_> = p1.iter().enumerate().map(|(i, p)| {
 ///     if i % 4 == 0 { Point2::new(p.y, 90.0) } else { Point2::new(p.x + 5.0, p.y + 3.0) }
 /// }).collect();
-/// let report = find_homography(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_homography(&p1, &p2, &RansacOptions::default())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!((report.model[(0, 2)] / report.model[(2, 2)] - 5.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
 #[doc(alias = "findHomography")]
-pub fn find_homography(
+pub fn estimate_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
@@ -231,7 +219,7 @@ mod tests {
             .map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480)))
             .collect();
         for (p1, p2) in [(&line, &line), (&line, &anywhere), (&anywhere, &line)] {
-            let error = find_homography(p1, p2, &RansacOptions::default()).unwrap_err();
+            let error = estimate_homography(p1, p2, &RansacOptions::default()).unwrap_err();
             assert!(matches!(error, Error::Degenerate { .. }), "{error}");
             assert!(error.to_string().contains("one line"));
         }
@@ -239,7 +227,7 @@ mod tests {
         let mut bent = line.clone();
         bent[3].y += 40.0;
         bent[40].y -= 30.0;
-        let report = find_homography(&bent, &bent, &RansacOptions::default()).unwrap();
+        let report = estimate_homography(&bent, &bent, &RansacOptions::default()).unwrap();
         assert_eq!(report.num_inliers, 50);
     }
 }

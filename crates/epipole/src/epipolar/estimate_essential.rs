@@ -1,12 +1,12 @@
 //! E and the relative pose from matches of which many are wrong.
 
 use super::coordinates::{CommonFrame, Coordinates};
-use super::find_fundamental::refuse_collinear;
+use super::estimate_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
 use super::in_front::{self, Lenses};
 use super::other_motion::other_motion_of_plane;
 use super::plane_recovery::PlaneRecovery;
-use super::refine::{RaysInFrame, refine_pose_in_frame};
+use super::refine_pose::{RaysInFrame, refine_pose_in_frame};
 use super::sampson;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::camera::Intrinsics;
@@ -15,7 +15,7 @@ use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{
-    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, Unique, ransac_with,
+    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
 };
 use crate::{Error, Result};
 use core::ops::ControlFlow;
@@ -120,6 +120,10 @@ impl Estimator for EssentialEstimator {
 
     fn num_data(&self) -> usize {
         self.matches.len()
+    }
+
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
     }
 
     fn max_models(&self) -> usize {
@@ -249,22 +253,6 @@ impl Estimator for EssentialEstimator {
         let judge = self.lenses.judge(pose, max_error_px);
         in_front::inliers(&self.pixels, &judge, max_error_px, inliers);
     }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_lines(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
-    }
 }
 
 /// The relative pose of two calibrated cameras that most matches agree on.
@@ -385,7 +373,7 @@ pub fn estimate_relative_pose_with(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::{essential_from_motion, find_essential};
+/// use epipole::epipolar::{essential_from_motion, estimate_essential};
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
 /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
@@ -396,14 +384,14 @@ pub fn estimate_relative_pose_with(
 ///     p1.push(k.project(&x)?);
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
-/// let report = find_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
 /// let truth = essential_from_motion(&cam2_from_cam1)?;
 /// assert_eq!(report.num_inliers, 40);
 /// assert!((report.model - truth).norm() < 1e-5);
 /// # Ok(()) }
 /// ```
 #[doc(alias = "findEssentialMat")]
-pub fn find_essential(
+pub fn estimate_essential(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     k1: &Intrinsics,

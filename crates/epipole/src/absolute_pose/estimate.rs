@@ -183,7 +183,7 @@ impl Estimator for AbsolutePoseEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::absolute_pose::find_absolute_pose;
+/// use epipole::absolute_pose::estimate_absolute_pose;
 /// use epipole::camera::{Intrinsics, RigidTransform};
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
@@ -199,13 +199,13 @@ impl Estimator for AbsolutePoseEstimator {
 /// for pixel in pixels.iter_mut().step_by(4) {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
-/// let report = find_absolute_pose(&points, &pixels, &k, &RansacOptions::default())?;
+/// let report = estimate_absolute_pose(&points, &pixels, &k, &RansacOptions::default())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!(report.model.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
 /// assert!((report.model.translation.vector - cam_from_world.translation.vector).norm() < 1e-6);
 /// # Ok(()) }
 /// ```
-pub fn find_absolute_pose(
+pub fn estimate_absolute_pose(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],
     intrinsics: &Intrinsics,

@@ -1,15 +1,21 @@
 //! The relative pose and the focal length from matches of which many are wrong.
 
 use super::coordinates::{CommonFrame, Coordinates};
-use super::find_fundamental::refuse_collinear;
+use super::estimate_fundamental::refuse_collinear;
 use super::five_point::pose_in_front;
-use super::refine::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
+use super::refine_focal::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
 use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+#[cfg(doc)]
+use crate::robust::ransac;
+use crate::robust::{
+    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
+};
 use crate::{Error, Result};
+use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The motion between two cameras that share a focal length, up to the length of the translation.
@@ -67,7 +73,6 @@ pub struct FocalEstimator {
     centers: [Point2<f64>; 2],
     centers_in_frame: FocalCenters,
     reach_px: f64,
-    found: Vec<EssentialWithFocal>,
 }
 
 /// Focal lengths that are looked at, as multiples of the reach of the pixels.
@@ -116,7 +121,6 @@ impl FocalEstimator {
             pixels,
             frame,
             centers,
-            found: Vec::with_capacity(MAX_SOLUTIONS),
         })
     }
 
@@ -178,6 +182,10 @@ impl Estimator for FocalEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn max_models(&self) -> usize {
         MAX_SOLUTIONS
     }
@@ -189,9 +197,9 @@ impl Estimator for FocalEstimator {
         let pairs: [_; 6] = core::array::from_fn(|i| self.matches.pair(sample[i]));
         let about1 = pairs.map(|(p1, _)| p1 - self.centers[0].coords);
         let about2 = pairs.map(|(_, p2)| p2 - self.centers[1].coords);
-        self.found.clear();
-        solve(&about1, &about2, &mut self.found);
-        for solution in &self.found {
+        let mut found = ArrayVec::<EssentialWithFocal, MAX_SOLUTIONS>::new();
+        solve(&about1, &about2, &mut found);
+        for solution in &found {
             if !self.is_usable(solution.focal_px) {
                 continue;
             }
@@ -242,22 +250,6 @@ impl Estimator for FocalEstimator {
     fn inliers(&self, model: &PoseWithFocal, max_error_px: f64, inliers: &mut Vec<usize>) {
         sampson::inliers(&self.pixels, &model.pose.fundamental, max_error_px, inliers);
     }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_lines(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
-    }
 }
 
 /// The relative pose and the focal length of two cameras that share it, as most matches have it.
@@ -279,7 +271,7 @@ impl Estimator for FocalEstimator {
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::estimate_relative_pose_with_focal;
+/// use epipole::epipolar::estimate_relative_pose_and_focal;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
 /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
@@ -291,23 +283,68 @@ impl Estimator for FocalEstimator {
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
 /// let middle = k.principal_point();
-/// let report = estimate_relative_pose_with_focal(&p1, &p2, &middle, &middle, &RansacOptions::default())?;
+/// let report = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &RansacOptions::default())?;
 /// assert!((report.model.focal_px - 700.0).abs() < 0.1);
 /// let found = report.model.pose.cam2_from_cam1();
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-4);
 /// # Ok(()) }
 /// ```
-pub fn estimate_relative_pose_with_focal(
+pub fn estimate_relative_pose_and_focal(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     principal1: &Point2<f64>,
     principal2: &Point2<f64>,
     options: &RansacOptions,
 ) -> Result<RansacReport<PoseWithFocal>> {
+    estimate_relative_pose_and_focal_with(pixels1, pixels2, principal1, principal2, options, |_| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// As [`estimate_relative_pose_and_focal`], and shows every trial to `watch`, which may end the run by
+/// [`ControlFlow::Break`]; the report is then about the best model so far.
+///
+/// # Errors
+/// As [`estimate_relative_pose_and_focal`] and [`ransac_with`].
+///
+/// Source: as [`FocalEstimator`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::epipolar::estimate_relative_pose_and_focal_with;
+/// use epipole::robust::{RansacOptions, StopReason};
+/// use nalgebra::{Point3, Vector3};
+/// use std::ops::ControlFlow;
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.6), Vector3::new(0.2, 0.1, 0.0));
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
+///     p1.push(k.project(&x)?);
+///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+/// }
+/// let middle = k.principal_point();
+/// let options = RansacOptions::default();
+/// let report = estimate_relative_pose_and_focal_with(&p1, &p2, &middle, &middle, &options, |trial| {
+///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
+/// assert!((report.model.focal_px - 700.0).abs() < 0.1);
+/// # Ok(()) }
+/// ```
+pub fn estimate_relative_pose_and_focal_with(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    principal1: &Point2<f64>,
+    principal2: &Point2<f64>,
+    options: &RansacOptions,
+    watch: impl FnMut(&Trial<'_, PoseWithFocal>) -> ControlFlow<()>,
+) -> Result<RansacReport<PoseWithFocal>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     let estimator = FocalEstimator::new(matches, principal1, principal2)?;
     let all = estimator.clone();
-    let mut report = ransac(estimator, options)?;
+    let mut report = ransac_with(estimator, options, watch)?;
     report.model.focal_std_px = all.focal_std_px(&report.model, report.max_error_px);
     let focal_px = report.model.focal_px;
     let [k1, k2] = [principal1, principal2].map(|c| Intrinsics::new(focal_px, focal_px, c.x, c.y));

@@ -9,7 +9,7 @@ use super::sampson;
 use super::seven_point::seven_point_rows;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, Unique, ransac};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -144,6 +144,10 @@ impl Estimator for FundamentalEstimator {
         self.matches.len()
     }
 
+    fn matches(&self) -> Option<&MatchSet> {
+        Some(&self.matches)
+    }
+
     fn max_models(&self) -> usize {
         3
     }
@@ -247,22 +251,6 @@ impl Estimator for FundamentalEstimator {
     fn inliers(&self, model: &Matrix3<f64>, max_error_px: f64, inliers: &mut Vec<usize>) {
         sampson::inliers(&self.pixels, model, max_error_px, inliers);
     }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        Some(self.matches.chance_near_lines(max_error_px))
-    }
-
-    fn num_votes(&self) -> f64 {
-        self.matches.num_votes()
-    }
-
-    fn num_distinct(&self, inliers: &[usize]) -> usize {
-        self.matches.num_distinct(inliers)
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(self.matches.unique())
-    }
 }
 
 /// The fundamental matrix that most matches agree on, unit Frobenius norm, rank 2.
@@ -281,7 +269,7 @@ impl Estimator for FundamentalEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::epipolar::find_fundamental;
+/// use epipole::epipolar::estimate_fundamental;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::Point2;
 /// // A step to the right: each point keeps its row and moves by its own disparity. Every fourth
@@ -291,13 +279,13 @@ impl Estimator for FundamentalEstimator {
 ///     let wrong = if i % 4 == 0 { 40.0 + i as f64 } else { 0.0 };
 ///     Point2::new(p.x - (5 + i * 13 % 31) as f64, p.y + wrong)
 /// }).collect();
-/// let report = find_fundamental(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_fundamental(&p1, &p2, &RansacOptions::default())?;
 /// assert_eq!(report.num_inliers, 45);
 /// assert!(report.model[(2, 2)].abs() < 1e-6);
 /// # Ok(()) }
 /// ```
 #[doc(alias = "findFundamentalMat")]
-pub fn find_fundamental(
+pub fn estimate_fundamental(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,

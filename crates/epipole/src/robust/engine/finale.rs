@@ -1,0 +1,246 @@
+//! The end of a run: a look around the best model, the estimator's objections, the last refinement, the report.
+
+use super::{Candidate, Ransac};
+use crate::robust::chance::log10_false_alarms;
+use crate::robust::{Estimator, RansacReport, ScoreKind, StopReason, Unique};
+use crate::{Error, Result};
+
+/// Starts around the best model that are tried at the end, at most.
+const EXPLORATIONS: usize = 30;
+
+/// A start fits some of the data within so many thresholds of the best model: those just outside of
+/// one threshold are what another model would claim.
+const START_REACH: f64 = 1.5;
+
+/// So many starts that lead back to the best model show that there is hardly another one nearby.
+const RETURNS: usize = 3;
+
+/// A start whose first fit costs more than the best model by this share of its cost is left off.
+const FAR_OFF: f64 = 0.02;
+
+/// A start whose first fit costs the same up to this share, or this much of one datum, leads back
+/// to the best model.
+const SAME: f64 = 1e-3;
+
+/// At the end, models are compared within so many medians of the errors that inliers have: two
+/// standard deviations, if errors of one dimension are Gaussian.
+const SHARP_MEDIANS: f64 = 3.0;
+
+/// The width of the last loss, in the same medians.
+const WIDTH_MEDIANS: f64 = 2.5;
+
+/// How often data are weighed anew at the end.
+const REWEIGHTINGS: usize = 6;
+
+impl<E: Estimator> Ransac<E> {
+    /// As [`finish`](Ransac::finish), once.
+    pub(in crate::robust) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
+        let no_consensus = match self.stop {
+            Some(StopReason::Canceled) => Error::Canceled,
+            _ => Error::NoConsensus {
+                needed: self.estimator.sample_size(),
+                got: self.estimator.num_data(),
+                iterations: self.iterations,
+            },
+        };
+        let Some(mut best) = self.best.take() else {
+            return Err(no_consensus);
+        };
+        if self.options.local_optimization {
+            self.explore_sharply(&mut best);
+            self.settle(&mut best);
+            self.polish(&mut best);
+        }
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        let num_distinct = self.estimator.num_distinct(&self.inliers);
+        if num_distinct < self.estimator.sample_size() {
+            return Err(no_consensus);
+        }
+        let num_data = self.estimator.num_data();
+        if !self.sampler.is_ordered() {
+            self.required = self.required_for(self.inliers.len(), num_data);
+        }
+        let log10_false_alarms = self.chance.map(|chance| {
+            log10_false_alarms(
+                num_distinct,
+                num_data,
+                self.estimator.sample_size(),
+                self.estimator.max_models(),
+                chance,
+            )
+        });
+        let mut fits = vec![false; self.estimator.num_data()];
+        for &index in &self.inliers {
+            fits[index] = true;
+        }
+        let inliers: Vec<bool> = match self.estimator.unique() {
+            Some(unique) => (unique.places().iter())
+                .map(|place| place.is_some_and(|i| fits[i]))
+                .collect(),
+            None => fits,
+        };
+        Ok(RansacReport {
+            num_inliers: inliers.iter().filter(|&&inlier| inlier).count(),
+            num_unique_inliers: num_distinct,
+            num_left_out: (self.estimator.unique()).map_or(0, Unique::num_left_out),
+            inliers,
+            iterations: self.iterations,
+            required_iterations: self.required,
+            max_error_px,
+            score: self.score(&best.support),
+            log10_false_alarms,
+            refinements: self.refinements,
+            stop: self.stop.unwrap_or(StopReason::Canceled),
+            model: best.model,
+        })
+    }
+
+    /// Looks for a better optimum nearby, and judges by the errors that the inliers really have: where
+    /// they are far smaller than the caller's threshold, that threshold lets in wrong matches by the
+    /// dozen and cannot tell which model the right ones fit best.
+    fn explore_sharply(&mut self, best: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        if self.inliers.is_empty() {
+            return;
+        }
+        // A count of inliers is about the threshold that the caller gave.
+        if self.options.score == ScoreKind::Msac {
+            self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS);
+        }
+        best.support = self.support(&best.model, f64::INFINITY);
+        let explored = self.explore(best);
+        self.judge_px = max_error_px;
+        best.support = self.support(&best.model, f64::INFINITY);
+        if !explored {
+            self.improve(best);
+        }
+    }
+
+    /// Looks for a better optimum nearby: starts that fit a few of the nearest data by least squares
+    /// lie around the model, and local optimization leads some of them elsewhere. Where several lead back,
+    /// the search ends early. False where there are too few such data, or the estimator has no such fit.
+    ///
+    /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
+    fn explore(&mut self, best: &mut Candidate<E::Model>) -> bool {
+        let max_error_px = self.judge_px;
+        let size = 2 * self.estimator.sample_size();
+        let mut subset = Vec::with_capacity(size);
+        let alike = vec![1.0; size];
+        let reach_px = START_REACH * max_error_px;
+        let mut returns = 0;
+        for _ in 0..EXPLORATIONS {
+            self.estimator
+                .inliers(&best.model, reach_px, &mut self.inliers);
+            if self.inliers.len() <= size {
+                return false;
+            }
+            subset.clear();
+            while subset.len() < size {
+                let index = self.inliers[self.random.below(self.inliers.len())];
+                if !subset.contains(&index) {
+                    subset.push(index);
+                }
+            }
+            let Some(start) = self.estimator.polish(&best.model, &subset, &alike) else {
+                return false;
+            };
+            let Some(first) = self.fitted(&start, max_error_px) else {
+                continue;
+            };
+            let known = best.support.cost;
+            let cost = self.support(&first, (1.0 + FAR_OFF) * known).cost;
+            if (cost - known).abs() < SAME * known.max(1.0) {
+                returns += 1;
+                if returns == RETURNS {
+                    break;
+                }
+                continue;
+            }
+            if cost > (1.0 + FAR_OFF) * known {
+                continue;
+            }
+            if let Some(model) = self.fitted(&first, max_error_px)
+                && self.replace_if_better(best, model)
+            {
+                self.improve(best);
+            }
+        }
+        true
+    }
+
+    /// Hears the estimator's objections to the best model.
+    fn settle(&mut self, best: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&best.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let settled =
+            self.estimator
+                .settle(&best.model, &self.inliers, max_error_px, &mut self.random);
+        if let Some(model) = settled {
+            let support = self.support(&model, f64::INFINITY);
+            *best = Candidate { model, support };
+            self.refinements += 1;
+        }
+    }
+
+    /// The last refinement: least squares over all data within a few times the errors that inliers
+    /// have, with the weights that Cauchy's loss gives. It weighs errors differently from the score,
+    /// so its result is kept unless it loses inliers: one in twenty at most, and none where they are what
+    /// counts.
+    ///
+    /// Source: Holland & Welsch 1977, "Robust regression using iteratively reweighted
+    /// least-squares" (Cauchy's weights).
+    fn polish(&mut self, candidate: &mut Candidate<E::Model>) {
+        let max_error_px = self.options.max_error_px;
+        self.estimator
+            .inliers(&candidate.model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return;
+        }
+        let width_px = self.medians_of_errors_px(&candidate.model, WIDTH_MEDIANS);
+        let reach_px = max_error_px.max(2.0 * width_px);
+        let mut model = candidate.model.clone();
+        let mut weights = Vec::new();
+        for _ in 0..REWEIGHTINGS {
+            self.estimator.inliers(&model, reach_px, &mut self.inliers);
+            let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
+            weights.clear();
+            weights.extend(
+                (self.inliers.iter().map(error_sq))
+                    .map(|sq| 1.0 / (1.0 + sq / (width_px * width_px))),
+            );
+            let Some(polished) = self.estimator.polish(&model, &self.inliers, &weights) else {
+                break;
+            };
+            model = polished;
+        }
+        let support = self.support(&model, f64::INFINITY);
+        let (kept, of) = match self.options.score {
+            ScoreKind::Msac => (19, 20),
+            ScoreKind::InlierCount => (1, 1),
+        };
+        if of * support.num_inliers >= kept * candidate.support.num_inliers {
+            *candidate = Candidate { model, support };
+            self.refinements += 1;
+        }
+    }
+
+    /// How large the errors of the inliers are: so many times their median, between a quarter of the
+    /// threshold and the whole. The threshold is a guess of the caller's; errors a tenth as large
+    /// deserve a sharper weight, and those that fill it a wider one.
+    fn medians_of_errors_px(&self, model: &E::Model, medians: f64) -> f64 {
+        let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
+        let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
+        let middle = errors_sq.len() / 2;
+        let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
+        let max_error_px = self.options.max_error_px;
+        (medians * median_sq.sqrt()).clamp(0.25 * max_error_px, max_error_px)
+    }
+}

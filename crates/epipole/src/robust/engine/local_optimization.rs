@@ -1,0 +1,89 @@
+//! Local optimization: what becomes of a sample's model that beats those before it.
+
+use super::{Candidate, Ransac};
+use crate::robust::Estimator;
+
+impl<E: Estimator> Ransac<E> {
+    /// Takes the best model of a sample through recovery and local optimization, and keeps the
+    /// outcome if nothing better is known. Returns whether it is kept, and as what.
+    pub(super) fn consider(
+        &mut self,
+        mut candidate: Candidate<E::Model>,
+    ) -> (bool, Option<E::Model>) {
+        let mut changed = false;
+        if self.options.local_optimization {
+            let recovered = self.estimator.recover(
+                &candidate.model,
+                &self.sample,
+                self.options.max_error_px,
+                &mut self.random,
+            );
+            if let Some(model) = recovered {
+                changed |= self.replace_if_better(&mut candidate, model);
+            }
+            changed |= self.improve(&mut candidate);
+        }
+        let known = self
+            .best
+            .as_ref()
+            .is_some_and(|best| best.support.cost <= candidate.support.cost);
+        if known {
+            return (false, None);
+        }
+        self.require(&candidate);
+        let refined = changed.then(|| candidate.model.clone());
+        self.best = Some(candidate);
+        (true, refined)
+    }
+
+    /// Alternates between finding the inliers and fitting to them while that helps.
+    ///
+    /// A model straight from a sample is rough: the first fit looks twice as far, and counts only
+    /// together with a second one at the right distance.
+    pub(super) fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
+        let max_error_px = self.judge_px;
+        let wide = self
+            .fitted(&candidate.model.clone(), 2.0 * max_error_px)
+            .and_then(|model| self.fitted(&model, max_error_px));
+        let mut changed = wide.is_some_and(|model| self.replace_if_better(candidate, model));
+        for _ in 1..self.options.inner_iterations {
+            let Some(model) = self.fitted(&candidate.model.clone(), max_error_px) else {
+                break;
+            };
+            let before = candidate.support.cost;
+            if !self.replace_if_better(candidate, model) {
+                break;
+            }
+            changed = true;
+            // Less than a thousandth of one datum is not worth another round.
+            if before - candidate.support.cost < 1e-3 {
+                break;
+            }
+        }
+        changed
+    }
+
+    /// A model refined from its inliers, if there are enough.
+    pub(super) fn fitted(&mut self, model: &E::Model, max_error_px: f64) -> Option<E::Model> {
+        self.estimator
+            .inliers(model, max_error_px, &mut self.inliers);
+        if self.inliers.len() < self.estimator.sample_size() {
+            return None;
+        }
+        self.estimator.refine(model, &self.inliers, max_error_px)
+    }
+
+    pub(super) fn replace_if_better(
+        &mut self,
+        candidate: &mut Candidate<E::Model>,
+        model: E::Model,
+    ) -> bool {
+        let support = self.support(&model, candidate.support.cost);
+        let better = support.cost < candidate.support.cost;
+        if better {
+            *candidate = Candidate { model, support };
+            self.refinements += 1;
+        }
+        better
+    }
+}
