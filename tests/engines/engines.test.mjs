@@ -155,5 +155,5 @@ const engineTests = (key) =>
     }
   });
 
-// One after the other: beside another engine, WebKit 2.50 was seen to crash and to compute other bits.
+// One after the other, which leaves WebKit more room: on a busy machine 2.50 was seen to crash and to compute other bits.
 chosen.forEach(engineTests);
