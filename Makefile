@@ -63,6 +63,7 @@ monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS
 test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh
 	$(BOOK) build
+	cargo build --locked --quiet --example mdbook
 	tests/browser/hosts/prepare.sh
 	cd tests/browser && npx playwright test --config hosts.config.mjs
 

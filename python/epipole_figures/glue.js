@@ -50,6 +50,15 @@ function load(model) {
   return globalThis[KEY];
 }
 
+/** What a model without a kernel need not be able to do: MyST's throws where it is to save or to forget a listener. */
+function ask(work) {
+  try {
+    work();
+  } catch (problem) {
+    if (typeof INSIDE === "undefined") throw problem;
+  }
+}
+
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 /** Parameters in one order: Python keeps that in which it was told. */
 const sorted = (state) => Object.entries(state ?? {}).sort(([one], [other]) => (one < other ? -1 : 1));
@@ -79,7 +88,7 @@ async function render({ model, el }) {
     const solved = [...new Set([...(model.get("solved") ?? []), ...figure.solved])];
     if (!same(solved, model.get("solved") ?? [])) model.set("solved", solved);
     if (figure.description !== model.get("description")) model.set("description", figure.description);
-    model.save_changes();
+    ask(() => model.save_changes());
   };
   const later = () => {
     if (ready) gathering ??= setTimeout(tell, GATHER_MS);
@@ -100,9 +109,11 @@ async function render({ model, el }) {
   });
 
   return () => {
+    // Also for a model that goes on calling.
+    ready = false;
     clearTimeout(gathering);
-    model.off("change:state", follow);
-    model.off("msg:custom", hear);
+    ask(() => model.off("change:state", follow));
+    ask(() => model.off("msg:custom", hear));
     figure.remove();
   };
 }

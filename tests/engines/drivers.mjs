@@ -1,5 +1,5 @@
 // Three engines behind one small interface: `open(url)`, `run(function, argument)`, `press(...keys)`,
-// `complaints` and `close()`.
+// `isAlive()`, `complaints` and `close()`.
 //
 // Firefox speaks WebDriver BiDi, so no further program is needed; WebKit has its own driver, which opens a
 // window, so it gets a display that nobody sees.
@@ -42,15 +42,20 @@ async function byPuppeteer(name, options) {
     press: async (...keys) => {
       for (const key of keys) await page.keyboard.press(key);
     },
+    isAlive: async () => browser.connected,
     close: () => browser.close(),
   };
 }
+
+let windows = 0;
 
 /** Its driver tells nothing of the console, so pages report their own errors. */
 export async function webkit() {
   const window = process.env.MINI_BROWSER ?? MINI_BROWSERS.find((path) => existsSync(path));
   if (!window) throw new Error("WebKit is missing: install webkit2gtk-driver and its MiniBrowser");
-  const [display, port] = [`:${90 + (process.pid % 100)}`, 4400 + (process.pid % 1000)];
+  // What a window before this one has used may not be free yet.
+  const [display, port] = [`:${90 + (process.pid % 100) + 100 * windows}`, 4400 + (process.pid % 1000) + 1000 * windows];
+  windows += 1;
   const size = `${WINDOW.width + 60}x${WINDOW.height + 160}x24`;
   const screen = spawn("Xvfb", [display, "-screen", "0", size, "-nolisten", "tcp"], { stdio: "ignore" });
   const env = { ...process.env, DISPLAY: display, GDK_BACKEND: "x11", WEBKIT_DISABLE_DMABUF_RENDERER: "1" };
@@ -92,6 +97,7 @@ export async function webkit() {
       for (const key of keys) actions.sendKeys(named[key]);
       await actions.perform();
     },
+    isAlive: () => session.executeScript("return true").catch(() => false),
     close: async () => {
       await session.quit().catch(() => {});
       driver.kill();

@@ -66,7 +66,7 @@ export async function follows(figure, darken, lighten) {
   const root = figure.locator(".root");
   await expect(root).toHaveAttribute("data-theme", "light");
   await darken();
-  await expect(root).toHaveAttribute("data-theme", "dark", { timeout: 1500 });
+  await expect(root).toHaveAttribute("data-theme", "dark");
   await lighten();
-  await expect(root).toHaveAttribute("data-theme", "light", { timeout: 1500 });
+  await expect(root).toHaveAttribute("data-theme", "light");
 }

@@ -48,9 +48,12 @@ const test = base.extend({
 
 test.afterEach(endServers);
 
-/** Runs a tool in a folder. What it warns of is ours if it names us. */
-async function tool(folder, command, ...args) {
-  const { stdout, stderr } = await run(command, args, { cwd: folder, env: { ...process.env, NO_COLOR: "1" }, maxBuffer: 1 << 26 });
+/** Runs a tool in a folder. */
+const tool = (folder, command, ...args) => toolIn({}, folder, command, ...args);
+
+/** Runs a tool with settings of the environment. What it warns of is ours if it names us. */
+async function toolIn(env, folder, command, ...args) {
+  const { stdout, stderr } = await run(command, args, { cwd: folder, env: { ...process.env, NO_COLOR: "1", ...env }, maxBuffer: 1 << 26 });
   const ours = `${stdout}\n${stderr}`.split("\n").filter((line) => /warn/i.test(line) && /epipole/i.test(line));
   expect(ours, "warnings about the figures").toEqual([]);
 }
@@ -163,29 +166,82 @@ test("Sphinx with MyST", async ({ page, book, strangers }) => {
   await server.close();
 });
 
-test("Hugo", async ({ page, book, strangers }) => {
-  const folder = folderOf("hugo", book);
-  await tool(folder, join(python, "hugo"), "--quiet", "--panicOnWarning");
-  const server = await fileServer(join(folder, "public"));
-  await visit(page, `${server.origin}/`, strangers);
+// Generators that leave the look of a page to their authors, and where they put it.
+const generators = {
+  hugo: async (folder) => (await tool(folder, join(python, "hugo"), "--quiet", "--panicOnWarning"), join(folder, "public")),
+  jekyll: async (folder) => (await tool(folder, "jekyll", "build", "--quiet", "--disable-disk-cache"), join(folder, "_site")),
+};
+
+for (const [name, build] of Object.entries(generators)) {
+  test(name, async ({ page, book, strangers }) => {
+    const folder = folderOf(name, book);
+    const server = await fileServer(await build(folder));
+    await visit(page, `${server.origin}/`, strangers);
+    await operate(page, race(page));
+    const { darken, lighten } = dark(page);
+    await follows(race(page), darken, lighten);
+    await page.getByRole("link", { name: "stereo", exact: true }).click();
+    await answers(map(page));
+    await server.close();
+  });
+}
+
+test("MyST", async ({ page, book, strangers }) => {
+  const folder = folderOf("myst", book);
+  // Its own themes are downloaded; this one shows widgets by the same package.
+  const config = join(folder, "myst.yml");
+  writeFileSync(config, readFileSync(config, "utf8").replace("book-theme", "theme"));
+  mkdirSync(join(folder, "theme"));
+  writeFileSync(join(folder, "theme/template.yml"), "myst: v1\nkind: site\ntitle: Plain\nversion: 1.0.0\nfiles: []\n");
+  await tool(folder, npx("myst"), "build", "--site");
+  const site = join(folder, "_build/site");
+  cpSync(join(site, "content"), join(site, "public/content"), { recursive: true });
+  await tool(folder, npx("esbuild"), join(here, "hosts/myst.jsx"), "--bundle", "--format=esm", "--jsx=automatic", `--outfile=${join(site, "public/show.js")}`);
+  for (const slug of ["index", "stereo"]) {
+    writeFileSync(
+      join(site, `public/${slug}.html`),
+      `<!doctype html><html lang="en"><title>${slug}</title><style>.dark body { background: #1c1917; color: #fff }</style>
+      <main></main><script type="module" src="show.js"></script></html>`,
+    );
+  }
+  const server = await fileServer(join(site, "public"));
+  const asked = [];
+  page.on("request", (request) => asked.push(new URL(request.url()).origin));
+  await visit(page, `${server.origin}/index.html`, strangers);
   await operate(page, race(page));
-  const { darken, lighten } = dark(page);
-  await follows(race(page), darken, lighten);
-  await page.getByRole("link", { name: "stereo", exact: true }).click();
-  await answers(map(page));
+  const choose = (isDark) => () => page.evaluate((on) => document.documentElement.classList.toggle("dark", on), isDark);
+  await follows(race(page), choose(true), choose(false));
+  await page.evaluate(() => globalThis.leave());
+  await expect(race(page)).toHaveCount(0);
+  expect(asked, "the widget is part of the site").not.toContain(book);
+  await page.goto(`${server.origin}/stereo.html`);
+  await answers(map(page.frameLocator("iframe")));
   await server.close();
 });
 
-test("Jekyll", async ({ page, book, strangers }) => {
-  const folder = folderOf("jekyll", book);
-  await tool(folder, "jekyll", "build", "--quiet", "--disable-disk-cache");
-  const server = await fileServer(join(folder, "_site"));
-  await visit(page, `${server.origin}/`, strangers);
-  await operate(page, race(page));
-  const { darken, lighten } = dark(page);
-  await follows(race(page), darken, lighten);
-  await page.getByRole("link", { name: "stereo", exact: true }).click();
-  await answers(map(page));
+test("PreTeXt", async ({ page, book, strangers }) => {
+  const folder = folderOf("pretext", book);
+  const project = join(folder, "project.ptx");
+  const offline = '<target name="web" format="html"><stringparams debug.rs.dev="yes"/></target>';
+  writeFileSync(project, readFileSync(project, "utf8").replace('<target name="web" format="html"/>', offline));
+  mkdirSync(join(folder, "home"));
+  // It unpacks itself at home, and would install what builds its styles if npm were there; it brings those along, too.
+  await toolIn({ HOME: join(folder, "home"), PATH: python }, folder, join(python, "pretext"), "build", "web");
+  const site = join(folder, "output/web");
+  // What it asks of others for its own pages, and what such a build expects of Runestone: nothing here.
+  const theirs = ["https://cdn.jsdelivr.net", "https://fonts.googleapis.com", "https://fonts.gstatic.com"];
+  await page.route(({ origin }) => theirs.includes(origin), (route) => route.fulfill({ body: "" }));
+  const server = await fileServer(site);
+  await page.route(`${server.origin}/_static/prefix-*`, (route) => route.fulfill({ body: "" }));
+  strangers.push(...theirs);
+  await visit(page, `${server.origin}/fitting.html`, strangers);
+  const figure = race(page.frameLocator("iframe"));
+  await operate(page, figure);
+  // Its pages follow the system, as the frame does.
+  const choose = (colorScheme) => () => page.emulateMedia({ colorScheme });
+  await follows(figure, choose("dark"), choose("light"));
+  await page.goto(`${server.origin}/stereo.html`);
+  await answers(map(page.frameLocator("iframe")));
   await server.close();
 });
 

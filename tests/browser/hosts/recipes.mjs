@@ -11,8 +11,9 @@ export const work = join(target, "hosts");
 /** Every file of a recipe, by name: a line "`name`:" and the fence below it. */
 export function filesOf(recipe) {
   const text = readFileSync(join(root, "docs/embed", `${recipe}.md`), "utf8");
-  const files = [...text.matchAll(/^`([\w./-]+)`[^\n]*:\n\n((?:```\w*\n[\s\S]*?^```\n+)+)/gm)].map(([, name, fences]) => {
-    const parts = [...fences.matchAll(/^```\w*\n([\s\S]*?)^```/gm)].map(([, part]) => part);
+  // A fence around fences is longer than they.
+  const files = [...text.matchAll(/^`([\w./-]+)`[^\n]*:\n\n((?:(`{3,})\w*\n[\s\S]*?^\3\n+)+)/gm)].map(([, name, fences]) => {
+    const parts = [...fences.matchAll(/^(`{3,})\w*\n([\s\S]*?)^\1$/gm)].map(([, , part]) => part);
     return [name, parts];
   });
   if (files.length === 0) throw new Error(`docs/embed/${recipe}.md shows no file`);

@@ -154,7 +154,6 @@ pub struct Lab {
 impl Lab {
     /// A Lab that shows nothing yet.
     #[wasm_bindgen(constructor)]
-    #[expect(clippy::new_without_default, reason = "a script has no defaults")]
     pub fn new() -> Self {
         Self {
             runner: eframe::WebRunner::new(),
