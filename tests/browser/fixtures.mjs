@@ -162,11 +162,13 @@ export async function change(page, figure, times = 1) {
   const counts = await Promise.all(settings.map((setting) => setting.count()));
   const setting = settings[counts.findIndex((count) => count > 0)].first();
   await setting.focus();
-  const key = await setting.evaluate(({ type, value, min, selectedIndex, length }) => {
-    if (type === "select-one") return selectedIndex < length - 1 ? "ArrowDown" : "ArrowUp";
-    return type === "radio" || value === min ? "ArrowRight" : "ArrowLeft";
+  const [key, goesAround] = await setting.evaluate(({ type, value, min, selectedIndex, length }) => {
+    if (type === "select-one") return [selectedIndex < length - 1 ? "ArrowDown" : "ArrowUp", false];
+    return [type === "radio" || value === min ? "ArrowRight" : "ArrowLeft", type === "radio"];
   });
-  for (let press = 0; press < times; press += 1) await page.keyboard.press(key);
+  // After two presses a pair of radio buttons would be as it was, with nothing to tell.
+  const presses = goesAround ? 1 : times;
+  for (let press = 0; press < presses; press += 1) await page.keyboard.press(key);
 }
 
 /** The middle of an element on the screen. */

@@ -41,7 +41,7 @@ const SYMBOLS: [Symbol; 10] = [
     ),
     Symbol {
         drawn: "p",
-        ..symbol("x", "x", "pixel", "a pixel of image 1, as (u, v, 1)", DISK)
+        ..symbol("x", "x", "pixel", "a pixel of image 1, as (u,\u{a0}v,\u{a0}1)", DISK)
     },
     Symbol {
         drawn: "p'",
@@ -49,7 +49,7 @@ const SYMBOLS: [Symbol; 10] = [
             "x'",
             "x'",
             "match",
-            "its match in image 2, as (u′, v′, 1)",
+            "its match in image 2, as (u′,\u{a0}v′,\u{a0}1)",
             SQUARE,
         )
     },

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{answer, finish};
+use common::{finish, reopened};
 use epipole::calibration::{
     Board, BoardView, CalibratedCamera, CalibrationOptions, Keep, Pattern, Undistortion, calibrate,
     find_board, photograph_of_board,
@@ -13,7 +13,7 @@ use epipole::calibration::{
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::feature::photo_to_gray;
 use epipole_lab::project::{BoardFate, Event, FocalOrigin, Project, Step};
-use epipole_lab::tasks::{Answer, Blob, BoardPattern, LensModel, Request, Told, compute};
+use epipole_lab::tasks::{Blob, BoardPattern, LensModel, Told, compute};
 use image::{Rgb, RgbImage};
 use nalgebra::Vector3;
 use std::io::Cursor;
@@ -250,18 +250,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     project.update(Event::Undo);
 
     // It is part of what is saved, with the boards.
-    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
-        panic!("a project is an archive");
-    };
-    let Ok(Answer::Opened {
-        project: saved,
-        files,
-    }) = answer(&Request::Open { archive })
-    else {
-        panic!("it opens");
-    };
-    let mut again = Project::default();
-    again.update(Event::OpenProject(saved, files));
+    let again = reopened(&project);
     assert_eq!(again.document().camera, Some(camera));
     assert_eq!(again.document().boards.len(), 10);
     assert_eq!(again.document().settings, project.document().settings);
@@ -284,18 +273,7 @@ fn boards_and_photographs_of_one_name_stay_apart_in_a_saved_project() {
         "one.png".to_owned(),
         board.clone(),
     )]));
-    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
-        panic!("a project is an archive");
-    };
-    let Ok(Answer::Opened {
-        project: saved,
-        files,
-    }) = answer(&Request::Open { archive })
-    else {
-        panic!("it opens");
-    };
-    let mut again = Project::default();
-    again.update(Event::OpenProject(saved, files));
+    let again = reopened(&project);
     let source = |file: &Blob| epipole_lab::tasks::Source::File(file.clone());
     assert_eq!(again.document().photos[0].source, source(&other));
     assert_eq!(again.document().boards[0].source, source(&board));

@@ -6,7 +6,7 @@ mod common;
 
 use common::depth::every_pixel_has_its_depth;
 use common::growing::it_grows_as_one_watches;
-use common::{answer, finish, solved};
+use common::{answer, finish, reopened, solved};
 use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Measure, Project, RefineFocal, Step};
@@ -291,18 +291,7 @@ fn a_saved_project_comes_back() {
     project.update(Event::Focal(id, Some(55.0)));
     project.update(Event::Exclude(id, true));
 
-    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
-        panic!("a project is an archive");
-    };
-    let Ok(Answer::Opened {
-        project: saved,
-        files,
-    }) = answer(&Request::Open { archive })
-    else {
-        panic!("it opens");
-    };
-    let mut again = Project::default();
-    again.update(Event::OpenProject(saved, files));
+    let again = reopened(&project);
     assert_eq!(again.document().settings, project.document().settings);
     let same = |project: &Project| -> Vec<(String, Source, bool, Option<f64>)> {
         let photos = project.document().photos.iter();

@@ -34,3 +34,16 @@ pub(crate) fn answer(request: &Request) -> Result<Answer, String> {
     let bytes = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()))?;
     Answer::from_bytes(&bytes)
 }
+
+/// The project as it is after it was saved and opened again.
+pub(crate) fn reopened(project: &Project) -> Project {
+    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
+        panic!("a project is an archive");
+    };
+    let Ok(Answer::Opened { project, files }) = answer(&Request::Open { archive }) else {
+        panic!("it opens");
+    };
+    let mut again = Project::default();
+    again.update(Event::OpenProject(project, files));
+    again
+}

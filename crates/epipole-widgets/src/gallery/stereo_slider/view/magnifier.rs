@@ -109,8 +109,8 @@ mod tests {
             Some((magnifier.at, (u, v)))
         };
         assert_eq!(seen(20.0, 15.0), Some((Point2::new(8.0, 5.0), (20, 15))));
-        assert_eq!(seen(39.2, 0.0), Some((Point2::new(16.2, 0.0), (39, 0))));
-        assert_eq!(seen(0.4, 29.4), Some((Point2::new(0.4, 10.4), (0, 29))));
+        assert_eq!(seen(39.25, 0.0), Some((Point2::new(16.25, 0.0), (39, 0))));
+        assert_eq!(seen(0.25, 29.25), Some((Point2::new(0.25, 10.25), (0, 29))));
         for (u, v) in [(-1.0, 5.0), (40.0, 5.0), (5.0, 29.6), (f64::NAN, 5.0)] {
             assert_eq!(seen(u, v), None);
         }
