@@ -1,6 +1,6 @@
 // Letters of the prose that figures draw: one color, and a light in the nearest figure that has them.
 
-import { expect, ready, test } from "./fixtures.mjs";
+import { expect, ready, settled, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
@@ -75,10 +75,12 @@ test("what no figure draws lights nothing, and without a script letters are plai
   const figure = page.locator(beside).first();
   await ready(figure);
   await page.locator('.symbols [data-symbol="p"]').first().focus();
-  await expect.poll(() => light(figure)).toHaveLength(1);
+  const lit = page.locator("epipole-figure[data-lit]");
+  await expect(lit).toHaveCount(1);
+  expect(await light(lit)).toHaveLength(1);
   // Both epipoles are far outside of the photographs.
   await page.locator('.symbols [data-symbol="e\'"]').focus();
-  await expect.poll(() => light(figure)).toHaveLength(0);
+  await expect(lit).toHaveCount(0);
   const context = await browser.newContext({ javaScriptEnabled: false });
   const plain = await context.newPage();
   await plain.goto(`${library}/epipolar.html`);
@@ -98,6 +100,7 @@ test("other chapters light their letters as well", async ({ page, library }) => 
     await page.goto(`${library}/${chapter}.html`);
     const figure = page.locator(`epipole-figure[name=${name}]`).first();
     await ready(figure);
+    await settled(figure);
     for (const letter of letters) {
       await page.locator(`.symbols [data-symbol="${letter}"]`).focus();
       await expect.poll(async () => (await light(page.locator("epipole-figure[data-lit]").first())).map(({ kind }) => kind)).toEqual(["circle"]);
