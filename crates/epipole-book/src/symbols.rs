@@ -41,7 +41,13 @@ const SYMBOLS: [Symbol; 10] = [
     ),
     Symbol {
         drawn: "p",
-        ..symbol("x", "x", "pixel", "a pixel of image 1, as (u,\u{a0}v,\u{a0}1)", DISK)
+        ..symbol(
+            "x",
+            "x",
+            "pixel",
+            "a pixel of image 1, as (u,\u{a0}v,\u{a0}1)",
+            DISK,
+        )
     },
     Symbol {
         drawn: "p'",
