@@ -242,9 +242,7 @@ proptest! {
         prop_assert_eq!(after.num_inliers, before.num_inliers);
         prop_assert_eq!(order.num_inliers, before.num_inliers);
         prop_assert!(pose_error(&after.model, &change.pose(&before.model), length) < 1e-4);
-        // The last weights are found in a few steps, which begin elsewhere in another order: over all seeds and five
-        // orders the median is 1e-12 and the worst, of seed 411, 1.2e-4, a tenth of what the noise does.
-        prop_assert!(pose_error(&order.model, &before.model, 5.0) < 2e-4);
+        prop_assert!(pose_error(&order.model, &before.model, 5.0) < 1e-4);
     }
 
     /// Three points: the true pose is found in every frame and in every order.
