@@ -99,7 +99,7 @@ fn scale(
 /// `(a (256 − weight) + b weight) / 256`, rounded, of four numbers of sixteen bits at once: these
 /// hold 255 · 256.
 #[inline]
-fn blend(a: u64, b: u64, weight_256: u64) -> u64 {
+pub(super) fn blend(a: u64, b: u64, weight_256: u64) -> u64 {
     const LOW: u64 = 0x00ff_00ff_00ff_00ff;
     const HALF: u64 = 0x0080_0080_0080_0080;
     ((a * (256 - weight_256) + b * weight_256 + HALF) >> 8) & LOW

@@ -1,6 +1,6 @@
 //! Filled polygons: covered by exact area.
 
-use super::coverage::{Coverage, parts};
+use super::coverage::{Coverage, greater, lesser, parts};
 use super::strokes::At;
 
 /// Pixels that are looked at together.
@@ -29,8 +29,8 @@ impl Coverage {
             return;
         }
         for &(x, y) in corners() {
-            low = (low.0.min(x), low.1.min(y));
-            high = (high.0.max(x), high.1.max(y));
+            low = (lesser(low.0, x), lesser(low.1, y));
+            high = (greater(high.0, x), greater(high.1, y));
         }
         // Casts take what is negative for 0.
         let right = (high.0.ceil() as usize).min(self.width());
@@ -46,14 +46,14 @@ impl Coverage {
                     true => (1.0, from, to),
                     false => (-1.0, to, from),
                 };
-                let (y0, y1) = (upper.1.max(above), lower.1.min(below));
+                let (y0, y1) = (greater(upper.1, above), lesser(lower.1, below));
                 if y0 >= y1 {
                     continue;
                 }
                 let slope = (lower.0 - upper.0) / (lower.1 - upper.1);
                 let x = |y: f32| {
                     let x = upper.0 + (y - upper.1) * slope - left as f32;
-                    x.clamp(0.0, (right - left) as f32)
+                    lesser(greater(x, 0.0), (right - left) as f32)
                 };
                 accumulate(&mut sums, x(y0), x(y1), sign * (y1 - y0));
             }
@@ -62,13 +62,14 @@ impl Coverage {
             let part = self.part(row, left..right);
             for (alphas, changes) in part.chunks_mut(AT_ONCE).zip(changes) {
                 // Nothing changes inside and outside, where most pixels are.
-                if changes.iter().all(|&change| change == 0.0) {
+                let any = changes.iter().fold(0, |any, change| any | change.to_bits());
+                if any == 0 {
                     alphas.fill(covered);
                     continue;
                 }
                 for (alpha, change) in alphas.iter_mut().zip(changes) {
                     area += change;
-                    covered = parts(area.abs().min(1.0));
+                    covered = parts(lesser(area.abs(), 1.0));
                     *alpha = covered;
                 }
             }
@@ -79,7 +80,7 @@ impl Coverage {
 
 /// Adds what an edge within one row changes: to its right the area grows by `rise`.
 fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) {
-    let (low, high) = (x0.min(x1), x0.max(x1));
+    let (low, high) = (lesser(x0, x1), greater(x0, x1));
     let first = low as usize;
     let last = high as usize;
     if first == last {
@@ -92,8 +93,8 @@ fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) {
     // Over several: each has the rise of its own piece of the edge.
     let per_pixel = rise / (high - low);
     for pixel in first..=last {
-        let left = low.max(pixel as f32);
-        let piece = high.min(pixel as f32 + 1.0) - left;
+        let left = greater(low, pixel as f32);
+        let piece = lesser(high, pixel as f32 + 1.0) - left;
         let right = 1.0 - (left + 0.5 * piece - pixel as f32);
         let part = per_pixel * piece;
         sums[pixel] += part * right;

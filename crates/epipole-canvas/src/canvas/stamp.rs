@@ -1,8 +1,7 @@
 //! Small shapes that are covered once and then only blended: glyphs and markers.
 
-use super::coverage::blend_row;
+use super::coverage::Ink;
 use crate::theme::Rgb;
-use std::collections::BTreeMap;
 use tiny_skia::Pixmap;
 
 /// Steps of a place within a pixel.
@@ -17,12 +16,13 @@ pub(super) fn pixel_and_step(at: f64) -> (i32, u8) {
 /// Stamps kept before all are forgotten: a page that is zoomed needs new ones each time.
 const MOST_KEPT: usize = 2048;
 
-/// Stamps by what they show. What is kept changes no pixel: a stamp is the same whenever it is made.
-pub(super) struct Kept<K>(BTreeMap<K, Stamp>);
+/// Stamps in the order of their keys: in a list, because a page would download a map's code for each kind of key. What
+/// is kept changes no pixel: a stamp is the same whenever it is made.
+pub(super) struct Kept<K>(Vec<(K, Stamp)>);
 
 impl<K: Copy + Ord> Kept<K> {
     pub(super) const fn new() -> Self {
-        Self(BTreeMap::new())
+        Self(Vec::new())
     }
 
     /// The stamp of a key, made if it is not there.
@@ -30,7 +30,14 @@ impl<K: Copy + Ord> Kept<K> {
         if self.0.len() > MOST_KEPT {
             self.forget();
         }
-        self.0.entry(key).or_insert_with(|| make(key))
+        let place = match self.0.binary_search_by(|(kept, _)| kept.cmp(&key)) {
+            Ok(place) => place,
+            Err(place) => {
+                self.0.insert(place, (key, make(key)));
+                place
+            }
+        };
+        &self.0[place].1
     }
 
     pub(super) fn forget(&mut self) {
@@ -65,6 +72,7 @@ impl Stamp {
             return;
         }
         let data = pixmap.data_mut();
+        let mut ink = Ink::new(color);
         for (row, alphas) in self.alpha.chunks_exact(self.width).enumerate() {
             let row = top + row as i64;
             if !(0..height).contains(&row) {
@@ -72,7 +80,7 @@ impl Stamp {
             }
             let start = ((row * width + left + from) * 4) as usize;
             let alphas = &alphas[from as usize..to as usize];
-            blend_row(&mut data[start..][..alphas.len() * 4], alphas, color);
+            ink.blend_row(&mut data[start..][..alphas.len() * 4], alphas);
         }
     }
 }

@@ -3,7 +3,7 @@
 //! A pixel is covered by how far its center is from the middle of the line. This takes no outline,
 //! no edges and no samples, which is why hundreds of lines fit into a frame.
 
-use super::coverage::{Coverage, parts};
+use super::coverage::{Coverage, greater, lesser, parts};
 
 /// How a stroke ends.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -24,18 +24,6 @@ fn band(distance: f32, half: f32) -> f32 {
     let end = lesser(distance + 0.5, half);
     let start = greater(distance - 0.5, -half);
     lesser(greater(end - start, 0.0), 1.0)
-}
-
-// Unlike `f32::min` and `f32::max`, these are one vector instruction: nothing here is no number.
-
-#[inline]
-fn lesser(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline]
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }
 
 /// Covers part of a row by the share that a pixel's index has.
@@ -66,7 +54,7 @@ impl Coverage {
             // Where the row meets the rectangle around the line, columns relative to its start …
             let along = within(ux, uy * y, -overhang, length + overhang);
             let across = within(-uy, ux * y, -reach, reach);
-            let (mut low, mut high) = (along.0.max(across.0), along.1.min(across.1));
+            let (mut low, mut high) = (greater(along.0, across.0), lesser(along.1, across.1));
             if low > high {
                 (low, high) = (f32::INFINITY, f32::NEG_INFINITY);
             }
@@ -76,8 +64,8 @@ impl Coverage {
                     let square = reach * reach - y_end * y_end;
                     if square >= 0.0 {
                         let room = square.sqrt();
-                        low = low.min(x_end - room);
-                        high = high.max(x_end + room);
+                        low = lesser(low, x_end - room);
+                        high = greater(high, x_end + room);
                     }
                 }
             }
@@ -142,7 +130,7 @@ fn within(slope: f32, offset: f32, low: f32, high: f32) -> (f32, f32) {
         };
     }
     let (a, b) = ((low - offset) / slope, (high - offset) / slope);
-    (a.min(b), a.max(b))
+    (lesser(a, b), greater(a, b))
 }
 
 #[cfg(test)]
