@@ -5,6 +5,7 @@
 use crate::contract::Progress;
 use crate::kit::scenes::{self, photograph, still_life_pair};
 use epipole::Error;
+use epipole::camera::Camera;
 use epipole::feature::{Features, SiftOptions, detect_sift_with_progress};
 use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
 use epipole::synthetic::Transfer;
@@ -24,8 +25,8 @@ pub(crate) const RIGHT_WITHIN_PX: f64 = 3.0;
 /// The still life from two places. It never changes, and posters of several sizes and figures need
 /// it several times.
 pub(crate) struct Pair {
-    pub(crate) photographs: [RgbImage; 2],
-    pub(crate) features: [Features; 2],
+    pub(crate) photographs: [&'static RgbImage; 2],
+    pub(crate) features: [&'static Features; 2],
     /// Where photograph 2 shows what is at each feature of photograph 1; `None` if it does not.
     pub(crate) truths: Vec<Option<Point2<f64>>>,
 }
@@ -40,13 +41,13 @@ impl Pair {
         if let Some(found) = FOUND.get() {
             return Ok(found);
         }
-        let (right_m, forward_m, left_deg) = MOTION;
-        let cameras = still_life_pair(SIZE, right_m, forward_m, left_deg);
-        let mut shot =
-            |camera, done: f64| photograph(camera, SIZE, &mut |share| progress(done + 0.3 * share));
-        let photographs = [shot(&cameras[0], 0.0)?, shot(&cameras[1], 0.3)?];
-        let both = [&photographs[0], &photographs[1]];
-        let features = detect(both, &mut |share| progress(0.6 + 0.4 * share))?;
+        let cameras = cameras();
+        let mut photographs =
+            |index, done| Self::photograph(index, &mut |share| progress(done + 0.3 * share));
+        let photographs = [photographs(0, 0.0)?, photographs(1, 0.3)?];
+        let mut features =
+            |index, done| Self::features(index, &mut |share| progress(done + 0.2 * share));
+        let features = [features(0, 0.6)?, features(1, 0.8)?];
         let (scene, [camera1, camera2]) = (scenes::still_life(), &cameras);
         let truth = |pixel1: Point2<f64>| match scene.transfer(camera1, camera2, &pixel1) {
             Transfer::Visible { pixel2, .. } => Some(pixel2),
@@ -59,6 +60,39 @@ impl Pair {
             features,
         };
         Ok(FOUND.get_or_init(|| pair))
+    }
+
+    /// One of the photographs, 0 or 1.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` ended it.
+    pub(crate) fn photograph(
+        index: usize,
+        progress: Progress<'_>,
+    ) -> Result<&'static RgbImage, Error> {
+        static TAKEN: [OnceLock<RgbImage>; 2] = [const { OnceLock::new() }; 2];
+        if let Some(taken) = TAKEN[index].get() {
+            return Ok(taken);
+        }
+        let taken = photograph(&cameras()[index], SIZE, progress)?;
+        Ok(TAKEN[index].get_or_init(|| taken))
+    }
+
+    /// The features of one of the photographs, 0 or 1.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` ended it.
+    pub(crate) fn features(
+        index: usize,
+        progress: Progress<'_>,
+    ) -> Result<&'static Features, Error> {
+        static FOUND: [OnceLock<Features>; 2] = [const { OnceLock::new() }; 2];
+        if let Some(found) = FOUND[index].get() {
+            return Ok(found);
+        }
+        let photograph = Self::photograph(index, &mut |share| progress(0.5 * share))?;
+        let found = features_of(photograph, &mut |share| progress(0.5 + 0.5 * share))?;
+        Ok(FOUND[index].get_or_init(|| found))
     }
 
     /// Whether two features show the same thing, by their indices in photograph 1 and 2.
@@ -76,18 +110,22 @@ pub(crate) fn detect(
     photographs: [&RgbImage; 2],
     progress: Progress<'_>,
 ) -> Result<[Features; 2], Error> {
+    Ok([
+        features_of(photographs[0], &mut |share| progress(0.5 * share))?,
+        features_of(photographs[1], &mut |share| progress(0.5 + 0.5 * share))?,
+    ])
+}
+
+fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features, Error> {
     let options = SiftOptions {
         max_features: MAX_FEATURES,
         ..SiftOptions::default()
     };
-    let mut features = |photograph: &RgbImage, done: f64| {
-        let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
-        detect_sift_with_progress(&gray, &options, &mut |share| {
-            progress(done + 0.5 * f64::from(share))
-        })
-    };
-    Ok([
-        features(photographs[0], 0.0)?,
-        features(photographs[1], 0.5)?,
-    ])
+    let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
+    detect_sift_with_progress(&gray, &options, &mut |share| progress(f64::from(share)))
+}
+
+fn cameras() -> [Camera; 2] {
+    let (right_m, forward_m, left_deg) = MOTION;
+    still_life_pair(SIZE, right_m, forward_m, left_deg)
 }

@@ -3,6 +3,7 @@
 use crate::contract::Readout;
 use epipole::Error;
 use epipole::robust::{Budget, Estimator, Ransac, RansacOptions, ScoreKind, Step};
+use serde::{Deserialize, Serialize};
 
 /// How sure the loop is to have drawn a sample of inliers alone before it ends.
 const CONFIDENCE: f64 = 0.99;
@@ -10,7 +11,7 @@ const CONFIDENCE: f64 = 0.99;
 const LARGEST_BUDGET: u64 = 1_000_000;
 
 /// What the loop is asked.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Rules {
     /// How near a data point must be to vote for a model, pixels.
     pub(crate) epsilon_px: f64,
@@ -83,10 +84,6 @@ impl<E: Estimator> Samples<E> {
         has_improved
     }
 
-    pub(crate) fn rules(&self) -> &Rules {
-        &self.rules
-    }
-
     pub(crate) fn last(&self) -> Option<&Last<E::Model>> {
         self.last.as_ref()
     }
@@ -101,28 +98,59 @@ impl<E: Estimator> Samples<E> {
         self.engine.iterations()
     }
 
-    /// Samples that are needed, going by the best model so far; `None` while out of reach.
-    pub(crate) fn budget(&self) -> Option<u64> {
+    /// How far the loop is.
+    pub(crate) fn drawn(&self) -> Drawn {
         let required = self.engine.required_iterations();
-        (required <= LARGEST_BUDGET).then_some(required)
-    }
-
-    /// Whether enough samples have been drawn.
-    pub(crate) fn is_confident(&self) -> bool {
-        (self.budget()).is_some_and(|budget| budget <= self.count() as u64)
+        Drawn {
+            count: self.count(),
+            budget: (required <= LARGEST_BUDGET).then_some(required),
+            max_samples: self.rules.max_samples,
+        }
     }
 
     /// Whether there is nothing more to draw.
     pub(crate) fn is_finished(&self) -> bool {
-        self.is_confident() || self.count() >= self.rules.max_samples
+        self.drawn().is_finished()
+    }
+}
+
+/// How far a loop is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Drawn {
+    /// Samples drawn so far.
+    pub(crate) count: usize,
+    /// Samples that are needed, going by the best model so far; `None` while out of reach.
+    pub(crate) budget: Option<u64>,
+    /// No more samples are drawn.
+    pub(crate) max_samples: usize,
+}
+
+impl Drawn {
+    /// A loop that has drawn nothing yet.
+    pub(crate) fn nothing(max_samples: usize) -> Self {
+        Self {
+            count: 0,
+            budget: None,
+            max_samples,
+        }
+    }
+
+    /// Whether enough samples have been drawn.
+    pub(crate) fn is_confident(&self) -> bool {
+        (self.budget).is_some_and(|budget| budget <= self.count as u64)
+    }
+
+    /// Whether there is nothing more to draw.
+    pub(crate) fn is_finished(&self) -> bool {
+        self.is_confident() || self.count >= self.max_samples
     }
 
     /// How many samples have been drawn, and how many are needed.
     pub(crate) fn readouts(&self) -> [Readout; 2] {
         let needed = "Samples needed";
         [
-            Readout::count("iterations", "Samples drawn", self.count()),
-            match self.budget() {
+            Readout::count("iterations", "Samples drawn", self.count),
+            match self.budget {
                 Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
                 None => Readout::words("budget", needed, "> 10⁶"),
             },
@@ -131,7 +159,7 @@ impl<E: Estimator> Samples<E> {
 
     /// How long the loop goes on, as a sentence.
     pub(crate) fn outlook(&self) -> String {
-        match self.budget() {
+        match self.budget {
             _ if self.is_confident() => "That is enough for 99 % confidence.".to_owned(),
             _ if self.is_finished() => {
                 "99 % confidence takes more, but the figure stops here.".to_owned()
@@ -144,7 +172,7 @@ impl<E: Estimator> Samples<E> {
 
     /// "1 sample" or "12 samples".
     pub(crate) fn count_words(&self) -> String {
-        match self.count() {
+        match self.count {
             1 => "1 sample".to_owned(),
             count => format!("{count} samples"),
         }
@@ -179,9 +207,8 @@ mod tests {
         let mut by_steps = Samples::new(points(), RULES).unwrap();
         let improved = (1..=12).filter(|&count| by_steps.draw_to(count)).count();
         assert!(improved >= 1);
-        assert_eq!(at_once.count(), by_steps.count());
         assert_eq!(at_once.best(), by_steps.best());
-        assert_eq!(at_once.budget(), by_steps.budget());
+        assert_eq!(at_once.drawn(), by_steps.drawn());
         assert_eq!(
             at_once.last().unwrap().sample,
             by_steps.last().unwrap().sample
@@ -191,19 +218,22 @@ mod tests {
     #[test]
     fn it_ends_when_enough_are_drawn_and_says_so() {
         let mut samples = Samples::new(points(), RULES).unwrap();
-        assert_eq!((samples.budget(), samples.is_finished()), (None, false));
+        assert_eq!(
+            (samples.drawn().budget, samples.is_finished()),
+            (None, false)
+        );
         samples.draw_to(1000);
-        assert!(samples.is_confident() && samples.count() <= 40);
+        assert!(samples.drawn().is_confident() && samples.count() <= 40);
         assert!(samples.best().unwrap().b.abs() > 0.999);
-        assert!(samples.outlook().starts_with("That is enough"));
+        assert!(samples.drawn().outlook().starts_with("That is enough"));
         let few = Rules {
             max_samples: 1,
             ..RULES
         };
         let mut samples = Samples::new(points(), few).unwrap();
         samples.draw_to(1000);
-        assert!(samples.is_finished() && !samples.is_confident());
-        assert_eq!(samples.count_words(), "1 sample");
-        assert!(samples.outlook().ends_with("stops here."));
+        assert!(samples.is_finished() && !samples.drawn().is_confident());
+        assert_eq!(samples.drawn().count_words(), "1 sample");
+        assert!(samples.drawn().outlook().ends_with("stops here."));
     }
 }

@@ -72,7 +72,7 @@ impl question::Question for Question {
             why: "one of them has no match in photograph 2",
         })?;
         Ok(Answer {
-            photographs: pair.photographs.clone().map(Picture::from),
+            photographs: pair.photographs.map(|photograph| photograph.clone().into()),
             rounds,
         })
     }
@@ -91,7 +91,7 @@ impl question::Question for Question {
 
 /// The right match of a feature among the three nearest that are wrong; `None` if it has none.
 fn round(pair: &Pair, place: (f64, f64), random: &mut Random) -> Result<Option<Round>, Error> {
-    let [first, second] = &pair.features;
+    let [first, second] = pair.features;
     let far = |index: &usize| {
         let one = &first.keypoints[*index];
         libm::hypot(one.u - place.0, one.v - place.1)

@@ -1,10 +1,10 @@
 //! Matches of two photographs, of which some are wrong, and the loop that finds F all the same.
 //!
-//! The photographs and their matches come from a worker. How many samples have been drawn is part of
+//! The photographs, their matches and all votes come from a worker. How many samples have been drawn is part of
 //! the settings; the loop is deterministic, so a permalink replays it.
 
-use super::question::{Answer, Match, Question, STILL_LIFE_SIZE};
-use super::votes::Votes;
+use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
+use super::votes::{Best, Moment, Voters, Votes};
 use crate::contract::{
     Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
     PhotoSlot, Problem, Settings, Slider, Symbol, Toggle, Value,
@@ -12,10 +12,9 @@ use crate::contract::{
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Asked, Question as _, carry_out};
 use crate::kit::running::Running;
-use crate::kit::samples::{Rules, Samples};
-use epipole::epipolar::FundamentalEstimator;
+use crate::kit::samples::{Drawn, Rules};
 use image::RgbImage;
 use nalgebra::Point2;
 
@@ -81,17 +80,19 @@ pub(super) enum Show {
 pub struct RansacEpipolar {
     settings: Settings,
     own: Own<2>,
-    asked: Asked<Question>,
-    votes: Option<Votes>,
-    /// Why there is no F, as a sentence.
-    refusal: Option<String>,
+    matched: Asked<Question>,
+    votes: Asked<Question>,
     running: Running,
     probe: Probe,
 }
 
 impl RansacEpipolar {
-    pub(super) fn answer(&self) -> Option<&Answer> {
-        self.asked.answer()
+    /// The photographs and all their matches.
+    pub(super) fn matched(&self) -> Option<&Matched> {
+        match self.matched.answer()? {
+            Answer::Matched(found) => Some(found),
+            Answer::Votes(_) => None,
+        }
     }
 
     /// Width and height of both photographs, pixels, also before they are there.
@@ -107,16 +108,40 @@ impl RansacEpipolar {
         Point2::new(u, v)
     }
 
-    /// The matches that pass the ratio test.
+    /// The matches that pass the ratio test; those that have voted, if any have.
     pub(super) fn matches(&self) -> Vec<&Match> {
-        let most = self.settings.number(&RATIO) as f32;
-        let passes = |found: &&Match| found.ratio <= most;
-        let all = self.answer().into_iter().flat_map(|answer| &answer.matches);
-        all.filter(passes).collect()
+        let most = match self.votes.answered() {
+            Some((Question::Votes(voters), _)) => voters.most_ratio,
+            _ => self.most_ratio(),
+        };
+        self.passing(most)
     }
 
-    pub(super) fn votes(&self) -> Option<&Votes> {
-        self.votes.as_ref()
+    fn most_ratio(&self) -> f32 {
+        self.settings.number(&RATIO) as f32
+    }
+
+    fn passing(&self, most_ratio: f32) -> Vec<&Match> {
+        let all = self.matched().into_iter().flat_map(|found| &found.matches);
+        all.filter(|found| found.ratio <= most_ratio).collect()
+    }
+
+    fn votes(&self) -> Option<&Votes> {
+        match self.votes.answer()? {
+            Answer::Votes(votes) => Some(votes),
+            Answer::Matched(_) => None,
+        }
+    }
+
+    /// The election as it stands after the samples that have been drawn.
+    pub(super) fn moment(&self) -> Option<Moment<'_>> {
+        let votes = self.votes()?;
+        Some(votes.after(self.settings.count(&ITERATIONS)))
+    }
+
+    /// The F with the most votes so far.
+    pub(super) fn best(&self) -> Option<&Best> {
+        self.moment()?.best
     }
 
     pub(super) fn show(&self) -> Show {
@@ -129,36 +154,46 @@ impl RansacEpipolar {
 
     /// Why there is nothing to see, as a sentence.
     pub(super) fn problem(&self) -> Option<&str> {
-        self.asked.problem().or(self.refusal.as_deref())
+        let refusal = || self.votes()?.refusal.as_deref();
+        let problem = self.matched.problem().or(self.votes.problem());
+        problem.or_else(refusal)
     }
 
-    fn samples(&self) -> Option<&Samples<FundamentalEstimator>> {
-        self.votes.as_ref().map(Votes::samples)
+    /// What is waited for, if nothing can be shown yet.
+    pub(super) fn label(&self) -> Option<&'static str> {
+        self.votes().is_none().then_some(Question::LABEL)
+    }
+
+    /// How far the loop is, once there are votes.
+    pub(super) fn drawn(&self) -> Option<Drawn> {
+        let last = self.moment()?.last;
+        Some(last.map_or(Drawn::nothing(MAX_SAMPLES), |trial| trial.drawn))
     }
 
     pub(super) fn is_finished(&self) -> bool {
-        self.samples().is_some_and(Samples::is_finished)
+        self.drawn().is_some_and(|drawn| drawn.is_finished())
     }
 
-    fn num_samples(&self) -> usize {
-        self.samples().map_or(0, Samples::count)
+    pub(super) fn num_samples(&self) -> usize {
+        let num_all = self.votes().map_or(0, Votes::len);
+        self.settings.count(&ITERATIONS).min(num_all)
     }
 
     /// Asks for the matches of the present photographs.
     fn ask(&mut self) {
         self.running.stop();
-        (self.votes, self.refusal) = (None, None);
-        self.asked.forget();
+        self.votes.forget();
+        self.matched.forget();
         match (self.settings.chosen(&SOURCE), self.own.all()) {
-            (OWN, Some(photographs)) => self.asked.ask(Question::Own(photographs)),
-            (OWN, None) => self.asked.refuse(self.own.wanted()),
-            _ => self.asked.ask(Question::StillLife),
+            (OWN, Some(photographs)) => self.matched.ask(Question::Own(photographs)),
+            (OWN, None) => self.matched.refuse(self.own.wanted()),
+            _ => self.matched.ask(Question::StillLife),
         }
     }
 
-    /// Begins the loop if its rules are new, and draws as many samples as the settings say.
-    fn draw(&mut self) {
-        if self.answer().is_none() {
+    /// Asks for the votes by the present rules.
+    fn ask_for_votes(&mut self) {
+        if self.matched().is_none() {
             return;
         }
         let rules = Rules {
@@ -168,31 +203,23 @@ impl RansacEpipolar {
             msac: false,
             local_optimization: self.settings.flag(&LOCAL),
         };
-        let count = self.settings.count(&ITERATIONS);
-        let samples = self.samples();
-        if !samples.is_some_and(|samples| *samples.rules() == rules && samples.count() <= count) {
-            let begun = Votes::new(&self.matches(), rules);
-            self.refusal = (begun.as_ref().err()).map(|error| format!("There is no F: {error}."));
-            self.votes = begun.ok();
-        }
-        if let Some(votes) = &mut self.votes {
-            votes.draw_to(count);
-        }
-        self.running
-            .stop_if(self.votes.is_none() || self.is_finished());
+        let most = self.most_ratio();
+        let voters = Voters::new(&self.passing(most), most, rules);
+        self.votes.ask(Question::Votes(voters));
     }
 
     /// Draws to so many samples in all. The number asked for is kept: other rules may need more.
     fn draw_to(&mut self, count: usize) -> Result<(), Problem> {
         let value = Value::Number(count.min(MAX_SAMPLES) as f64);
         self.settings.set(ITERATIONS.id, &value)?;
-        self.draw();
+        self.running
+            .stop_if(self.votes().is_none() || self.is_finished());
         Ok(())
     }
 
     /// How many voters of the best F are right, where the truth is known.
     pub(super) fn num_right(&self) -> Option<usize> {
-        let best = self.votes()?.best()?;
+        let best = self.best()?;
         let mut count = 0;
         for (found, is_inlier) in self.matches().iter().zip(&best.is_inlier) {
             count += usize::from(found.is_right? && *is_inlier);
@@ -215,9 +242,8 @@ impl Declared for RansacEpipolar {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
-            asked: Asked::default(),
-            votes: None,
-            refusal: None,
+            matched: Asked::default(),
+            votes: Asked::default(),
             running: Running::at(SAMPLES_PER_SECOND),
             probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE.0, PROBE.1),
         };
@@ -228,7 +254,8 @@ impl Declared for RansacEpipolar {
 
 impl Model for RansacEpipolar {
     fn controls(&self) -> Vec<Control> {
-        let (can_run, drawn) = (self.votes.is_some(), self.num_samples());
+        let can_run = self.votes().is_some_and(|votes| votes.len() > 0);
+        let drawn = self.num_samples();
         let mut controls = self.settings.controls();
         controls.extend(self.running.controls(can_run, drawn, self.is_finished()));
         controls
@@ -240,8 +267,7 @@ impl Model for RansacEpipolar {
 
     /// Those of one of the elected matches.
     fn symbols(&self) -> Vec<Symbol> {
-        let best = self.votes().and_then(Votes::best);
-        let elected = best.into_iter().flat_map(|best| {
+        let elected = self.best().into_iter().flat_map(|best| {
             let matches = self.matches().into_iter().zip(&best.is_inlier);
             matches.filter_map(|(found, is_inlier)| is_inlier.then_some(found))
         });
@@ -262,11 +288,8 @@ impl Model for RansacEpipolar {
             match &**id {
                 _ if !has_changed => {}
                 id if id == SOURCE.id => self.ask(),
-                id if id == RATIO.id => {
-                    self.votes = None;
-                    self.draw();
-                }
-                _ => self.draw(),
+                id if id == SHOW.id || id == ITERATIONS.id => {}
+                _ => self.ask_for_votes(),
             }
         }
         Ok(())
@@ -277,12 +300,16 @@ impl Model for RansacEpipolar {
     }
 
     fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+        self.matched.job().or_else(|| self.votes.job())
     }
 
     fn job_done(&mut self, result: JobResult) {
-        if self.asked.take(result) {
-            self.draw();
+        if !self.matched.is_waiting() {
+            self.votes.take(result);
+            self.running
+                .stop_if(self.votes().is_none() || self.is_finished());
+        } else if self.matched.take(result) {
+            self.ask_for_votes();
         }
     }
 
@@ -301,7 +328,7 @@ const CHALLENGES: &[Challenge<RansacEpipolar>] = &[
         hint: "Which test had kept them out?",
         why: "Seven matches must all be right at once, so a few more wrong ones cost many more samples.",
         check: |model| {
-            let budget = model.samples().and_then(Samples::budget);
+            let budget = model.drawn().and_then(|drawn| drawn.budget);
             model.is_finished() && budget.is_some_and(|budget| budget > 500)
         },
         solution: || vec![Event::set(&RATIO, 1.0), Event::set(&EPSILON, 0.4)],
@@ -312,12 +339,9 @@ const CHALLENGES: &[Challenge<RansacEpipolar>] = &[
         hint: "How near is near enough?",
         why: "A wide band along each epipolar line is a large part of the picture, and wrong matches \
               land in it by chance.",
-        check: |model| {
-            let best = model.votes().and_then(Votes::best);
-            match (best, model.num_right()) {
-                (Some(best), Some(num_right)) => best.num_votes - num_right >= 20,
-                _ => false,
-            }
+        check: |model| match (model.best(), model.num_right()) {
+            (Some(best), Some(num_right)) => best.num_votes - num_right >= 20,
+            _ => false,
         },
         solution: || vec![Event::set(&EPSILON, 8.0), Event::set(&RATIO, 1.0)],
     },
@@ -335,9 +359,9 @@ mod tests {
     fn the_vote_is_right_about_the_still_life() {
         let mut model = RansacEpipolar::new();
         settle(&mut model);
-        let votes = model.votes().unwrap();
-        let best = votes.best().unwrap();
-        assert!(votes.samples().is_confident());
+        let moment = model.moment().unwrap();
+        let best = moment.best.unwrap();
+        assert!(model.drawn().unwrap().is_confident());
         let num_right = model.num_right().unwrap();
         assert!(best.num_votes > 100 && 20 * num_right > 19 * best.num_votes);
         // The outliers are wrong: right matches are hardly ever outvoted.
@@ -366,7 +390,7 @@ mod tests {
         );
         model.take_photo("first", first).unwrap();
         settle(&mut model);
-        assert!(model.votes().unwrap().best().unwrap().num_votes > 20);
+        assert!(model.best().unwrap().num_votes > 20);
         assert_eq!(model.num_right(), None, "nobody knows the truth");
         // A gray card has no features, and that is no reason to fail.
         model.take_photo("first", RgbImage::new(64, 64)).unwrap();

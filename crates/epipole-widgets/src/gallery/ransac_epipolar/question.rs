@@ -1,5 +1,6 @@
-//! Which features of two photographs look alike? Both photographs and their matches.
+//! Which features of two photographs look alike, and for which F do they vote?
 
+use super::votes::{Voters, Votes};
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{self, Pair};
 use crate::kit::picture::Picture;
@@ -13,13 +14,15 @@ use std::sync::OnceLock;
 /// Size of the rendered photographs, pixels.
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = features::SIZE;
 
-/// Where the photographs come from.
+/// What is asked.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Question {
-    /// The rendered still life.
+    /// The matches of the rendered still life.
     StillLife,
-    /// The reader's own.
+    /// Those of the reader's own photographs.
     Own([Picture; 2]),
+    /// Their votes.
+    Votes(Voters),
 }
 
 /// A feature of photograph 1 and the one of photograph 2 that looks most alike, each the other's
@@ -36,7 +39,14 @@ pub(super) struct Match {
 
 /// What the computation finds.
 #[derive(Clone, Serialize, Deserialize)]
-pub(super) struct Answer {
+pub(super) enum Answer {
+    Matched(Matched),
+    Votes(Votes),
+}
+
+/// Two photographs and their matches.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct Matched {
     pub(super) photographs: [Picture; 2],
     pub(super) matches: Vec<Match>,
 }
@@ -58,35 +68,40 @@ impl question::Question for Question {
 
     fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         let photographs = match self {
-            Self::StillLife => return still_life(progress),
+            Self::StillLife => return Ok(Answer::Matched(still_life(progress)?)),
             Self::Own(photographs) => photographs.clone(),
+            Self::Votes(voters) => return Ok(Answer::Votes(voters.vote(progress)?)),
         };
         let both = photographs.each_ref().map(Picture::image);
         let found = features::detect(both, &mut |share| progress(0.9 * share))?;
-        let matches = find_matches(&found, |_, _| None, &mut |share| {
+        let matches = find_matches(found.each_ref(), |_, _| None, &mut |share| {
             progress(0.9 + 0.1 * share)
         })?;
-        Ok(Answer {
+        Ok(Answer::Matched(Matched {
             photographs,
             matches,
-        })
+        }))
     }
 
     fn fits(&self, answer: &Answer) -> bool {
-        let sizes = match self {
-            Self::StillLife => [STILL_LIFE_SIZE; 2],
-            Self::Own(photographs) => [photographs[0].size(), photographs[1].size()],
+        let (sizes, found) = match (self, answer) {
+            (Self::Votes(voters), Answer::Votes(votes)) => return votes.fit(voters.places.len()),
+            (Self::StillLife, Answer::Matched(found)) => ([STILL_LIFE_SIZE; 2], found),
+            (Self::Own(photographs), Answer::Matched(found)) => {
+                ([photographs[0].size(), photographs[1].size()], found)
+            }
+            _ => return false,
         };
         let is_finite = |found: &Match| {
             found.ratio.is_finite() && found.places.iter().flatten().all(|x| x.is_finite())
         };
-        sizes == [answer.photographs[0].size(), answer.photographs[1].size()]
-            && answer.matches.iter().all(is_finite)
+        sizes == [found.photographs[0].size(), found.photographs[1].size()]
+            && found.matches.iter().all(is_finite)
     }
 }
 
 /// The still life never changes, and posters of several sizes need it several times.
-fn still_life(progress: Progress<'_>) -> Result<Answer, Problem> {
+fn still_life(progress: Progress<'_>) -> Result<Matched, Problem> {
     static FOUND: OnceLock<Vec<Match>> = OnceLock::new();
     let pair = Pair::of_still_life(&mut |share| progress(0.9 * share))?;
     let matches = match FOUND.get() {
@@ -94,12 +109,12 @@ fn still_life(progress: Progress<'_>) -> Result<Answer, Problem> {
         None => {
             let go_on = &mut |share| progress(0.9 + 0.1 * share);
             let judge = |index1, index2| Some(pair.is_right(index1, index2));
-            let matches = find_matches(&pair.features, judge, go_on)?;
+            let matches = find_matches(pair.features, judge, go_on)?;
             FOUND.get_or_init(|| matches)
         }
     };
-    Ok(Answer {
-        photographs: pair.photographs.clone().map(Picture::from),
+    Ok(Matched {
+        photographs: pair.photographs.map(|photograph| photograph.clone().into()),
         matches: matches.clone(),
     })
 }
@@ -108,7 +123,7 @@ fn still_life(progress: Progress<'_>) -> Result<Answer, Problem> {
 ///
 /// * `judge`: whether the features of these indices belong together, if that is known
 fn find_matches(
-    [first, second]: &[Features; 2],
+    [first, second]: [&Features; 2],
     judge: impl Fn(usize, usize) -> Option<bool>,
     progress: Progress<'_>,
 ) -> Result<Vec<Match>, Error> {

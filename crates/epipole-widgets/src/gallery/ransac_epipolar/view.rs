@@ -1,13 +1,11 @@
 //! Two photographs, their matches from one to the other, and what the votes make of them.
 
 use super::model::{RansacEpipolar, Show};
-use super::question::Question;
 use crate::canvas::{Canvas, Place, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::pair::draw_line;
-use crate::kit::question::Question as _;
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
 
@@ -78,8 +76,8 @@ impl View for RansacEpipolarView {
         let panels = [layout.panel("first"), layout.panel("second")];
         for (index, panel) in panels.iter().enumerate() {
             canvas.panel(panel.rect);
-            if let Some(answer) = model.answer() {
-                canvas.photograph(panel.rect, answer.photographs[index].image());
+            if let Some(found) = model.matched() {
+                canvas.photograph(panel.rect, found.photographs[index].image());
             }
         }
         match model.show() {
@@ -125,7 +123,7 @@ fn thinned<T: Copy>(list: &[T], count: usize) -> Vec<T> {
 
 fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas: &mut Canvas) {
     let ends = ends(model, panels);
-    let Some(best) = model.votes().and_then(|votes| votes.best()) else {
+    let Some(best) = model.best() else {
         for place in ends.iter().flatten() {
             canvas.marker(*place, 3.0, Shape::Disk, Role::Muted, true);
         }
@@ -163,7 +161,7 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
 
 /// The epipolar lines of some inliers, and the inliers on them.
 fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
-    let Some(best) = model.votes().and_then(|votes| votes.best()) else {
+    let Some(best) = model.best() else {
         return;
     };
     let matches = model.matches();
@@ -188,7 +186,7 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
 
 /// While the loop goes on, the seven matches of the last sample.
 fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
-    let last = model.votes().and_then(|votes| votes.samples().last());
+    let last = model.moment().and_then(|moment| moment.last);
     let Some(last) = last.filter(|_| !model.is_finished()) else {
         return;
     };
@@ -204,12 +202,13 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
 
 /// A place in photograph 1, and the line on which the best F expects its match.
 fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
-    if model.answer().is_none() {
+    if model.matched().is_none() {
         return;
     }
     let probe = model.probe();
-    let best = model.votes().and_then(|votes| votes.best());
-    let line = best.and_then(|best| epipolar_line2(&best.fundamental, &probe).ok());
+    let line = model
+        .best()
+        .and_then(|best| epipolar_line2(&best.fundamental, &probe).ok());
     if let Some(line) = line {
         canvas.clipped(second.rect, |canvas| {
             draw_line(
@@ -225,11 +224,6 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
 
 /// What the reader should know or do before there is an F to see.
 fn notice(model: &RansacEpipolar) -> Option<&str> {
-    if model.answer().is_none() {
-        return Some(model.problem().unwrap_or(Question::LABEL));
-    }
-    let is_untouched = model
-        .votes()
-        .is_some_and(|votes| votes.samples().count() == 0);
-    (model.problem()).or(is_untouched.then_some("Press Run or Step."))
+    let is_untouched = model.num_samples() == 0;
+    (model.problem().or(model.label())).or(is_untouched.then_some("Press Run or Step."))
 }

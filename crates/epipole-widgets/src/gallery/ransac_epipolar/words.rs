@@ -1,9 +1,7 @@
 //! What `ransac-epipolar` says.
 
 use super::model::{RansacEpipolar, Show};
-use super::question::Question;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::question::Question as _;
 use crate::kit::words;
 use epipole::epipolar::epipolar_line2;
 
@@ -12,8 +10,8 @@ const WAITING: &str = "none yet";
 
 impl Words for RansacEpipolar {
     fn readouts(&self) -> Vec<Readout> {
-        let votes = self.votes();
-        let best = votes.and_then(|votes| votes.best());
+        let last = self.moment().and_then(|moment| moment.last);
+        let best = self.best();
         let right = match (best, self.num_right()) {
             (Some(best), Some(count)) => format!("{count} of {}", best.num_votes),
             (Some(_), None) => "not known".to_owned(),
@@ -24,7 +22,7 @@ impl Words for RansacEpipolar {
         let words = |id, label, value: Option<String>| {
             Readout::words(id, label, value.unwrap_or_else(|| WAITING.to_owned()))
         };
-        let [drawn, needed] = votes.map_or_else(
+        let [drawn, needed] = self.drawn().map_or_else(
             || {
                 [
                     ("iterations", "Samples drawn"),
@@ -32,7 +30,7 @@ impl Words for RansacEpipolar {
                 ]
                 .map(|(id, label)| words(id, label, None))
             },
-            |votes| votes.samples().readouts(),
+            |drawn| drawn.readouts(),
         );
         let mut readouts = vec![
             words(
@@ -47,7 +45,7 @@ impl Words for RansacEpipolar {
             words(
                 "inliers",
                 "Votes for the last sample",
-                votes.and_then(|votes| votes.num_votes_of_last()).map(of),
+                last.map(|trial| of(trial.num_votes)),
             ),
         ];
         if let Some(best) = best {
@@ -75,11 +73,14 @@ impl Words for RansacEpipolar {
         if let Some(problem) = self.problem() {
             return problem.to_owned();
         }
-        let Some(votes) = self.votes() else {
-            return format!("{}.", Question::LABEL);
-        };
+        if let Some(label) = self.label() {
+            return format!("{label}.");
+        }
         let num_matches = self.matches().len();
-        let Some(best) = votes.best() else {
+        let Some((last, best)) = self
+            .moment()
+            .and_then(|moment| moment.last.zip(moment.best))
+        else {
             return format!("{num_matches} matches, some of them wrong; no F found yet.");
         };
         let right = self.num_right().map_or_else(String::new, |count| {
@@ -93,11 +94,11 @@ impl Words for RansacEpipolar {
         format!(
             "After {}, {} of {num_matches} matches agree on one F within {} px{right}. Their mean \
              Sampson distance is {} px. {}{show}",
-            votes.samples().count_words(),
+            last.drawn.count_words(),
             best.num_votes,
             format_number(self.epsilon_px(), 1),
             format_number(best.mean_px, 2),
-            votes.samples().outlook(),
+            last.drawn.outlook(),
         )
     }
 }

@@ -240,7 +240,10 @@ const CHALLENGES: &[Challenge<RansacLine>] = &[
         why: "The points scatter by 4 px, so a band of 2 px to each side loses more than half of the good \
               ones, and the loop takes them for outliers.",
         check: |model| {
-            let budget = model.tally().ok().and_then(|tally| tally.samples.budget());
+            let budget = model
+                .tally()
+                .ok()
+                .and_then(|tally| tally.samples.drawn().budget);
             let half = (model.settings.number(&OUTLIERS) - 0.5).abs() < 1e-9;
             half && model.drawn().1 && budget.is_some_and(|budget| budget > 60)
         },

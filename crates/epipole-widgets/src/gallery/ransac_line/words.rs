@@ -4,7 +4,6 @@ use super::model::RansacLine;
 use super::question::NUM_RUNS;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::line_points::Consensus;
-use crate::kit::samples::Samples;
 
 impl Words for RansacLine {
     fn readouts(&self) -> Vec<Readout> {
@@ -21,7 +20,7 @@ impl Words for RansacLine {
             ]
             .map(|(id, label)| Readout::words(id, label, "none"))
         };
-        let [drawn, needed] = tally.map_or_else(none, |tally| Samples::readouts(&tally.samples));
+        let [drawn, needed] = tally.map_or_else(none, |tally| tally.samples.drawn().readouts());
         let (runs, kind) = (self.runs(), self.kind());
         let number = |id, label, value: Option<f64>, digits, unit| match value {
             Some(value) => Readout::number(id, label, value, digits, unit),
@@ -83,7 +82,7 @@ impl Words for RansacLine {
             format_number(self.epsilon_px(), 0),
             best.num_votes(),
             format_number(self.error_deg().unwrap_or(0.0), 1),
-            tally.samples.outlook(),
+            tally.samples.drawn().outlook(),
         )
     }
 }

@@ -88,12 +88,13 @@ impl RansacRace {
             return false;
         }
         let place = Point2::new(round_to_digits(u, DIGITS), round_to_digits(v, DIGITS));
-        self.points.push(DataPoint {
+        let point = DataPoint {
             number,
             place,
             added: true,
-        });
-        self.points.sort_by_key(|point| point.number);
+        };
+        let at = self.points.partition_point(|other| other.number < number);
+        self.points.insert(at, point);
         self.compute();
         true
     }
@@ -304,7 +305,6 @@ mod tests {
     use super::super::fits::Ending;
     use super::*;
     use crate::contract::Words;
-    use crate::kit::samples::Samples;
 
     fn after(events: &[Event]) -> RansacRace {
         let mut model = RansacRace::new();
@@ -349,7 +349,11 @@ mod tests {
     #[test]
     fn four_outliers_to_an_inlier_take_more_than_a_hundred_samples() {
         let mut model = after(&[Event::set(&OUTLIERS, 0.8), Event::set(&ITERATIONS, 25.0)]);
-        let budget = model.fits.samples.as_ref().and_then(Samples::budget);
+        let budget = model
+            .fits
+            .samples
+            .as_ref()
+            .and_then(|samples| samples.drawn().budget);
         assert!(budget.unwrap() > 100 && model.fits.ending().is_none());
         model.run_to(MAX_SAMPLES).unwrap();
         assert!(model.fits.num_samples() > 100);

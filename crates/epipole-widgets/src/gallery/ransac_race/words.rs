@@ -3,7 +3,6 @@
 use super::fits::Ending;
 use super::model::RansacRace;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::samples::Samples;
 
 impl Words for RansacRace {
     fn readouts(&self) -> Vec<Readout> {
@@ -23,7 +22,7 @@ impl Words for RansacRace {
                 ]
                 .map(|(id, label)| Readout::words(id, label, "none"))
             },
-            Samples::readouts,
+            |samples| samples.drawn().readouts(),
         );
         vec![
             angle("ransac-error", "RANSAC off by", angles.ransac).main(),
@@ -78,12 +77,12 @@ impl Words for RansacRace {
                 "A wrong line has won: no sample came near the hidden one, which has {} votes.",
                 fits.truth.num_votes()
             ),
-            _ => samples.outlook(),
+            _ => samples.drawn().outlook(),
         };
         format!(
             "After {}, the best line has {} of {} points within {} px and is {}° from the hidden \
              line; least squares is {least_squares}° off. {end}",
-            samples.count_words(),
+            samples.drawn().count_words(),
             best.num_votes(),
             self.points().len(),
             format_number(self.epsilon_px(), 0),

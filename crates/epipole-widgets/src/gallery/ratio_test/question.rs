@@ -86,7 +86,7 @@ impl question::Question for Question {
         });
         Ok(Answer {
             num_findable: findable.count() as u32,
-            photographs: pair.photographs.clone().map(Picture::from),
+            photographs: pair.photographs.map(|photograph| photograph.clone().into()),
             spots,
             candidates,
         })

@@ -1,5 +1,6 @@
 //! `sift-descriptor`: a patch of a photograph and its fingerprint, while the photograph changes.
 
+mod comparison;
 mod model;
 mod prints;
 mod question;

@@ -1,19 +1,16 @@
-//! A keypoint, its window before and after the photograph has changed, and what three fingerprints
-//! make of it.
+//! A keypoint, a change of the photograph, and what three fingerprints make of it.
 
-use super::prints::{Change, MIDDLE, Prints, SIGMA_PX};
-use super::question::Question;
+use super::comparison::{Asking, Comparison};
+use super::prints::Change;
+use super::question::{Answer, Question};
 use crate::contract::{
     Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
     Settings, Slider, Toggle,
 };
 use crate::kit::features::SIZE;
-use crate::kit::patch::Spot;
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
-use epipole::Error;
-use epipole::feature::{Descriptors, nearest_few};
-use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
+use crate::kit::question::{Asked, Question as _, carry_out};
+use image::RgbImage;
 
 const TURN: Slider = Slider::new("turn", "Turn")
     .range(-180.0, 180.0, 5.0)
@@ -44,76 +41,46 @@ const KNOBS: &[Knob] = &[
 ];
 /// Where the keypoint is at first.
 const PLACE: (f64, f64) = (348.0, 244.0);
-/// Features that share so much of the window are no others, pixels.
-const OTHERS_BEYOND_PX: f64 = 12.0;
-
-/// A window of a photograph and its fingerprints.
-pub(super) struct Look {
-    pub(super) piece: GrayImage32,
-    pub(super) prints: Prints,
-}
-
-impl Look {
-    /// Its window in the piece, pixels.
-    pub(super) fn spot(&self) -> Spot {
-        Spot {
-            place: [MIDDLE; 2],
-            scale_px: self.prints.scale_px,
-            angle_rad: self.prints.angle_rad,
-        }
-    }
-}
-
-/// How far a fingerprint is from its original, in its own unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Distance {
-    pub(super) original: f64,
-    /// From the nearest one of another place.
-    pub(super) other: f64,
-}
-
-impl Distance {
-    /// As in the ratio test.
-    pub(super) fn ratio(&self) -> f64 {
-        self.original / self.other.max(1e-9)
-    }
-}
-
-/// All that follows from the state.
-pub(super) struct Compared {
-    place: (f64, f64),
-    finds_direction: bool,
-    /// Before and after.
-    pub(super) looks: [Look; 2],
-    pub(super) distances: [Distance; 3],
-}
-
 /// The model of `sift-descriptor`.
 pub(crate) struct SiftDescriptor {
     settings: Settings,
-    asked: Asked<Question>,
+    photograph: Asked<Question>,
+    comparison: Asked<Question>,
     probe: Probe,
-    known: Option<(GrayImage32, [Descriptors; 3])>,
-    compared: Option<Compared>,
-    version: u64,
 }
 
 impl SiftDescriptor {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
+    /// The photograph before its change.
+    ///
+    /// # Errors
+    /// A sentence: why there is none, or that it is being taken.
+    pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
+        match self.photograph.answer() {
+            Some(Answer::Photograph(picture)) => Ok(picture.image()),
+            _ => Err(self.photograph.problem().unwrap_or(Question::LABEL)),
+        }
     }
 
     pub(super) fn place(&self) -> (f64, f64) {
         self.probe.place(SIZE)
     }
 
-    pub(super) fn compared(&self) -> Option<&Compared> {
-        self.compared.as_ref()
+    /// What is known of the change, perhaps of the one before.
+    pub(super) fn compared(&self) -> Option<&Comparison> {
+        match self.comparison.answer()? {
+            Answer::Comparison(comparison) => Some(comparison),
+            Answer::Photograph(_) => None,
+        }
     }
 
     /// Changes whenever the pieces do.
     pub(super) fn version(&self) -> u64 {
-        self.version
+        self.comparison.version()
+    }
+
+    /// Why nothing is compared, as a sentence.
+    pub(super) fn problem(&self) -> Option<&str> {
+        self.photograph.problem().or(self.comparison.problem())
     }
 
     pub(super) fn change(&self) -> Change {
@@ -129,65 +96,13 @@ impl SiftDescriptor {
         Some(self.compared()?.distances[way].ratio())
     }
 
-    /// Looks at both photographs anew, at the one before the change only if it is another place.
-    fn look(&mut self) {
-        self.version += 1;
-        let (place, finds_direction) = (self.place(), self.settings.flag(&DIRECTION));
-        let is_same = |old: &Compared| old.place == place && old.finds_direction == finds_direction;
-        let before = self.compared.take().filter(is_same);
-        let before = before.map(
-            |Compared {
-                 looks: [before, _], ..
-             }| before,
-        );
-        self.compared = self.compare(before).ok().flatten();
-    }
-
-    fn compare(&self, before: Option<Look>) -> Result<Option<Compared>, Error> {
-        let (Some((gray, others)), Some(answer)) = (&self.known, self.asked.answer()) else {
-            return Ok(None);
-        };
-        let (change, place) = (self.change(), self.place());
-        let finds_direction = self.settings.flag(&DIRECTION);
-        let scale_px = match self.settings.flag(&SCALE) {
-            true => SIGMA_PX * change.zoom,
-            false => SIGMA_PX,
-        };
-        let look = |change: Change, scale_px: f64| -> Result<Look, Error> {
-            let piece = change.piece(gray, place)?;
-            let middle = [(MIDDLE, MIDDLE)];
-            let prints = Prints::of(&piece, &middle, scale_px, finds_direction)?;
-            Ok(Look { piece, prints })
-        };
-        let before = before.map_or_else(|| look(Change::NONE, SIGMA_PX), Ok)?;
-        let looks = [before, look(change, scale_px)?];
-        let mut distances = [Distance {
-            original: 0.0,
-            other: 0.0,
-        }; 3];
-        for (way, distance) in distances.iter_mut().enumerate() {
-            let [before, after] = looks.each_ref().map(|look| &look.prints.lists[way]);
-            let query = after.get(0).unwrap_or_default();
-            let original = nearest_few(&query, before, 1)?;
-            let ranked = nearest_few(&query, &others[way], others[way].len())?;
-            let is_other = |(index, _): &&(usize, f32)| {
-                let (u, v) = answer.places[*index];
-                libm::hypot(u - place.0, v - place.1) > OTHERS_BEYOND_PX
-            };
-            let in_units = |found: Option<&(usize, f32)>| {
-                Prints::in_units(way, found.map_or(0.0, |(_, far)| f64::from(*far)))
-            };
-            *distance = Distance {
-                original: in_units(original.first()),
-                other: in_units(ranked.iter().find(is_other)),
-            };
-        }
-        Ok(Some(Compared {
-            place,
-            finds_direction,
-            looks,
-            distances,
-        }))
+    fn ask(&mut self) {
+        self.comparison.ask(Question::Comparison(Asking {
+            place: self.place(),
+            change: self.change(),
+            turns: self.settings.flag(&DIRECTION),
+            scales: self.settings.flag(&SCALE),
+        }));
     }
 }
 
@@ -201,14 +116,14 @@ impl Declared for SiftDescriptor {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        Self {
+        let mut model = Self {
             settings: Settings::new(KNOBS),
-            asked: Asked::about(Question),
+            photograph: Asked::about(Question::Photograph),
+            comparison: Asked::default(),
             probe: Probe::new("keypoint", "photograph", "Keypoint").at(PLACE.0, PLACE.1),
-            known: None,
-            compared: None,
-            version: 0,
-        }
+        };
+        model.ask();
+        model
     }
 }
 
@@ -227,23 +142,21 @@ impl Model for SiftDescriptor {
             has_changed |= self.settings.set(id, value)? == Some(true);
         }
         if has_changed {
-            self.look();
+            self.ask();
         }
         Ok(())
     }
 
+    /// The photograph first: it is there long before its other features are.
     fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+        self.photograph.job().or_else(|| self.comparison.job())
     }
 
     fn job_done(&mut self, result: JobResult) {
-        if self.asked.take(result)
-            && let Some(answer) = self.asked.answer()
-        {
-            let gray = rgb_to_gray_f32(answer.photograph.image(), &BT601_WEIGHTS);
-            self.known = answer.lists().map(|lists| (gray, lists));
-            self.look();
-        }
+        match self.photograph.is_waiting() {
+            true => self.photograph.take(result),
+            false => self.comparison.take(result),
+        };
     }
 }
 
@@ -282,7 +195,7 @@ const CHALLENGES: &[Challenge<SiftDescriptor>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::question::settled;
+    use crate::kit::question::{settle, settled};
 
     #[test]
     fn sift_survives_what_patches_do_not() {
@@ -293,6 +206,7 @@ mod tests {
         for (knob, value) in [(&TURN, 0.0), (&ZOOM, 1.0), (&BRIGHTER, 0.0)] {
             model.update(&Event::set(knob, value)).unwrap();
         }
+        settle(&mut model);
         assert!(
             model
                 .compared()
@@ -303,8 +217,9 @@ mod tests {
         );
         // A right angle moves pixels onto pixels, up to the interpolation at the middle.
         model.update(&Event::set(&TURN, 90.0)).unwrap();
+        settle(&mut model);
         let turned = model.compared().unwrap();
-        let angles = turned.looks.each_ref().map(|look| look.prints.angle_rad);
+        let angles = turned.looks.each_ref().map(|look| look.angle_rad);
         let apart = libm::remainder(angles[1] - angles[0], std::f64::consts::TAU);
         assert!(
             (apart - std::f64::consts::FRAC_PI_2).abs() < 1e-3,

@@ -5,6 +5,7 @@ use epipole::feature::{
     Descriptors, Keypoint, SiftOptions, describe_patches, describe_sift, sift_directions,
 };
 use epipole::imaging::{Border, GrayImage32, gaussian_blur, sample_bilinear};
+use serde::{Deserialize, Serialize};
 
 /// Blur of the keypoint in the photograph as it was taken, pixels.
 pub(super) const SIGMA_PX: f64 = 3.2;
@@ -28,7 +29,7 @@ fn options() -> SiftOptions {
 }
 
 /// What is done to the photograph.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Change {
     pub(super) turn_rad: f64,
     pub(super) zoom: f64,

@@ -1,6 +1,7 @@
 //! The photograph; the window before and after, each beside its histogram; and three ratios.
 
-use super::model::{Look, SiftDescriptor};
+use super::comparison::{Look, SHOWN_PX};
+use super::model::SiftDescriptor;
 use super::prints::{MIDDLE, SIGMA_PX, WAYS};
 use super::question::Question;
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
@@ -11,10 +12,7 @@ use crate::kit::heat::Heat;
 use crate::kit::patch::{self, Spot};
 use crate::kit::question::Question as _;
 use crate::theme::Role;
-use image::{Rgb, RgbImage};
 
-/// So much of a piece is shown around its middle, pixels.
-const SHOWN_PX: u32 = 48;
 /// The largest ratio that a bar shows, and the one up to which a match is believed.
 const MOST: f64 = 1.25;
 const BELIEVED: f64 = 0.8;
@@ -83,17 +81,20 @@ impl View for SiftDescriptorView {
         ];
         grid::fitting_title(canvas, photograph.rect, &wordings);
         canvas.panel(photograph.rect);
-        let (Some(answer), Some(compared)) = (model.asked().answer(), model.compared()) else {
-            let notice = model.asked().problem().unwrap_or(Question::LABEL);
-            grid::notice(canvas, photograph.rect, notice);
-            return;
-        };
-        canvas.photograph(photograph.rect, answer.photograph.image());
+        match model.photograph() {
+            Ok(picture) => canvas.photograph(photograph.rect, picture),
+            Err(notice) => return grid::notice(canvas, photograph.rect, notice),
+        }
         let (u, v) = model.place();
+        let Some(compared) = model.compared() else {
+            canvas.grip(photograph.canvas_from_world((u, v)), Role::Grip);
+            let notice = model.problem().unwrap_or(Question::LABEL);
+            return grid::notice(canvas, layout.panel("ratios").rect, notice);
+        };
         let spot = Spot {
             place: [u, v],
             scale_px: SIGMA_PX,
-            angle_rad: compared.looks[0].prints.angle_rad,
+            angle_rad: compared.looks[0].angle_rad,
         };
         patch::draw_window(
             canvas,
@@ -102,7 +103,7 @@ impl View for SiftDescriptorView {
             Stroke::solid(Role::Grip, 2.0).cased(),
         );
         canvas.grip(photograph.canvas_from_world((u, v)), Role::Grip);
-        let color = || compared.looks.each_ref().map(shown);
+        let color = || compared.looks.each_ref().map(Look::picture);
         let pieces = self.pieces.maps(model.version(), canvas.theme(), color);
         let ids = [["before", "before-sift"], ["after", "after-sift"]];
         for (k, look) in compared.looks.iter().enumerate() {
@@ -113,20 +114,11 @@ impl View for SiftDescriptorView {
             }
             canvas.photograph(piece.rect, &pieces[k]);
             draw_cells(canvas, piece, &look.spot());
-            draw_histogram(canvas, histogram, &look.prints.histogram());
+            draw_histogram(canvas, histogram, &look.histogram);
         }
         let ratios = compared.distances.map(|distance| distance.ratio());
         draw_ratios(canvas, layout.panel("ratios").rect, ratios);
     }
-}
-
-/// The middle of a piece, in gray.
-fn shown(look: &Look) -> RgbImage {
-    let first = MIDDLE as u32 - SHOWN_PX;
-    RgbImage::from_fn(2 * SHOWN_PX + 1, 2 * SHOWN_PX + 1, |u, v| {
-        let value = look.piece.get_pixel(first + u, first + v).0[0];
-        Rgb([(255.0 * value).round() as u8; 3])
-    })
 }
 
 /// The window with its 4 × 4 cells and its direction.

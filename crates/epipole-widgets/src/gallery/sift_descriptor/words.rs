@@ -63,7 +63,7 @@ impl Words for SiftDescriptor {
                 unit,
             ));
         }
-        let angles = (compared.looks.each_ref()).map(|look| look.prints.angle_rad.to_degrees());
+        let angles = (compared.looks.each_ref()).map(|look| look.angle_rad.to_degrees());
         readouts.push(Readout::number(
             "before",
             "Direction before",
@@ -82,7 +82,7 @@ impl Words for SiftDescriptor {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked().problem() {
+        if let Some(problem) = self.problem() {
             return problem.to_owned();
         }
         let Some(compared) = self.compared() else {
