@@ -9,10 +9,11 @@ use crate::kit::question::{self, tell};
 use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
-use epipole::feature::MatchOptions;
-use epipole::sfm::{
-    Photo, PhotoOptions, TwoViewReconstructionOptions, match_photos, two_view_reconstruction,
+use epipole::feature::{
+    FeatureOptions, Features, MatchOptions, detect_sift_with_progress, match_descriptors,
+    photo_to_gray,
 };
+use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 use epipole::synthetic::still_life_camera;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -259,6 +260,40 @@ impl Question {
     }
 }
 
+impl Question {
+    /// Features of the first photograph and what they match in the second.
+    fn matches(&self, first: &Features, second: &Features) -> Result<Vec<(u32, u32)>, Error> {
+        let options = MatchOptions {
+            max_ratio: Some(self.max_ratio),
+            ..MatchOptions::default()
+        };
+        let found = match_descriptors(&first.descriptors, &second.descriptors, &options)?;
+        let pairs = found.iter().map(|m| (m.index1 as u32, m.index2 as u32));
+        Ok(pairs.collect())
+    }
+}
+
+/// What the core looks for in photographs by default, and no other kind: a worker would download those for nothing.
+fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error> {
+    let options = FeatureOptions {
+        max_features: MAX_FEATURES,
+        ..FeatureOptions::default()
+    };
+    let (width, height) = picture.size();
+    detect_sift_with_progress(
+        &photo_to_gray(picture.image()),
+        &options.sift(width, height),
+        &mut |share| progress(f64::from(share)),
+    )
+}
+
+fn color_at(picture: &Picture, pixel: &Point2<f64>) -> [u8; 3] {
+    let (width, height) = picture.size();
+    let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
+    let (u, v) = (inside(pixel.x, width), inside(pixel.y, height));
+    picture.image().get_pixel(u, v).0
+}
+
 impl question::Question for Question {
     type Answer = Answer;
     const LABEL: &'static str = "Following the pipeline";
@@ -271,30 +306,18 @@ impl question::Question for Question {
             self.lens(pictures[0].size())?,
             self.lens(pictures[1].size())?,
         ];
-        let mut options = PhotoOptions {
-            matching: MatchOptions {
-                max_ratio: Some(self.max_ratio),
-                ..MatchOptions::default()
-            },
-            ..PhotoOptions::default()
-        };
-        options.features.max_features = MAX_FEATURES;
-        let photos = pictures.each_ref().map(|picture| Photo {
-            name: String::new(),
-            image: picture.image().clone(),
+        let first = features(&pictures[0], &mut |share| progress(0.4 + 0.1 * share))?;
+        let second = features(&pictures[1], &mut |share| progress(0.5 + 0.1 * share))?;
+        let matches = self.matches(&first, &second)?;
+        tell(progress, 0.7)?;
+        let keypoints = [&first, &second].map(|found| -> Vec<_> {
+            let keypoints = found.keypoints.iter();
+            keypoints.map(|keypoint| keypoint.point()).collect()
         });
-        let mut stage = 0.4;
-        let (images, pairs) = match_photos(&photos, &options, &mut |_| {
-            stage += 0.1;
-            progress(stage)
-        })?;
-        let pair = pairs.ok_or(Error::Canceled)?.pop();
-        let matches = pair.map_or(Vec::new(), |pair| pair.matches);
-        let keypoints = [0, 1].map(|n: usize| images[n].keypoints.clone());
         let pixels1: Vec<_> = matches.iter().map(|m| keypoints[0][m.0 as usize]).collect();
         let pixels2: Vec<_> = matches.iter().map(|m| keypoints[1][m.1 as usize]).collect();
         let colors: Vec<_> = (matches.iter())
-            .map(|m| images[0].colors[m.0 as usize])
+            .map(|m| color_at(&pictures[0], &keypoints[0][m.0 as usize]))
             .collect();
         let judged = judge([&pixels1, &pixels2], &lenses, self.max_error_px)?;
         tell(progress, 0.75)?;

@@ -364,7 +364,8 @@ fn features_of_camera_1(stage: Stage, answer: &Answer) -> Vec<Point2<f64>> {
 /// The value that a share of all values, 0 to 1, is below.
 fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
     let place = (share * values.len().checked_sub(1)? as f64) as usize;
-    Some(*values.select_nth_unstable_by(place, f64::total_cmp).1)
+    values.sort_by(f64::total_cmp);
+    Some(values[place])
 }
 
 #[cfg(test)]
