@@ -108,3 +108,21 @@ test("other chapters light their letters as well", async ({ page, library }) => 
     }
   }
 });
+
+test("a letter that is pointed at too early lights up once there is something to light", async ({ page, library }) => {
+  let release;
+  const held = new Promise((resolve) => (release = resolve));
+  await page.route(/epipole-jobs.*\.wasm/, async (route) => {
+    await held;
+    await route.continue();
+  });
+  await page.goto(`${library}/ransac.html`);
+  const figure = page.locator("epipole-figure[name=ransac-epipolar]").first();
+  await ready(figure);
+  await page.locator('.symbols [data-symbol="p"]').focus();
+  await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
+  release();
+  const lit = page.locator("epipole-figure[data-lit]");
+  await expect(lit).toHaveCount(1);
+  expect((await light(lit)).map(({ kind }) => kind)).toEqual(["circle"]);
+});

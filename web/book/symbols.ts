@@ -9,6 +9,8 @@ interface Figure extends HTMLElement {
 const AFTER_A_TAP = 3000;
 
 let lit: Figure | undefined;
+/** A letter that is pointed at while no figure has what it stands for: one may still be computing. */
+let waiting: HTMLElement | undefined;
 let timer = 0;
 
 function end(): void {
@@ -16,6 +18,7 @@ function end(): void {
   lit?.light?.(undefined);
   if (lit) delete lit.dataset.lit;
   lit = undefined;
+  waiting = undefined;
 }
 
 /** How far a figure is from a letter, down the page; what is out of sight comes last. */
@@ -32,7 +35,10 @@ function light(letter: HTMLElement): void {
   const figures = [...document.querySelectorAll<Figure>("epipole-figure")];
   const near = figures.map((figure) => [distance(figure, place), figure] as const).sort(([a], [b]) => a - b);
   const found = near.find(([, figure]) => figure.light?.(name));
-  if (!found) return;
+  if (!found) {
+    waiting = letter;
+    return;
+  }
   lit = found[1];
   lit.dataset.lit = letter.dataset.role ?? "";
 }
@@ -53,6 +59,9 @@ export function startSymbols(): void {
     light(letter);
     timer = window.setTimeout(end, AFTER_A_TAP);
   });
+  for (const event of ["epipole-ready", "epipole-readout"]) {
+    document.addEventListener(event, () => waiting && light(waiting));
+  }
   for (const letter of document.querySelectorAll<HTMLElement>(".symbols [data-symbol]")) {
     letter.tabIndex = 0;
     letter.setAttribute("role", "button");
