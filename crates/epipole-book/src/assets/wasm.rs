@@ -53,9 +53,18 @@ fn without_paths(project: &Path) -> String {
     )
 }
 
+/// The profile of cargo for a module: what a page draws with is small, what a worker computes with is fast.
+fn profile(feature: &str) -> &'static str {
+    match feature == "jobs" || feature.ends_with("-worker") {
+        true => "web-worker",
+        false => "web",
+    }
+}
+
 /// Builds one module: a package with one of its features.
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     let target = super::target_folder(&tools.project);
+    let profile = profile(feature);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--package", package, "--lib"])
         .args(["--no-default-features", "--features", feature])
@@ -63,7 +72,7 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
             "--target",
             "wasm32-unknown-unknown",
             "--profile",
-            "web",
+            profile,
             "--quiet",
         ])
         .arg("--config")
@@ -78,7 +87,7 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
          `rustup target add wasm32-unknown-unknown`)"
     );
     let file = format!(
-        "wasm32-unknown-unknown/web/{}.wasm",
+        "wasm32-unknown-unknown/{profile}/{}.wasm",
         package.replace('-', "_")
     );
     let built = target.join(file);
