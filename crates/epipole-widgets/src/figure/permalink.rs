@@ -105,13 +105,13 @@ impl Figure {
                 |control| if control.place == Place::Hidden { 2 } else { 0 },
             )
         };
-        let mut ranked: Vec<(i32, &(String, String))> = parameters
+        let ranked: Vec<(i32, &(String, String))> = parameters
             .iter()
             .map(|pair| (rank(self, &pair.0), pair))
             .collect();
-        ranked.sort_by_key(|(rank, _)| *rank);
-        for (rank, (key, value)) in ranked {
-            let done = if rank == 1 {
+        let in_turn = (0..3).flat_map(|turn| ranked.iter().filter(move |(rank, _)| *rank == turn));
+        for (rank, (key, value)) in in_turn {
+            let done = if *rank == 1 {
                 self.place_handle(key, value)
             } else {
                 self.update(&Event::Set {

@@ -5,6 +5,10 @@ use super::Border;
 use super::weigh::{LANES, across_any, across_short, along_any, along_short, both};
 use std::ops::Range;
 
+/// Whether short kernels have loops of their own. What a page downloads does without: there the walk that goes both ways
+/// at once has most of the pixels, and these are for its ends.
+const SHORT: bool = cfg!(not(target_arch = "wasm32"));
+
 /// Weights along one axis, an odd number of them, and how they mirror.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernel<'a> {
@@ -66,9 +70,9 @@ impl<'a> Kernel<'a> {
     /// [`along`](Self::along) where the row goes on beyond what is asked for.
     fn inside(&self, padded: &[f32], out: &mut [f32]) {
         match self.radius() {
-            1 => along_short::<1>(self, padded, out),
-            2 => along_short::<2>(self, padded, out),
-            3 => along_short::<3>(self, padded, out),
+            1 if SHORT => along_short::<1>(self, padded, out),
+            2 if SHORT => along_short::<2>(self, padded, out),
+            3 if SHORT => along_short::<3>(self, padded, out),
             _ => along_any(self, padded, out),
         }
     }
@@ -76,9 +80,9 @@ impl<'a> Kernel<'a> {
     /// Combines rows from one column on: `out[x] = Σ weights[k] rows[k][from + x]`.
     pub(crate) fn across(&self, rows: &[Vec<f32>], from: usize, out: &mut [f32]) {
         match self.radius() {
-            1 => across_short::<1>(self, rows, from, out),
-            2 => across_short::<2>(self, rows, from, out),
-            3 => across_short::<3>(self, rows, from, out),
+            1 if SHORT => across_short::<1>(self, rows, from, out),
+            2 if SHORT => across_short::<2>(self, rows, from, out),
+            3 if SHORT => across_short::<3>(self, rows, from, out),
             _ => across_any(self, rows, from, out),
         }
     }

@@ -67,8 +67,8 @@ fn reach(mut values: Vec<f64>) -> f64 {
         return 0.0;
     }
     let strays = (STRAY * (count - 1) as f64) as usize;
-    let mut value = |place: usize| *values.select_nth_unstable_by(place, f64::total_cmp).1;
-    let between = value(count - 1 - strays) - value(strays);
+    values.sort_by(f64::total_cmp);
+    let between = values[count - 1 - strays] - values[strays];
     between * (count - 1) as f64 / (count - 1 - 2 * strays) as f64
 }
 

@@ -104,16 +104,14 @@ impl Reprojected {
             let used = columns[first as usize].0..=columns[last as usize].1;
             for at in used {
                 let (a, b) = (draft[above][at], draft[below][at]);
-                mixed[at] = std::array::from_fn(|i| {
-                    u32::from(a[i]) * (256 - down) + u32::from(b[i]) * down
-                });
+                let mix = |a: u8, b: u8| u32::from(a) * (256 - down) + u32::from(b) * down;
+                mixed[at] = [mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])];
             }
             for &index in row {
                 let (left, right, across) = columns[(index - start) as usize];
                 let (a, b) = (mixed[left], mixed[right]);
-                pixels[index as usize] = std::array::from_fn(|i| {
-                    ((a[i] * (256 - across) + b[i] * across + 32_768) >> 16) as u8
-                });
+                let mix = |a: u32, b: u32| ((a * (256 - across) + b * across + 32_768) >> 16) as u8;
+                pixels[index as usize] = [mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])];
             }
         }
     }
@@ -437,7 +435,9 @@ impl Carry {
             }
             let inverse = 1.0 / depth;
             let zoom = self.zoom * z * inverse;
-            let side = (zoom * SLANT).min(LARGEST) as usize + 1;
+            // Not `f32::min`, which is a call.
+            let reach = zoom * SLANT;
+            let side = if reach < LARGEST { reach } else { LARGEST } as usize + 1;
             // A square reaches over the gap to the next one, which comes later and covers the rest.
             let half = 0.5 * (zoom - 1.0);
             let first = |is_upward: bool| match is_upward {

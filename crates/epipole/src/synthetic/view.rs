@@ -76,11 +76,8 @@ impl<'a> View<'a> {
             Sampling::Draft => Detail::Sketch,
             Sampling::Full => Detail::Full,
         };
-        let mut seen: Vec<Seen> = scene
-            .placed()
-            .zip(scene.lights(detail))
-            .enumerate()
-            .map(|(number, ((body, placed), lights))| {
+        let all = scene.placed().zip(scene.lights(detail)).enumerate().map(
+            |(number, ((body, placed), lights))| {
                 let (columns, rows, nearest) = outline(camera, body, &placed);
                 Seen {
                     body,
@@ -93,10 +90,14 @@ impl<'a> View<'a> {
                     nearest,
                     number,
                 }
-            })
-            .collect();
+            },
+        );
         // From front to back; the order of bodies decides between equals.
-        seen.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
+        let mut seen: Vec<Seen> = Vec::new();
+        for body in all {
+            let is_before = |other: &Seen| other.nearest.total_cmp(&body.nearest).is_le();
+            seen.insert(seen.partition_point(is_before), body);
+        }
         Self {
             lighting: &scene.fixed.lighting,
             shade: scene.shade(detail),

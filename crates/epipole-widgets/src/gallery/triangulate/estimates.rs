@@ -4,13 +4,13 @@ use super::uncertainty::Curves;
 use epipole::Error;
 use epipole::camera::{Camera, relative_motion};
 use epipole::epipolar::{epipolar_line1, epipolar_line2, fundamental_from_cameras};
-use epipole::math::Line2;
 use epipole::math::random::Random;
+use epipole::math::{Line2, Svd3, svd3};
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
     triangulate_optimal, triangulation_angle_rad,
 };
-use nalgebra::{Matrix3, Point2, Point3, SymmetricEigen, Vector2, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
 /// So many times is the point photographed anew.
 const NUM_REPEATS: usize = 200;
@@ -125,9 +125,9 @@ pub(super) fn axes_of(
     sigma_px: f64,
 ) -> Option<[Vector3<f64>; 3]> {
     let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
-    let eigen = SymmetricEigen::new(covariance);
-    let mut axes =
-        [0, 1, 2].map(|n| eigen.eigenvectors.column(n) * eigen.eigenvalues[n].max(0.0).sqrt());
-    axes.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
-    Some(axes)
+    // Of a symmetric matrix without negative eigenvalues these are its axes.
+    let Svd3 {
+        u, singular_values, ..
+    } = svd3(&covariance);
+    Some([0, 1, 2].map(|n| u.column(n) * singular_values[n].sqrt()))
 }

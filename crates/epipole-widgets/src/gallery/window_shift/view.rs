@@ -152,19 +152,22 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     let reach = REACH as i32;
     let side = (2 * REACH + 1) * FINE;
     let limit = f64::from(reach);
-    // The whole shift before each pixel of the map, and how far the pixel is beyond it.
-    let places: Vec<(i32, f64)> = (0..side)
+    // The number of the whole shift before each pixel of the map, and how far the pixel is beyond it.
+    let places: Vec<(usize, f64)> = (0..side)
         .map(|pixel| {
             let at = (pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit;
             let at = at.clamp(-limit, limit - 1e-9);
-            (at.floor() as i32, at - at.floor())
+            ((at.floor() + limit) as usize, at - at.floor())
         })
+        .collect();
+    let shifts = || -reach..=reach;
+    let changes: Vec<Vec<f64>> = shifts()
+        .map(|dv| shifts().map(|du| found.change(du, dv)).collect())
         .collect();
     let level = |u: usize, v: usize| {
         let ((left, right), (above, below)) = (places[u], places[v]);
-        let corner = |x: i32, y: i32| found.change(left + x, above + y);
-        let upper = corner(0, 0) * (1.0 - right) + corner(1, 0) * right;
-        let lower = corner(0, 1) * (1.0 - right) + corner(1, 1) * right;
+        let between = |row: &[f64]| row[left] * (1.0 - right) + row[left + 1] * right;
+        let (upper, lower) = (between(&changes[above]), between(&changes[above + 1]));
         ((upper * (1.0 - below) + lower * below).sqrt() / LEVEL) as usize
     };
     let levels: Vec<usize> = (0..side * side)

@@ -57,10 +57,14 @@ pub(super) fn directions(
             let offset = 0.5 * (left - right) / (left - 2.0 * here + right);
             let angle = (k as f32 + offset) * (TAU / NUM_BINS as f32) - PI;
             let angle = if angle <= -PI { angle + TAU } else { angle };
-            peaks.push((here, angle));
+            // The strongest first.
+            let is_before = |other: &(f32, f32)| {
+                let order = here.total_cmp(&other.0).then(other.1.total_cmp(&angle));
+                order.is_lt()
+            };
+            peaks.insert(peaks.partition_point(is_before), (here, angle));
         }
     }
-    peaks.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
     peaks.truncate(options.max_orientations);
     peaks.into_iter().map(|(_, angle)| angle).collect()
 }

@@ -8,7 +8,6 @@ use crate::kit::grid::TEXT;
 use crate::kit::labels::Labels;
 use crate::theme::Role;
 use image::RgbImage;
-use image::imageops::{FilterType, crop_imm, resize};
 use nalgebra::Point2;
 
 /// What is magnified, pixels of the photograph.
@@ -43,10 +42,11 @@ impl Magnifier {
         };
         let left = first(pixel.x, COLUMNS, photograph.width())?;
         let top = first(pixel.y, ROWS, photograph.height())?;
-        let cut = crop_imm(photograph, left, top, COLUMNS, ROWS).to_image();
-        let size = (COLUMNS * SQUARE, ROWS * SQUARE);
+        let squares = RgbImage::from_fn(COLUMNS * SQUARE, ROWS * SQUARE, |u, v| {
+            *photograph.get_pixel(left + u / SQUARE, top + v / SQUARE)
+        });
         Some(Self {
-            squares: resize(&cut, size.0, size.1, FilterType::Nearest),
+            squares,
             at: Point2::new(pixel.x - f64::from(left), pixel.y - f64::from(top)),
         })
     }
