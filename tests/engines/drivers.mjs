@@ -58,7 +58,15 @@ export async function webkit() {
   windows += 1;
   const size = `${WINDOW.width + 60}x${WINDOW.height + 160}x24`;
   const screen = spawn("Xvfb", [display, "-screen", "0", size, "-nolisten", "tcp"], { stdio: "ignore" });
-  const env = { ...process.env, DISPLAY: display, GDK_BACKEND: "x11", WEBKIT_DISABLE_DMABUF_RENDERER: "1" };
+  const env = {
+    ...process.env,
+    DISPLAY: display,
+    GDK_BACKEND: "x11",
+    WEBKIT_DISABLE_DMABUF_RENDERER: "1",
+    // The last of the three compilers for WebAssembly of WebKitGTK 2.50 crashes on a busy machine, each time in
+    // another figure, and once gave other bits. The other two do not, and what they do is what is compared.
+    JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
+  };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
   const server = `http://127.0.0.1:${port}`;
   await answers(`${server}/status`);

@@ -1,5 +1,6 @@
 //! Controls: what a reader sets beside the picture. Each becomes a native input of the page.
 
+use super::decimal::parse_decimal;
 use super::readout::format_number;
 use serde::Serialize;
 
@@ -385,7 +386,7 @@ impl Button {
 /// `value` with `digits` digits after the decimal point: what printing and reading it gives.
 pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
     // Parsing cannot fail on a number that `format!` has just written.
-    format!("{value:.digits$}").parse().unwrap_or(value)
+    parse_decimal(&format!("{value:.digits$}")).unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Events: the only way that a figure's state changes.
 
+use super::decimal::parse_decimal;
 use super::settings::Knob;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -103,7 +104,7 @@ impl Value {
     pub fn number(&self) -> Option<f64> {
         let number = match self {
             Self::Number(number) => *number,
-            Self::Text(text) => text.trim().parse().ok()?,
+            Self::Text(text) => parse_decimal(text)?,
             Self::Flag(_) => return None,
         };
         number.is_finite().then_some(number)

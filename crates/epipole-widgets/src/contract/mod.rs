@@ -3,6 +3,7 @@
 
 mod challenge;
 mod control;
+mod decimal;
 mod event;
 mod file;
 mod handle;
@@ -20,6 +21,7 @@ mod words;
 pub use challenge::Challenge;
 pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Place, Slider, Toggle};
+pub(crate) use decimal::parse_decimal;
 pub use epipole_canvas::Rect;
 pub use event::{Event, Value};
 pub use file::FileOffer;

@@ -1,7 +1,7 @@
 //! State to parameters and back: what a permalink, an attribute and a chapter say of a figure.
 
 use super::Figure;
-use crate::contract::{ControlKind, Event, Handle, Place, Problem, Value};
+use crate::contract::{ControlKind, Event, Handle, Place, Problem, Value, parse_decimal};
 
 /// The value of a handle's parameter after the reader has removed it.
 const REMOVED: &str = "removed";
@@ -146,10 +146,9 @@ impl Figure {
         if value == REMOVED && exists {
             return self.update(&Event::HandleRemoved { id: id.to_owned() });
         }
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
         let place = value
             .split_once(',')
-            .and_then(|(x, y)| Some((number(x)?, number(y)?)));
+            .and_then(|(x, y)| Some((parse_decimal(x)?, parse_decimal(y)?)));
         match (exists, place) {
             (true, Some((x, y))) => self.update(&Event::HandleMoved {
                 id: id.to_owned(),

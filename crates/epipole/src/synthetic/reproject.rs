@@ -437,7 +437,7 @@ impl Carry {
             let zoom = self.zoom * z * inverse;
             // Not `f32::min`, which is a call.
             let reach = zoom * SLANT;
-            let side = if reach < LARGEST { reach } else { LARGEST } as usize + 1;
+            let side = if reach < LARGEST { reach } else { LARGEST } as i32 as usize + 1;
             // A square reaches over the gap to the next one, which comes later and covers the rest.
             let half = 0.5 * (zoom - 1.0);
             let first = |is_upward: bool| match is_upward {
@@ -451,7 +451,8 @@ impl Carry {
             if !(left >= 0.0 && top >= 0.0 && left < width as f32 && top < height as f32) {
                 continue;
             }
-            let (left, top) = (left as usize, top as usize);
+            // Processors cast to signed numbers in one instruction.
+            let (left, top) = (left as i32 as usize, top as i32 as usize);
             let [r, g, b] = colors[u as usize];
             let pixel = u32::from_le_bytes([r, g, b, 255]);
             // Most squares are of one or four pixels, and their way is short.

@@ -160,7 +160,8 @@ impl Model for Triangulate {
                 self.settings.set(id, value)?;
             }
             Event::Press { id } if id == AGAIN.id => {
-                let next = self.settings.number(&SEED) % SEED.max + 1.0;
+                let seed = self.settings.number(&SEED);
+                let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
                 self.settings.set(SEED.id, &Value::Number(next))?;
             }
             _ => {
