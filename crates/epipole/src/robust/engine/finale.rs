@@ -29,11 +29,9 @@ const SHARP_MEDIANS: f64 = 3.0;
 /// The width of the last loss, in the same medians.
 const WIDTH_MEDIANS: f64 = 2.5;
 
-/// How often data are weighed anew at the end, at most.
-const REWEIGHTINGS: usize = 30;
-
-/// Weights that change by no more stay as they are.
-const SETTLED: f64 = 1e-7;
+/// How often data are weighed anew at the end. Where few data say what the many leave open, more of it would
+/// do away with them.
+const REWEIGHTINGS: usize = 6;
 
 impl<E: Estimator> Ransac<E> {
     /// As [`finish`](Ransac::finish), once.
@@ -208,7 +206,7 @@ impl<E: Estimator> Ransac<E> {
             return;
         }
         let mut model = candidate.model.clone();
-        let (mut weights, mut before) = (Vec::new(), Vec::new());
+        let mut weights = Vec::new();
         for _ in 0..REWEIGHTINGS {
             // The width is that of the errors that are left, not of those at the start: from there the
             // path of the search would show in the result.
@@ -221,16 +219,11 @@ impl<E: Estimator> Ransac<E> {
             let reach_px = max_error_px.max(2.0 * width_px);
             self.estimator.inliers(&model, reach_px, &mut self.inliers);
             let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
-            core::mem::swap(&mut weights, &mut before);
             weights.clear();
             weights.extend(
                 (self.inliers.iter().map(error_sq))
                     .map(|sq| 1.0 / (1.0 + sq / (width_px * width_px))),
             );
-            let moved = |(now, then): (&f64, &f64)| (now - then).abs() > SETTLED;
-            if weights.len() == before.len() && !weights.iter().zip(&before).any(moved) {
-                break;
-            }
             let Some(polished) = self.estimator.polish(&model, &self.inliers, &weights) else {
                 break;
             };
