@@ -1,7 +1,7 @@
 //! Numbers on the command line and in results: intrinsics, matrices, motions.
 
 use epipole::camera::{Intrinsics, RigidTransform};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 /// The entries of a matrix, row by row.
@@ -36,6 +36,21 @@ pub(crate) fn intrinsics(text: &str) -> Result<Intrinsics, String> {
             Intrinsics::new(*fu, *fv, *cu, *cv).map_err(|error| error.to_string())
         }
         _ => Err("it must be four numbers: fx,fy,cx,cy".to_owned()),
+    }
+}
+
+/// Reads `x,y,z`, a direction.
+pub(crate) fn direction(text: &str) -> Result<Vector3<f64>, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok([x, y, z]) => {
+            let vector = Vector3::new(*x, *y, *z);
+            let has_direction = vector.iter().all(|x| x.is_finite()) && vector.amax() > 0.0;
+            has_direction.then_some(vector).ok_or_else(|| {
+                "it must have a direction: not all of x, y and z may be 0".to_owned()
+            })
+        }
+        _ => Err("it must be three numbers: x,y,z".to_owned()),
     }
 }
 

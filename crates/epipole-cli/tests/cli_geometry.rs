@@ -103,6 +103,40 @@ fn fit_finds_the_motion_between_two_cameras() {
 }
 
 #[test]
+fn fit_finds_the_motion_where_gravity_is_known() {
+    let folder = Folder::new("fit-gravity");
+    let problem = problem(cube());
+    let file = file_of(&folder, &problem);
+    let down = |camera: &Camera| {
+        let down = camera.cam_from_world.rotation * Vector3::new(0.1, 1.0, -0.2);
+        format!("{},{},{}", down.x, down.y, down.z)
+    };
+    let (down1, down2) = (down(&problem.camera1), down(&problem.camera2));
+    let known = ["--gravity", &down1, "--gravity2", &down2];
+    let fit = ["fit", "--model", "essential", path(&file), "--k", K];
+    let result = json(&[&fit[..], &known].concat());
+    let truth = cam2_from_cam1(&problem.camera1, &problem.camera2);
+    let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
+    assert!(turn < 1e-4 && direction < 1e-3, "{turn} {direction}");
+    let free = json(&fit);
+    let samples = |result: &Value| result["required_iterations"].as_u64().unwrap();
+    assert!(samples(&result) < samples(&free));
+    // One without the other, none, and for another model.
+    for (more, words) in [
+        (vec!["--gravity", "0,1,0"], "--gravity2"),
+        (
+            vec!["--gravity", "0,0,0", "--gravity2", "0,1,0"],
+            "direction",
+        ),
+        (vec!["--gravity", "0,1", "--gravity2", "0,1,0"], "x,y,z"),
+    ] {
+        fails(&folder, &[&fit[..], &more].concat(), 2, words);
+    }
+    let other = ["fit", "--model", "fundamental", path(&file)];
+    fails(&folder, &[&other[..], &known].concat(), 2, "essential only");
+}
+
+#[test]
 fn fit_finds_the_fundamental_matrix() {
     let folder = Folder::new("fit-fundamental");
     let problem = problem(cube());

@@ -3,16 +3,18 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::matrices::{Motion, intrinsics, row_major};
+use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::turn::{self, find_turn, left_open};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
+use epipole::epipolar::{
+    FundamentalEstimator, GravityEstimator, estimate_relative_pose_with, sampson_px,
+};
 use epipole::homography::{HomographyEstimator, transfer_error_px};
 use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
-use nalgebra::{Matrix3, Point2};
+use nalgebra::{Matrix3, Point2, Vector3};
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -60,6 +62,12 @@ pub(crate) struct Arguments {
     /// Intrinsics of the second camera; those of --k if not given.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k2: Option<Intrinsics>,
+    /// Down in the frame of the first camera (y down, z forward): with it three matches are a sample, not five.
+    #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity2")]
+    gravity: Option<Vector3<f64>>,
+    /// Down in the frame of the second camera.
+    #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity")]
+    gravity2: Option<Vector3<f64>>,
 }
 
 /// What was found, whatever the model.
@@ -80,9 +88,10 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    if arguments.model != Model::Essential && (arguments.k.is_some() || arguments.k2.is_some()) {
+    let of_motion = arguments.k.or(arguments.k2).is_some() || arguments.gravity.is_some();
+    if arguments.model != Model::Essential && of_motion {
         return Err(Failure::usage(
-            "--k and --k2 are for --model essential only: the other models need no intrinsics",
+            "--k, --k2 and --gravity are for --model essential only: the other models need none",
         ));
     }
     let columns = if arguments.model == Model::Line { 2 } else { 4 };
@@ -200,9 +209,15 @@ fn fit(
                 .k
                 .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
-            let found = robust.watched(context, |options, watch| {
-                estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
-            })?;
+            let found = match (&arguments.gravity, &arguments.gravity2) {
+                (Some(down1), Some(down2)) => {
+                    let estimator = GravityEstimator::new(set()?, k1, k2, down1, down2)?;
+                    robust.run(estimator, context)?
+                }
+                _ => robust.watched(context, |options, watch| {
+                    estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+                })?,
+            };
             let pose = found.model;
             let errors = pairs()
                 .map(|(a, b)| sampson_px(&pose.fundamental, a, b))

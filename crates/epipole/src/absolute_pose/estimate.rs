@@ -37,27 +37,7 @@ impl AbsolutePoseEstimator {
         pixels: &[Point2<f64>],
         intrinsics: Intrinsics,
     ) -> Result<Self> {
-        if points_in_world.len() != pixels.len() {
-            return Err(Error::SizeMismatch {
-                what: "the list of points and that of their pixels",
-                first: points_in_world.len(),
-                second: pixels.len(),
-            });
-        }
-        let is_nan = |x: &f64| x.is_nan();
-        if points_in_world.iter().any(|p| p.iter().any(is_nan))
-            || pixels.iter().any(|p| p.iter().any(is_nan))
-        {
-            return Err(Error::NotFinite {
-                what: "a point or its pixel",
-            });
-        }
-        let unique = Unique::of_usable(pixels.len(), |i| {
-            let (x, p) = (&points_in_world[i], &pixels[i]);
-            let values = [x.x, x.y, x.z, p.x, p.y];
-            let usable = values.iter().all(|x| x.is_finite()) && p.coords.amax() <= FARTHEST_PX;
-            usable.then_some(values)
-        });
+        let unique = usable(points_in_world, pixels)?;
         if unique.len() < 4 {
             return Err(Error::TooFew {
                 what: "a camera pose from points",
@@ -102,6 +82,34 @@ impl AbsolutePoseEstimator {
         };
         refine(&problem, *pose, &options)
     }
+}
+
+/// The data that can be right, each once.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN.
+pub(super) fn usable(points_in_world: &[Point3<f64>], pixels: &[Point2<f64>]) -> Result<Unique> {
+    if points_in_world.len() != pixels.len() {
+        return Err(Error::SizeMismatch {
+            what: "the list of points and that of their pixels",
+            first: points_in_world.len(),
+            second: pixels.len(),
+        });
+    }
+    let is_nan = |x: &f64| x.is_nan();
+    if points_in_world.iter().any(|p| p.iter().any(is_nan))
+        || pixels.iter().any(|p| p.iter().any(is_nan))
+    {
+        return Err(Error::NotFinite {
+            what: "a point or its pixel",
+        });
+    }
+    Ok(Unique::of_usable(pixels.len(), |i| {
+        let (x, p) = (&points_in_world[i], &pixels[i]);
+        let values = [x.x, x.y, x.z, p.x, p.y];
+        let usable = values.iter().all(|x| x.is_finite()) && p.coords.amax() <= FARTHEST_PX;
+        usable.then_some(values)
+    }))
 }
 
 impl Estimator for AbsolutePoseEstimator {

@@ -1,12 +1,10 @@
 //! Nonlinear refinement of a camera pose: the reprojection error by Levenberg–Marquardt.
 
+use super::local_problem::{LocalPose, LocalProblem};
 use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::math::svd3;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::{Error, Result};
-use nalgebra::{
-    Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector2, Vector3,
-};
+use nalgebra::{Matrix3, Point2, Point3, Rotation3, SVector, UnitQuaternion, Vector3};
 
 /// How far a point's image is from the pixel where it was seen; infinite behind the camera.
 ///
@@ -152,94 +150,10 @@ pub(super) struct PoseProblem<'a> {
 
 impl PoseProblem<'_> {
     /// The used points with the root of their weight: by that, residuals are multiplied.
-    fn used(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub(super) fn used(&self) -> impl Iterator<Item = (usize, f64)> {
         let root = |place: usize| self.weights.map_or(1.0, |weights| weights[place].sqrt());
         let used = self.used.iter().enumerate();
         used.map(move |(place, &index)| (index, root(place)))
-    }
-}
-
-/// A pose problem in a frame of its own: the pose turns about a point amid the data, and moves in
-/// units of that point's distance from the camera.
-///
-/// About the world's origin, a turn would carry the points along a circle as large as their distance
-/// from there. Far out, as in geodetic coordinates, it could not be told from a shift, and the search
-/// would end where it began.
-struct LocalProblem<'a> {
-    problem: &'a PoseProblem<'a>,
-    /// The point about which the pose turns, in the world.
-    pivot: Vector3<f64>,
-    /// The unit of length of the steps.
-    unit: f64,
-}
-
-/// R, and where the camera sees the pivot.
-type LocalPose = (Matrix3<f64>, Vector3<f64>);
-
-impl<'a> LocalProblem<'a> {
-    /// The mean of the points, weighted by the square of their nearness, is a pivot for which
-    /// the effects of turns and shifts on the pixels are nearly independent. One point at the end of
-    /// the world does not move it.
-    fn new(problem: &'a PoseProblem<'a>, (rotation, t): &Pose) -> Self {
-        let places = problem.used.iter().map(|&i| problem.points[i].coords);
-        let depth = |x: &Vector3<f64>| (rotation.row(2) * x)[0] + t.z;
-        let in_front = |z: &f64| *z > 0.0;
-        let depths = places.clone().map(|x| depth(&x)).filter(in_front);
-        let nearest = depths.fold(f64::INFINITY, f64::min);
-        let (mut sum, mut total) = (Vector3::zeros(), 0.0);
-        for x in places {
-            let nearness = nearest / depth(&x);
-            // What is behind the camera ends the search before it begins.
-            if nearness > 0.0 {
-                sum += x * (nearness * nearness);
-                total += nearness * nearness;
-            }
-        }
-        let pivot = if total > 0.0 {
-            sum / total
-        } else {
-            Vector3::zeros()
-        };
-        let distance = (rotation * pivot + t).norm();
-        Self {
-            problem,
-            pivot,
-            unit: if distance > 0.0 { distance } else { 1.0 },
-        }
-    }
-
-    /// The residual, and the point seen from the camera and from the pivot, both along the camera's
-    /// axes; `None` in or behind the center plane.
-    fn residual(
-        &self,
-        (rotation, pivot_in_cam): &LocalPose,
-        index: usize,
-    ) -> Option<(Vector2<f64>, [Vector3<f64>; 2])> {
-        let from_pivot = rotation * (self.problem.points[index].coords - self.pivot);
-        let x = from_pivot + pivot_in_cam;
-        let seen = self.problem.intrinsics.project(&Point3::from(x)).ok()?;
-        Some((seen - self.problem.pixels[index], [x, from_pivot]))
-    }
-
-    /// The Jacobian of a residual with respect to a turn about the pivot and to a shift.
-    fn jacobian(&self, [x, from_pivot]: &[Vector3<f64>; 2]) -> SMatrix<f64, 2, 6> {
-        let k = self.problem.intrinsics;
-        let (fu, fv) = (k.fu_px(), k.fv_px());
-        let per_z = 1.0 / x.z;
-        let by_point = SMatrix::<f64, 2, 3>::new(
-            fu * per_z,
-            0.0,
-            -fu * x.x * per_z * per_z,
-            0.0,
-            fv * per_z,
-            -fv * x.y * per_z * per_z,
-        );
-        let by_turn = by_point * -from_pivot.cross_matrix();
-        let by_shift = by_point * self.unit;
-        let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
-        jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
-        jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_shift);
-        jacobian
     }
 }
 
@@ -248,9 +162,9 @@ impl FixedProblem<6> for LocalProblem<'_> {
 
     fn accumulate(&self, pose: &LocalPose, normal: &mut NormalEquations<6>) {
         for (index, root) in self.problem.used() {
-            match self.residual(pose, index) {
+            match self.residual(pose, self.problem.intrinsics, index) {
                 Some((residual, places)) => {
-                    let jacobian = self.jacobian(&places) * root;
+                    let jacobian = self.jacobian(self.problem.intrinsics, &places) * root;
                     normal.add(&(residual * root), &jacobian, &self.problem.loss);
                 }
                 None => normal.cost = f64::INFINITY,
@@ -261,7 +175,7 @@ impl FixedProblem<6> for LocalProblem<'_> {
     fn cost(&self, pose: &LocalPose) -> f64 {
         let mut total = 0.0;
         for (index, root) in self.problem.used() {
-            match self.residual(pose, index) {
+            match self.residual(pose, self.problem.intrinsics, index) {
                 Some((residual, _)) => {
                     total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
                 }
@@ -271,25 +185,16 @@ impl FixedProblem<6> for LocalProblem<'_> {
         total
     }
 
-    fn plus(&self, (rotation, pivot_in_cam): &LocalPose, delta: &SVector<f64, 6>) -> LocalPose {
-        let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
-        (
-            turn.into_inner() * rotation,
-            pivot_in_cam + Vector3::new(delta[3], delta[4], delta[5]) * self.unit,
-        )
+    fn plus(&self, pose: &LocalPose, delta: &SVector<f64, 6>) -> LocalPose {
+        self.moved(pose, delta)
     }
 }
 
 pub(super) fn refine(problem: &PoseProblem<'_>, start: Pose, options: &LmOptions) -> Option<Pose> {
     let local = LocalProblem::new(problem, &start);
-    let mut pose = (start.0, start.0 * local.pivot + start.1);
+    let mut pose = local.about_pivot(&start);
     minimize_fixed(&local, &mut pose, options).ok()?;
-    // Products of many rotations drift from orthogonality.
-    let svd = svd3(&pose.0);
-    let rotation = svd.u * svd.v.transpose();
-    let t = pose.1 - rotation * local.pivot;
-    let finite = rotation.iter().chain(t.iter()).all(|x| x.is_finite());
-    finite.then_some((rotation, t))
+    local.in_world(&pose)
 }
 
 #[cfg(test)]
@@ -326,12 +231,12 @@ mod tests {
                 let delta = SVector::<f64, 6>::from_column_slice(delta.as_slice());
                 let moved = pose_problem.plus(&pose, &delta);
                 DVector::from_fn(16, |row, _| {
-                    pose_problem.residual(&moved, row / 2).unwrap().0[row % 2]
+                    pose_problem.residual(&moved, &k, row / 2).unwrap().0[row % 2]
                 })
             };
             let analytic = DMatrix::from_fn(16, 6, |row, column| {
-                let (_, places) = pose_problem.residual(&pose, row / 2).unwrap();
-                pose_problem.jacobian(&places)[(row % 2, column)]
+                let (_, places) = pose_problem.residual(&pose, &k, row / 2).unwrap();
+                pose_problem.jacobian(&k, &places)[(row % 2, column)]
             });
             assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
         }

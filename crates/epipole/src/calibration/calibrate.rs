@@ -4,7 +4,7 @@ use super::advice::{CalibrationWarning, warnings};
 use super::camera::CalibratedCamera;
 use super::coverage::coverage;
 use super::problem::{
-    OF_CAMERA, Observation, Problem, SHARED, State, camera_numbers, intrinsics_of, lens_of,
+    OF_CAMERA, Problem, SHARED, SeenMark, State, camera_numbers, intrinsics_of, lens_of,
     pose_state, strict,
 };
 use super::start::{board_pose, plain, starts};
@@ -242,9 +242,9 @@ pub(super) fn marks(board: &Board) -> Vec<Point3<f64>> {
     (0..board.num_marks()).map(mark).collect()
 }
 
-pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<Observation> {
+pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<SeenMark> {
     let of_view = |(view, seen): (usize, &&BoardView)| {
-        let of_mark = move |(mark, pixel)| Observation {
+        let of_mark = move |(mark, pixel)| SeenMark {
             view,
             mark,
             eye,

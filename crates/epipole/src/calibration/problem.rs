@@ -17,7 +17,7 @@ pub(super) const SHARED: usize = 6 + 2 * OF_CAMERA;
 
 /// A mark of the board is seen at a pixel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Observation {
+pub(super) struct SeenMark {
     pub(super) view: usize,
     pub(super) mark: usize,
     /// 0, or 1 for the second camera of a rig.
@@ -63,7 +63,7 @@ pub(super) fn lens_of(kind: LensKind, numbers: &[f64; OF_CAMERA]) -> Lens {
 pub(super) struct Problem {
     /// Marks in the board's plane, meters.
     pub(super) marks: Vec<Point3<f64>>,
-    pub(super) observations: Vec<Observation>,
+    pub(super) observations: Vec<SeenMark>,
     pub(super) num_views: usize,
     pub(super) kinds: [LensKind; 2],
     /// Which of the rig's motion and of the two cameras are held.
@@ -74,7 +74,7 @@ pub(super) struct Problem {
 impl Problem {
     pub(super) fn new(
         marks: Vec<Point3<f64>>,
-        observations: Vec<Observation>,
+        observations: Vec<SeenMark>,
         num_views: usize,
         kinds: [LensKind; 2],
         held: [bool; SHARED],
@@ -104,7 +104,7 @@ impl Problem {
     }
 
     /// The point in the frame of the camera that sees it, and before the rig's motion, turned only and whole.
-    fn place(&self, state: &State, o: &Observation) -> Place {
+    fn place(&self, state: &State, o: &SeenMark) -> Place {
         let pose = &state.views[o.view];
         let turned = pose.rotated(&self.marks[o.mark]);
         let in_first = turned + pose.translation;
@@ -124,7 +124,7 @@ impl Problem {
     }
 
     /// Root mean square of the distances between pixels and where the marks are predicted, of those that count.
-    pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&Observation) -> bool) -> f64 {
+    pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&SeenMark) -> bool) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
         for (index, o) in self.observations.iter().enumerate() {
             if counts(o) {
@@ -267,7 +267,7 @@ mod tests {
                 .map(|i| Point3::new(f64::from(i % 3) * 0.1, f64::from(i / 3) * 0.1, 0.0))
                 .collect();
             let observations = (0..12)
-                .map(|i| Observation {
+                .map(|i| SeenMark {
                     view: 0,
                     mark: i / 2,
                     eye: i % 2,

@@ -211,28 +211,33 @@ pub(crate) fn pose_in_front(
     rays2: &[Vector3<f64>],
 ) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     let (rotations, direction) = rotations_and_direction(essential)?;
-    for rotation in &rotations {
-        // Turning t round flips the signs of both depths.
-        let (mut along, mut against) = (true, true);
-        for (x1, x2) in rays1.iter().zip(rays2) {
-            let (d1, d2) = signed_depths(rotation, &direction, x1, x2);
-            if d1.abs().max(d2.abs()) < NO_DEPTH && (rotation * x1).dot(x2) > 0.0 {
-                continue;
-            }
-            along &= d1 > 0.0 && d2 > 0.0;
-            against &= d1 < 0.0 && d2 < 0.0;
-            if !(along || against) {
-                break;
-            }
+    rotations.iter().find_map(|rotation| {
+        let side = side_in_front(rotation, &direction, rays1, rays2)?;
+        Some((*rotation, direction * side))
+    })
+}
+
+/// The sign of t that puts all points in front of both cameras, if one does.
+pub(crate) fn side_in_front(
+    rotation: &Matrix3<f64>,
+    direction: &Vector3<f64>,
+    rays1: &[Vector3<f64>],
+    rays2: &[Vector3<f64>],
+) -> Option<f64> {
+    // Turning t round flips the signs of both depths.
+    let (mut along, mut against) = (true, true);
+    for (x1, x2) in rays1.iter().zip(rays2) {
+        let (d1, d2) = signed_depths(rotation, direction, x1, x2);
+        if d1.abs().max(d2.abs()) < NO_DEPTH && (rotation * x1).dot(x2) > 0.0 {
+            continue;
         }
-        if along {
-            return Some((*rotation, direction));
-        }
-        if against {
-            return Some((*rotation, -direction));
+        along &= d1 > 0.0 && d2 > 0.0;
+        against &= d1 < 0.0 && d2 < 0.0;
+        if !(along || against) {
+            return None;
         }
     }
-    None
+    Some(if along { 1.0 } else { -1.0 })
 }
 
 #[cfg(test)]

@@ -9,9 +9,11 @@ mod eight_point;
 mod eight_rays;
 mod epipoles;
 mod essential;
+mod essential_estimator;
 mod estimate_essential;
 mod estimate_fundamental;
 mod estimate_pose_and_focal;
+mod estimate_with_gravity;
 mod five_point;
 mod focal_lengths;
 mod from_cameras;
@@ -23,11 +25,13 @@ mod other_motion;
 mod plane_recovery;
 mod refine;
 mod refine_focal;
+mod refine_gravity;
 mod refine_pose;
 mod relative_pose;
 mod sampson;
 mod seven_point;
 mod six_point;
+mod three_point;
 
 pub use distance::{sampson_px, sampson_sq, symmetric_epipolar_px, symmetric_epipolar_sq};
 pub use eight_point::{
@@ -38,14 +42,16 @@ pub use eight_rays::essential_8point;
 pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
 pub use essential::{SelectedPose, decompose_essential, project_to_essential, select_pose};
+pub use essential_estimator::EssentialEstimator;
 pub use estimate_essential::{
-    EssentialEstimator, estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
+    estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
 };
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
 pub use estimate_pose_and_focal::{
     FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
     estimate_relative_pose_and_focal_with,
 };
+pub use estimate_with_gravity::{GravityEstimator, estimate_relative_pose_with_gravity};
 pub use five_point::essential_5point;
 pub use focal_lengths::focal_lengths_from_fundamental;
 pub(crate) use from_cameras::share_center;
@@ -61,3 +67,4 @@ pub use refine_pose::refine_relative_pose;
 pub use relative_pose::RelativePose;
 pub use seven_point::{epipolar_row, fundamental_7point};
 pub use six_point::{EssentialWithFocal, essential_6point};
+pub use three_point::relative_pose_3point;

@@ -2,6 +2,7 @@
 
 use super::four_point::{same_orientation, solve};
 use super::refine::{refine_in_frame, to_frame, to_pixels};
+use super::refine_both::refine_by_both_images;
 use super::sums;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
@@ -12,8 +13,8 @@ use nalgebra::{Matrix3, Point2};
 /// Homographies from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is four matches, no three of them on a line, whose triangles turn the same way in both
-/// images; the error is the distance in image 2; refinement minimizes its truncated square. Equal
-/// matches count once.
+/// images; the error is the distance in image 2; refinement minimizes its truncated square, and the last one
+/// the weighted square of the Sampson error, which treats both images alike. Equal matches count once.
 #[derive(Debug, Clone)]
 pub struct HomographyEstimator {
     matches: MatchSet,
@@ -78,15 +79,18 @@ impl HomographyEstimator {
         loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Matrix3<f64>> {
-        let options = LmOptions {
-            max_iterations,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
         let start = to_frame(&self.frame, homography);
-        let refined = refine_in_frame(coordinates, &start, loss, &options)?;
+        let refined = refine_in_frame(coordinates, &start, loss, &steps(max_iterations))?;
         to_pixels(&self.frame, &refined)
+    }
+}
+
+fn steps(max_iterations: usize) -> LmOptions {
+    LmOptions {
+        max_iterations,
+        cost_tolerance: 1e-5,
+        step_tolerance: 1e-9,
+        ..LmOptions::default()
     }
 }
 
@@ -153,7 +157,9 @@ impl Estimator for HomographyEstimator {
         weights: &[f64],
     ) -> Option<Matrix3<f64>> {
         let near = self.in_frame.weighted(near, weights);
-        self.refined(model, &near, RobustLoss::Trivial, 4)
+        let start = to_frame(&self.frame, model);
+        let refined = refine_by_both_images(&near, &start, &steps(4))?;
+        to_pixels(&self.frame, &refined)
     }
 
     fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {

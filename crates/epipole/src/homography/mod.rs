@@ -8,6 +8,7 @@ mod estimate;
 mod four_point;
 mod linear;
 mod refine;
+mod refine_both;
 mod sampson;
 mod sums;
 

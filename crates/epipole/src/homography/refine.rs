@@ -84,7 +84,7 @@ struct Problem<'a> {
 }
 
 /// An orthonormal basis of the steps that leave the norm of H as it is.
-fn tangent_basis(h: &Matrix3<f64>) -> SMatrix<f64, 9, 8> {
+pub(super) fn tangent_basis(h: &Matrix3<f64>) -> SMatrix<f64, 9, 8> {
     let entries: [f64; 9] = core::array::from_fn(|i| h[(i / 3, i % 3)]);
     let basis: [[f64; 9]; 8] = null_space([entries]);
     SMatrix::from_fn(|i, j| basis[j][i])

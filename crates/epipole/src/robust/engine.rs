@@ -1,14 +1,12 @@
 //! The one loop: draw, fit, judge, improve, until enough samples were drawn.
 
+mod enough;
 mod finale;
 mod local_optimization;
 
-use super::budget::{all_inlier_probability, ratio_to_the, trials};
-use super::chance::{UNKNOWN_CHANCE, log10_false_alarms};
-use super::options::HARDLY_CHANCE;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
-use super::{Budget, Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
+use super::{Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
 use crate::math::random::Random;
 use crate::{Error, Result};
 
@@ -242,63 +240,5 @@ impl<E: Estimator> Ransac<E> {
             support.cost = f64::INFINITY;
         }
         support
-    }
-
-    /// How many samples the new best model asks for.
-    ///
-    /// Where the data come in order of quality, the samples of the best of them are enough as soon as
-    /// all-inlier samples of these are as likely as asked. Any first part of the data will do in which
-    /// the model has more inliers than chance would give it; samples need not come from beyond the part
-    /// that needs the fewest.
-    ///
-    /// Source: Chum & Matas 2005, "Matching with PROSAC", §2.2 (maximality and non-randomness).
-    fn require(&mut self, best: &Candidate<E::Model>) {
-        let num_data = self.estimator.num_data();
-        self.required = self.required_for(best.support.num_inliers, num_data);
-        if !self.sampler.is_ordered() {
-            return;
-        }
-        let max_error_px = self.options.max_error_px;
-        let size = self.estimator.sample_size();
-        let chance = self.chance.unwrap_or(UNKNOWN_CHANCE);
-        self.estimator
-            .inliers(&best.model, max_error_px, &mut self.inliers);
-        let mut limit = num_data;
-        for (place, index) in self.inliers.iter().enumerate() {
-            let (num_inliers, front) = (place + 1, index + 1);
-            let required = self.required_for(num_inliers, front);
-            if required < self.required
-                && log10_false_alarms(
-                    num_inliers,
-                    front,
-                    size,
-                    self.estimator.max_models(),
-                    chance,
-                ) < HARDLY_CHANCE
-            {
-                self.required = required;
-                limit = front;
-            }
-        }
-        self.sampler.keep_to(limit);
-    }
-
-    fn required_for(&self, num_inliers: usize, num_data: usize) -> u64 {
-        let size = self.estimator.sample_size();
-        let probability = match self.options.budget {
-            Budget::WithReplacement => ratio_to_the(num_inliers as f64 / num_data as f64, size),
-            Budget::WithoutReplacement => all_inlier_probability(num_inliers, num_data, size),
-        };
-        trials(probability, self.log_miss)
-    }
-
-    fn update_stop(&mut self) {
-        let iterations = self.iterations as u64;
-        let least = self.options.min_iterations.min(self.options.max_iterations);
-        if self.iterations >= least && iterations >= self.required {
-            self.stop = Some(StopReason::Confident);
-        } else if self.iterations >= self.options.max_iterations {
-            self.stop = Some(StopReason::Exhausted);
-        }
     }
 }

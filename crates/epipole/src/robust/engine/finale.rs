@@ -29,7 +29,8 @@ const SHARP_MEDIANS: f64 = 3.0;
 /// The width of the last loss, in the same medians.
 const WIDTH_MEDIANS: f64 = 2.5;
 
-/// How often data are weighed anew at the end.
+/// How often data are weighed anew at the end. Where few data say what the many leave open, more of it would
+/// do away with them.
 const REWEIGHTINGS: usize = 6;
 
 impl<E: Estimator> Ransac<E> {
@@ -204,11 +205,18 @@ impl<E: Estimator> Ransac<E> {
         if self.inliers.len() < self.estimator.sample_size() {
             return;
         }
-        let width_px = self.medians_of_errors_px(&candidate.model, WIDTH_MEDIANS);
-        let reach_px = max_error_px.max(2.0 * width_px);
         let mut model = candidate.model.clone();
         let mut weights = Vec::new();
         for _ in 0..REWEIGHTINGS {
+            // The width is that of the errors that are left, not of those at the start: from there the
+            // path of the search would show in the result.
+            self.estimator
+                .inliers(&model, max_error_px, &mut self.inliers);
+            if self.inliers.is_empty() {
+                break;
+            }
+            let width_px = self.medians_of_errors_px(&model, WIDTH_MEDIANS);
+            let reach_px = max_error_px.max(2.0 * width_px);
             self.estimator.inliers(&model, reach_px, &mut self.inliers);
             let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
             weights.clear();

@@ -1,0 +1,264 @@
+//! The pose of a camera and its focal length from points of which many are wrongly matched.
+
+use super::estimate::usable;
+use super::p4pf::{AbsolutePoseWithFocal, MAX_SOLUTIONS, PoseFocal, solve};
+use super::refine::{PoseProblem, rigid};
+use super::refine_focal::{refine_with_focal, relative_focal_deviation};
+use crate::camera::Intrinsics;
+use crate::optim::{LmOptions, RobustLoss};
+use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
+use crate::{Error, Result};
+use arrayvec::ArrayVec;
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
+
+/// A focal length whose standard deviation is a larger share of it says no more than a guess.
+const TELLING: f64 = 0.1;
+
+/// Focal lengths that are looked at, as multiples of the reach of the pixels.
+const FOCALS: [f64; 2] = [0.2, 20.0];
+
+const NAME: &str = "a camera pose with a focal length from points";
+
+impl AbsolutePoseWithFocal {
+    /// Whether the points tell the focal length, to a tenth of it.
+    pub fn tells_focal(&self) -> bool {
+        self.focal_std_px
+            .is_some_and(|std_px| std_px < TELLING * self.focal_px)
+    }
+}
+
+/// Camera poses with an unknown focal length from points and their pixels, for
+/// [`Ransac`](crate::robust::Ransac).
+///
+/// A sample is four points, and of its solutions only those are looked at whose focal length is between a fifth
+/// and twenty times the reach of the pixels about the principal point. The error is the reprojection error in
+/// pixels, infinite behind the camera; refinement minimizes its truncated square over the pose and the focal
+/// length. Equal data count once.
+///
+/// Source: as [`pose_p4pf`](super::pose_p4pf).
+#[derive(Debug, Clone)]
+pub struct AbsolutePoseFocalEstimator {
+    points: Vec<Point3<f64>>,
+    /// About the principal point.
+    pixels: Vec<Point2<f64>>,
+    reach_px: f64,
+    centered: Intrinsics,
+    unique: Unique,
+}
+
+impl AbsolutePoseFocalEstimator {
+    /// Prepares the estimation.
+    ///
+    /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
+    /// * `principal`: the principal point, pixels
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a principal
+    /// point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as four may have several
+    /// poses. A point at infinity, and a pixel there or beyond 10⁹, is left out.
+    pub fn new(
+        points_in_world: &[Point3<f64>],
+        pixels: &[Point2<f64>],
+        principal: &Point2<f64>,
+    ) -> Result<Self> {
+        if !(principal.x.is_finite() && principal.y.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "the principal point",
+            });
+        }
+        let unique = usable(points_in_world, pixels)?;
+        if unique.len() < 5 {
+            return Err(Error::TooFew {
+                what: NAME,
+                needed: 5,
+                got: unique.len(),
+            });
+        }
+        let kept = unique.first_occurrences();
+        let pixels: Vec<_> = (kept.iter().map(|&i| pixels[i] - principal.coords)).collect();
+        let far = pixels.iter().map(|p| p.coords.norm());
+        Ok(Self {
+            points: kept.iter().map(|&i| points_in_world[i]).collect(),
+            reach_px: far.fold(0.0, f64::max),
+            pixels,
+            // Its focal length is never asked for.
+            centered: Intrinsics::new(1.0, 1.0, 0.0, 0.0)?,
+            unique,
+        })
+    }
+
+    fn problem<'a>(
+        &'a self,
+        used: &'a [usize],
+        weights: Option<&'a [f64]>,
+        loss: RobustLoss,
+    ) -> PoseProblem<'a> {
+        PoseProblem {
+            points: &self.points,
+            pixels: &self.pixels,
+            used,
+            weights,
+            intrinsics: &self.centered,
+            loss,
+        }
+    }
+
+    fn refined(&self, model: &PoseFocal, problem: &PoseProblem<'_>) -> Option<PoseFocal> {
+        let options = LmOptions {
+            max_iterations: 4,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        refine_with_focal(problem, model, &options).filter(|found| self.is_usable(found.2))
+    }
+
+    fn is_usable(&self, focal_px: f64) -> bool {
+        (FOCALS[0] * self.reach_px..FOCALS[1] * self.reach_px).contains(&focal_px)
+    }
+
+    /// The standard deviation of the focal length of a model, from its inliers.
+    fn focal_std_px(&self, model: &PoseFocal, max_error_px: f64) -> Option<f64> {
+        let mut inliers = Vec::new();
+        self.inliers(model, max_error_px, &mut inliers);
+        let problem = self.problem(&inliers, None, RobustLoss::Trivial);
+        Some(relative_focal_deviation(&problem, model)? * model.2)
+    }
+}
+
+impl Estimator for AbsolutePoseFocalEstimator {
+    /// R and t of `cam_from_world`, and the focal length.
+    type Model = (Matrix3<f64>, Vector3<f64>, f64);
+
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn sample_size(&self) -> usize {
+        4
+    }
+
+    fn codimension(&self) -> usize {
+        2
+    }
+
+    fn num_data(&self) -> usize {
+        self.points.len()
+    }
+
+    fn max_models(&self) -> usize {
+        MAX_SOLUTIONS
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
+        let pixels = core::array::from_fn(|i| self.pixels[sample[i]]);
+        let points = core::array::from_fn(|i| self.points[sample[i]].coords);
+        let mut solutions = ArrayVec::new();
+        solve(&pixels, &points, &mut solutions);
+        models.extend(
+            solutions
+                .into_iter()
+                .filter(|found| self.is_usable(found.2)),
+        );
+    }
+
+    fn error_sq(&self, (rotation, t, focal_px): &Self::Model, index: usize) -> f64 {
+        let x = rotation * self.points[index].coords + t;
+        let seen = x.xy() * (focal_px / x.z);
+        if x.z > 0.0 {
+            (seen - self.pixels[index].coords).norm_squared()
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn refine(
+        &mut self,
+        model: &PoseFocal,
+        inliers: &[usize],
+        max_error_px: f64,
+    ) -> Option<PoseFocal> {
+        let loss = RobustLoss::Truncated {
+            width: max_error_px,
+        };
+        self.refined(model, &self.problem(inliers, None, loss))
+    }
+
+    fn polish(&mut self, model: &PoseFocal, near: &[usize], weights: &[f64]) -> Option<PoseFocal> {
+        self.refined(
+            model,
+            &self.problem(near, Some(weights), RobustLoss::Trivial),
+        )
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        let coordinates = [0, 1].map(|axis| self.pixels.iter().map(|p| p[axis]).collect());
+        Some(chance_near_point(coordinates, max_error_px))
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(&self.unique)
+    }
+}
+
+/// The pose `cam_from_world` and the focal length that most points agree on.
+///
+/// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
+/// * `principal`: the principal point, pixels: the middle of the image, for most cameras. Pixels are square
+/// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
+///
+/// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly as well, at
+/// a distance that suits it, and [`AbsolutePoseWithFocal::tells_focal`] says no. The same holds for points whose
+/// depths hardly differ.
+///
+/// # Errors
+/// As [`AbsolutePoseFocalEstimator::new`] and [`ransac`]; points on one line give
+/// [`Error::NoConsensus`].
+///
+/// Source: Fischler & Bolles 1981, with [`pose_p4pf`](super::pose_p4pf) as the minimal solver.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::estimate_absolute_pose_and_focal;
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
+/// let (mut points, mut pixels) = (Vec::new(), Vec::new());
+/// for i in 0..40 {
+///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, f64::from(i * i % 7) - 2.0);
+///     points.push(x);
+///     pixels.push(k.project(&(cam_from_world * x))?);
+/// }
+/// // Every fourth pixel belongs to something else.
+/// for pixel in pixels.iter_mut().step_by(4) {
+///     pixel.x = 640.0 - pixel.y;
+/// }
+/// let options = RansacOptions::default();
+/// let report = estimate_absolute_pose_and_focal(&points, &pixels, &k.principal_point(), &options)?;
+/// assert_eq!(report.num_inliers, 30);
+/// assert!((report.model.focal_px - 700.0).abs() < 1e-3 && report.model.tells_focal());
+/// assert!(report.model.cam_from_world.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
+/// # Ok(()) }
+/// ```
+#[doc(alias = "solvePnP")]
+pub fn estimate_absolute_pose_and_focal(
+    points_in_world: &[Point3<f64>],
+    pixels: &[Point2<f64>],
+    principal: &Point2<f64>,
+    options: &RansacOptions,
+) -> Result<RansacReport<AbsolutePoseWithFocal>> {
+    let estimator = AbsolutePoseFocalEstimator::new(points_in_world, pixels, principal)?;
+    let all = estimator.clone();
+    let report = ransac(estimator, options)?;
+    // One of the inliers, of which there are four at least, stays where it is seen.
+    let inlier = report.inliers.iter().position(|&inlier| inlier);
+    let fixed = points_in_world[inlier.unwrap_or(0)].coords;
+    let focal_std_px = all.focal_std_px(&report.model, report.max_error_px);
+    Ok(report.map(|(rotation, t, focal_px)| AbsolutePoseWithFocal {
+        cam_from_world: rigid(&(rotation, t), &fixed),
+        focal_px,
+        focal_std_px,
+    }))
+}

@@ -1,0 +1,263 @@
+//! The pose of a camera and its focal length from four points.
+
+mod elimination;
+mod plane;
+
+use self::elimination::depth_ratios;
+use super::refine::rigid;
+use super::refine_focal::polish_sample;
+use crate::camera::RigidTransform;
+use crate::math::svd3;
+use arrayvec::ArrayVec;
+use nalgebra::{Matrix3, Point2, Point3, SMatrix, Vector3, Vector4};
+
+/// Where a camera is, and its focal length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AbsolutePoseWithFocal {
+    /// The pose.
+    pub cam_from_world: RigidTransform,
+    /// The focal length, pixels.
+    pub focal_px: f64,
+    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it. `None` for a
+    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
+    pub focal_std_px: Option<f64>,
+}
+
+/// At most so many solutions: six of points in space, one of points on a plane.
+pub(super) const MAX_SOLUTIONS: usize = 7;
+
+/// R, t and the focal length in pixels.
+pub(super) type PoseFocal = (Matrix3<f64>, Vector3<f64>, f64);
+
+/// Four points are on a line if they are broader than this share of their length in no direction.
+const LINE: f64 = 1e-6;
+
+/// Four points are as good as on a plane if they are thinner than this share of their length: what tells
+/// the thickness is lost among the rest.
+const FLAT: f64 = 1e-7;
+
+/// Points thinner than this are tried as points on a plane, too.
+const THIN: f64 = 0.15;
+
+/// A solution that is off by more, as a share of the picture's reach, is none.
+const FAR_OFF: f64 = 0.25;
+
+/// The poses, each with its focal length, from which four known points are seen at four pixels; at most seven.
+///
+/// Pixels are square, without skew. The four depths, up to a common factor, and the focal length are unknown, and the
+/// camera sees a copy of the four points in another size: that their differences have the same angles and lengths
+/// are four quadratic equations in three ratios of depths, from which f is eliminated. Three of their
+/// combinations give the squares and the product of two ratios, the fourth is linear in them, and a determinant
+/// of degree six in the third is left. Four points on a plane give the ratios at once, and points near a plane are tried
+/// both ways.
+///
+/// * `pixels`, `points_in_world`: where the points are seen, and where they are
+/// * `principal`: the principal point, pixels: the middle of the image, for most cameras
+///
+/// Four points are one equation more than there are unknowns: where pixels are exact the true solution fits
+/// exactly, and where they are not, solutions nearly fit. They come in the order of their errors, the best first.
+/// Returns an empty list if there is none, and for equal points or pixels, three points of a plane on a line,
+/// input that is not finite, and a plane that faces the camera squarely, which looks the same from every
+/// distance with its focal length.
+///
+/// Source: the equations of Bujnak, Kukelova & Pajdla 2008, "A general solution to the P4P problem for camera with
+/// unknown focal length"; their elimination as in Kukelova, Heller & Fitzgibbon 2016, "Efficient intersection of three
+/// quadrics and applications in computer vision", with the fourth equation in place of an identity.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::pose_p4pf;
+/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use nalgebra::{Point3, Vector3};
+/// let k = Intrinsics::new(900.0, 900.0, 320.0, 240.0)?;
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
+/// let points = [(-1.0, -1.0, 0.5), (1.0, -0.5, -0.7), (0.3, 1.0, 0.0), (-0.8, 0.6, 1.2)]
+///     .map(|(x, y, z)| Point3::new(x, y, z));
+/// let pixels = points.map(|x| k.project(&(cam_from_world * x)).unwrap());
+/// let best = pose_p4pf(&pixels, &points, &k.principal_point())[0];
+/// assert!((best.focal_px - 900.0).abs() < 1e-6);
+/// assert!(best.cam_from_world.rotation.angle_to(&cam_from_world.rotation) < 1e-9);
+/// # Ok(()) }
+/// ```
+pub fn pose_p4pf(
+    pixels: &[Point2<f64>; 4],
+    points_in_world: &[Point3<f64>; 4],
+    principal: &Point2<f64>,
+) -> ArrayVec<AbsolutePoseWithFocal, MAX_SOLUTIONS> {
+    let about = pixels.map(|p| p - principal.coords);
+    let points = points_in_world.map(|x| x.coords);
+    let mut solutions = ArrayVec::new();
+    solve(&about, &points, &mut solutions);
+    let whole = |(rotation, t, focal_px): PoseFocal| AbsolutePoseWithFocal {
+        cam_from_world: rigid(&(rotation, t), &points[0]),
+        focal_px,
+        focal_std_px: None,
+    };
+    solutions.into_iter().map(whole).collect()
+}
+
+/// The same for pixels about the principal point.
+pub(super) fn solve(
+    about: &[Point2<f64>; 4],
+    points: &[Vector3<f64>; 4],
+    solutions: &mut ArrayVec<PoseFocal, MAX_SOLUTIONS>,
+) {
+    let sum_sq: f64 = about.iter().map(|p| p.coords.norm_squared()).sum();
+    let unit_px = (0.25 * sum_sq).sqrt();
+    let sides = [1, 2, 3].map(|i| points[i] - points[0]);
+    let length = sides.iter().fold(0.0_f64, |far, side| far.max(side.amax()));
+    if !(unit_px > 0.0 && unit_px.is_finite() && length > 0.0 && length.is_finite()) {
+        return;
+    }
+    let problem = Sample {
+        pixels: about.map(|p| p.coords / unit_px),
+        sides: Matrix3::from_columns(&sides) / length,
+    };
+    let svd = svd3(&problem.sides);
+    // Points on a line leave the camera free to turn about it.
+    if svd.singular_values[1] < LINE * svd.singular_values[0] {
+        return;
+    }
+    let thickness = svd.singular_values[2] / svd.singular_values[0];
+    let mut found = ArrayVec::<(f64, PoseFocal), MAX_SOLUTIONS>::new();
+    let mut push = |depths: &Vector4<f64>| {
+        let Some((mut pose, mirrored)) = problem.pose_of(depths) else {
+            return;
+        };
+        // Of points on a plane the mirror image is the same as a turn.
+        if mirrored && thickness > THIN {
+            return;
+        }
+        if thickness <= THIN {
+            let Some(better) = polish_sample(&problem.pixels, &problem.points(), &pose) else {
+                return;
+            };
+            pose = better;
+        }
+        let error = problem.error(&pose);
+        if error < FAR_OFF && !found.is_full() {
+            found.push((error, pose));
+        }
+    };
+    if thickness > FLAT
+        && let Some(inverse) = problem.sides.try_inverse()
+    {
+        for depths in &depth_ratios(&problem.pixels, &inverse) {
+            push(depths);
+        }
+    }
+    if thickness < THIN
+        && let Some(depths) = plane::depth_ratios(&problem.pixels, &svd.v.column(2).into_owned())
+    {
+        push(&depths);
+    }
+    found.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
+    for (_, (rotation, t, focal)) in found {
+        let t = t * length - rotation * points[0];
+        let known = |other: &PoseFocal| {
+            (other.2 / (focal * unit_px) - 1.0).abs() < SAME && (other.0 - rotation).norm() < SAME
+        };
+        let finite = t.iter().chain(rotation.iter()).all(|x| x.is_finite());
+        if finite && !solutions.iter().any(known) {
+            solutions.push((rotation, t, focal * unit_px));
+        }
+    }
+}
+
+/// Solutions that differ by less are one.
+const SAME: f64 = 1e-7;
+
+/// Where depths differ by no more, squared and relative to the first, every focal length fits.
+const SAME_DEPTH: f64 = 1e-12;
+
+/// Four points in units that suit them, the first of them at the origin.
+struct Sample {
+    /// About the principal point.
+    pixels: [nalgebra::Vector2<f64>; 4],
+    /// From the first point to the others, in columns.
+    sides: Matrix3<f64>,
+}
+
+impl Sample {
+    fn points(&self) -> [Point3<f64>; 4] {
+        let at = |i: usize| self.sides.column(i).into_owned();
+        [Vector3::zeros(), at(0), at(1), at(2)].map(Point3::from)
+    }
+
+    /// The pose, its focal length, and whether the camera would have to see a mirror image.
+    ///
+    /// A distance between two points gives `‖uᵢzᵢ − uⱼzⱼ‖² + f² (zᵢ − zⱼ)² = s² d²`: six equations, linear in f² and
+    /// s². Then R is the turn from one set of points to the other.
+    ///
+    /// Source: Arun, Huang & Blostein 1987, "Least-squares fitting of two 3-D point sets".
+    fn pose_of(&self, z: &Vector4<f64>) -> Option<(PoseFocal, bool)> {
+        let points = self.points();
+        let (mut bb, mut bd, mut dd, mut ab, mut ad) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for i in 0..4 {
+            for j in 0..i {
+                let a = (self.pixels[i] * z[i] - self.pixels[j] * z[j]).norm_squared();
+                let b = (z[i] - z[j]) * (z[i] - z[j]);
+                let d = (points[i] - points[j]).norm_squared();
+                bb += b * b;
+                bd += b * d;
+                dd += d * d;
+                ab += a * b;
+                ad += a * d;
+            }
+        }
+        // a + b f² − d s² = 0 by least squares.
+        let determinant = bb * dd - bd * bd;
+        let tells_focal = bb > SAME_DEPTH * SAME_DEPTH && determinant > 1e-14 * bb * dd;
+        if !tells_focal {
+            return None;
+        }
+        let focal_sq = (bd * ad - dd * ab) / determinant;
+        let scale_sq = (bb * ad - bd * ab) / determinant;
+        let (focal, scale) = (focal_sq.sqrt(), scale_sq.sqrt());
+        if !(focal > 0.0 && scale > 0.0 && focal.is_finite() && scale.is_finite()) {
+            return None;
+        }
+        let seen = |i: usize| {
+            Vector3::new(
+                self.pixels[i].x * z[i],
+                self.pixels[i].y * z[i],
+                focal * z[i],
+            ) / scale
+        };
+        let first = seen(0);
+        let turned = Matrix3::from_columns(&[1, 2, 3].map(|i| seen(i) - first));
+        let mirrored = turned.determinant() * self.sides.determinant() < 0.0;
+        // The centers of both sets, not their first points, lie on one another.
+        let middle = |sides: &Matrix3<f64>| sides.column_sum() / 4.0;
+        let (m1, m2) = (middle(&self.sides), middle(&turned));
+        let mut sums = m2 * m1.transpose();
+        for i in 0..3 {
+            sums += (turned.column(i) - m2) * (self.sides.column(i) - m1).transpose();
+        }
+        let svd = svd3(&sums);
+        let sign = (svd.u.determinant() * svd.v.determinant()).signum();
+        let rotation =
+            svd.u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * svd.v.transpose();
+        let t = first + m2 - rotation * m1;
+        Some(((rotation, t, focal), mirrored))
+    }
+
+    /// The root of the mean square distance of a point's image from its pixel; infinite behind the camera.
+    fn error(&self, (rotation, t, focal): &PoseFocal) -> f64 {
+        let mut sum = 0.0;
+        for (x, pixel) in self.points().iter().zip(&self.pixels) {
+            let x = rotation * x.coords + t;
+            if x.z <= 0.0 {
+                return f64::INFINITY;
+            }
+            sum += (x.xy() * (focal / x.z) - pixel).norm_squared();
+        }
+        (0.25 * sum).sqrt()
+    }
+}
+
+/// A quadratic form in three ratios and 1.
+type Quadric = SMatrix<f64, 4, 4>;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,187 @@
+//! Nonlinear refinement of a camera pose together with the focal length.
+
+use super::local_problem::{LocalPose, LocalProblem};
+use super::p4pf::PoseFocal;
+use super::refine::PoseProblem;
+use crate::camera::Intrinsics;
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
+
+/// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics have.
+struct FocalProblem<'a> {
+    problem: &'a PoseProblem<'a>,
+    local: LocalProblem<'a>,
+}
+
+impl<'a> FocalProblem<'a> {
+    fn new(problem: &'a PoseProblem<'a>, (rotation, t, _): &PoseFocal) -> Self {
+        Self {
+            problem,
+            local: LocalProblem::new(problem, &(*rotation, *t)),
+        }
+    }
+
+    /// The intrinsics with another focal length, if there is such a camera.
+    fn camera(&self, focal_px: f64) -> Option<Intrinsics> {
+        let center = self.problem.intrinsics.principal_point();
+        Intrinsics::new(focal_px, focal_px, center.x, center.y).ok()
+    }
+
+    /// The residual and its derivatives by turn, shift and log f.
+    fn linearized(
+        &self,
+        pose: &LocalPose,
+        k: &Intrinsics,
+        index: usize,
+    ) -> Option<(Vector2<f64>, SMatrix<f64, 2, 7>)> {
+        let (residual, places) = self.local.residual(pose, k, index)?;
+        let seen = self.problem.pixels[index].coords + residual;
+        let mut jacobian = SMatrix::<f64, 2, 7>::zeros();
+        let by_pose = self.local.jacobian(k, &places);
+        jacobian.fixed_view_mut::<2, 6>(0, 0).copy_from(&by_pose);
+        jacobian.set_column(6, &(seen - k.principal_point().coords));
+        Some((residual, jacobian))
+    }
+}
+
+impl FixedProblem<7> for FocalProblem<'_> {
+    type Parameters = (LocalPose, f64);
+
+    fn accumulate(&self, (pose, focal_px): &(LocalPose, f64), normal: &mut NormalEquations<7>) {
+        let Some(k) = self.camera(*focal_px) else {
+            normal.cost = f64::INFINITY;
+            return;
+        };
+        for (index, root) in self.problem.used() {
+            match self.linearized(pose, &k, index) {
+                Some((residual, jacobian)) => {
+                    normal.add(&(residual * root), &(jacobian * root), &self.problem.loss);
+                }
+                None => normal.cost = f64::INFINITY,
+            }
+        }
+    }
+
+    fn cost(&self, (pose, focal_px): &(LocalPose, f64)) -> f64 {
+        let Some(k) = self.camera(*focal_px) else {
+            return f64::INFINITY;
+        };
+        let mut total = 0.0;
+        for (index, root) in self.problem.used() {
+            match self.local.residual(pose, &k, index) {
+                Some((residual, _)) => {
+                    total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
+                }
+                None => return f64::INFINITY,
+            }
+        }
+        total
+    }
+
+    fn plus(
+        &self,
+        (pose, focal_px): &(LocalPose, f64),
+        delta: &SVector<f64, 7>,
+    ) -> (LocalPose, f64) {
+        let moved = self
+            .local
+            .moved(pose, &delta.fixed_rows::<6>(0).into_owned());
+        (moved, focal_px * libm::exp(delta[6]))
+    }
+}
+
+/// Refines a pose with its focal length; of the intrinsics of the problem only the principal point counts.
+pub(super) fn refine_with_focal(
+    problem: &PoseProblem<'_>,
+    start: &PoseFocal,
+    options: &LmOptions,
+) -> Option<PoseFocal> {
+    let focal = FocalProblem::new(problem, start);
+    let mut model = (focal.local.about_pivot(&(start.0, start.1)), start.2);
+    minimize_fixed(&focal, &mut model, options).ok()?;
+    let (rotation, t) = focal.local.in_world(&model.0)?;
+    (model.1 > 0.0 && model.1.is_finite()).then_some((rotation, t, model.1))
+}
+
+/// The standard deviation of the focal length, as a share of it: that of the errors, and how they depend on all
+/// seven parameters. `None` if they do not determine it.
+pub(super) fn relative_focal_deviation(
+    problem: &PoseProblem<'_>,
+    model: &PoseFocal,
+) -> Option<f64> {
+    let focal = FocalProblem::new(problem, model);
+    let at = (focal.local.about_pivot(&(model.0, model.1)), model.2);
+    let mut normal = NormalEquations::new();
+    focal.accumulate(&at, &mut normal);
+    let free = (2 * problem.used.len()).checked_sub(7).filter(|n| *n > 0)?;
+    let variance = 2.0 * normal.cost / free as f64;
+    let inverse = normal.hessian.cholesky()?.inverse();
+    let share = (variance * inverse[(6, 6)]).sqrt();
+    share.is_finite().then_some(share)
+}
+
+/// The solution near a start that four points fit best; their pixels are about the principal point.
+pub(super) fn polish_sample(
+    about: &[Vector2<f64>; 4],
+    points: &[Point3<f64>; 4],
+    start: &PoseFocal,
+) -> Option<PoseFocal> {
+    let options = LmOptions {
+        max_iterations: 20,
+        cost_tolerance: 1e-12,
+        step_tolerance: 1e-13,
+        ..LmOptions::default()
+    };
+    let problem = PoseProblem {
+        points,
+        pixels: &about.map(Point2::from),
+        used: &[0, 1, 2, 3],
+        weights: None,
+        intrinsics: &Intrinsics::new(1.0, 1.0, 0.0, 0.0).ok()?,
+        loss: RobustLoss::Trivial,
+    };
+    refine_with_focal(&problem, start, &options)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::p3p::tests::problem;
+    use super::*;
+    use crate::math::random::Random;
+    use crate::optim::check_jacobian;
+    use nalgebra::{DMatrix, DVector};
+
+    #[test]
+    fn jacobian_agrees_with_differences() {
+        let mut random = Random::new(1);
+        let k = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
+        for _ in 0..20 {
+            let (truth, rays, points) = problem::<8>(&mut random);
+            let pose_problem = PoseProblem {
+                points: &points,
+                pixels: &rays.map(|r| k.project(&r.into()).unwrap()),
+                used: &[0, 1, 2, 3, 4, 5, 6, 7],
+                weights: None,
+                intrinsics: &k,
+                loss: RobustLoss::Trivial,
+            };
+            let rotation = truth.rotation.to_rotation_matrix().into_inner();
+            let start = (rotation, truth.translation.vector, 620.0);
+            let focal = FocalProblem::new(&pose_problem, &start);
+            let model = (focal.local.about_pivot(&(start.0, start.1)), start.2);
+            let at = |(pose, focal_px): &(LocalPose, f64), i: usize| {
+                let camera = focal.camera(*focal_px).unwrap();
+                focal.linearized(pose, &camera, i).unwrap()
+            };
+            let residuals = |delta: &DVector<f64>| {
+                let delta = SVector::<f64, 7>::from_column_slice(delta.as_slice());
+                let moved = focal.plus(&model, &delta);
+                DVector::from_fn(16, |row, _| at(&moved, row / 2).0[row % 2])
+            };
+            let analytic = DMatrix::from_fn(16, 7, |row, column| {
+                at(&model, row / 2).1[(row % 2, column)]
+            });
+            assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
+        }
+    }
+}
