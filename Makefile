@@ -85,6 +85,12 @@ audit: setup-build ## known holes in what we build from; asks the registries, so
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
+bench-lab: setup ## what the Lab costs in a browser: seconds, frames, memory
+	$(BOOK) build
+	$(BOOK) lab
+	cargo run --locked --quiet -p epipole-lab --example photographs -- target/lab-photographs
+	cd tests/browser && node labbench.mjs ../../target/lab-photographs 2500
+
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
 

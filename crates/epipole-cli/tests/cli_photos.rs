@@ -78,8 +78,9 @@ fn reduced_photographs_keep_the_focal_length_of_their_files() {
         "--max-megapixels",
         "0.0432",
     ];
-    let found = json(&[&pair[..], &["--focal-px", "600"]].concat());
-    assert_eq!(found["configuration"], "general");
+    let essential = ["--focal-px", "600", "--model", "essential"];
+    let found = json(&[&pair[..], &essential].concat());
+    assert_eq!(numbers(&found["focals_px"]), [300.0, 300.0]);
     let right = found["matches"].as_array().unwrap().iter();
     assert!(right.map(|m| numbers(m)[0]).all(|u| u < 240.0));
 
@@ -99,7 +100,8 @@ fn reduced_photographs_keep_the_focal_length_of_their_files() {
         "cannot be used",
     );
     for wrong in ["0", "-1", "nan", "inf"] {
-        let wrong = with(&["--max-megapixels", wrong]);
+        let wrong = format!("--max-megapixels={wrong}");
+        let wrong = [&base[..], &[&wrong]].concat();
         fails(&folder, &wrong, 2, "max-megapixels");
     }
 }
