@@ -3,7 +3,7 @@
 import { deflateSync } from "node:zlib";
 import { expect, expectAccessible, press, read, said, solved, test } from "./lab.mjs";
 
-test.describe.configure({ mode: "serial" });
+test.describe.configure({ mode: "default" });
 
 const notice = (page) => page.locator("#notice");
 
@@ -48,12 +48,12 @@ async function give(lab) {
 test("a file that is too large, or that is cut off, is told, and the others stay", async ({ lab }) => {
   await solved(lab);
   const all = [
-    file("huge.png", png(100_000, 90_000, false)),
+    file("huge.png", png(10_000, 9_000, false)),
     file("one.png", png(64, 48)),
     file("cut.png", png(300, 200).subarray(0, 120)),
   ];
   await lab.locator("#photographs").setInputFiles(all);
-  await expect(said(lab)).toContainText(/huge\.png: cannot be read: .*9000000000 pixels/, { timeout: 30_000 });
+  await expect(said(lab)).toContainText(/huge\.png: cannot be read: .*90000000 pixels/, { timeout: 30_000 });
   await expect(said(lab)).toContainText("cut.png: cannot be read");
   await expect(said(lab)).toContainText("one.png: alone");
 });

@@ -208,10 +208,7 @@ impl CloudView {
         }
         if !same_place || self.orbit.is_none() {
             let mut orbit = Orbit::around(&self.scene, sum.into());
-            frame(&mut orbit, component);
-            if let Some(before) = side {
-                (orbit.yaw_rad, orbit.pitch_rad) = (before.yaw_rad, before.pitch_rad);
-            }
+            frame(&mut orbit, component, side);
             self.orbit = Some(orbit);
             self.point = None;
         }

@@ -64,8 +64,9 @@ pub(super) fn steer(
     *orbit != before
 }
 
-/// From behind the cameras, a little aside, with all of them in the picture, and the points but for the outermost.
-pub(super) fn frame(orbit: &mut Orbit, component: &Component) {
+/// From the side of another view, or else from behind the cameras and a little aside; with all of them in the picture, and
+/// the points but for the outermost.
+pub(super) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
     const ASIDE_RAD: f64 = 0.35;
     let cameras = || component.cameras.iter().flatten();
     let ahead = |camera: &CameraFound| {
@@ -73,8 +74,13 @@ pub(super) fn frame(orbit: &mut Orbit, component: &Component) {
         camera.ray([cu, cv]).normalize()
     };
     let forward: nalgebra::Vector3<f64> = cameras().map(ahead).sum();
-    orbit.look_along(forward.into());
-    orbit.turn(ASIDE_RAD, 0.0);
+    match side {
+        Some(before) => (orbit.yaw_rad, orbit.pitch_rad) = (before.yaw_rad, before.pitch_rad),
+        None => {
+            orbit.look_along(forward.into());
+            orbit.turn(ASIDE_RAD, 0.0);
+        }
+    }
     let middle = orbit.middle;
     let away = |place: &[f64; 3]| (nalgebra::Point3::from(*place) - middle).norm();
     let mut places: Vec<[f64; 3]> = component.points.iter().map(|p| p.position).collect();
