@@ -1,7 +1,7 @@
 // What can go wrong in the Lab: each ends in a sentence where the reader looks, with a way on, and the photographs stay.
 
 import { deflateSync } from "node:zlib";
-import { expect, expectAccessible, press, read, said, solved, test } from "./lab.mjs";
+import { expect, expectAccessible, said, solved, test } from "./lab.mjs";
 
 test.describe.configure({ mode: "default" });
 
@@ -64,13 +64,8 @@ test("a project of a newer Lab, and a file that is none, leave everything as it 
   const broken = { name: "broken.zip", mimeType: "application/zip", buffer: Buffer.from("no zip file") };
   await lab.locator("#project").setInputFiles([broken]);
   await expect(said(lab)).toContainText("this file is no project of the Lab, or it is damaged", { timeout: 30_000 });
-  // One of its own, with a version that is not known yet.
-  await press(lab, "button", "Project");
-  const [download] = await Promise.all([lab.waitForEvent("download"), press(lab, "button", "Save")]);
-  const { unzipSync, zipSync, strToU8, strFromU8 } = await import("../../web/node_modules/fflate/esm/index.mjs");
-  const parts = unzipSync(await read(download));
-  const saved = JSON.parse(strFromU8(parts["project.json"]));
-  parts["project.json"] = strToU8(JSON.stringify({ ...saved, version: saved.version + 1 }));
+  const { zipSync, strToU8 } = await import("../../web/node_modules/fflate/esm/index.mjs");
+  const parts = { "project.json": strToU8(JSON.stringify({ version: 999 })) };
   const newer = { name: "newer.zip", mimeType: "application/zip", buffer: Buffer.from(zipSync(parts)) };
   await lab.locator("#project").setInputFiles([newer]);
   await expect(said(lab)).toContainText("this project was saved by a newer Lab: reload the page to get it", { timeout: 30_000 });
@@ -99,7 +94,9 @@ async function goOn(lab) {
   await expectAccessible(lab);
   await button.click();
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 60_000 });
-  await expect(said(lab)).toContainText("one.png");
+  for (const name of ["one.png", "two.png"]) {
+    await expect(lab.locator("#widgets").getByRole("button", { name: new RegExp(`^${name}:`) })).toHaveCount(1);
+  }
   await expect(notice(lab)).toBeEmpty();
   await expect.poll(() => lab.evaluate(async () => (await indexedDB.databases()).length)).toBe(0);
 }
