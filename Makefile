@@ -10,7 +10,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-engines test-hosts test-reproducible monkey python bench audit bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey python bench audit bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -26,7 +26,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-engines, test-hosts, test-reproducible, monkey
+test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -49,11 +49,16 @@ test-browser: setup ## the book and the figures in a real browser
 test-lab: setup ## the Lab in a real browser, after building it
 	$(BOOK) build
 	$(BOOK) lab
-	cd tests/browser && LAB=1 npx playwright test 'lab\.spec'
+	cd tests/browser && LAB=1 npx playwright test 'lab(faults)?\.spec'
 
-test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
+test-window: setup-build ## the Lab in a window, on a display that nobody sees
+	@tests/tools/window.sh
+	cargo test --locked -p epipole-lab --features window --test window
+
+test-engines: setup tests/engines/node_modules/.installed ## the book and the Lab in Firefox and WebKit, compared with Chromium and with native bits
 	@tests/tools/engines.sh
 	$(BOOK) build
+	$(BOOK) lab
 	cd tests/engines && npm test --silent
 
 monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
@@ -79,6 +84,12 @@ audit: setup-build ## known holes in what we build from; asks the registries, so
 
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
+
+bench-lab: setup ## what the Lab costs in a browser: seconds, frames, memory
+	$(BOOK) build
+	$(BOOK) lab
+	cargo run --locked --quiet -p epipole-lab --example photographs -- target/lab-photographs
+	cd tests/browser && node labbench.mjs ../../target/lab-photographs 2500
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden

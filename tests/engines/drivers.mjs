@@ -18,12 +18,16 @@ const MINI_BROWSERS = ["x86_64-linux-gnu", "aarch64-linux-gnu"].flatMap((machine
   ["4.1", "4.0"].map((version) => `/usr/lib/${machine}/webkit2gtk-${version}/MiniBrowser`),
 );
 
-export const chromium = () => byPuppeteer("Chromium", { ...launchOptions, browser: "chrome", headless: true });
+// WebGL on the processor, for the Lab: there may be no graphics card.
+const args = [...launchOptions.args, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const extraPrefsFirefox = { "webgl.force-enabled": true, "webgl.disable-fail-if-major-performance-caveat": true };
+
+export const chromium = () => byPuppeteer("Chromium", { ...launchOptions, args, browser: "chrome", headless: true });
 
 export const firefox = () => {
   const executablePath = process.env.FIREFOX ?? FIREFOX.find((path) => existsSync(path));
   if (!executablePath) throw new Error("Firefox is missing: install firefox-esr, or set FIREFOX=path");
-  return byPuppeteer("Firefox", { browser: "firefox", executablePath, headless: true });
+  return byPuppeteer("Firefox", { browser: "firefox", executablePath, extraPrefsFirefox, headless: true });
 };
 
 async function byPuppeteer(name, options) {

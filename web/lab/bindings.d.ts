@@ -11,7 +11,7 @@ declare module "epipole-lab-page" {
         askForPhotographs(): void;
         askForProject(): void;
         askForCamera(): void;
-        askForFrames(video: number, numParts: number): void;
+        askForFrames(video: number, part: number, numParts: number): void;
         save(name: string, bytes: Uint8Array): void;
         say(words: string): void;
         explain(figure: string, page: string, title: string): void;
@@ -25,13 +25,13 @@ declare module "epipole-lab-page" {
     photograph(name: string, bytes: Uint8Array): void;
     deliver(): void;
     video(video: number): void;
-    frame(part: number, bytes: Uint8Array): void;
+    frame(bytes: Uint8Array): void;
     frames(video: number, name: string): void;
-    dropFrames(): void;
+    noFrames(video: number, sentence: string): void;
     news(sentence: string): void;
     link(parameters: string[]): void;
     project(archive: Uint8Array): void;
-    dark(dark: boolean): void;
+    theme(theme: string): void;
     widgets(): string | undefined;
     operate(widget: string, value?: number): void;
     panic(): string | undefined;

@@ -4,8 +4,10 @@ import load, { Lab } from "epipole-lab-page";
 import { Camera } from "./camera.js";
 import { Crew, type Told } from "./crew.js";
 import { FigureBeside } from "./figure.js";
+import { dropped, photographOf } from "./files.js";
+import { putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
-import { framesOf, isVideo } from "./video.js";
+import { Frames, isVideo } from "./video.js";
 
 function find<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -24,7 +26,9 @@ const REST_MS = 400;
 
 try {
   const chosen = localStorage.getItem("epipole-theme");
-  if (chosen === "light" || chosen === "dark") document.documentElement.dataset["theme"] = chosen;
+  if (chosen === "light" || chosen === "dark" || chosen === "high-contrast") {
+    document.documentElement.dataset["theme"] = chosen;
+  }
 } catch {
   // Storage may be forbidden; then the system decides.
 }
@@ -32,11 +36,14 @@ try {
 /** How often widgets are looked at for those who do not see them, milliseconds. */
 const LOOK_MS = 200;
 
-/** The theme that the reader chose in the book, or that of the system. */
-function isDark(): boolean {
+const contrast = ["(prefers-contrast: more)", "(forced-colors: active)"];
+const themes = ["(prefers-color-scheme: dark)", ...contrast];
+
+/** High contrast where the reader asks for it; else what was chosen in the book, or else by the system. */
+function theme(): string {
+  if (contrast.some((query) => matchMedia(query).matches)) return "high-contrast";
   const chosen = document.documentElement.dataset["theme"];
-  if (chosen) return chosen === "dark";
-  return matchMedia("(prefers-color-scheme: dark)").matches;
+  return chosen ?? (matchMedia(themes[0] ?? "").matches ? "dark" : "light");
 }
 
 async function start(): Promise<void> {
@@ -56,22 +63,27 @@ async function start(): Promise<void> {
   };
   const crew = new Crew(hear);
   const beside = new FigureBeside();
+  /** What the reader gave: names of files, not their bytes. */
+  const given: File[] = [];
   const camera = new Camera(
-    (name, jpeg) => lab.photograph(name, jpeg),
+    (name, jpeg) => {
+      given.push(new File([jpeg as BlobPart], name));
+      lab.photograph(name, jpeg);
+    },
     () => lab.deliver(),
   );
-  /** Videos by their numbers, and the one after the other: each takes the machine for itself. */
-  const videos: File[] = [];
-  let reading = Promise.resolve();
-  const read = async (video: number, numParts: number) => {
-    const file = videos[video];
-    if (!file) return;
+  /** Videos by their numbers. */
+  const videos: Frames[] = [];
+  const read = async (video: number, part: number, numParts: number) => {
+    const frames = videos[video];
+    if (!frames) return;
     try {
-      await framesOf(file, numParts, (words) => lab.news(words), (part, jpeg) => lab.frame(part, jpeg));
-      lab.frames(video, file.name);
+      await frames.ofPart(part, numParts, (jpeg) => lab.frame(jpeg));
+      if (part + 1 === numParts) frames.close();
+      lab.frames(video, frames.name);
     } catch (error) {
-      lab.dropFrames();
-      lab.news(error instanceof Error ? error.message : String(error));
+      frames.close();
+      lab.noFrames(video, error instanceof Error ? error.message : String(error));
     }
   };
   let resting: ReturnType<typeof setTimeout> | undefined;
@@ -83,9 +95,7 @@ async function start(): Promise<void> {
     askForPhotographs: () => photographs.click(),
     askForProject: () => project.click(),
     askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
-    askForFrames: (video: number, numParts: number) => {
-      reading = reading.then(() => read(video, numParts));
-    },
+    askForFrames: (video: number, part: number, numParts: number) => void read(video, part, numParts),
     save,
     say: (words: string) => {
       clearTimeout(resting);
@@ -97,20 +107,26 @@ async function start(): Promise<void> {
 
   const take = async (files: Iterable<File>) => {
     let count = 0;
+    const foreign: string[] = [];
     for (const file of files) {
+      given.push(file);
       if (isVideo(file)) {
-        lab.video(videos.push(file) - 1);
+        lab.video(videos.push(new Frames(file)) - 1);
         continue;
       }
-      const bytes = new Uint8Array(await file.arrayBuffer());
+      const photograph = await photographOf(file);
       if (file.name.toLowerCase().endsWith(".zip")) {
-        lab.project(bytes);
+        lab.project(photograph.bytes);
         continue;
       }
-      lab.photograph(file.name, bytes);
+      if (photograph.foreign) foreign.push(file.name);
+      lab.photograph(photograph.name, photograph.bytes);
       count += 1;
     }
     if (count > 0) lab.deliver();
+    if (foreign.length > 0) {
+      lab.news(`${foreign.join(", ")}: decoded by this browser, so another one may give other pixels; marked by .jpg at the end.`);
+    }
   };
   for (const input of [photographs, project]) {
     input.addEventListener("change", () => {
@@ -122,7 +138,7 @@ async function start(): Promise<void> {
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
-    void take([...(event.dataTransfer?.files ?? [])]);
+    if (event.dataTransfer) void dropped(event.dataTransfer).then(take);
   });
 
   if (location.search) lab.link([...new URLSearchParams(location.search)].flat());
@@ -141,28 +157,44 @@ async function start(): Promise<void> {
   for (const input of document.querySelectorAll("input:not([aria-label])")) {
     input.setAttribute("aria-label", "Letters for the Lab");
   }
-  lab.dark(isDark());
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => lab.dark(isDark()));
-  canvas.addEventListener("webglcontextlost", () => restart(notice));
+  lab.theme(theme());
+  for (const query of themes) matchMedia(query).addEventListener("change", () => lab.theme(theme()));
+  const stop = (why: unknown) => {
+    console.warn(why);
+    clearInterval(watch);
+    restart(notice, given);
+  };
+  canvas.addEventListener("webglcontextlost", () => stop("the context of WebGL is lost"));
+  // Memory that cannot grow ends the module without a panic.
+  addEventListener("error", ({ error }) => {
+    if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) stop(error);
+  });
   const mirror = new Mirror(find("widgets"), (widget, value) => lab.operate(widget, value));
   const watch = setInterval(() => {
     const widgets = lab.widgets();
     if (widgets !== undefined) mirror.show(widgets);
     const message = lab.panic();
-    if (message === undefined) return;
-    clearInterval(watch);
-    console.warn(message);
-    restart(notice);
+    if (message !== undefined) stop(message);
   }, LOOK_MS);
+  const before = await takeBack();
+  if (before.length > 0) await take(before);
 }
 
-/** Nothing goes on in this page: a new one does. */
-function restart(where: HTMLElement): void {
+/** Nothing goes on in this page: a new one does, with the photographs. */
+function restart(where: HTMLElement, given: readonly File[]): void {
+  if (where.querySelector("button")) return;
   const button = document.createElement("button");
   button.type = "button";
-  button.textContent = "Start the Lab again";
-  button.addEventListener("click", () => location.reload());
-  where.replaceChildren("The Lab has stopped. Your files are as they were on your machine. ", button);
+  const files = given.length === 1 ? "your file" : `your ${given.length} files`;
+  button.textContent = given.length > 0 ? `Start the Lab again with ${files}` : "Start the Lab again";
+  button.addEventListener("click", () => {
+    const kept = given.length > 0 ? putAside(given) : Promise.resolve();
+    void kept.catch((error: unknown) => console.warn(error)).then(() => location.reload());
+  });
+  where.replaceChildren(
+    "The Lab has stopped, and nothing is lost on your machine. If it stops again, reduce photographs to fewer megapixels. ",
+    button,
+  );
 }
 
 /** After Escape, Tab goes where the page goes next instead of where the Lab goes. */
@@ -180,7 +212,8 @@ function letTabLeave(): void {
 }
 
 function save(name: string, bytes: Uint8Array): void {
-  const type = name.endsWith(".json") ? "application/json" : "application/zip";
+  const types: Record<string, string> = { json: "application/json", png: "image/png", zip: "application/zip" };
+  const type = types[name.split(".").pop() ?? ""] ?? "application/octet-stream";
   const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type }));
   const link = document.createElement("a");
   link.href = url;

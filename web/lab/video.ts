@@ -10,45 +10,55 @@ export function isVideo(file: File): boolean {
   return file.type.startsWith("video/") || /\.(mp4|m4v|mov|webm|mkv|ogv|avi)$/i.test(file.name);
 }
 
-/**
- * Brings frames as JPEG files, part by part. Throws an `Error` whose message is a sentence for the reader.
- */
-export async function framesOf(
-  file: File,
-  numParts: number,
-  tell: (words: string) => void,
-  bring: (part: number, jpeg: Uint8Array) => void,
-): Promise<void> {
-  const video = document.createElement("video");
-  video.muted = true;
-  video.playsInline = true;
-  video.preload = "auto";
-  const url = URL.createObjectURL(file);
-  try {
+/** A video that is being read, part by part: never more than the frames of one part are in memory. */
+export class Frames {
+  readonly name: string;
+  readonly #video = document.createElement("video");
+  readonly #canvas = document.createElement("canvas");
+  readonly #url: string;
+  #duration: number | undefined;
+
+  constructor(file: File) {
+    this.name = file.name;
+    this.#url = URL.createObjectURL(file);
+  }
+
+  /** Brings frames of a part as JPEG files. Throws an `Error` whose message is a sentence for the reader. */
+  async ofPart(part: number, numParts: number, bring: (jpeg: Uint8Array) => void): Promise<void> {
+    try {
+      this.#duration ??= await this.#open();
+      for (let n = 0; n < CANDIDATES; n += 1) {
+        const share = (part + (n + 0.5) / CANDIDATES) / numParts;
+        await seek(this.#video, share * this.#duration);
+        bring(await jpegOf(this.#video, this.#canvas));
+      }
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      throw new Error(
+        `${this.name} cannot be read as a video here: ${why}. Videos as MP4 with H.264, or as WebM, are read by every browser.`,
+      );
+    }
+  }
+
+  async #open(): Promise<number> {
+    const video = this.#video;
+    video.muted = true;
+    video.playsInline = true;
+    video.preload = "auto";
     const loaded = heard(video, "loadeddata");
-    video.src = url;
+    video.src = this.#url;
     await loaded;
     const duration = await durationOf(video);
     if (!(video.videoWidth > 0 && duration > 0)) throw new Error("there is no picture in it");
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [video.videoWidth, video.videoHeight];
-    for (let part = 0; part < numParts; part += 1) {
-      tell(`${file.name}: part ${part + 1} of ${numParts} is being read.`);
-      for (let n = 0; n < CANDIDATES; n += 1) {
-        const share = (part + (n + 0.5) / CANDIDATES) / numParts;
-        await seek(video, share * duration);
-        bring(part, await jpegOf(video, canvas));
-      }
-    }
-  } catch (error) {
-    const why = error instanceof Error ? error.message : String(error);
-    throw new Error(
-      `${file.name} cannot be read as a video here: ${why}. Videos as MP4 with H.264, or as WebM, are read by every browser.`,
-    );
-  } finally {
-    video.removeAttribute("src");
-    video.load();
-    URL.revokeObjectURL(url);
+    [this.#canvas.width, this.#canvas.height] = [video.videoWidth, video.videoHeight];
+    return duration;
+  }
+
+  /** Lets go of everything. */
+  close(): void {
+    this.#video.removeAttribute("src");
+    this.#video.load();
+    URL.revokeObjectURL(this.#url);
   }
 }
 

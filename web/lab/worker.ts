@@ -37,7 +37,14 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
     const answer = compute(request, { progress, soFar });
     tell({ work, answer }, [answer.buffer as ArrayBuffer]);
   } catch (problem) {
-    const sentence = typeof problem === "string" ? problem : take_panic() ?? String(problem);
-    tell({ work, problem: sentence });
+    tell({ work, problem: typeof problem === "string" ? problem : sentence(problem, take_panic()) });
   }
+}
+
+/** Why a module ended in the middle of its work. Without the message of a panic, its memory could not grow. */
+function sentence(problem: unknown, panic: string | undefined): string {
+  console.warn(panic ?? problem);
+  return panic === undefined
+    ? "there is not memory enough for this: reduce photographs to fewer megapixels, or close other pages"
+    : "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it";
 }

@@ -28,8 +28,8 @@ impl CameraArguments {
     /// As [`Intrinsics::centered`].
     fn given(&self, photo: &Photo) -> Result<Option<Intrinsics>, Failure> {
         match (self.k, self.focal_px) {
-            (Some(k), _) => Ok(Some(k)),
-            (None, Some(focal_px)) => Ok(Some(centered(focal_px, photo)?)),
+            (Some(k), _) => Ok(Some(photo.reduced_k(&k)?)),
+            (None, Some(focal_px)) => of_focal(focal_px, photo).map(Some),
             (None, None) => Ok(None),
         }
     }
@@ -40,7 +40,7 @@ impl CameraArguments {
     /// # Errors
     /// As [`Intrinsics::centered`].
     pub(crate) fn or_guess(&self, photo: &Photo) -> Result<(Intrinsics, Option<Guess>), Failure> {
-        if let Some(k) = self.given(photo)? {
+        if let Some(k) = self.given(photo)?.or(photo.k) {
             return Ok((k, None));
         }
         let longer = f64::from(photo.color.width().max(photo.color.height()));
@@ -87,7 +87,7 @@ impl PairArguments {
     /// A sentence if one principal point is given for photographs of different sizes; as
     /// [`Intrinsics::centered`].
     pub(crate) fn given(&self, photos: &[Photo; 2]) -> Result<Option<[Intrinsics; 2]>, Failure> {
-        let sizes = photos.each_ref().map(|photo| photo.color.dimensions());
+        let sizes = photos.each_ref().map(|photo| photo.full_size);
         if self.camera.k.is_some() && self.k2.is_none() && sizes[0] != sizes[1] {
             let message = format!(
                 "--k cannot be right for both photographs, as one is {} × {} and the other {} × {}: \
@@ -98,7 +98,7 @@ impl PairArguments {
         }
         let first = self.camera.given(&photos[0])?;
         let second = match self.k2 {
-            Some(k2) => Some(k2),
+            Some(k2) => Some(photos[1].reduced_k(&k2)?),
             None => self.camera.given(&photos[1])?,
         };
         Ok(first.zip(second).map(|(k1, k2)| [k1, k2]))
@@ -158,6 +158,20 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     Some(format!("no --k or --focal-px: taking {focal} px, {from}"))
 }
 
+/// The intrinsics of a photograph whose focal length was given, in pixels of its file: the principal point is that of
+/// its calibrated camera, or else the middle.
+///
+/// # Errors
+/// As [`Intrinsics::centered`].
+pub(crate) fn of_focal(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failure> {
+    let focal_px = photo.reduced_focal_px(focal_px);
+    let Some(k) = photo.k else {
+        return centered(focal_px, photo);
+    };
+    let center = k.principal_point();
+    Ok(Intrinsics::new(focal_px, focal_px, center.x, center.y)?)
+}
+
 /// The intrinsics of a camera whose principal point is the middle of the photograph.
 ///
 /// # Errors
@@ -181,6 +195,9 @@ mod tests {
         Photo {
             color: RgbImage::new(width, height),
             focal_px,
+            k: None,
+            full_size: (width, height),
+            sensor_size: (width, height),
         }
     }
 

@@ -5,6 +5,7 @@ mod calibrate;
 mod detect;
 mod figure;
 mod fit;
+mod frames;
 mod manual;
 mod matching;
 mod odometry;
@@ -35,6 +36,7 @@ pub(crate) enum Command {
     Odometry(odometry::Arguments),
     Calibrate(calibrate::Arguments),
     Undistort(undistort::Arguments),
+    Frames(frames::Arguments),
     Figure(figure::Arguments),
     Manual(manual::Arguments),
 }
@@ -54,6 +56,7 @@ impl Command {
             Self::Odometry(arguments) => odometry::run(&arguments, context),
             Self::Calibrate(arguments) => calibrate::run(&arguments, context),
             Self::Undistort(arguments) => undistort::run(&arguments, context),
+            Self::Frames(arguments) => frames::run(&arguments, context),
             Self::Figure(arguments) => figure::run(&arguments, context),
             Self::Manual(arguments) => manual::run(&arguments),
         }

@@ -1,38 +1,107 @@
 //! Photographs from files.
 
 use crate::failure::Failure;
+use crate::matrices::positive;
+use clap::Args;
+use epipole::calibration::{PrepareOptions, Undistortion, prepare_photo};
+use epipole::camera::Intrinsics;
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, Decoded, GrayImage32, decode_rgb, rgb_to_gray};
+use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use image::{GrayImage, RgbImage};
 use std::path::Path;
+
+/// How large photographs are.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Photographs")]
+pub(crate) struct SizeArguments {
+    /// Reduce photographs to at most so many megapixels. Results are in pixels of the reduced ones; --k and --focal-px
+    /// stay those of the files.
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub(crate) max_megapixels: Option<f64>,
+}
+
+impl SizeArguments {
+    fn max_pixels(self) -> u64 {
+        // A number beyond all pixels becomes the largest there is.
+        let pixels = |megapixels: f64| (megapixels * 1e6).round().max(1.0) as u64;
+        self.max_megapixels.map_or(u64::MAX, pixels)
+    }
+}
 
 /// A photograph, upright, with what its file says about the camera.
 pub(crate) struct Photo {
     pub(crate) color: RgbImage,
     /// First guess of the focal length from EXIF, pixels.
     pub(crate) focal_px: Option<f64>,
+    /// K, if the distortion of a known lens was removed.
+    pub(crate) k: Option<Intrinsics>,
+    /// Width and height before it was reduced.
+    pub(crate) full_size: (u32, u32),
+    /// Width and height before it was turned upright, too.
+    pub(crate) sensor_size: (u32, u32),
 }
 
 impl Photo {
-    /// Reads a PNG, JPEG or WebP file.
+    /// Reads a PNG, JPEG or WebP file, as large as it is.
     ///
     /// # Errors
     /// A sentence naming the file: missing, unreadable, corrupt or too large.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let bytes = std::fs::read(path).map_err(|error| {
-            let why = match error.kind() {
-                std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-                _ => format!("cannot be read: {error}"),
-            };
-            Failure::new("read", why).about(path)
-        })?;
-        let decoded = decode_rgb(&bytes, &DecodeOptions::default());
-        let Decoded { image, focal_px } =
-            decoded.map_err(|error| Failure::from(error).about(path))?;
+        Self::prepared(path, SizeArguments::default(), None)
+    }
+
+    /// The same reduced, and without its distortion if it has the size of the camera.
+    ///
+    /// # Errors
+    /// As [`Photo::read`].
+    pub(crate) fn prepared(
+        path: &Path,
+        size: SizeArguments,
+        undistortion: Option<&Undistortion>,
+    ) -> Result<Self, Failure> {
+        let options = PrepareOptions {
+            max_pixels: size.max_pixels(),
+            undistortion,
+        };
+        let photo = prepare_photo(&bytes(path)?, &options)
+            .map_err(|error| Failure::from(error).about(path))?;
         Ok(Self {
-            color: image,
-            focal_px,
+            color: photo.image,
+            focal_px: photo.focal_px,
+            k: photo.intrinsics,
+            full_size: photo.full_size,
+            sensor_size: photo.sensor_size,
         })
+    }
+
+    /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows no other frame.
+    ///
+    /// # Errors
+    /// As [`Photo::read`].
+    pub(crate) fn of_sensor(path: &Path) -> Result<GrayImage32, Failure> {
+        let as_stored = DecodeOptions {
+            apply_orientation: false,
+            ..DecodeOptions::default()
+        };
+        let decoded = decode_rgb(&bytes(path)?, &as_stored);
+        let decoded = decoded.map_err(|error| Failure::from(error).about(path))?;
+        Ok(photo_to_gray(&decoded.image))
+    }
+
+    /// A focal length in pixels of the file, in pixels of the photograph.
+    pub(crate) fn reduced_focal_px(&self, focal_px: f64) -> f64 {
+        focal_px * (f64::from(self.color.width()) / f64::from(self.full_size.0.max(1)))
+    }
+
+    /// The same for K.
+    ///
+    /// # Errors
+    /// As [`Intrinsics::resized`].
+    pub(crate) fn reduced_k(&self, k: &Intrinsics) -> Result<Intrinsics, Failure> {
+        match self.full_size == self.color.dimensions() {
+            true => Ok(*k),
+            false => Ok(k.resized(self.full_size, self.color.dimensions())?),
+        }
     }
 
     /// Gray values in [0, 1], the same for every command.
@@ -44,6 +113,20 @@ impl Photo {
     pub(crate) fn gray_u8(&self) -> GrayImage {
         rgb_to_gray(&self.color)
     }
+}
+
+/// The bytes of a file.
+///
+/// # Errors
+/// A sentence naming it: missing or unreadable.
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| {
+        let why = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => format!("cannot be read: {error}"),
+        };
+        Failure::new("read", why).about(path)
+    })
 }
 
 /// `{width, height}` of an image.

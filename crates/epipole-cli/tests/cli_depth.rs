@@ -88,6 +88,9 @@ fn disparities_are_those_of_the_scene() {
         assert!((result["min_disparity_px"].as_f64().unwrap() - f64::from(least)).abs() < 1e-4);
         assert!((result["max_disparity_px"].as_f64().unwrap() - f64::from(most)).abs() < 1e-4);
         assert!(least >= 0.0 && most <= 41.0);
+        // Only what lies within the range is looked for.
+        let result = json(&[&base[..], options, &["--min-disparity", "12"]].concat());
+        assert!(result["min_disparity_px"].as_f64().unwrap() >= 11.0);
     }
 }
 
@@ -202,6 +205,8 @@ fn what_cannot_be_matched_is_refused() {
     for wrong in ["0", "-5", "ten", "5000"] {
         fails(&folder, &with(&["--max-disparity", wrong]), 2, wrong);
     }
+    let crossed = ["--min-disparity", "20", "--max-disparity", "20"];
+    fails(&folder, &with(&crossed), 2, "they are 20 and 20");
     fails(&folder, &with(&["--method", "magic"]), 2, "magic");
     let small = folder.blank("small.png", (9, 9));
     let arguments = [

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{finish, reopened};
+use common::{finish, jpeg, reopened};
 use epipole::calibration::{
     Board, BoardView, CalibratedCamera, CalibrationOptions, Keep, Pattern, Undistortion, calibrate,
     find_board, photograph_of_board,
@@ -261,6 +261,86 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     let fits = &project.document().photos[0];
     assert_eq!(project.focal_origin(fits), Some(FocalOrigin::Typed));
     assert!(project.wanted().is_empty(), "undo is instant");
+}
+
+/// A lens belongs to the sensor, however the camera was held: if the file says how that was, the camera is turned with
+/// it, and if not, it is not used, which is told.
+#[test]
+fn the_camera_is_turned_with_photographs_taken_upright() {
+    let mut project = calibrated();
+    let picture = RgbImage::from_fn(640, 480, |u, v| {
+        Rgb([(u / 3) as u8, (v / 2) as u8, ((u + v) / 5) as u8])
+    });
+    let silent = image::imageops::rotate90(&picture);
+    project.update(Event::Add(vec![
+        ("lying.jpg".to_owned(), jpeg(&picture, 1)),
+        ("upright.jpg".to_owned(), jpeg(&picture, 6)),
+        ("upside.jpg".to_owned(), jpeg(&picture, 3)),
+        ("silent.jpg".to_owned(), jpeg(&silent, 1)),
+    ]));
+    finish(&mut project);
+    project.update(Event::UseCalibration(true));
+    finish(&mut project);
+    let [lying, upright, upside, silent] = &project.document().photos[..] else {
+        panic!("four photographs");
+    };
+    let [fu, fv, cu, cv] = project.camera(lying).unwrap().k;
+    assert_eq!(project.camera(upright).unwrap().k, [fv, fu, 479.0 - cv, cu]);
+    assert_eq!(
+        project.camera(upside).unwrap().k,
+        [fu, fv, 639.0 - cu, 479.0 - cv]
+    );
+    // The same pixels, turned after their distortion was removed.
+    let pixels = |given| {
+        let found = project.photograph(given).unwrap();
+        RgbImage::from_raw(found.width, found.height, found.rgb.to_vec()).unwrap()
+    };
+    assert_eq!(pixels(upright), image::imageops::rotate90(&pixels(lying)));
+    assert_eq!(pixels(upside), image::imageops::rotate180(&pixels(lying)));
+    assert_eq!(project.focal_origin(silent), Some(FocalOrigin::Guessed));
+    let words = project.unused_camera_words(silent);
+    assert!(
+        words.contains("stands the other way, without a word in its file"),
+        "{words}"
+    );
+    assert_eq!(project.unused_camera_words(upright), "");
+    let words = project.describe();
+    assert!(words.contains("used for 3 of 4 photographs"), "{words}");
+    assert!(
+        words.contains("Not for 1 photograph that stands the other way"),
+        "{words}"
+    );
+    project.update(Event::Show(Step::Photographs));
+    let words = project.describe();
+    assert!(words.contains("2 stand upright and 2 lie"), "{words}");
+}
+
+/// However the camera was held when it photographed the board, it is one camera.
+#[test]
+fn boards_taken_upright_and_lying_give_one_camera() {
+    let (board, camera) = (chessboard(), true_camera(400, 300));
+    let turns = [
+        [0.0, 0.0],
+        [30.0, 5.0],
+        [-30.0, 10.0],
+        [5.0, 32.0],
+        [0.0, -32.0],
+    ];
+    let view = |turn| {
+        image::load_from_memory(&photographed(&board, &camera, turn, 0.36))
+            .unwrap()
+            .to_rgb8()
+    };
+    let lying: Vec<Blob> = turns.iter().map(|turn| jpeg(&view(*turn), 1)).collect();
+    let mixed: Vec<Blob> = (turns.iter().zip([1, 6, 8, 3, 6]))
+        .map(|(turn, orientation)| jpeg(&view(*turn), orientation))
+        .collect();
+    let (lying, mixed) = (with_boards(lying), with_boards(mixed));
+    let words = mixed.describe();
+    assert!(words.contains("found in 5 of 5"), "{words}");
+    let cameras = [&lying, &mixed].map(|project| project.calibration().unwrap().camera.clone());
+    assert_eq!(cameras[0], cameras[1]);
+    assert_eq!(cameras[0].size, (400, 300));
 }
 
 #[test]

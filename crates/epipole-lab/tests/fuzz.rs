@@ -50,7 +50,10 @@ fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
             .prop_map(|(name, bytes)| Event::Add(vec![(name, Blob::from(bytes))])),
-        (0..4_usize).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
+        ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(name, bytes)| Event::Begin(vec![(name, Blob::from(bytes))])),
+        prop::option::of([anchor(), anchor(), anchor()]).prop_map(Event::Floor),
+        (0..Sample::ALL.len()).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
         id.clone().prop_map(Event::Remove),
         Just(Event::Clear),
         ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
@@ -133,7 +136,7 @@ proptest! {
             return Err(TestCaseError::fail("it cannot be opened"));
         };
         let mut again = Project::default();
-        again.update(Event::OpenProject(saved, files));
+        again.update(Event::OpenProject(Box::new(saved), files));
         let (a, b) = (project.document(), again.document());
         prop_assert_eq!(&a.settings, &b.settings);
         prop_assert_eq!(a.measures.len(), b.measures.len());

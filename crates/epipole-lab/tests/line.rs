@@ -10,7 +10,7 @@ use common::{answer, finish, reopened, solved};
 use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Measure, Project, RefineFocal, Step};
-use epipole_lab::tasks::{Answer, Blob, FeatureKind, Request, Sample, Source};
+use epipole_lab::tasks::{Answer, Blob, FeatureKind, Sample, Source};
 use image::RgbImage;
 use std::io::{Cursor, Read};
 use std::ops::ControlFlow;
@@ -71,6 +71,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
     assert_eq!(ours, places(&direct.components[0].points));
 
     a_known_length_sets_the_scale(&mut project);
+    three_points_set_the_floor(&mut project);
     the_files_can_be_read_again(&project);
     every_pixel_has_its_depth(&mut project);
     it_grows_as_one_watches(&mut project);
@@ -164,6 +165,72 @@ fn a_known_length_sets_the_scale(project: &mut Project) {
     }
 }
 
+/// Three points of the table's top make it the floor: cameras are as high above it as they were put.
+fn three_points_set_the_floor(project: &mut Project) {
+    let component = project.component().unwrap().clone();
+    let center = |n: usize| component.cameras[n].as_ref().unwrap().center();
+    let meters = true_step_m() / (center(1) - center(0)).norm();
+    // Which points are on the table is known from where the photographs were rendered: by height below the cameras, in
+    // the direction that is down in all of them.
+    let truth: Vec<_> = (0..9).map(common::depth::true_camera).collect();
+    let scene = epipole::synthetic::Scene::still_life();
+    let on_table = |point: usize| {
+        let (image, keypoint) = component.points[point].track[0];
+        let photo = &project.document().photos[image as usize];
+        let feature = &project.features(photo).unwrap().list[keypoint as usize];
+        let camera = &truth[image as usize];
+        let pixel = nalgebra::Point2::new(feature.u, feature.v);
+        let from = camera.cam_from_world.inverse() * nalgebra::Point3::origin();
+        let hit = scene.cast(&from, &camera.ray_in_world(&pixel))?;
+        (hit.point.y.abs() < 0.002).then_some(hit.point)
+    };
+    let mut table: Vec<(usize, nalgebra::Point3<f64>)> = (0..component.points.len())
+        .filter(|point| {
+            component.points[*point].track.len() >= 4 && component.points[*point].error_px < 0.5
+        })
+        .filter_map(|point| Some((point, on_table(point)?)))
+        .collect();
+    assert!(table.len() > 30, "{}", table.len());
+    table.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
+    let far = |list: &[(usize, nalgebra::Point3<f64>)]| {
+        list.iter()
+            .max_by(|a, b| a.1.z.total_cmp(&b.1.z))
+            .unwrap()
+            .0
+    };
+    let three = [
+        table[0].0,
+        table[table.len() - 1].0,
+        far(&table[table.len() / 3..2 * table.len() / 3]),
+    ];
+    let anchors = three.map(|point| project.anchor_of(point).unwrap());
+    project.update(Event::Floor(Some([anchors[0], anchors[0], anchors[1]])));
+    assert_eq!(project.document().floor, None, "three points are three");
+    project.update(Event::Floor(Some(anchors)));
+    project.update(Event::Show(Step::Measure));
+    let words = project.describe();
+    assert!(words.contains("The floor is set"), "{words}");
+    let floor = project.floor().unwrap();
+    for (n, height_m) in [(0, 0.43), (1, 0.56), (8, 0.43)] {
+        let found = (center(n) - floor.origin).dot(&floor.up) * meters;
+        assert!(
+            (found / height_m - 1.0).abs() < 0.05,
+            "{n}: {found} {height_m}"
+        );
+    }
+    assert!(project.height_in_units(three[0]).unwrap().abs() < 1e-9);
+    let words = project.height_words(table[5].0);
+    assert!(words.ends_with("m above the floor"), "{words}");
+    let again = reopened(project);
+    assert_eq!(
+        again.document().floor.unwrap().map(|end| end.keypoint),
+        anchors.map(|end| end.keypoint)
+    );
+    project.update(Event::Undo);
+    assert!(project.floor().is_none());
+    project.update(Event::Show(Step::Reconstruction));
+}
+
 fn the_files_can_be_read_again(project: &Project) {
     let Ok(Answer::Archive(bytes)) = answer(&project.export_request().unwrap()) else {
         panic!("the export is no archive");
@@ -239,42 +306,37 @@ fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
     assert_eq!(project.component().unwrap().num_registered(), 9);
 }
 
-fn the_command_says_every_knob(project: &Project) {
-    let mut request = project.export_request().unwrap();
-    let readme = |request: &Request| {
-        let Ok(Answer::Archive(bytes)) = answer(request) else {
-            panic!("the export is no archive");
-        };
-        let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
-        let mut text = String::new();
-        let mut file = archive.by_name("README.txt").unwrap();
-        file.read_to_string(&mut text).unwrap();
-        text
-    };
-    let Request::Export {
-        images,
-        features,
-        matching,
-        options,
-        ..
-    } = &mut request
-    else {
-        panic!("that is the request");
-    };
-    assert_eq!(matching.ratio, 0.7);
-    features.kind = FeatureKind::Sift;
-    features.contrast = 0.013;
-    matching.mutual = false;
-    options.min_num_inliers = 20;
-    options.refine_focal = true;
-    for image in images {
-        image.camera.k = [600.5, 601.0, 239.0, 180.25];
+fn the_command_says_every_knob(project: &mut Project) {
+    let mut settings = project.document().settings.clone();
+    assert_eq!(settings.matching.ratio, 0.7);
+    settings.features.kind = FeatureKind::Sift;
+    settings.features.contrast = 0.013;
+    settings.matching.mutual = false;
+    settings.sfm.min_num_inliers = 20;
+    settings.refine_focal = RefineFocal::Always;
+    project.update(Event::Set(settings));
+    assert_eq!(
+        project.recipe().unwrap().command,
+        "epipole sfm images/ --focal-px 600 --max-features 8192 --features sift --contrast-threshold 0.013 --ratio 0.7 \
+         --mutual=false --min-inliers 20 --refine-focal --refine-distortion --seed 0 -o sparse/0"
+    );
+    // Another order, and one that is left out, are said, too.
+    let photos = &project.document().photos;
+    let (second, last) = (photos[1].id, photos[8].id);
+    project.update(Event::Earlier(second));
+    project.update(Event::Exclude(last, true));
+    project.update(Event::Focal(second, Some(601.5)));
+    let command = project.recipe().unwrap().command;
+    assert!(
+        command.starts_with(
+            "epipole sfm images/table-2.png images/table-1.png images/table-3.png images/table-4.png images/table-5.png \
+             images/table-6.png images/table-7.png images/table-8.png --focals-px=601.5,600,600,600,600,600,600,600 "
+        ),
+        "{command}"
+    );
+    for _ in 0..4 {
+        project.update(Event::Undo);
     }
-    let text = readme(&request);
-    let command = "epipole sfm images/ --k 600.5,601,239,180.25 --max-features 8192 --seed 0 --features sift \
-                   --contrast-threshold 0.013 --ratio 0.7 --mutual=false --min-inliers 20 --refine-focal \
-                   --refine-distortion -o sparse/0\n";
-    assert!(text.contains(command), "{text}");
 }
 
 #[test]
@@ -312,6 +374,27 @@ fn png(width: u32, height: u32) -> Blob {
     bytes.into_inner().into()
 }
 
+/// The beginning of a PNG file of so many pixels.
+fn promise(width: u32, height: u32) -> Vec<u8> {
+    let mut head = b"IHDR".to_vec();
+    head.extend(width.to_be_bytes());
+    head.extend(height.to_be_bytes());
+    head.extend([8, 0, 0, 0, 0]);
+    let mut check = !0_u32;
+    for byte in &head {
+        check ^= u32::from(*byte);
+        for _ in 0..8 {
+            check = (check >> 1) ^ if check & 1 == 1 { 0xEDB8_8320 } else { 0 };
+        }
+    }
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0D".to_vec();
+    bytes.extend(head);
+    bytes.extend((!check).to_be_bytes());
+    // Data of no length: what was promised does not come.
+    bytes.extend(b"\0\0\0\0IDAT\x35\xAF\x06\x1E");
+    bytes
+}
+
 /// The sentence of every photograph, and that of the step "Reconstruction".
 fn sentences(project: &mut Project) -> (Vec<String>, String) {
     project.update(Event::Show(Step::Reconstruction));
@@ -332,6 +415,69 @@ fn a_camera_that_only_turned_is_told_so() {
         "{each:?}"
     );
     assert!(all.contains("only turned"), "{all}");
+}
+
+#[test]
+fn a_plane_is_told_so() {
+    let mut project = solved(Sample::Plane);
+    let (each, all) = sentences(&mut project);
+    assert!(
+        all.contains("4 of 4 photographs have a camera"),
+        "{all} {each:?}"
+    );
+    assert!(all.contains("All pairs show a plane"), "{all} {each:?}");
+    assert!(all.contains("Type it, calibrate"), "{all}");
+    project.update(Event::Show(Step::TwoViews));
+    let pair = project.describe();
+    assert!(pair.contains("a plane from two places: H"), "{pair}");
+}
+
+#[test]
+fn two_places_in_one_heap_are_told_apart() {
+    let mut project = solved(Sample::Mixed);
+    let (each, all) = sentences(&mut project);
+    assert!(
+        all.contains("3 of 6") && all.contains("Part 1 of 2, which nothing joins"),
+        "{all}"
+    );
+    let of_other = |words: &String| words.contains("belongs to part 2: nothing joins it");
+    assert_eq!(
+        each.iter().filter(|words| of_other(words)).count(),
+        3,
+        "{each:?}"
+    );
+    // Each part holds the photographs of one place.
+    let components = &project.reconstruction().unwrap().components;
+    for component in components {
+        let places: Vec<bool> = component.cameras.iter().map(Option::is_some).collect();
+        assert!(places[..3].iter().all(|is| *is == places[0]), "{places:?}");
+        assert!(places[3..].iter().all(|is| *is != places[0]), "{places:?}");
+    }
+}
+
+#[test]
+fn some_upright_and_some_not_go_together_and_that_is_told() {
+    let mut project = solved(Sample::Upright);
+    let (each, all) = sentences(&mut project);
+    assert!(
+        all.contains("5 of 5 photographs have a camera"),
+        "{all} {each:?}"
+    );
+    project.update(Event::Show(Step::Photographs));
+    let words = project.describe();
+    assert!(words.contains("2 stand upright and 3 lie"), "{words}");
+    // On the arc around the table neighbors are equally far from each other, however the camera was held.
+    let component = project.component().unwrap();
+    let centers: Vec<_> = (component.cameras.iter())
+        .map(|camera| camera.as_ref().unwrap().center())
+        .collect();
+    let steps: Vec<f64> = centers
+        .windows(2)
+        .map(|two| (two[1] - two[0]).norm())
+        .collect();
+    for step in &steps {
+        assert!((step / steps[0] - 1.0).abs() < 0.02, "{steps:?}");
+    }
 }
 
 #[test]
@@ -358,6 +504,15 @@ fn a_file_that_is_none_leaves_the_others_alone() {
         ("flat.png".to_owned(), png(65, 48)),
     ]));
     finish(&mut project);
+    // A file that promises more pixels than anybody has memory for.
+    let huge = promise(100_000, 90_000);
+    project.update(Event::Add(vec![("huge.png".to_owned(), huge.into())]));
+    finish(&mut project);
+    let words = project.fate_words(&project.document().photos[3]);
+    assert!(
+        words.starts_with("cannot be read") && words.contains("9000000000"),
+        "{words}"
+    );
     let (each, all) = sentences(&mut project);
     assert!(each[0].starts_with("cannot be read"), "{each:?}");
     assert!(each[1].contains("features are too few"), "{each:?}");

@@ -3,107 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(all(feature = "panels", feature = "compute"))]
 
-use egui_kittest::Harness;
+mod common;
+
+use common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::panels::Arrival;
 use epipole_lab::project::Step;
-use epipole_lab::tasks::{Branch, compute};
-use std::ops::ControlFlow;
-
-/// A host that computes at once.
-#[derive(Default)]
-struct Desk {
-    reports: Vec<Report>,
-    arrivals: Vec<Arrival>,
-    saved: Vec<(String, Vec<u8>)>,
-    said: String,
-    asked: usize,
-    frames: Vec<(u32, u32)>,
-    explained: Vec<About>,
-    address: String,
-}
-
-impl Host for Desk {
-    fn capacity(&self) -> usize {
-        4
-    }
-
-    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
-        let result = compute(&request, &mut |_| ControlFlow::Continue(()));
-        self.reports.push(Report::Done(work, result));
-    }
-
-    fn cancel(&mut self, _work: WorkId) {}
-
-    fn reports(&mut self) -> Vec<Report> {
-        std::mem::take(&mut self.reports)
-    }
-
-    fn arrivals(&mut self) -> Vec<Arrival> {
-        std::mem::take(&mut self.arrivals)
-    }
-
-    fn ask_for_photographs(&mut self) -> bool {
-        self.asked += 1;
-        true
-    }
-
-    fn ask_for_project(&mut self) -> bool {
-        self.asked += 1;
-        true
-    }
-
-    fn ask_for_camera(&mut self) -> bool {
-        self.asked += 1;
-        true
-    }
-
-    fn ask_for_frames(&mut self, video: u32, num_parts: u32) {
-        self.frames.push((video, num_parts));
-    }
-
-    fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
-        self.saved.push((name.to_owned(), bytes));
-        Ok(format!("{name} is saved."))
-    }
-
-    fn explain(&mut self, about: About) {
-        self.explained.push(about);
-    }
-
-    fn has_book(&self) -> bool {
-        true
-    }
-
-    fn address(&mut self, link: &str) {
-        self.address = link.to_owned();
-    }
-
-    fn say(&mut self, words: &str) {
-        self.said = words.to_owned();
-    }
-}
-
-type Bench<'a> = Harness<'a, App<Desk>>;
-
-fn open<'a>(width: f32, height: f32) -> Bench<'a> {
-    let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
-        app.go_on();
-        app.ui(ui);
-    };
-    let mut bench = Harness::builder()
-        .with_size(egui::vec2(width, height))
-        .with_context_setup(prepare)
-        .build_ui_state(frame, App::new(Desk::default()));
-    rest(&mut bench);
-    bench
-}
-
-/// Clicks the first thing of this name.
-fn click(bench: &mut Bench<'_>, name: &str) {
-    bench.get_all_by_label(name).next().unwrap().click();
-    bench.run_steps(4);
-}
 
 #[test]
 fn the_line_from_the_sample_to_a_file() {
@@ -166,17 +71,6 @@ fn the_line_from_the_sample_to_a_file() {
     );
 }
 
-/// Draws frames until nothing is under way.
-fn rest(bench: &mut Bench<'_>) {
-    for _ in 0..200 {
-        bench.step();
-        if !bench.state_mut().go_on() && bench.state().project().wanted().is_empty() {
-            break;
-        }
-    }
-    bench.run_steps(3);
-}
-
 #[test]
 fn a_board_gives_a_camera_and_its_file() {
     let mut bench = open(1280.0, 720.0);
@@ -230,8 +124,15 @@ fn a_video_gives_its_sharpest_frames() {
         bench.run_steps(2);
         rest(bench);
     };
+    let mut settings = bench.state().project().document().settings.clone();
+    settings.num_frames = 3;
+    let link = vec![("frames".to_owned(), "3".to_owned())];
+    bring(&mut bench, Arrival::Link(link));
+    assert_eq!(bench.state().project().document().settings, settings);
+    // One video after the other, and of each one part after the other.
     bring(&mut bench, Arrival::Video(3));
-    assert_eq!(bench.state_mut().host().frames, [(3, 20)]);
+    bring(&mut bench, Arrival::Video(4));
+    assert_eq!(bench.state_mut().host().frames, [(3, 0, 3)]);
     let picture = |blur: f32| -> epipole_lab::tasks::Blob {
         let sharp = image::RgbImage::from_fn(60, 40, |u, v| {
             image::Rgb([if (u / 7 + v / 5) % 2 == 0 { 20 } else { 230 }; 3])
@@ -244,11 +145,23 @@ fn a_video_gives_its_sharpest_frames() {
         bytes.into_inner().into()
     };
     let [soft, sharp] = [picture(3.0), picture(0.5)];
-    let parts = vec![vec![soft.clone(), sharp.clone()], vec![sharp.clone(), soft]];
-    bring(&mut bench, Arrival::Frames(3, "walk.mp4".to_owned(), parts));
+    let frames = |bench: &mut Bench<'_>, video, frames: Vec<_>| {
+        bring(bench, Arrival::Frames(video, "walk.mp4".to_owned(), frames));
+    };
+    frames(&mut bench, 3, vec![soft.clone(), sharp.clone()]);
+    assert_eq!(bench.state_mut().host().frames[1..], [(3, 1, 3)]);
+    // What nobody asked for is not looked at.
+    frames(&mut bench, 4, vec![sharp.clone()]);
+    frames(&mut bench, 3, vec![vec![1_u8, 2, 3].into()]);
+    assert_eq!(
+        bench.state().project().document().photos.len(),
+        9,
+        "the sample is still there"
+    );
+    frames(&mut bench, 3, vec![sharp.clone(), soft]);
     let photos = &bench.state().project().document().photos;
     let names: Vec<&str> = photos.iter().map(|photo| photo.name.as_str()).collect();
-    assert_eq!(names, ["walk-01.jpg", "walk-02.jpg"]);
+    assert_eq!(names, ["walk-01.jpg", "walk-03.jpg"]);
     let source = epipole_lab::tasks::Source::File(sharp);
     assert!(photos.iter().all(|photo| photo.source == source));
     let said = bench.state_mut().host().said.clone();
@@ -256,10 +169,63 @@ fn a_video_gives_its_sharpest_frames() {
         said.contains("2 frames were taken from the video."),
         "{said}"
     );
+    // Then the next one has its turn, and fails.
+    assert_eq!(bench.state_mut().host().frames[2..], [(3, 2, 3), (4, 0, 3)]);
     let refused = "walk.mp4 cannot be decoded here.".to_owned();
-    bring(&mut bench, Arrival::News(refused.clone()));
+    bring(&mut bench, Arrival::NoFrames(4, refused.clone()));
     let said = bench.state_mut().host().said.clone();
     assert!(said.contains(&refused), "{said}");
+    assert_eq!(bench.state().project().document().photos.len(), 2);
+}
+
+#[test]
+fn a_photograph_is_clicked_by_keys() {
+    let mut bench = open(1280.0, 720.0);
+    click(&mut bench, "Two views");
+    let first = "Photograph table-1.png";
+    bench.get_by_label(first).focus();
+    bench.run_steps(2);
+    bench.get_by_label_contains("crosshair at (240, 180)");
+    bench.key_press(egui::Key::ArrowLeft);
+    bench.run_steps(2);
+    bench.get_by_label_contains("crosshair at (230, 180)");
+    bench.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowDown);
+    bench.run_steps(2);
+    bench.get_by_label_contains("crosshair at (230, 181)");
+    click(&mut bench, "Features");
+    bench.get_by_label(first).focus();
+    bench.run_steps(2);
+    // Somewhere on the way there is a feature.
+    for _ in 0..40 {
+        bench.key_press(egui::Key::ArrowRight);
+        bench.run_steps(2);
+        bench.key_press(egui::Key::Enter);
+        bench.run_steps(3);
+        if bench.query_by_label("direction:").is_some() {
+            return;
+        }
+    }
+    panic!("no feature was found by keys");
+}
+
+#[test]
+fn the_export_shows_its_command_and_saves_what_is_seen() {
+    let mut bench = open(1280.0, 720.0);
+    click(&mut bench, "Export");
+    let command = bench.state().project().recipe().unwrap().command;
+    bench.get_by_label(&command);
+    click(&mut bench, "Copy the command");
+    click(&mut bench, "Save view.png");
+    rest(&mut bench);
+    let (name, bytes) = bench.state_mut().host().saved[0].clone();
+    assert_eq!(name, "view.png");
+    let picture = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    let colors: std::collections::BTreeSet<[u8; 3]> = picture.pixels().map(|p| p.0).collect();
+    assert!(
+        picture.width() > 400 && colors.len() > 200,
+        "{} colors",
+        colors.len()
+    );
 }
 
 #[test]

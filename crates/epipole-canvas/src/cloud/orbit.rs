@@ -60,6 +60,46 @@ impl Orbit {
         }
     }
 
+    /// Turns so that the view goes along a direction of the world, as far as that goes without tilting.
+    pub fn look_along(&mut self, forward: [f64; 3]) {
+        let ahead = self.upright * Vector3::from(forward);
+        if libm::hypot(ahead.x, ahead.z) > 1e-9 * ahead.norm() {
+            self.yaw_rad = libm::atan2(-ahead.x, ahead.z);
+        }
+    }
+
+    /// Comes as near as it can with all of these places in the picture, and some border around them.
+    pub fn fit(&mut self, places: &[[f64; 3]]) {
+        const SIZE: (usize, usize) = (1000, 1000);
+        const FILLED: f64 = 0.92;
+        // A few rounds: what is nearer grows faster.
+        for _ in 0..12 {
+            let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+            let mut all_seen = true;
+            for place in places {
+                let seen = self.project(place.map(|x| x as f32), SIZE);
+                all_seen &= seen.is_some();
+                for axis in 0..2 {
+                    if let Some((pixel, _)) = seen.filter(|(pixel, _)| pixel[axis].is_finite()) {
+                        least[axis] = least[axis].min(pixel[axis]);
+                        most[axis] = most[axis].max(pixel[axis]);
+                    }
+                }
+            }
+            if !all_seen {
+                self.zoom(0.5);
+                continue;
+            }
+            let middle = [0, 1].map(|axis| 0.5 * (least[axis] + most[axis]));
+            let span = (most[0] - least[0]).max(most[1] - least[1]);
+            if !(span > 1e-6 && middle.iter().all(|x| x.is_finite())) {
+                return;
+            }
+            self.pan(500.0 - middle[0], 500.0 - middle[1], SIZE);
+            self.zoom((1000.0 * FILLED / span).clamp(0.5, 2.0));
+        }
+    }
+
     /// Camera from world: the camera looks along +z with y down.
     pub fn rotation(&self) -> Matrix3<f64> {
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), self.yaw_rad);
@@ -122,4 +162,46 @@ fn upright(down: Vector3<f64>) -> UnitQuaternion<f64> {
     let z = x.cross(&y);
     let rows = Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]);
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_that_is_to_be_seen_fills_the_picture() {
+        let scene = Scene {
+            points: vec![([0.0, 0.0, 5.0], [0; 3]), ([1.0, 0.5, 6.0], [0; 3])],
+            ..Scene::default()
+        };
+        let places = [
+            [-3.0, 0.1, 4.0],
+            [2.0, 1.0, 9.0],
+            [0.5, -1.0, 7.0],
+            [0.0, 0.0, -2.0],
+        ];
+        for forward in [[0.0, 0.0, 1.0], [1.0, 0.2, -0.3], [0.0, -1.0, 0.0]] {
+            let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);
+            orbit.look_along(forward);
+            orbit.fit(&places);
+            let seen = places.map(|place| orbit.project(place.map(|x| x as f32), (1000, 1000)));
+            let pixels = seen.map(|seen| seen.expect("all are in front").0);
+            let span = |axis: usize| {
+                let along = pixels.map(|pixel| pixel[axis]);
+                let least = along.iter().copied().fold(f64::INFINITY, f64::min);
+                let most = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                assert!(least > 0.0 && most < 1000.0, "{forward:?} {least} {most}");
+                most - least
+            };
+            let spans = [span(0), span(1)];
+            assert!(spans[0].max(spans[1]) > 800.0, "{forward:?} {spans:?}");
+        }
+        // Nothing, one place, and what is nowhere leave the view as it was.
+        let before = Orbit::around(&scene, [0.0, 1.0, 0.0]);
+        for places in [&[][..], &[[f64::NAN; 3]]] {
+            let mut orbit = before;
+            orbit.fit(places);
+            assert!(orbit.distance.is_finite() && orbit.middle == before.middle);
+        }
+    }
 }

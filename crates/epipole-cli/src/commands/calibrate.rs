@@ -30,7 +30,8 @@ enum Printed {
     after_help = "Example: epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o camera.json\n\n\
     Of a chessboard half of the corners must be seen, two at least in each of its outermost rows and columns. Ten to twenty\n\
     views do, turned by 30° to 45° about several axes, some of them at the edges of the picture. The right\n\
-    photographs are of the same moments, in the same order.\n\n\
+    photographs are of the same moments, in the same order. Photographs taken upright are of the same camera: sizes and\n\
+    pixels are those of the sensor, before photographs are turned.\n\n\
     JSON: image (width and height), k (fx, fy, cx, cy), distortion (model and coefficients, in OpenCV's order),\n\
     rms_px, std_dev (of k and of the coefficients), coverage (share of the image that boards reach), views\n\
     (name, found, num_marks, rms_px and cam_from_board with rotation and translation, or the problem),\n\

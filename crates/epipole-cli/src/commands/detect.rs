@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, rows};
-use crate::photo::{Photo, Size};
+use crate::photo::{Photo, Size, SizeArguments};
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;
@@ -19,6 +19,8 @@ pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
     image: PathBuf,
     #[command(flatten)]
+    size: SizeArguments,
+    #[command(flatten)]
     features: FeatureArguments,
     /// Write the photograph with the features marked.
     #[arg(long, value_name = "FILE.png")]
@@ -26,7 +28,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let photo = Photo::read(&arguments.image)?;
+    let photo = Photo::prepared(&arguments.image, arguments.size, None)?;
     let found = arguments.features.detect(&photo, context)?;
     let size = Size::from(&photo.color);
     if let Some(path) = &arguments.png {

@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, rows};
-use crate::photo::{Photo, Size};
+use crate::photo::{Photo, Size, SizeArguments};
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;
@@ -22,6 +22,8 @@ pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
     second: PathBuf,
     #[command(flatten)]
+    size: SizeArguments,
+    #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
@@ -32,8 +34,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let photos = [
-        Photo::read(&arguments.first)?,
-        Photo::read(&arguments.second)?,
+        Photo::prepared(&arguments.first, arguments.size, None)?,
+        Photo::prepared(&arguments.second, arguments.size, None)?,
     ];
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;

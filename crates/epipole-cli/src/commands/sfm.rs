@@ -1,24 +1,26 @@
 //! `epipole sfm`: cameras and points from photographs.
 
 mod growth;
+mod input;
 
 use self::growth::GrowthArguments;
-use crate::camera::{CameraArguments, sentence, some_unknown};
+use self::input::InputArguments;
+pub(crate) use self::input::{name, photos};
+use crate::camera::{sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::files;
 use crate::interrupt;
 use crate::matrices::Motion;
-use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    Photo as SfmPhoto, PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmProgress, SfmResult,
-    reconstruct_photos, why_unregistered,
+    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmProgress, SfmResult, reconstruct_photos,
+    why_unregistered,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -42,11 +44,8 @@ use std::path::{Path, PathBuf};
     component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
-    /// Photographs, or a folder of them.
-    #[arg(required = true, value_name = "FILES|FOLDER")]
-    photos: Vec<PathBuf>,
     #[command(flatten)]
-    camera: CameraArguments,
+    input: InputArguments,
     #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
@@ -64,35 +63,16 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let paths = photos(&arguments.photos)?;
-    let mut photos = Vec::new();
-    let mut intrinsics = Vec::new();
-    let (mut guesses, mut sizes) = (Vec::new(), Vec::new());
-    for path in &paths {
-        let photo = Photo::read(path)?;
-        let (k, guess) = arguments.camera.or_guess(&photo)?;
-        guesses.extend(guess);
-        sizes.push(photo.color.dimensions());
-        intrinsics.push(k);
-        photos.push(SfmPhoto {
-            name: name(path),
-            image: photo.color,
-        });
-    }
+    let input::Input {
+        photos,
+        intrinsics,
+        guesses,
+    } = arguments.input.read(context)?;
     let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
         let then = if refine_focal { ", to be refined" } else { "" };
         context.warn(&format!("{sentence}{then}"));
-    }
-    if arguments.camera.k.is_some()
-        && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
-    {
-        let ((w, h), (w0, h0)) = (sizes[place], sizes[0]);
-        context.warn(&format!(
-            "--k is taken for photographs of different sizes: {} is {w} × {h}, the first one {w0} × {h0}",
-            photos[place].name
-        ));
     }
     let photo_options = PhotoOptions {
         features: arguments.features.options(),
@@ -102,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let progress = Progress::new(context, "structure from motion");
     let observer = &mut |step: &SfmProgress| {
-        progress.set(share(step, paths.len()));
+        progress.set(share(step, photos.len()));
         if interrupt::requested() {
             ControlFlow::Break(())
         } else {
@@ -177,7 +157,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report
         .field("focal_refined", refine_focal)
         .field("num_registered", registered_count)
-        .field("num_images", paths.len())
+        .field("num_images", photos.len())
         .field("num_points", largest.points.len())
         .field("mean_reprojection_px", mean_px)
         .field("images", registered(largest))
@@ -186,7 +166,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("complete", !result.canceled)
         .row(
             "registered",
-            format!("{registered_count} of {}", paths.len()),
+            format!("{registered_count} of {}", photos.len()),
         )
         .row("points", largest.points.len())
         .row("mean reprojection error", format!("{mean_px:.3} px"))
@@ -267,41 +247,4 @@ fn write(
         written.push(path.display().to_string());
     }
     Ok(written)
-}
-
-/// The name of a file without its folder.
-pub(super) fn name(path: &Path) -> String {
-    path.file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-/// The files given, folders replaced by the photographs in them, sorted.
-pub(super) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut paths = Vec::new();
-    for path in given {
-        if !path.is_dir() {
-            paths.push(path.clone());
-            continue;
-        }
-        let unreadable = |error: std::io::Error| {
-            Failure::new("read", format!("the folder cannot be read: {error}")).about(path)
-        };
-        let mut found = Vec::new();
-        for entry in std::fs::read_dir(path).map_err(unreadable)? {
-            let file = entry.map_err(unreadable)?.path();
-            let extension = file.extension().and_then(|extension| extension.to_str());
-            let known = extension.map(str::to_lowercase);
-            if known.is_some_and(|e| ["png", "jpg", "jpeg", "webp"].contains(&&*e)) {
-                found.push(file);
-            }
-        }
-        if found.is_empty() {
-            return Err(
-                Failure::new("read", "there are no photographs in this folder").about(path),
-            );
-        }
-        found.sort();
-        paths.extend(found);
-    }
-    Ok(paths)
 }

@@ -36,9 +36,12 @@ pub(crate) struct Arguments {
     left: PathBuf,
     /// The right one.
     right: PathBuf,
+    /// The smallest disparity looked for, pixels.
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(i32).range(-8192..=8191), allow_hyphen_values = true)]
+    min_disparity: i32,
     /// The largest disparity looked for, pixels.
-    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4095))]
-    max_disparity: u32,
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(i32).range(-8191..=8192), allow_hyphen_values = true)]
+    max_disparity: i32,
     /// How to match.
     #[arg(long, value_enum, default_value = "sgm")]
     method: Method,
@@ -57,6 +60,20 @@ pub(crate) struct Arguments {
     /// Distance of the two cameras, meters.
     #[arg(long, value_name = "B", value_parser = positive)]
     baseline_m: Option<f64>,
+}
+
+impl Arguments {
+    /// The smallest disparity, and how many are looked for.
+    fn disparities(&self) -> Result<(i32, u32), Failure> {
+        let count = self.max_disparity - self.min_disparity + 1;
+        match u32::try_from(count) {
+            Ok(count @ 2..=4096) => Ok((self.min_disparity, count)),
+            _ => Err(Failure::usage(format!(
+                "--max-disparity must be 1 to 4095 above --min-disparity, but they are {} and {}",
+                self.max_disparity, self.min_disparity
+            ))),
+        }
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -95,10 +112,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             ControlFlow::Continue(())
         }
     };
-    let num_disparities = arguments.max_disparity + 1;
+    let (min_disparity_px, num_disparities) = arguments.disparities()?;
     let mut disparity = match arguments.method {
         Method::Sgm => {
             let matcher = StereoSgm {
+                min_disparity_px,
                 num_disparities,
                 ..StereoSgm::default()
             };
@@ -106,6 +124,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
         Method::Bm => {
             let matcher = StereoBm {
+                min_disparity_px,
                 num_disparities,
                 ..StereoBm::default()
             };

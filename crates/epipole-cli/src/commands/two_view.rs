@@ -9,7 +9,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::matrices::{Motion, positive, row_major};
-use crate::photo::Photo;
+use crate::photo::{Photo, SizeArguments};
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments, threshold_words};
 use clap::{Args, ValueEnum};
@@ -62,6 +62,8 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     camera: PairArguments,
     #[command(flatten)]
+    size: SizeArguments,
+    #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
@@ -101,8 +103,8 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
     let photos = [
-        Photo::read(&arguments.first)?,
-        Photo::read(&arguments.second)?,
+        Photo::prepared(&arguments.first, arguments.size, None)?,
+        Photo::prepared(&arguments.second, arguments.size, None)?,
     ];
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;

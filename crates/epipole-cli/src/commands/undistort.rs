@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::photo::Photo;
+use crate::photo::{Photo, SizeArguments};
 use crate::report::Report;
 use crate::{files, interrupt, lens, picture};
 use clap::{Args, ValueEnum};
@@ -22,9 +22,10 @@ enum Kept {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole undistort photos/*.jpg --camera camera.json -o flat\n\n\
-    Writes a PNG file for each photograph, of the same size.\n\n\
-    JSON: files (those written), k (fx, fy, cx, cy of the new camera), valid (u, v, width and height of the\n\
-    part in which every pixel was photographed)."
+    Writes a PNG file for each photograph, of the same size, upright. Photographs taken upright are of the same\n\
+    camera, if their files say how they were turned.\n\n\
+    JSON: files (those written), k (fx, fy, cx, cy of the new camera, as its sensor is), valid (u, v, width and\n\
+    height of the part in which every pixel was photographed)."
 )]
 pub(crate) struct Arguments {
     /// Photographs of the calibrated camera, or a folder of them.
@@ -71,17 +72,21 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             context.warn(interrupt::ENDED_EARLY);
             break;
         }
-        let photo = Photo::read(path)?;
-        let (width, height) = photo.color.dimensions();
-        if (width, height) != (camera.width, camera.height) {
+        let photo = Photo::prepared(path, SizeArguments::default(), Some(&flat))?;
+        if photo.k.is_none() {
+            let (width, height) = photo.sensor_size;
+            let upright = match (height, width) == (camera.width, camera.height) {
+                true => ", and the file does not say how it was turned",
+                false => "",
+            };
             let message = format!(
-                "the photograph is {width} × {height}, but the camera was calibrated for {} × {}",
+                "the photograph is {width} × {height}, but the camera was calibrated for {} × {}{upright}",
                 camera.width, camera.height
             );
             return Err(Failure::new("size-mismatch", message).about(path));
         }
         files::make_folder(&arguments.output)?;
-        files::write(target, &picture::png(&flat.map.warp_rgb(&photo.color))?)?;
+        files::write(target, &picture::png(&photo.color)?)?;
         written.push(target.display().to_string());
     }
     let k = &flat.intrinsics;

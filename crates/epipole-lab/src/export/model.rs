@@ -3,8 +3,8 @@
 use super::archive::Archive;
 use super::{depth, summary};
 use crate::tasks::{
-    Dense, FeatureOptions, ImagePoints, MatchOptions, Packed, Photograph, Reconstructed,
-    SfmOptions, Source, core_reconstruction, sfm_images, to_image,
+    Dense, ImagePoints, Packed, Photograph, Recipe, Reconstructed, Source, core_reconstruction,
+    sfm_images, to_image,
 };
 use epipole::sfm::Reconstruction;
 use image::codecs::jpeg::JpegEncoder;
@@ -19,9 +19,9 @@ pub(crate) struct Order<'a> {
     pub(crate) found: &'a Reconstructed,
     pub(crate) component: usize,
     pub(crate) meters_per_unit: Option<f64>,
-    pub(crate) options: SfmOptions,
-    pub(crate) features: FeatureOptions,
-    pub(crate) matching: MatchOptions,
+    pub(crate) focal_refined: bool,
+    pub(crate) left_out: &'a [(String, String)],
+    pub(crate) recipe: &'a Recipe,
     pub(crate) dense: &'a [(String, Dense)],
 }
 
@@ -57,6 +57,10 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
     depth::add(&mut archive, order)?;
     let json = summary::json(order, &images, &model);
     archive.add("reconstruction.json", json.as_bytes())?;
+    archive.add("reconstruct.rs", order.recipe.program.as_bytes())?;
+    if let Some(camera) = &order.recipe.camera_json {
+        archive.add("camera.json", camera.as_bytes())?;
+    }
     archive.add("README.txt", summary::readme(order).as_bytes())?;
     archive.finish()
 }

@@ -142,7 +142,7 @@ impl Host for Window {
         false
     }
 
-    fn ask_for_frames(&mut self, _video: u32, _num_parts: u32) {
+    fn ask_for_frames(&mut self, _video: u32, _part: u32, _num_parts: u32) {
         // None ever arrives here.
     }
 

@@ -6,11 +6,11 @@ use super::host::{Host, Wish};
 use super::photo::{Lens, Pictures};
 use super::work::{Errand, Work};
 use super::{
-    calibrate, depth, features, intake, look, matches, measure, photographs, reconstruction, steps,
-    two_views,
+    bar, calibrate, depth, export, features, intake, look, matches, measure, photographs,
+    reconstruction, steps, two_views,
 };
 use crate::project::{Event, Project, Settings, Step};
-use crate::tasks::Sample;
+use crate::tasks::{Request, Sample};
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 
 /// Below this width, steps and knobs stand below each other.
@@ -36,6 +36,8 @@ pub(super) struct Memory {
     pub(super) chosen_match: Option<usize>,
     /// A point that waits for another one to be measured.
     pub(super) first_end: Option<usize>,
+    /// Points of the floor, while there are not three of them.
+    pub(super) corners: Option<Vec<usize>>,
 }
 
 /// The Lab on a screen.
@@ -55,12 +57,18 @@ pub fn prepare(context: &egui::Context) {
     look::set(context);
 }
 
+/// Puts a theme on: "light", "dark", "high-contrast", or that of the system.
+pub fn wear(context: &egui::Context, theme: &str) {
+    look::wear(context, theme);
+}
+
 impl<H: Host> App<H> {
     /// With the sample, which is solved at once.
     pub fn new(host: H) -> Self {
         let mut project = Project::default();
         project.update(Event::OpenSample(Sample::Table));
         project.update(Event::Show(Step::Reconstruction));
+        project.forget_past();
         Self {
             project,
             host,
@@ -114,7 +122,16 @@ impl<H: Host> App<H> {
         let mut events = Vec::new();
         self.keys(ui, &mut events);
         let narrow = ui.available_width() < NARROW;
-        Panel::top("bar").show(ui, |ui| self.bar(ui, narrow, &mut events));
+        Panel::top("bar").show(ui, |ui| {
+            bar::bar(
+                &self.project,
+                &mut self.work,
+                &mut self.host,
+                narrow,
+                ui,
+                &mut events,
+            );
+        });
         if narrow {
             Panel::top("steps in a row").show(ui, |ui| {
                 steps::row(&self.project, &mut self.memory.step, ui, &mut events);
@@ -146,6 +163,9 @@ impl<H: Host> App<H> {
             ui.ctx().request_repaint();
         }
         for event in events {
+            if matches!(event, Event::OpenSample(_)) {
+                self.memory = Memory::default();
+            }
             self.project.update(event);
         }
     }
@@ -160,74 +180,6 @@ impl<H: Host> App<H> {
                 });
             }
         });
-    }
-
-    fn bar(&mut self, ui: &mut Ui, narrow: bool, events: &mut Vec<Event>) {
-        ui.add_space(3.0);
-        ui.horizontal_wrapped(|ui| {
-            let add = match self.project.view().step {
-                _ if narrow => "Add…",
-                Step::Calibrate => "Add photographs of a board…",
-                _ => "Add photographs…",
-            };
-            if !narrow {
-                ui.heading("Lab");
-            }
-            if ui.button(add).clicked() && !self.host.ask_for_photographs() {
-                self.work.news = Some("Drop photographs onto this window.".to_owned());
-            }
-            ui.menu_button("Samples", |ui| {
-                for sample in Sample::ALL {
-                    if ui.button(sample.title()).clicked() {
-                        events.push(Event::OpenSample(sample));
-                        self.memory = Memory::default();
-                    }
-                }
-            });
-            ui.menu_button("Project", |ui| {
-                if ui.button("Open…").clicked() && !self.host.ask_for_project() {
-                    self.work.news = Some("Drop a project onto this window.".to_owned());
-                }
-                if ui.button("Save").clicked() {
-                    let request = self.project.save_request();
-                    self.work.run(Errand::Save, &request, &mut self.host);
-                }
-                if ui.button("Remove all photographs").clicked() {
-                    events.push(Event::Clear);
-                }
-            });
-            if ui
-                .add_enabled(self.project.can_undo(), egui::Button::new("Undo"))
-                .clicked()
-            {
-                events.push(Event::Undo);
-            }
-            if ui
-                .add_enabled(self.project.can_redo(), egui::Button::new("Redo"))
-                .clicked()
-            {
-                events.push(Event::Redo);
-            }
-            let paused = self.project.is_paused();
-            if paused && ui.button("Go on").clicked() {
-                events.push(Event::Pause(false));
-            }
-            if let Some((words, share)) = self.work.words(&self.project) {
-                if !paused && ui.button("Stop").clicked() {
-                    events.push(Event::Pause(true));
-                }
-                ui.weak(match share > 0.0 {
-                    true => format!("{words} ({:.0} %)", 100.0 * share),
-                    false => words,
-                });
-            } else if paused {
-                ui.weak("stopped");
-            }
-            if let Some(news) = &self.work.news {
-                ui.weak(news);
-            }
-        });
-        ui.add_space(3.0);
     }
 
     fn picture(&mut self, ui: &mut Ui, events: &mut Vec<Event>) {
@@ -257,7 +209,7 @@ impl<H: Host> App<H> {
     fn knobs(&mut self, ui: &mut Ui, events: &mut Vec<Event>) {
         let (project, memory) = (&self.project, &mut self.memory);
         let step = project.view().step;
-        let (mut export, mut explain) = (false, false);
+        let mut explain = false;
         let mut wish = None;
         let has_book = self.host.has_book();
         ScrollArea::vertical()
@@ -280,7 +232,7 @@ impl<H: Host> App<H> {
                     Step::Reconstruction => reconstruction::knobs(project, memory, ui, events),
                     Step::Depth => depth::knobs(project, memory, ui, events),
                     Step::Measure => measure::knobs(project, memory, ui, events),
-                    Step::Export => export = self::export(project, ui),
+                    Step::Export => wish = export::knobs(project, ui),
                 }
             });
         if let Some(wish) = wish {
@@ -289,9 +241,6 @@ impl<H: Host> App<H> {
         if explain {
             self.host.explain(step.about());
         }
-        if export && let Some(request) = self.project.export_request() {
-            self.work.run(Errand::Export, &request, &mut self.host);
-        }
     }
 
     fn grant(&mut self, wish: Wish) {
@@ -299,6 +248,17 @@ impl<H: Host> App<H> {
             Wish::TakePhotographs => {
                 if !self.host.ask_for_camera() {
                     self.work.news = Some("The Lab in a browser takes photographs.".to_owned());
+                }
+            }
+            Wish::Export => {
+                if let Some(request) = self.project.export_request() {
+                    self.work.run(Errand::Export, &request, &mut self.host);
+                }
+            }
+            Wish::SaveView => {
+                if let Some((width, rgba)) = self.memory.cloud.pixels() {
+                    let request = Request::Picture { width, rgba };
+                    self.work.run(Errand::View, &request, &mut self.host);
                 }
             }
             Wish::SaveCamera => {
@@ -310,24 +270,4 @@ impl<H: Host> App<H> {
             }
         }
     }
-}
-
-/// What is exported. True if that was asked for.
-fn export(project: &Project, ui: &mut Ui) -> bool {
-    ui.label(project.describe());
-    let ready = project.component().is_some();
-    let clicked = ui
-        .add_enabled(ready, egui::Button::new("Save reconstruction.zip"))
-        .clicked();
-    ui.label(
-        "It holds images/ and sparse/0/ as COLMAP's text model, which other programs open; \
-         points.ply, the points with their colors; reconstruction.json, as the command line prints \
-         it; and the command that does the same. With the depth of pairs also dense.ply and depth/, a \
-         PFM file each.",
-    );
-    ui.weak(match project.scale() {
-        Some(_) => "Lengths are meters, by the length that you measured.",
-        None => "The unit is arbitrary: measure a length to have meters.",
-    });
-    clicked
 }

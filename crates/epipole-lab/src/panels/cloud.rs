@@ -1,13 +1,12 @@
 //! Cameras and points in space: turned, moved, enlarged by mouse, fingers and keys.
 
 use super::look;
-use super::marks::{frustum, rays, standing};
+use super::marks::{add_dense, frustum, rays, standing};
 use super::photo::reduced_rgb;
-use crate::project::{Given, Key, Project};
-use crate::tasks::Component;
-use egui::{
-    ColorImage, Key as KeyName, Rect, Response, Sense, TextureHandle, TextureOptions, Ui, Vec2,
-};
+use super::steer::{frame, steer};
+use crate::project::{Floor, Given, Key, Project};
+use crate::tasks::{Blob, Component};
+use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 use epipole_canvas::theme::{Role, Theme};
 use std::collections::BTreeMap;
@@ -36,6 +35,7 @@ struct Made {
     /// How many cameras there are while there are not all.
     growing: Option<usize>,
     dense: Vec<Key>,
+    floor: Option<Floor>,
 }
 
 /// What the last frame shows.
@@ -88,9 +88,6 @@ impl Default for CloudView {
 
 /// The longer side of a photograph in the space, pixels.
 const SMALL_SIDE: u32 = 256;
-/// So many points of the dense depth of all pairs are shown.
-const MAX_DENSE: usize = 1_000_000;
-
 /// A frame of so many points is drawn while something moves.
 const MAX_MOVING: usize = 150_000;
 
@@ -151,6 +148,14 @@ impl CloudView {
         Some(rect.min + Vec2::new(u as f32, v as f32) / pixels)
     }
 
+    /// What was drawn last: width, and red, green, blue, opacity, row by row.
+    pub(super) fn pixels(&self) -> Option<(u32, Blob)> {
+        let (width, height) = self.frame.size();
+        let rgba = self.frame.rgba();
+        let is_drawn = self.drawn.is_some() && rgba.len() == 4 * width * height;
+        is_drawn.then(|| (width as u32, rgba.to_vec().into()))
+    }
+
     /// Looks at everything again.
     pub(super) fn look_at_all(&mut self) {
         self.made = None;
@@ -166,6 +171,7 @@ impl CloudView {
             photographs: self.photographs,
             growing: (project.component().is_none()).then(|| component.num_registered()),
             dense: project.dense_pairs().iter().map(|(key, ..)| *key).collect(),
+            floor: project.floor(),
         };
         if self.made.as_ref() == Some(&made) {
             return;
@@ -173,6 +179,7 @@ impl CloudView {
         let same_place = self.made.as_ref().is_some_and(|before| {
             (before.key, before.component, before.growing)
                 == (made.key, made.component, made.growing)
+                && before.floor == made.floor
         });
         // While it grows it is seen from the same side.
         let side = (self.made.as_ref())
@@ -189,18 +196,19 @@ impl CloudView {
                 };
                 (point.position.map(|x| x as f32), color)
             }));
-        self.add_dense(project);
+        add_dense(&mut self.scene.points, project);
         let mut sum = nalgebra::Vector3::zeros();
         for camera in component.cameras.iter().flatten() {
             let [_, _, cu, cv] = camera.intrinsics;
             let down = camera.ray([cu, cv + 1000.0]) - camera.ray([cu, cv]);
             sum += down.normalize();
         }
+        if let Some(floor) = made.floor {
+            sum = -floor.up;
+        }
         if !same_place || self.orbit.is_none() {
             let mut orbit = Orbit::around(&self.scene, sum.into());
-            if let Some(before) = side {
-                (orbit.yaw_rad, orbit.pitch_rad) = (before.yaw_rad, before.pitch_rad);
-            }
+            frame(&mut orbit, component, side);
             self.orbit = Some(orbit);
             self.point = None;
         }
@@ -228,19 +236,6 @@ impl CloudView {
         self.num_fixed_lines = self.scene.lines.len();
         self.made = Some(made);
         self.drawn = None;
-    }
-
-    /// Adds the points of every pixel after those that photographs share.
-    fn add_dense(&mut self, project: &Project) {
-        let pairs = project.dense_pairs();
-        let all: f64 = (pairs.iter())
-            .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
-            .sum();
-        let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
-        for (.., pair) in pairs {
-            let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
-            self.scene.points.extend(pair.points(every).map(plain));
-        }
     }
 
     fn small(&mut self, project: &Project, photo: &Given) -> Option<Small> {
@@ -309,64 +304,4 @@ impl CloudView {
             ui.ctx().request_repaint();
         }
     }
-}
-
-/// Turns, moves and enlarges. True while something moves.
-fn steer(
-    orbit: &mut Orbit,
-    ui: &Ui,
-    response: &Response,
-    size: (usize, usize),
-    pixels: f32,
-) -> bool {
-    let before = *orbit;
-    let drag = response.drag_delta();
-    let (keys, shift) = ui.input(|input| (input.modifiers, input.modifiers.shift));
-    let touches = ui.input(egui::InputState::multi_touch);
-    if let Some(touch) = touches.filter(|_| response.hovered() || response.dragged()) {
-        let moved = touch.translation_delta * pixels;
-        orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
-        orbit.zoom(f64::from(touch.zoom_delta));
-    } else if drag != Vec2::ZERO {
-        let second = response.dragged_by(egui::PointerButton::Secondary)
-            || response.dragged_by(egui::PointerButton::Middle);
-        if shift || second {
-            let moved = drag * pixels;
-            orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
-        } else {
-            orbit.turn(f64::from(drag.x) * -0.008, f64::from(drag.y) * -0.008);
-        }
-    }
-    if response.hovered() && touches.is_none() {
-        let scrolled = ui.input(|input| input.smooth_scroll_delta().y);
-        let pinched = ui.input(egui::InputState::zoom_delta);
-        orbit.zoom(f64::from(pinched) * libm::exp(f64::from(scrolled) * 0.003));
-    }
-    if response.has_focus() {
-        let step = |name: KeyName| ui.input(|input| input.num_presses(name) as f64);
-        let right = step(KeyName::ArrowRight) - step(KeyName::ArrowLeft);
-        let down = step(KeyName::ArrowDown) - step(KeyName::ArrowUp);
-        if keys.shift {
-            orbit.pan(24.0 * right, 24.0 * down, size);
-        } else {
-            orbit.turn(-0.1 * right, -0.1 * down);
-        }
-        let nearer = step(KeyName::Plus) + step(KeyName::Equals) - step(KeyName::Minus);
-        orbit.zoom(libm::exp(0.15 * nearer));
-        // The arrows belong to the space while it has the focus.
-        ui.memory_mut(|memory| {
-            memory.set_focus_lock_filter(
-                response.id,
-                egui::EventFilter {
-                    horizontal_arrows: true,
-                    vertical_arrows: true,
-                    ..egui::EventFilter::default()
-                },
-            );
-        });
-    }
-    if response.clicked() {
-        response.request_focus();
-    }
-    *orbit != before
 }

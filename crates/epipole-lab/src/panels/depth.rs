@@ -1,11 +1,12 @@
 //! One pair, rectified: rows under a ruler, and the depth of every pixel.
 
 use super::app::Memory;
+use super::depth_words::{disparities, legend, pixel};
 use super::knobs::{self, Turned};
 use super::{look, photo};
-use crate::project::{Event, Key, MAX_DISPARITY_PX, Project};
+use crate::project::{Event, Key, Project};
 use crate::tasks::{Dense, DepthMethod};
-use egui::{Color32, ColorImage, DragValue, Rect, Slider, TextureHandle, TextureOptions, Ui};
+use egui::{Color32, ColorImage, Rect, Slider, TextureHandle, TextureOptions, Ui};
 use epipole_canvas::theme::{Role, Theme};
 
 /// The pictures of a pair, kept between frames.
@@ -150,14 +151,7 @@ fn rooms(whole: Rect) -> [Rect; 3] {
 /// Which pair, how it is matched, and what a pixel says.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     let (a, b) = project.view().pair;
-    let chosen1 = knobs::choose(project, ui, "First", a, Some(b));
-    let chosen2 = knobs::choose(project, ui, "Second", b, Some(a));
-    if chosen1.is_some() || chosen2.is_some() {
-        events.push(Event::LookAtPair(
-            chosen1.unwrap_or(a),
-            chosen2.unwrap_or(b),
-        ));
-    }
+    knobs::choose_pair(project, ui, events);
     ui.label(project.describe());
     let pair = project.document().pair((a, b));
     let found = pair.and_then(|(first, second)| project.depth(first, second));
@@ -210,103 +204,6 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         turned.max(disparities(ui, &mut options.range_px, proposed))
     });
     knobs::book(ui, "Two eyes in a row", "stereo.html");
-}
-
-/// Which disparities are looked for.
-fn disparities(ui: &mut Ui, range_px: &mut Option<[i32; 2]>, proposed: Option<[i32; 2]>) -> Turned {
-    let mut as_proposed = range_px.is_none();
-    let mut turned = Turned::No;
-    let label = match proposed {
-        Some([low, high]) => format!("disparities as the points propose: {low} to {high} px"),
-        None => "disparities as the points propose".to_owned(),
-    };
-    if ui.checkbox(&mut as_proposed, label).changed() {
-        *range_px = match as_proposed {
-            true => None,
-            false => Some(proposed.unwrap_or([0, 63])),
-        };
-        turned = Turned::Done;
-    }
-    if let Some(range) = range_px {
-        for (end, name) in range
-            .iter_mut()
-            .zip(["Smallest disparity, px", "Largest disparity, px"])
-        {
-            ui.horizontal_wrapped(|ui| {
-                let label = ui.label(name);
-                let field = DragValue::new(end)
-                    .range(0..=MAX_DISPARITY_PX)
-                    .update_while_editing(false);
-                let response = ui.add(field).labelled_by(label.id);
-                turned = turned.max(
-                    match (
-                        response.dragged(),
-                        response.drag_stopped() || response.changed(),
-                    ) {
-                        (true, _) => Turned::Held,
-                        (false, done) => done.into(),
-                    },
-                );
-            });
-        }
-    }
-    turned
-}
-
-/// What the colors of the depth mean.
-fn legend(project: &Project, range: Option<[f64; 2]>, ui: &mut Ui) {
-    let Some([near, far]) = range else { return };
-    let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 12.0), egui::Sense::hover());
-    let words = format!(
-        "bright: {}, dark: {}, plain: no answer",
-        length(project, near),
-        length(project, far)
-    );
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
-    let theme = look::theme(ui);
-    for n in 0..70 {
-        let strip = Rect::from_min_size(
-            rect.min + egui::vec2(4.0 * n as f32, 0.0),
-            egui::vec2(4.5, rect.height()),
-        );
-        let [r, g, b] = theme.scale(1.0 - f64::from(n) / 69.0);
-        ui.painter()
-            .rect_filled(strip, 0.0, Color32::from_rgb(r, g, b));
-    }
-    ui.weak(words);
-}
-
-fn length(project: &Project, units: f64) -> String {
-    match project.scale() {
-        Some(scale) => format!("{:.3} m", units * scale.meters_per_unit),
-        None => format!("{units:.3} units"),
-    }
-}
-
-/// What the pixel says that was clicked.
-fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, ui: &mut Ui) {
-    let Some([u, v]) = probe else {
-        ui.weak("Click a pixel: the same thing must be on the same line of the other photograph.");
-        return;
-    };
-    knobs::row(ui, "pixel", format!("({u}, {v})"));
-    match (found.disparity(u, v), found.depth(u, v)) {
-        (Some(disparity), Some(depth)) => {
-            knobs::row(ui, "disparity", format!("{disparity:.2} px"));
-            knobs::row(ui, "depth", length(project, depth));
-            // σ_Z = Z² σ_d / (f B), for half a pixel.
-            let step = depth * depth * 0.5 / (found.focal_px() * found.baseline);
-            knobs::row(ui, "half a pixel is", length(project, step));
-        }
-        (Some(disparity), None) => knobs::row(
-            ui,
-            "disparity",
-            format!("{disparity:.2} px: infinitely far"),
-        ),
-        _ => {
-            drop(ui.weak("No answer here: hidden from the other camera, too smooth, or ambiguous."))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -28,8 +28,10 @@ pub enum Arrival {
     Link(Vec<(String, String)>),
     /// A video of this number, which waits for [`Host::ask_for_frames`].
     Video(u32),
-    /// Of a video of this number and name: some frames of each of its parts.
-    Frames(u32, String, Vec<Vec<Blob>>),
+    /// Of a video of this number and name: some frames of the part that was asked for.
+    Frames(u32, String, Vec<Blob>),
+    /// A video of this number cannot be read any further, and a sentence why.
+    NoFrames(u32, String),
     /// Nothing, and a sentence why; or how far it is.
     News(String),
 }
@@ -39,6 +41,10 @@ pub enum Arrival {
 pub(super) enum Wish {
     /// Give the reader a file with the calibrated camera.
     SaveCamera,
+    /// Give the reader a zip file with the reconstruction.
+    Export,
+    /// Give the reader the space as it is to be seen.
+    SaveView,
     /// Take photographs with the camera of the machine.
     TakePhotographs,
 }
@@ -61,8 +67,9 @@ pub trait Host {
     fn ask_for_project(&mut self) -> bool;
     /// Lets the reader take photographs with the camera of the machine. False where there is no way.
     fn ask_for_camera(&mut self) -> bool;
-    /// Cuts a video that has arrived into so many parts of equal length, and brings some frames of each.
-    fn ask_for_frames(&mut self, video: u32, num_parts: u32);
+    /// Cuts a video that has arrived into so many parts of equal length, and brings some frames of one of them. The parts
+    /// are asked for in their order, each when the one before has been looked through: there are never many frames.
+    fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32);
     /// Gives the reader a file.
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
     /// What is to be seen now, for whoever does not see it.

@@ -17,12 +17,18 @@ pub(super) fn take(arrival: Arrival, project: &mut Project, work: &mut Work, hos
             }
         }
         Arrival::Video(video) => {
-            let count = project.document().settings.num_frames;
-            host.ask_for_frames(video, count);
+            let num_parts = project.document().settings.num_frames;
+            work.videos.add(video, num_parts, host);
         }
-        Arrival::Frames(video, name, parts) => {
-            let request = Request::Frames { name, parts };
-            work.run(Errand::Frames(video), &request, host);
+        Arrival::Frames(video, name, frames) => {
+            if let Some(part) = work.videos.part_of(video) {
+                let request = Request::Frames { name, part, frames };
+                work.run(Errand::Frames(video), &request, host);
+            }
+        }
+        Arrival::NoFrames(video, sentence) => {
+            work.videos.give_up(video, host);
+            work.news = Some(sentence);
         }
         Arrival::News(sentence) => work.news = Some(sentence),
     }
@@ -39,9 +45,10 @@ pub(super) fn photographs(project: &mut Project, files: Vec<(String, Blob)>) {
         project.update(Event::AddBoards(files));
         return;
     }
-    if document.photos.iter().all(is_sample) {
-        project.update(Event::Clear);
-    }
-    project.update(Event::Add(files));
+    // One change: one step back.
+    project.update(match document.photos.iter().all(is_sample) {
+        true => Event::Begin(files),
+        false => Event::Add(files),
+    });
     project.update(Event::Show(Step::Photographs));
 }

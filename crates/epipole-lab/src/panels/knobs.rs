@@ -101,3 +101,15 @@ pub(super) fn choose(
     });
     chosen
 }
+
+/// The pair to choose. True if another one was.
+pub(super) fn choose_pair(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) -> bool {
+    let (a, b) = project.view().pair;
+    let first = choose(project, ui, "First", a, Some(b));
+    let second = choose(project, ui, "Second", b, Some(a));
+    let is_other = first.is_some() || second.is_some();
+    if is_other {
+        events.push(Event::LookAtPair(first.unwrap_or(a), second.unwrap_or(b)));
+    }
+    is_other
+}

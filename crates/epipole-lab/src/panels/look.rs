@@ -70,11 +70,38 @@ fn visuals(theme: Theme) -> Visuals {
     visuals
 }
 
+/// Where a context says whether it has high contrast.
+fn is_high() -> egui::Id {
+    egui::Id::unique("high contrast")
+}
+
+/// Puts a theme on, by its permanent name; one that is not known is that of the system.
+pub(super) fn wear(context: &egui::Context, name: &str) {
+    let known = Theme::ALL.into_iter().find(|(_, other)| *other == name);
+    let theme = known.map(|(theme, _)| theme);
+    let is_dark = match theme {
+        Some(Theme::HighContrast) => Theme::HighContrast,
+        _ => Theme::Dark,
+    };
+    // The toolkit knows of two: the darker one makes room.
+    context.set_visuals_of(egui::Theme::Dark, visuals(is_dark));
+    context.set_theme(match theme {
+        Some(Theme::Light) => egui::ThemePreference::Light,
+        Some(_) => egui::ThemePreference::Dark,
+        None => egui::ThemePreference::System,
+    });
+    context.data_mut(|data| data.insert_temp(is_high(), theme == Some(Theme::HighContrast)));
+}
+
 /// The theme that is on.
 pub(super) fn theme(ui: &egui::Ui) -> Theme {
-    match ui.visuals().dark_mode {
-        true => Theme::Dark,
-        false => Theme::Light,
+    let is_high = ui
+        .ctx()
+        .data(|data| data.get_temp(is_high()).unwrap_or(false));
+    match (ui.visuals().dark_mode, is_high) {
+        (true, true) => Theme::HighContrast,
+        (true, false) => Theme::Dark,
+        (false, _) => Theme::Light,
     }
 }
 

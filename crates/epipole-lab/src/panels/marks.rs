@@ -91,3 +91,19 @@ pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], 
     };
     point.track.iter().filter_map(sight).collect()
 }
+
+/// So many points of the dense depth of all pairs are shown.
+const MAX_DENSE: usize = 1_000_000;
+
+/// Adds the points of every pixel after those that photographs share.
+pub(super) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
+    let pairs = project.dense_pairs();
+    let all: f64 = (pairs.iter())
+        .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
+        .sum();
+    let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
+    for (.., pair) in pairs {
+        let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
+        points.extend(pair.points(every).map(plain));
+    }
+}

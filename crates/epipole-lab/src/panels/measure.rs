@@ -19,7 +19,20 @@ pub(super) fn picture(
         return;
     }
     let rect = ui.available_rect_before_wrap();
-    if let Some(point) = memory.cloud.show(project, ui, rect) {
+    let clicked = memory.cloud.show(project, ui, rect);
+    if let (Some(point), Some(corners)) = (clicked, &mut memory.corners) {
+        if !corners.contains(&point) {
+            corners.push(point);
+        }
+        let anchors: Vec<_> = corners
+            .iter()
+            .filter_map(|c| project.anchor_of(*c))
+            .collect();
+        if let Ok(anchors) = anchors.try_into() {
+            events.push(Event::Floor(Some(anchors)));
+            memory.corners = None;
+        }
+    } else if let Some(point) = clicked {
         match memory.first_end.take() {
             Some(first) if first != point => {
                 if let (Some(a), Some(b)) = (project.anchor_of(first), project.anchor_of(point)) {
@@ -56,6 +69,19 @@ pub(super) fn picture(
         painter.rect_filled(behind, 3.0, look::color(ui, Role::Background));
         painter.galley(at, text, ink);
     }
+    let floor = project.document().floor.iter().flatten();
+    let floor = floor.filter_map(|end| project.anchored(end));
+    let corners = memory.corners.iter().flatten().copied().chain(floor);
+    for place in corners.filter_map(|point| memory.cloud.place_of(point, rect, ui)) {
+        // A square: color is not the only sign.
+        let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
+        painter.rect_stroke(
+            square,
+            0.0,
+            Stroke::new(2.0, color),
+            egui::StrokeKind::Middle,
+        );
+    }
     if let Some(place) = memory
         .first_end
         .and_then(|point| memory.cloud.place_of(point, rect, ui))
@@ -66,6 +92,16 @@ pub(super) fn picture(
 
 /// The lengths.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    if let Some(corners) = &memory.corners {
+        ui.label(format!(
+            "Click three points of the floor: {} of 3.",
+            corners.len()
+        ));
+        if ui.button("No floor").clicked() {
+            memory.corners = None;
+        }
+        return;
+    }
     ui.label(match (project.document().measures.is_empty(), memory.first_end) {
         (_, Some(_)) => "One end is chosen: click the other.",
         (true, None) => "Click two points of which you know how far apart they are, and type the length: it sets the scale.",
@@ -103,6 +139,27 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         {
             let off = 100.0 * (found.value / known - 1.0);
             ui.weak(format!("{off:+.2} % off what you typed"));
+        }
+    }
+    ui.separator();
+    match project.document().floor {
+        None => {
+            if ui.button("Set the floor by three points").clicked() {
+                memory.corners = Some(Vec::new());
+                memory.first_end = None;
+            }
+        }
+        Some(_) => {
+            ui.label(project.floor_words().trim());
+            if ui.button("Forget the floor").clicked() {
+                events.push(Event::Floor(None));
+            }
+        }
+    }
+    if let Some(point) = memory.cloud.point {
+        let height = project.height_words(point);
+        if !height.is_empty() {
+            ui.label(format!("The point you clicked: {height}"));
         }
     }
     ui.add_space(6.0);

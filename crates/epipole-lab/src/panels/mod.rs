@@ -2,9 +2,12 @@
 
 mod about;
 mod app;
+mod bar;
 mod calibrate;
 mod cloud;
 mod depth;
+mod depth_words;
+mod export;
 mod features;
 mod host;
 mod intake;
@@ -16,10 +19,12 @@ mod measure;
 mod photo;
 mod photographs;
 mod reconstruction;
+mod steer;
 mod steps;
 mod two_views;
+mod videos;
 mod work;
 
 pub use about::About;
-pub use app::{App, prepare};
+pub use app::{App, prepare, wear};
 pub use host::{Arrival, Host, Report, WorkId};

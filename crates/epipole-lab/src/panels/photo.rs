@@ -1,20 +1,20 @@
 //! A photograph in a rectangle, enlarged and moved by the reader, with marks on it.
 
 use super::look;
-use crate::project::Key;
+use crate::project::Key as Name;
 use crate::tasks::Photograph;
 use egui::{
-    Color32, ColorImage, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, TextureHandle,
+    Color32, ColorImage, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, TextureHandle,
     TextureOptions, Ui, Vec2, pos2, vec2,
 };
-use epipole_canvas::theme::Role;
+use epipole_canvas::theme::{Role, Theme};
 use std::collections::BTreeMap;
 
 /// The pictures that the screen holds.
 #[derive(Default)]
 pub(super) struct Pictures {
-    full: BTreeMap<Key, TextureHandle>,
-    small: BTreeMap<Key, TextureHandle>,
+    full: BTreeMap<Name, TextureHandle>,
+    small: BTreeMap<Name, TextureHandle>,
 }
 
 /// So many photographs are kept for the screen: two are looked at, at most.
@@ -26,7 +26,12 @@ const SMALL_WIDTH: u32 = 352;
 
 impl Pictures {
     /// The photograph as a texture.
-    pub(super) fn texture(&mut self, ui: &Ui, key: Key, photograph: &Photograph) -> &TextureHandle {
+    pub(super) fn texture(
+        &mut self,
+        ui: &Ui,
+        key: Name,
+        photograph: &Photograph,
+    ) -> &TextureHandle {
         if !self.full.contains_key(&key) && self.full.len() >= MAX_FULL {
             self.full.clear();
         }
@@ -39,7 +44,7 @@ impl Pictures {
     }
 
     /// The same, small.
-    pub(super) fn small(&mut self, ui: &Ui, key: Key, photograph: &Photograph) -> &TextureHandle {
+    pub(super) fn small(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> &TextureHandle {
         if !self.small.contains_key(&key) && self.small.len() >= MAX_SMALL {
             self.small.clear();
         }
@@ -84,6 +89,8 @@ pub(super) struct Lens {
     zoom: f32,
     /// Where the middle of the rectangle is in the photograph, as a share of it.
     middle: Vec2,
+    /// Where the crosshair is, likewise.
+    cross: Vec2,
 }
 
 impl Default for Lens {
@@ -91,6 +98,7 @@ impl Default for Lens {
         Self {
             zoom: 1.0,
             middle: vec2(0.5, 0.5),
+            cross: vec2(0.5, 0.5),
         }
     }
 }
@@ -102,6 +110,8 @@ pub(super) struct Shown {
     /// Where the whole photograph would be.
     place: Rect,
     size: Vec2,
+    /// Where the crosshair was clicked by a key, as a share.
+    keyed: Option<Vec2>,
 }
 
 impl Shown {
@@ -114,13 +124,15 @@ impl Shown {
         self.place.min + share * self.place.size()
     }
 
-    /// Which pixel was clicked.
+    /// Which pixel was clicked, by a pointer or by a key.
     pub(super) fn clicked(&self) -> Option<[f64; 2]> {
         if !self.response.clicked() {
             return None;
         }
-        let at = self.response.interact_pointer_pos()? - self.place.min;
-        let share = at / self.place.size();
+        let share = match self.keyed {
+            Some(share) => share,
+            None => (self.response.interact_pointer_pos()? - self.place.min) / self.place.size(),
+        };
         let inside = (0.0..1.0).contains(&share.x) && (0.0..1.0).contains(&share.y);
         inside.then(|| {
             [
@@ -175,9 +187,19 @@ pub(super) fn show(
 ) -> Shown {
     let id = ui.make_persistent_id(("photograph", name, rect.min.x as i32, rect.min.y as i32));
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    let label = format!("Photograph {name}");
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
     let size = texture.size_vec2();
+    let keyed = crosshair(ui, &response, lens, size);
+    let label = match response.has_focus() {
+        true => {
+            let at = lens.cross * size;
+            format!(
+                "Photograph {name}, crosshair at ({:.0}, {:.0}). Arrow keys move it, with Shift pixel by pixel; Enter clicks.",
+                at.x, at.y
+            )
+        }
+        false => format!("Photograph {name}"),
+    };
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
     let fit = (rect.width() / size.x)
         .min(rect.height() / size.y)
         .max(1e-3);
@@ -195,6 +217,17 @@ pub(super) fn show(
             lens.middle += from_middle * (1.0 / before - 1.0 / (fit * lens.zoom));
         }
     }
+    if response.has_focus() {
+        let presses = |key| ui.input(|input| input.num_presses(key) as f32);
+        let nearer = presses(Key::Plus) + presses(Key::Equals) - presses(Key::Minus);
+        if nearer != 0.0 {
+            lens.zoom = (lens.zoom * libm::expf(0.3 * nearer)).clamp(1.0, 16.0);
+            lens.middle = lens.cross;
+        }
+        // The crosshair stays in sight.
+        let half = 0.45 * rect.size() / (size * fit * lens.zoom);
+        lens.middle = lens.middle.clamp(lens.cross - half, lens.cross + half);
+    }
     lens.middle -= response.drag_delta() / (size * fit * lens.zoom);
     if response.double_clicked() {
         *lens = Lens::default();
@@ -210,14 +243,58 @@ pub(super) fn show(
     painter.rect_filled(rect, 0.0, look::color(ui, Role::Surface));
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     painter.image(texture.id(), place, whole, Color32::WHITE);
-    if response.has_focus() {
-        let stroke = Stroke::new(2.0, look::color(ui, Role::Best));
-        painter.rect_stroke(rect.shrink(1.0), 0.0, stroke, egui::StrokeKind::Inside);
+    if response.clicked()
+        && keyed.is_none()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        let share = (pointer - place.min) / place.size();
+        lens.cross = share.clamp(Vec2::ZERO, Vec2::splat(1.0));
+        response.request_focus();
     }
-    Shown {
+    let shown = Shown {
         response,
         painter,
         place,
         size,
+        keyed,
+    };
+    if shown.response.has_focus() {
+        let stroke = Stroke::new(2.0, look::color(ui, Role::Best));
+        let inner = rect.shrink(1.0);
+        (shown.painter).rect_stroke(inner, 0.0, stroke, egui::StrokeKind::Inside);
+        let at = place.min + lens.cross * place.size();
+        let grip = look::of(Theme::Dark, Role::Grip);
+        for arm in [
+            vec2(1.0, 0.0),
+            vec2(-1.0, 0.0),
+            vec2(0.0, 1.0),
+            vec2(0.0, -1.0),
+        ] {
+            shown.line(at + 4.0 * arm, at + 13.0 * arm, grip);
+        }
     }
+    shown
+}
+
+/// Moves the crosshair by the arrow keys while the photograph has the focus. Returns its place when a key clicks it.
+fn crosshair(ui: &Ui, response: &Response, lens: &mut Lens, size: Vec2) -> Option<Vec2> {
+    if !response.has_focus() {
+        return None;
+    }
+    let presses = |key| ui.input(|input| input.num_presses(key) as f32);
+    let right = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
+    let down = presses(Key::ArrowDown) - presses(Key::ArrowUp);
+    let step = match ui.input(|input| input.modifiers.shift) {
+        true => Vec2::splat(1.0) / size,
+        false => Vec2::splat(0.02 / lens.zoom),
+    };
+    lens.cross = (lens.cross + vec2(right, down) * step).clamp(Vec2::ZERO, Vec2::splat(0.999_9));
+    // The arrows belong to the photograph while it has the focus.
+    let filter = egui::EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..egui::EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    (presses(Key::Enter) + presses(Key::Space) > 0.0).then_some(lens.cross)
 }

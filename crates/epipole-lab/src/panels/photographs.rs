@@ -86,6 +86,11 @@ pub(super) fn knobs(
         one(project, ui, photo, events);
         ui.separator();
     }
+    let held = project.orientation_words();
+    if !held.is_empty() {
+        ui.weak(held.trim());
+        ui.separator();
+    }
     let left_out = project.left_out();
     if !left_out.is_empty() {
         ui.strong(format!("Left out: {}", left_out.len()));
@@ -143,13 +148,9 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
             }
         });
         ui.weak(origin);
-        if let Some(camera) = &project.document().camera
-            && camera.size != pixels.full_size
-        {
-            let (width, height) = camera.size;
-            ui.weak(format!(
-                "The calibrated camera is of {width} × {height} pixels, so it is not used here."
-            ));
+        let unused = project.unused_camera_words(photo);
+        if !unused.is_empty() {
+            ui.weak(unused);
         }
         if photo.focal_px.is_some() && ui.button("Forget what I typed").clicked() {
             events.push(Event::Focal(photo.id, None));

@@ -3,7 +3,7 @@
 use super::app::Memory;
 use super::knobs;
 use super::{look, photo};
-use crate::project::{Event, Project};
+use crate::project::{Event, Given, Project};
 use crate::tasks::ViewModel;
 use egui::{Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
@@ -155,13 +155,7 @@ fn mapped(h: &[f64; 9], [u, v]: [f64; 2]) -> Option<[f64; 2]> {
 /// Which pair, and what it says.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     let (a, b) = project.view().pair;
-    let chosen1 = knobs::choose(project, ui, "First", a, Some(b));
-    let chosen2 = knobs::choose(project, ui, "Second", b, Some(a));
-    if chosen1.is_some() || chosen2.is_some() {
-        events.push(Event::LookAtPair(
-            chosen1.unwrap_or(a),
-            chosen2.unwrap_or(b),
-        ));
+    if knobs::choose_pair(project, ui, events) {
         memory.probe = None;
         memory.chosen_match = None;
     }
@@ -205,6 +199,13 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
                 _ => "does not agree",
             };
             knobs::row(ui, "match", format!("ratio {:.2}, {fits}", m.1.ratio));
+            patches(
+                project,
+                memory,
+                ui,
+                [first, second],
+                [m.1.first, m.1.second],
+            );
         }
     }
     ui.weak("Click in the first photograph: the line in the second is where the same thing must be. Circles agree, crosses do not.");
@@ -219,6 +220,46 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         turned.max(knobs::slider(ui, "Seed", seed))
     });
     knobs::book(ui, "One point, one line", "epipolar.html");
+}
+
+/// What both features look like, each turned as its photograph is, in the window that its descriptor sees.
+fn patches(
+    project: &Project,
+    memory: &mut Memory,
+    ui: &mut Ui,
+    photos: [&Given; 2],
+    features: [u32; 2],
+) {
+    const SIDE: f32 = 136.0;
+    ui.horizontal(|ui| {
+        for (photo, index) in photos.into_iter().zip(features) {
+            let (Some(pixels), Some(found)) = (project.photograph(photo), project.features(photo))
+            else {
+                continue;
+            };
+            let Some(feature) = found.list.get(index as usize) else {
+                continue;
+            };
+            let key = project.key_of_photograph(photo);
+            let texture = memory.pictures.texture(ui, key, pixels);
+            let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), egui::Sense::hover());
+            let words = format!("The patch of the match in {}", photo.name);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+            // Four by four cells of three times the scale.
+            let half = (6.0 * feature.scale_px).max(4.0);
+            let size = texture.size_vec2();
+            let middle = (vec2(feature.u as f32, feature.v as f32) + vec2(0.5, 0.5)) / size;
+            let reach = vec2(half, half) / size;
+            let part = Rect::from_min_max((middle - reach).to_pos2(), (middle + reach).to_pos2());
+            let painter = ui.painter_at(rect);
+            painter.image(texture.id(), rect, part, egui::Color32::WHITE);
+            let grip = egui::Stroke::new(1.6, look::of(Theme::Dark, Role::Grip));
+            let radius = SIDE / 2.0 * feature.scale_px / half;
+            painter.circle_stroke(rect.center(), radius, grip);
+            let end = rect.center() + 0.45 * SIDE * egui::Vec2::angled(feature.angle_rad);
+            painter.line_segment([rect.center(), end], grip);
+        }
+    });
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::host::{Host, Report, WorkId};
 use super::intake;
+use super::videos::Videos;
 use crate::project::{About, Event, Project, Task, count};
 use crate::tasks::{Answer, Blob, Request};
 
@@ -14,8 +15,10 @@ pub(super) enum Errand {
     Save,
     /// A project to open.
     Open,
-    /// The sharpest frames of the video of this number.
+    /// The sharpest frame of a part of the video of this number.
     Frames(u32),
+    /// The space as a PNG file.
+    View,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,6 +43,8 @@ pub(super) struct Work {
     seen: Option<u64>,
     /// What came of the last errand.
     pub(super) news: Option<String>,
+    /// Videos of which frames are taken.
+    pub(super) videos: Videos,
 }
 
 impl Work {
@@ -121,6 +126,9 @@ impl Work {
                 self.seen = None;
                 match self.running.remove(place).what {
                     What::Task(task) => project.done(task.key, result),
+                    What::Errand(Errand::Frames(video)) => {
+                        self.frames(video, result, project, host);
+                    }
                     What::Errand(errand) => {
                         self.news = Some(finish(errand, result, project, host));
                     }
@@ -129,13 +137,45 @@ impl Work {
         }
     }
 
+    /// Goes on with the next part of a video, or takes the frames of all.
+    fn frames(
+        &mut self,
+        video: u32,
+        result: Result<Vec<u8>, String>,
+        project: &mut Project,
+        host: &mut impl Host,
+    ) {
+        let frames = match result.and_then(|bytes| Answer::from_bytes(&bytes)) {
+            Ok(Answer::Frames(frames)) => frames,
+            Ok(_) => Vec::new(),
+            Err(sentence) => {
+                self.videos.give_up(video, host);
+                self.news = Some(sentence);
+                return;
+            }
+        };
+        let Some(chosen) = self.videos.take(video, frames, host) else {
+            return;
+        };
+        if chosen.is_empty() {
+            self.news = Some("No frame of the video can be read.".to_owned());
+            return;
+        }
+        let verb = if chosen.len() == 1 { "was" } else { "were" };
+        let frames = count(chosen.len(), "frame");
+        self.news = Some(format!("{frames} {verb} taken from the video."));
+        intake::photographs(project, chosen);
+    }
+
     pub(super) fn is_busy(&self) -> bool {
         !self.running.is_empty()
     }
 
     /// What is under way, in a few words, with the share that is done of the longest.
     pub(super) fn words(&self, project: &Project) -> Option<(String, f32)> {
-        let first = self.running.first()?;
+        let Some(first) = self.running.first() else {
+            return Some((self.videos.words()?, 0.0));
+        };
         let name = |id| project.document().photo(id).map_or("", |photo| &photo.name);
         let mut words = match &first.what {
             What::Task(task) => match task.about {
@@ -151,8 +191,13 @@ impl Work {
                 }
                 About::Calibration => "Calibrating".to_owned(),
             },
-            What::Errand(Errand::Export | Errand::Save) => "Writing the file".to_owned(),
-            What::Errand(Errand::Frames(_)) => "Frames of a video".to_owned(),
+            What::Errand(Errand::Export | Errand::Save | Errand::View) => {
+                "Writing the file".to_owned()
+            }
+            What::Errand(Errand::Frames(_)) => {
+                let words = self.videos.words();
+                words.unwrap_or_else(|| "Frames of a video".to_owned())
+            }
             What::Errand(Errand::Open) => "Opening the project".to_owned(),
         };
         if !first.words.is_empty() {
@@ -184,14 +229,10 @@ fn finish(
                 files,
             }),
         ) => {
-            project.update(Event::OpenProject(saved, files));
+            project.update(Event::OpenProject(Box::new(saved), files));
             "The project is open.".to_owned()
         }
-        (Errand::Frames(_), Ok(Answer::Frames(files))) => {
-            let words = format!("{} were taken from the video.", count(files.len(), "frame"));
-            intake::photographs(project, files);
-            words
-        }
+        (Errand::View, Ok(Answer::Archive(bytes))) => save("view.png", bytes),
         (_, Ok(_)) => "an answer came that nobody asked for".to_owned(),
     }
 }

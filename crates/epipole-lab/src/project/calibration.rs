@@ -188,12 +188,12 @@ impl Project {
         self.document.camera = Some(camera);
     }
 
-    /// The files among the photographs that have this size, as far as they were read.
+    /// The files among the photographs that have this size as the sensor gave them, as far as they were read.
     pub fn of_size(&self, size: (u32, u32)) -> Vec<&Given> {
         let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
         let fits = |photo: &&Given| {
             self.photograph(photo)
-                .is_some_and(|pixels| pixels.full_size == size)
+                .is_some_and(|pixels| pixels.sensor_size == size)
         };
         let photos = self.document.photos.iter();
         photos.filter(is_file).filter(fits).collect()

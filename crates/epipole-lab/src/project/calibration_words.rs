@@ -4,7 +4,7 @@ use super::Project;
 use super::calibration::BoardFate;
 use super::document::Given;
 use super::words::count;
-use crate::tasks::{BoardPattern, Calibration, Source};
+use crate::tasks::{BoardPattern, Calibration, LensCamera, Source};
 
 impl Project {
     /// What became of a photograph of a board, for people, and what would help.
@@ -139,33 +139,70 @@ impl Project {
             ),
             _ if of_it == 0 => format!(
                 " The camera is of {width} × {height} pixels, and none of your photographs is: calibrate at their \
-                 size.{newer}"
+                 size.{}{newer}",
+                self.upright_words()
             ),
             _ => format!(
-                " The camera is used for {of_it} of {}, without the distortion of its lens.{newer}",
-                count(num_files, "photograph")
+                " The camera is used for {of_it} of {}, without the distortion of its lens.{}{newer}",
+                count(num_files, "photograph"),
+                self.upright_words()
             ),
         }
+    }
+
+    /// Of the photographs that would be of the calibrated camera's size if they lay.
+    fn upright_words(&self) -> String {
+        let photos = self.document.photos.iter();
+        let silent = photos
+            .filter(|photo| self.is_of_unknown_turn(photo))
+            .count();
+        match silent {
+            0 => String::new(),
+            1 => " Not for 1 photograph that stands the other way, since its file does not say how it was turned.".to_owned(),
+            _ => format!(
+                " Not for {silent} photographs that stand the other way, since their files do not say how they were turned."
+            ),
+        }
+    }
+
+    fn is_of_unknown_turn(&self, photo: &Given) -> bool {
+        let (Some(camera), Some(pixels)) = (&self.document.camera, self.photograph(photo)) else {
+            return false;
+        };
+        let (width, height) = camera.size;
+        let is_file = matches!(photo.source, Source::File(_));
+        is_file && width != height && pixels.sensor_size == (height, width)
+    }
+
+    /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is none.
+    pub fn unused_camera_words(&self, photo: &Given) -> String {
+        let (Some(camera), Some(pixels)) = (&self.document.camera, self.photograph(photo)) else {
+            return String::new();
+        };
+        if pixels.k.is_some() {
+            return String::new();
+        }
+        let (width, height) = camera.size;
+        let why = match self.is_of_unknown_turn(photo) {
+            true => {
+                "and this one stands the other way, without a word in its file of how it was turned, "
+            }
+            false => "",
+        };
+        format!(
+            "The calibrated camera is of {width} × {height} pixels, {why}so it is not used here."
+        )
     }
 
     /// The camera as `epipole calibrate -o` writes it, which `epipole undistort` reads; `None` without one.
     pub fn camera_json(&self) -> Option<String> {
         let found = self.calibration()?;
-        let camera = &found.camera;
-        let list = |numbers: &[f64]| {
-            let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
-            format!("[{}]", numbers.join(", "))
-        };
-        let (width, height) = camera.size;
         let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();
         Some(format!(
-            "{{\n  \"image\": {{ \"width\": {width}, \"height\": {height} }},\n  \"k\": {},\n  \"distortion\": {{ \"model\": \
-             \"{}\", \"coefficients\": {} }},\n  \"rms_px\": {},\n  \"std_dev\": {},\n  \"coverage\": {}\n}}\n",
-            list(&camera.k),
-            camera.lens.name(),
-            list(&camera.coefficients),
+            "{{\n{},\n  \"rms_px\": {},\n  \"std_dev\": {},\n  \"coverage\": {}\n}}\n",
+            camera_fields(&found.camera),
             found.rms_px,
-            list(&std_dev),
+            listed(&std_dev),
             found.coverage
         ))
     }
@@ -185,4 +222,22 @@ impl Project {
             options.lens.name()
         )
     }
+}
+
+/// Numbers as JSON, and as Rust, has them.
+pub(super) fn listed(numbers: &[f64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// What `epipole undistort` and `epipole sfm` read of a camera.
+pub(super) fn camera_fields(camera: &LensCamera) -> String {
+    let (width, height) = camera.size;
+    format!(
+        "  \"image\": {{ \"width\": {width}, \"height\": {height} }},\n  \"k\": {},\n  \"distortion\": {{ \"model\": \
+         \"{}\", \"coefficients\": {} }}",
+        listed(&camera.k),
+        camera.lens.name(),
+        listed(&camera.coefficients)
+    )
 }

@@ -153,6 +153,8 @@ pub struct Document {
     pub settings: Settings,
     /// What was measured.
     pub measures: Vec<Measure>,
+    /// Three points of the floor.
+    pub floor: Option<[Anchor; 3]>,
     /// Pairs whose depth is part of the cloud.
     pub dense: Vec<(PhotoId, PhotoId)>,
     /// Photographs of a board, in order.

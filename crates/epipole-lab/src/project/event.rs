@@ -1,6 +1,6 @@
 //! What a reader can do.
 
-use super::document::{Measure, PhotoId, Settings};
+use super::document::{Anchor, Measure, PhotoId, Settings};
 use super::saved::Saved;
 use crate::tasks::{Blob, Sample};
 
@@ -62,6 +62,8 @@ impl Step {
 pub enum Event {
     /// Gave photographs: names and files.
     Add(Vec<(String, Blob)>),
+    /// Gave photographs in place of all that there are.
+    Begin(Vec<(String, Blob)>),
     /// Gave photographs of a board, likewise.
     AddBoards(Vec<(String, Blob)>),
     /// Asked for the sample of a board in place of all boards.
@@ -73,7 +75,7 @@ pub enum Event {
     /// Asked for a sample in place of all photographs.
     OpenSample(Sample),
     /// Opened a project in place of everything, with the names and bytes of its files.
-    OpenProject(Saved, Vec<(String, Blob)>),
+    OpenProject(Box<Saved>, Vec<(String, Blob)>),
     /// Removed a photograph, which may be of a board.
     Remove(PhotoId),
     /// Removed all photographs, but for those of boards.
@@ -92,6 +94,8 @@ pub enum Event {
     Length(usize, Option<f64>),
     /// Removed a measure.
     Forget(usize),
+    /// Said which three points lie on the floor, or took that back.
+    Floor(Option<[Anchor; 3]>),
     /// Took the depth of a pair into the cloud, or out of it.
     Dense(PhotoId, PhotoId, bool),
     /// Took back the last change.

@@ -130,11 +130,14 @@ const LENSES: [(&str, LensModel); 3] = [
 const METHODS: [(&str, DepthMethod); 2] =
     [("sgm", DepthMethod::SemiGlobal), ("bm", DepthMethod::Block)];
 
-const SAMPLES: [(&str, Sample); 4] = [
+const SAMPLES: [(&str, Sample); 7] = [
     ("table", Sample::Table),
     ("turned", Sample::Turned),
     ("alone", Sample::Alone),
     ("twice", Sample::Twice),
+    ("plane", Sample::Plane),
+    ("mixed", Sample::Mixed),
+    ("upright", Sample::Upright),
 ];
 
 /// Two whole numbers, as in "12-90".

@@ -21,6 +21,9 @@ pub struct Saved {
     pub photos: Vec<SavedPhoto>,
     /// What was measured; photographs are named by their place.
     pub measures: Vec<Measure>,
+    /// Three points of the floor, likewise.
+    #[serde(default)]
+    pub floor: Option<[Anchor; 3]>,
     /// Pairs whose depth is part of the cloud, likewise.
     #[serde(default)]
     pub dense: Vec<(PhotoId, PhotoId)>,
@@ -61,16 +64,20 @@ impl SavedPhoto {
 
 /// The measure with the photographs of its ends renumbered.
 fn renumbered(measure: &Measure, number: impl Fn(PhotoId) -> Option<PhotoId>) -> Option<Measure> {
-    let end = |anchor: &Anchor| {
-        Some(Anchor {
-            photo: number(anchor.photo)?,
-            ..*anchor
-        })
-    };
     Some(Measure {
-        ends: [end(&measure.ends[0])?, end(&measure.ends[1])?],
+        ends: all_renumbered(measure.ends, number)?,
         length_m: measure.length_m,
     })
+}
+
+fn all_renumbered<const N: usize>(
+    mut ends: [Anchor; N],
+    number: impl Fn(PhotoId) -> Option<PhotoId>,
+) -> Option<[Anchor; N]> {
+    for end in &mut ends {
+        end.photo = number(end.photo)?;
+    }
+    Some(ends)
 }
 
 impl Project {
@@ -87,6 +94,7 @@ impl Project {
             settings: self.document.settings.clone(),
             photos: photos.iter().map(SavedPhoto::of).collect(),
             measures: measures.filter_map(|m| renumbered(m, place)).collect(),
+            floor: (self.document.floor).and_then(|ends| all_renumbered(ends, place)),
             dense: (self.document.dense.iter())
                 .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
                 .collect(),
@@ -127,6 +135,7 @@ impl Project {
         let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
         let measures = saved.measures.iter();
         document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
+        document.floor = saved.floor.and_then(|ends| all_renumbered(ends, number));
         for (a, b) in saved.dense {
             if let (Some(a), Some(b)) = (number(a), number(b))
                 && a != b

@@ -1,6 +1,6 @@
 //! How events change the state.
 
-use super::document::{Document, Given, Measure, PhotoId, content_of};
+use super::document::{Anchor, Document, Given, Measure, PhotoId, content_of};
 use super::{Event, Project, Step};
 use crate::tasks::{Blob, Sample, Source};
 
@@ -21,13 +21,17 @@ impl Project {
             Event::LookAtComponent(component) => self.view.component = component,
             Event::Pause(paused) => self.paused = paused,
             Event::Add(files) => self.add(files),
+            Event::Begin(files) => {
+                self.clear();
+                self.add(files);
+            }
             Event::OpenSample(sample) => self.open_sample(sample),
             Event::AddBoards(files) => self.add_boards(files),
             Event::OpenBoards => self.open_boards(),
             Event::ClearBoards => self.document.boards.clear(),
             Event::UseCalibration(is_used) => self.use_calibration(is_used),
             Event::OpenProject(saved, files) => {
-                self.document = self.restored(saved, files);
+                self.document = self.restored(*saved, files);
                 self.view.step = Step::Photographs;
             }
             Event::Remove(id) => {
@@ -35,12 +39,12 @@ impl Project {
                 self.document.boards.retain(|photo| photo.id != id);
                 let gone = |m: &Measure| m.ends.iter().any(|end| end.photo == id);
                 self.document.measures.retain(|measure| !gone(measure));
+                let floor = self.document.floor.take();
+                self.document.floor = floor.filter(|ends| ends.iter().all(|end| end.photo != id));
                 self.document.dense.retain(|(a, b)| *a != id && *b != id);
             }
             Event::Clear => {
-                self.document.photos.clear();
-                self.document.measures.clear();
-                self.document.dense.clear();
+                self.clear();
                 self.view.step = Step::Photographs;
             }
             Event::Exclude(id, excluded) => {
@@ -72,6 +76,18 @@ impl Project {
             Event::Forget(index) => {
                 if index < self.document.measures.len() {
                     self.document.measures.remove(index);
+                }
+            }
+            Event::Floor(ends) => {
+                let known = |ends: &[Anchor; 3]| {
+                    let [a, b, c] = ends;
+                    let there = ends
+                        .iter()
+                        .all(|end| self.document.photo(end.photo).is_some());
+                    a != b && b != c && a != c && there
+                };
+                if ends.as_ref().is_none_or(known) {
+                    self.document.floor = ends;
                 }
             }
             Event::Dense(a, b, is_part) => {
@@ -144,10 +160,22 @@ impl Project {
         }
     }
 
-    fn open_sample(&mut self, sample: Sample) {
+    /// Removes all photographs, and what depends on them.
+    fn clear(&mut self) {
         self.document.photos.clear();
         self.document.measures.clear();
+        self.document.floor = None;
         self.document.dense.clear();
+    }
+
+    /// What was done so far cannot be taken back.
+    pub fn forget_past(&mut self) {
+        self.past.clear();
+        self.future.clear();
+    }
+
+    fn open_sample(&mut self, sample: Sample) {
+        self.clear();
         for index in 0..sample.len() {
             self.give(&sample.name(index), Source::Rendered(sample, index));
         }

@@ -2,7 +2,7 @@
 
 use super::document::{Given, PhotoId};
 use super::keys::Key;
-use super::{Project, Step};
+use super::{Fate, Project, Step};
 use crate::tasks::{Described, ImagePoints, Packed, PairOf, Request};
 
 /// Something to compute.
@@ -129,6 +129,9 @@ impl Project {
                 let (first, second) = (self.document.photo(first)?, self.document.photo(second)?);
                 Request::TwoViews {
                     places: self.match_places(first, second)?,
+                    ratios: (self.matches(first, second)?.iter())
+                        .map(|m| m.ratio)
+                        .collect(),
                     cameras: [self.camera(first)?, self.camera(second)?],
                     options: settings.pairs,
                 }
@@ -208,9 +211,12 @@ impl Project {
             found: (**found).clone(),
             component: self.view.component as u32,
             meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
-            options: self.sfm_options(),
-            features: self.document.settings.features,
-            matching: self.document.settings.matching,
+            focal_refined: self.sfm_options().refine_focal,
+            left_out: (self.taking_part().iter())
+                .filter(|photo| !matches!(self.fate(photo), Fate::Registered(_)))
+                .map(|photo| (photo.name.clone(), self.fate_words(photo)))
+                .collect(),
+            recipe: self.recipe()?,
             dense: (self.dense_pairs().into_iter())
                 .map(|(_, first, second, dense)| {
                     (Self::pair_name(first, second), (**dense).clone())

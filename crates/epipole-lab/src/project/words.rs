@@ -36,8 +36,9 @@ impl Project {
         words
     }
 
-    fn photographs_words(&self) -> String {
+    pub(super) fn photographs_words(&self) -> String {
         let mut words = format!("{}.", count(self.document.photos.len(), "photograph"));
+        words.push_str(&self.orientation_words());
         for photo in &self.document.photos {
             let fate = self.fate(photo);
             if !matches!(fate, super::Fate::Registered(_) | super::Fate::Open) {
@@ -45,6 +46,25 @@ impl Project {
             }
         }
         words
+    }
+
+    /// What it means that some photographs stand upright and others do not; nothing if all are alike.
+    pub fn orientation_words(&self) -> String {
+        let sizes = |is_upright: bool| {
+            let photos = self.taking_part().into_iter();
+            let pixels = photos.filter_map(|photo| self.photograph(photo));
+            let sizes = pixels.map(|pixels| pixels.full_size);
+            sizes
+                .filter(move |(w, h)| if is_upright { h > w } else { w > h })
+                .count()
+        };
+        match (sizes(true), sizes(false)) {
+            (0, _) | (_, 0) => String::new(),
+            (upright, lying) => format!(
+                " {upright} stand upright and {lying} lie: each has the middle of its own picture as principal point, so they go \
+                 together, and one factor serves all focal lengths."
+            ),
+        }
     }
 
     fn features_words(&self) -> String {
@@ -133,51 +153,6 @@ impl Project {
         }
     }
 
-    fn reconstruction_words(&self) -> String {
-        if let Some(why) = self.reconstruction_failure() {
-            return format!("Nothing could be reconstructed: {why}.");
-        }
-        let photos = self.document.photos.len();
-        let Some(found) = self.reconstruction() else {
-            return match self.taking_part().len() {
-                0 | 1 => self.photographs_words(),
-                _ => match self.growing() {
-                    Some(so_far) => format!(
-                        "Cameras and points are being looked for: {} and {} so far.",
-                        count(so_far.num_registered(), "camera"),
-                        count(so_far.points.len(), "point")
-                    ),
-                    None => "Cameras and points are being looked for.".to_owned(),
-                },
-            };
-        };
-        let mut words = match found.components.get(self.view.component) {
-            Some(component) => format!(
-                "{} of {} have a camera; {} points, mean reprojection error {:.2} pixels.",
-                component.num_registered(),
-                count(photos, "photograph"),
-                component.points.len(),
-                found.mean_error_px.get(self.view.component).unwrap_or(&0.0)
-            ),
-            None => {
-                "No two photographs show enough of the same thing from different places.".to_owned()
-            }
-        };
-        if found.components.len() > 1 {
-            words.push_str(&format!(
-                " Part {} of {}, which nothing joins.",
-                self.view.component + 1,
-                found.components.len()
-            ));
-        }
-        for (id, _) in self.left_out() {
-            if let Some(photo) = self.document.photo(id) {
-                words.push_str(&format!(" {}: {}.", photo.name, self.fate_words(photo)));
-            }
-        }
-        words
-    }
-
     fn depth_words(&self) -> String {
         let Some((first, second)) = self.document.pair(self.view.pair) else {
             return "A pair needs two photographs.".to_owned();
@@ -234,8 +209,10 @@ impl Project {
             return "There is nothing to measure yet.".to_owned();
         }
         if self.document.measures.is_empty() {
-            return "Choose two points and type the length between them: it sets the scale."
-                .to_owned();
+            return format!(
+                "Choose two points and type the length between them: it sets the scale.{}",
+                self.floor_words()
+            );
         }
         let mut words = match self.scale() {
             Some(_) => "The scale is set.".to_owned(),
@@ -244,6 +221,7 @@ impl Project {
         for index in 0..self.document.measures.len() {
             words.push_str(&format!(" {}: {}.", index + 1, self.length_words(index)));
         }
+        words.push_str(self.floor_words());
         words
     }
 

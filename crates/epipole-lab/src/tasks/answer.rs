@@ -20,6 +20,8 @@ pub struct Photograph {
     pub k: Option<[f64; 4]>,
     /// Width and height before it was reduced, upright.
     pub full_size: (u32, u32),
+    /// Width and height as the sensor gave it, before it was turned upright.
+    pub sensor_size: (u32, u32),
     /// Whether its file shows just these pixels: neither reduced nor turned nor redrawn.
     pub as_given: bool,
 }

@@ -1,13 +1,15 @@
 //! The board in a photograph of full size: read and searched in one go, so that only a small picture travels.
 
-use super::convert::{core_board, to_image};
-use super::photograph::{read, reduced};
-use super::{BoardFound, BoardOptions, Progress, Source, Told};
+use super::board_sample;
+use super::convert::core_board;
+use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Told};
 use epipole::calibration::{BoardSearch, find_board};
 use epipole::feature::photo_to_gray;
+use epipole::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
+use image::RgbImage;
 
 /// Pixels of the picture for the screen.
-const SHOWN_PIXELS: u32 = 1_200_000;
+const SHOWN_PIXELS: u64 = 1_200_000;
 
 /// Looks for a board just as `epipole calibrate` does.
 ///
@@ -25,20 +27,52 @@ pub(super) fn board(
     // The unit of length does not matter here.
     let board = core_board(options, 1.0)?;
     tell(0.0, "reading")?;
-    let whole = read(source)?;
+    let whole = of_sensor(source)?;
+    let sensor_size = whole.dimensions();
     tell(0.3, "searching")?;
-    let search = find_board(&photo_to_gray(&to_image(&whole)?), &board)
-        .map_err(|error| error.to_string())?;
+    let search = find_board(&photo_to_gray(&whole), &board).map_err(|error| error.to_string())?;
     let problem = search.problem(&board);
     let other_grid = match search {
         BoardSearch::Partial { columns, rows, .. } => Some((columns as u32, rows as u32)),
         BoardSearch::Found(_) | BoardSearch::Nothing => None,
     };
     let marks = search.view().map_or_else(Vec::new, |view| view.pixels);
+    let picture = reduce_rgb(whole, SHOWN_PIXELS);
+    let (width, height) = picture.dimensions();
     Ok(BoardFound {
-        picture: reduced(whole, SHOWN_PIXELS)?,
+        picture: Photograph {
+            width,
+            height,
+            rgb: picture.into_raw().into(),
+            focal_px: None,
+            k: None,
+            full_size: sensor_size,
+            sensor_size,
+            as_given: (width, height) == sensor_size,
+        },
         marks: (marks.iter()).map(|mark| mark.map(Into::into)).collect(),
         problem,
         other_grid,
     })
+}
+
+/// The photograph as the sensor gave it, which is not always upright: a lens knows no other frame.
+///
+/// # Errors
+/// A sentence, if a file is none that can be read, or there is no such photograph of a board.
+fn of_sensor(source: &Source) -> Result<RgbImage, String> {
+    let bytes = match source {
+        Source::File(bytes) => bytes,
+        Source::Rendered(Sample::Board, index) => {
+            let image = board_sample::photograph(*index).map_err(|error| error.to_string())?;
+            return image.ok_or_else(|| "the sample has no such photograph".to_owned());
+        }
+        Source::Rendered(..) => return Err("there is no board in this sample".to_owned()),
+    };
+    let as_stored = DecodeOptions {
+        apply_orientation: false,
+        ..DecodeOptions::default()
+    };
+    let decoded = decode_rgb(bytes, &as_stored).map_err(|error| error.to_string())?;
+    Ok(decoded.image)
 }

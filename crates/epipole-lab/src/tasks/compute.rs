@@ -38,9 +38,10 @@ fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         } => Answer::Matches(matching::matches(first, second, &options)?),
         Request::TwoViews {
             places,
+            ratios,
             cameras,
             options,
-        } => Answer::TwoViews(two_views::two_views(&places, &cameras, &options)?),
+        } => Answer::TwoViews(two_views::two_views(&places, &ratios, &cameras, &options)?),
         Request::Reconstruction {
             images,
             pairs,
@@ -94,18 +95,19 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         Request::Board { source, options } => {
             Answer::Board(board::board(&source, &options, progress)?)
         }
-        Request::Frames { name, parts } => {
-            Answer::Frames(frames::sharpest(&name, parts, progress)?)
+        Request::Frames { name, part, frames } => {
+            Answer::Frames(frames::sharpest(&name, part, frames, progress)?)
         }
+        Request::Picture { width, rgba } => Answer::Archive(export::picture(width, &rgba)?.into()),
         Request::Export {
             images,
             photographs,
             found,
             component,
             meters_per_unit,
-            options,
-            features,
-            matching,
+            focal_refined,
+            left_out,
+            recipe,
             dense,
         } => Answer::Archive(
             export::reconstruction(&export::Order {
@@ -114,9 +116,9 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
                 found: &found,
                 component: component as usize,
                 meters_per_unit,
-                options,
-                features,
-                matching,
+                focal_refined,
+                left_out: &left_out,
+                recipe: &recipe,
                 dense: &dense,
             })?
             .into(),

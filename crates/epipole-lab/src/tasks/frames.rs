@@ -1,56 +1,40 @@
-//! The sharpest of the frames that a video has in each of its parts.
+//! The sharpest of the frames of one part of a video.
 
 use super::{Blob, Progress, Told};
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, laplacian_pyramid};
+use epipole::imaging::{DecodeOptions, decode_rgb, sharpness};
 
-/// Of each part the sharpest frame, with a name that says which part; parts of which no frame can be read are left
-/// out.
+/// The sharpest frame, as `epipole frames` chooses it, with a name that says which part it is of; nothing, if none can
+/// be read.
 ///
 /// # Errors
-/// A sentence, if none of all can be read, and if `progress` wants no more.
+/// If `progress` wants no more.
 pub(super) fn sharpest(
     video: &str,
-    parts: Vec<Vec<Blob>>,
+    part: u32,
+    frames: Vec<Blob>,
     progress: Progress<'_>,
 ) -> Result<Vec<(String, Blob)>, String> {
-    let num_parts = parts.len();
     let stem = video.rsplit_once('.').map_or(video, |(stem, _)| stem);
-    let mut chosen = Vec::new();
-    for (part, frames) in parts.into_iter().enumerate() {
-        let share = part as f32 / num_parts as f32;
-        if progress(Told::Share(share, "looking for the sharpest frames")).is_break() {
+    let num_frames = frames.len();
+    let mut best: Option<(f64, Blob)> = None;
+    // One decoded frame at a time.
+    for (index, frame) in frames.into_iter().enumerate() {
+        let share = index as f32 / num_frames as f32;
+        if progress(Told::Share(share, "looking for the sharpest frame")).is_break() {
             return Err("stopped".to_owned());
         }
-        let measured = frames.into_iter().filter_map(|frame| {
-            let decoded = decode_rgb(&frame, &DecodeOptions::default()).ok()?;
-            Some((sharpness(&photo_to_gray(&decoded.image)), frame))
-        });
+        let Ok(decoded) = decode_rgb(&frame, &DecodeOptions::default()) else {
+            continue;
+        };
+        let value = sharpness(&photo_to_gray(&decoded.image));
         // The first of equals.
-        let best = measured.reduce(|best, other| if other.0 > best.0 { other } else { best });
-        if let Some((_, frame)) = best {
-            chosen.push((format!("{stem}-{:02}.jpg", part + 1), frame));
+        if best.as_ref().is_none_or(|(most, _)| value > *most) {
+            best = Some((value, frame));
         }
     }
-    match chosen.is_empty() {
-        true => Err(format!("no frame of {video} can be read")),
-        false => Ok(chosen),
-    }
-}
-
-/// The mean square of what a photograph shows between one and two steps of its Laplacian pyramid: blur takes details of
-/// a few pixels away. Single pixels do not count, since they are mostly noise, and what a codec makes of it.
-///
-/// Source: Burt & Adelson 1983, §3, for the pyramid.
-fn sharpness(image: &GrayImage32) -> f64 {
-    // Two differences, and what is left.
-    let levels = laplacian_pyramid(image, 3);
-    let Some(band) = levels.get(1).filter(|_| levels.len() == 3) else {
-        return 0.0;
-    };
-    let values = band.as_raw();
-    let sum: f64 = values.iter().map(|v| f64::from(*v) * f64::from(*v)).sum();
-    sum / values.len().max(1) as f64
+    let named = |(_, frame)| (format!("{stem}-{:02}.jpg", part + 1), frame);
+    Ok(best.map(named).into_iter().collect())
 }
 
 #[cfg(test)]
@@ -112,29 +96,16 @@ mod tests {
 
         let frames = [4, 1, 8].map(|by| jpeg(&smeared(&sharp, by)));
         let broken = Blob::from(vec![0xFF, 0xD8, 0xFF, 0]);
-        let parts = vec![
-            frames.to_vec(),
-            vec![broken.clone()],
-            vec![broken.clone(), frames[2].clone(), frames[0].clone()],
-        ];
         let go_on = &mut |_: Told<'_>| ControlFlow::Continue(());
-        let chosen = sharpest("walk.mp4", parts, go_on).unwrap();
-        let expected = [
-            ("walk-01.jpg".to_owned(), frames[1].clone()),
-            ("walk-03.jpg".to_owned(), frames[0].clone()),
-        ];
-        assert_eq!(chosen, expected);
-        let refused = sharpest("walk.mp4", vec![vec![broken]], go_on).unwrap_err();
-        assert!(refused.contains("no frame of walk.mp4"), "{refused}");
-        assert!(sharpest("walk", Vec::new(), go_on).is_err());
+        let chosen =
+            |frames: &[Blob], go_on: Progress<'_>| sharpest("walk.mp4", 2, frames.to_vec(), go_on);
+        let expected = |frame: &Blob| Ok(vec![("walk-03.jpg".to_owned(), frame.clone())]);
+        assert_eq!(chosen(&frames, go_on), expected(&frames[1]));
+        let some = [broken.clone(), frames[2].clone(), frames[0].clone()];
+        assert_eq!(chosen(&some, go_on), expected(&frames[0]));
+        assert_eq!(chosen(&[broken], go_on), Ok(Vec::new()));
+        assert_eq!(chosen(&[], go_on), Ok(Vec::new()));
         let stop = &mut |_: Told<'_>| ControlFlow::Break(());
-        assert_eq!(
-            sharpest("a", vec![frames.to_vec()], stop),
-            Err("stopped".to_owned())
-        );
-        for (width, height) in [(1, 1), (2, 1), (0, 0), (5, 3)] {
-            let tiny = GrayImage32::new(width, height);
-            assert_eq!(sharpness(&tiny), 0.0);
-        }
+        assert_eq!(chosen(&frames, stop), Err("stopped".to_owned()));
     }
 }

@@ -54,7 +54,9 @@ pub use dense::Dense;
 pub use options::{
     DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions, PairOptions, SfmOptions,
 };
-pub use request::{Branch, Calibrated, Described, ImagePoints, Packed, PairOf, Request, Source};
+pub use request::{
+    Branch, Calibrated, Described, ImagePoints, Packed, PairOf, Recipe, Request, Source,
+};
 pub use sample::Sample;
 
 /// What a computation tells on its way.

@@ -61,9 +61,10 @@ pub struct PairOptions {
 }
 
 impl Default for PairOptions {
+    /// As `epipole two-view`.
     fn default() -> Self {
         Self {
-            max_error_px: 1.0,
+            max_error_px: 2.0,
             seed: 0,
         }
     }

@@ -1,15 +1,15 @@
 //! Photographs: decoded or rendered, upright, without the distortion of a lens that is known, reduced.
 
 use super::board_sample;
-use super::convert::{core_lens_camera, to_image};
+use super::convert::core_lens_camera;
 use super::{LensCamera, Photograph, Sample, Source};
-use epipole::calibration::{Keep, Undistortion};
-use epipole::camera::{Camera, look_at};
-use epipole::imaging::{DecodeOptions, decode_rgb};
+use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
+use epipole::camera::{Camera, Intrinsics, look_at};
+use epipole::math::random::Random;
+use epipole::stereo::PixelMap;
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
-use image::imageops::{FilterType, resize};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
 
 /// Width and height of a rendered photograph, pixels.
 const RENDERED: (u32, u32) = (480, 360);
@@ -25,146 +25,83 @@ pub(super) fn photograph(
     max_pixels: u32,
     camera: Option<&LensCamera>,
 ) -> Result<Photograph, String> {
-    let Source::File(bytes) = source else {
-        return read(source);
-    };
-    let mut photograph = read(source)?;
-    if let Some(camera) = camera.filter(|camera| camera.size == photograph.full_size) {
-        photograph = undistorted(&photograph, camera)?;
-    }
-    photograph = reduced(photograph, max_pixels)?;
-    // Only what was not changed here needs to be decoded once more.
-    photograph.as_given = photograph.as_given && shows(bytes, &photograph);
-    Ok(photograph)
-}
-
-/// The photograph of full size, upright.
-///
-/// # Errors
-/// A sentence, if a file is none that can be read.
-pub(super) fn read(source: &Source) -> Result<Photograph, String> {
     match source {
-        Source::File(bytes) => decode(bytes),
+        Source::File(bytes) => file(bytes, max_pixels, camera),
         Source::Rendered(sample, index) => render(*sample, *index),
     }
 }
 
-/// Whether a file shows these pixels without being turned.
-fn shows(bytes: &[u8], photograph: &Photograph) -> bool {
-    let as_stored = DecodeOptions {
-        apply_orientation: false,
-        ..DecodeOptions::default()
+/// Just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
+fn file(bytes: &[u8], max_pixels: u32, camera: Option<&LensCamera>) -> Result<Photograph, String> {
+    let flat = |camera: &LensCamera| {
+        Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
+            .map_err(|error| format!("its lens cannot be undone: {error}"))
     };
-    let stored = decode_rgb(bytes, &as_stored);
-    stored.is_ok_and(|stored| {
-        stored.image.dimensions() == (photograph.width, photograph.height)
-            && stored.image.as_raw()[..] == photograph.rgb[..]
-    })
-}
-
-/// Just as `epipole undistort` does.
-fn undistorted(photograph: &Photograph, camera: &LensCamera) -> Result<Photograph, String> {
-    let flat = Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
-        .map_err(|error| format!("its lens cannot be undone: {error}"))?;
-    let center = flat.intrinsics.principal_point();
-    let image = flat.map.warp_rgb(&to_image(photograph)?);
-    Ok(Photograph {
-        rgb: image.into_raw().into(),
-        k: Some([
-            flat.intrinsics.fu_px(),
-            flat.intrinsics.fv_px(),
-            center.x,
-            center.y,
-        ]),
-        as_given: false,
-        ..*photograph
-    })
-}
-
-/// The same with at most so many pixels.
-///
-/// # Errors
-/// A sentence, if it did not arrive whole.
-pub(super) fn reduced(photograph: Photograph, max_pixels: u32) -> Result<Photograph, String> {
-    let before = (photograph.width, photograph.height);
-    let after = reduced_size(before, max_pixels);
-    if after == before {
-        return Ok(photograph);
-    }
-    let image = resize(
-        &to_image(&photograph)?,
-        after.0,
-        after.1,
-        FilterType::Triangle,
-    );
-    let share = |after: u32, before: u32| f64::from(after) / f64::from(before.max(1));
-    let (across, down) = (share(after.0, before.0), share(after.1, before.1));
-    // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
-    let k = |[fu, fv, cu, cv]: [f64; 4]| {
-        [
-            fu * across,
-            fv * down,
-            (cu + 0.5) * across - 0.5,
-            (cv + 0.5) * down - 0.5,
-        ]
+    let undistortion = camera.map(flat).transpose()?;
+    let options = PrepareOptions {
+        max_pixels: max_pixels.into(),
+        undistortion: undistortion.as_ref(),
     };
-    Ok(Photograph {
-        width: after.0,
-        height: after.1,
-        rgb: image.into_raw().into(),
-        focal_px: photograph.focal_px.map(|focal_px| focal_px * across),
-        k: photograph.k.map(k),
-        as_given: false,
-        ..photograph
-    })
-}
-
-fn decode(bytes: &[u8]) -> Result<Photograph, String> {
-    let decoded =
-        decode_rgb(bytes, &DecodeOptions::default()).map_err(|error| error.to_string())?;
-    let (width, height) = decoded.image.dimensions();
+    let photo = prepare_photo(bytes, &options).map_err(|error| error.to_string())?;
+    let (width, height) = photo.image.dimensions();
+    let plain = |k: Intrinsics| {
+        let center = k.principal_point();
+        [k.fu_px(), k.fv_px(), center.x, center.y]
+    };
     Ok(Photograph {
         width,
         height,
-        rgb: decoded.image.into_raw().into(),
-        focal_px: decoded.focal_px,
-        k: None,
-        full_size: (width, height),
-        as_given: true,
+        rgb: photo.image.into_raw().into(),
+        focal_px: photo.focal_px,
+        k: photo.intrinsics.map(plain),
+        full_size: photo.full_size,
+        sensor_size: photo.sensor_size,
+        as_given: photo.is_as_stored,
     })
 }
 
-/// The size with the same shape that has at most so many pixels.
-fn reduced_size((width, height): (u32, u32), max_pixels: u32) -> (u32, u32) {
-    let pixels = f64::from(width) * f64::from(height);
-    if pixels <= f64::from(max_pixels) {
-        return (width, height);
-    }
-    let factor = libm::sqrt(f64::from(max_pixels.max(1)) / pixels);
-    let side = |side: u32| ((f64::from(side) * factor).floor() as u32).max(1);
-    (side(width), side(height))
-}
-
+/// A photograph of a sample.
+///
+/// # Errors
+/// A sentence, if there is none of this number.
 fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
     if index >= sample.len() {
         return Err("the sample has no such photograph".to_owned());
     }
-    let (width, height) = RENDERED;
     let sentence = |error: epipole::Error| error.to_string();
+    if sample == Sample::Board {
+        let image = board_sample::photograph(index).map_err(sentence)?;
+        let image = image.ok_or("the sample has no such photograph")?;
+        return Ok(rendered(image, None));
+    }
     let camera = match sample {
-        Sample::Board => {
-            let image = board_sample::photograph(index).map_err(sentence)?;
-            let image = image.ok_or("the sample has no such photograph")?;
-            return Ok(rendered(image, None));
-        }
         Sample::Turned => turned(index),
         Sample::Twice => around_table(4)?,
-        Sample::Table | Sample::Alone => around_table(index)?,
+        Sample::Mixed => around_table(3 + index % 3)?,
+        Sample::Upright => held(index)?,
+        _ => around_table(index)?,
     };
-    let picture = Scene::still_life()
-        .render(&camera, width, height, Sampling::Full)
-        .map_err(sentence)?;
-    Ok(rendered(picture.image, Some(camera.intrinsics.fu_px())))
+    let focal_px = camera.intrinsics.fu_px();
+    let image = match sample {
+        Sample::Plane => {
+            let print = still_life_camera(PRINTED.0, PRINTED.1);
+            let picture = Scene::still_life().render(&print, PRINTED.0, PRINTED.1, Sampling::Full);
+            hung(&picture.map_err(sentence)?.image, index).map_err(sentence)?
+        }
+        Sample::Mixed if index >= 3 => hung(&carpet(), index - 3).map_err(sentence)?,
+        _ => photographed(&camera, sample, index)?,
+    };
+    Ok(rendered(image, Some(focal_px)))
+}
+
+/// What a camera sees of the still life.
+fn photographed(camera: &Camera, sample: Sample, index: u8) -> Result<RgbImage, String> {
+    let (width, height) = match is_upright(sample, index) {
+        true => (RENDERED.1, RENDERED.0),
+        false => RENDERED,
+    };
+    let picture = Scene::still_life().render(camera, width, height, Sampling::Full);
+    Ok(picture.map_err(|error| error.to_string())?.image)
 }
 
 fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
@@ -176,6 +113,7 @@ fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
         focal_px,
         k: None,
         full_size: (width, height),
+        sensor_size: (width, height),
         as_given: true,
     }
 }
@@ -204,6 +142,62 @@ fn around_table(index: u8) -> Result<Camera, String> {
     })
 }
 
+fn is_upright(sample: Sample, index: u8) -> bool {
+    sample == Sample::Upright && index % 2 == 1
+}
+
+/// One camera around the table, every other time held upright.
+fn held(index: u8) -> Result<Camera, String> {
+    let camera = around_table(index + 2)?;
+    let (width, height) = match is_upright(Sample::Upright, index) {
+        true => (RENDERED.1, RENDERED.0),
+        false => RENDERED,
+    };
+    let intrinsics = Intrinsics::centered(camera.intrinsics.fu_px(), width, height);
+    Ok(Camera {
+        intrinsics: intrinsics.map_err(|error| error.to_string())?,
+        ..camera
+    })
+}
+
+/// Pixels of what hangs on a wall.
+const PRINTED: (u32, u32) = (960, 720);
+
+/// A picture that hangs on a wall, photographed from places on an arc around its middle. Frames are the picture's: it is
+/// what a camera at the origin sees at a distance of 1.
+fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
+    let print = still_life_camera(PRINTED.0, PRINTED.1);
+    let k = still_life_camera(RENDERED.0, RENDERED.1).intrinsics;
+    let angle = (f64::from(index) - 1.5) * 13.0_f64.to_radians();
+    let center = Vector3::new(0.7 * libm::sin(angle), 0.0, 1.0 - 0.7 * libm::cos(angle));
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
+    // A point p of the poster has the depth 1 there, so p - c = (I - c nᵀ) p.
+    let seen = Matrix3::identity() - center * Vector3::z().transpose();
+    let view_from_print =
+        k.matrix() * turn.to_rotation_matrix().matrix() * seen * print.intrinsics.inverse_matrix();
+    let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print)?;
+    Ok(map.warp_rgb(picture))
+}
+
+/// A carpet of patches that are nowhere else.
+fn carpet() -> RgbImage {
+    let mut random = Random::new(3);
+    let mut image = RgbImage::from_pixel(PRINTED.0, PRINTED.1, image::Rgb([120, 110, 100]));
+    for _ in 0..900 {
+        let side = |random: &mut Random| 4 + random.below(40) as u32;
+        let (width, height) = (side(&mut random), side(&mut random));
+        let left = random.below((PRINTED.0 - width) as usize) as u32;
+        let top = random.below((PRINTED.1 - height) as usize) as u32;
+        let color = image::Rgb([0; 3].map(|_: u8| 30 + random.below(200) as u8));
+        for v in top..top + height {
+            for u in left..left + width {
+                image.put_pixel(u, v, color);
+            }
+        }
+    }
+    image
+}
+
 /// The camera of the still life, turned about its own center.
 fn turned(index: u8) -> Camera {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
@@ -221,13 +215,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn large_photographs_keep_their_shape() {
-        assert_eq!(reduced_size((4000, 3000), 3_000_000), (2000, 1500));
-        assert_eq!(reduced_size((640, 480), 3_000_000), (640, 480));
-        assert_eq!(reduced_size((1_000_000, 1), 100), (10_000, 1));
-    }
-
-    #[test]
     fn the_sample_has_as_many_photographs_as_it_says() {
         assert_eq!(usize::from(Sample::Board.len()), board_sample::COUNT);
         assert!(render(Sample::Board, Sample::Board.len()).is_err());
@@ -235,7 +222,7 @@ mod tests {
 
     #[test]
     fn files_that_are_none_are_refused_in_words() {
-        let refused = decode(b"no picture").expect_err("that is no picture");
+        let refused = file(b"no picture", 1000, None).expect_err("that is no picture");
         assert!(refused.len() > 10, "{refused}");
     }
 }

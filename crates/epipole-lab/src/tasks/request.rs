@@ -89,6 +89,19 @@ pub struct Packed {
     pub used: Option<Photograph>,
 }
 
+/// How to do the same elsewhere.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Recipe {
+    /// The command line, in the folder of the photographs.
+    pub command: String,
+    /// Which photographs these are, in words.
+    pub photographs: String,
+    /// The calibrated camera, as `--camera` reads it.
+    pub camera_json: Option<String>,
+    /// The same as a program.
+    pub program: String,
+}
+
 /// A task, with everything that its answer depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Request {
@@ -137,6 +150,8 @@ pub enum Request {
     TwoViews {
         /// Places of the matches: `u1, v1, u2, v2`.
         places: Vec<[f64; 4]>,
+        /// How ambiguous each of them is.
+        ratios: Vec<f32>,
         /// Of both photographs.
         cameras: [Calibrated; 2],
         /// How.
@@ -164,12 +179,21 @@ pub enum Request {
         /// How.
         options: DepthOptions,
     },
-    /// Choose the sharpest frame of each part of a video.
+    /// Choose the sharpest frame of a part of a video.
     Frames {
         /// The video's name.
         name: String,
-        /// Some frames of each part, as files of photographs.
-        parts: Vec<Vec<Blob>>,
+        /// Which part, from 0.
+        part: u32,
+        /// Some frames of it, as files of photographs.
+        frames: Vec<Blob>,
+    },
+    /// Write a picture of the screen to a PNG file.
+    Picture {
+        /// Width, pixels.
+        width: u32,
+        /// Red, green, blue, opacity, row by row.
+        rgba: Blob,
     },
     /// Write a reconstruction to a zip file.
     Export {
@@ -183,12 +207,12 @@ pub enum Request {
         component: u32,
         /// Meters in a unit of the reconstruction, where something was measured.
         meters_per_unit: Option<f64>,
-        /// How, for the command that does the same.
-        options: SfmOptions,
-        /// How features were found.
-        features: FeatureOptions,
-        /// How they were matched.
-        matching: MatchOptions,
+        /// Whether focal lengths were refined.
+        focal_refined: bool,
+        /// Names of photographs that have no camera in it, and why.
+        left_out: Vec<(String, String)>,
+        /// What is written beside it: how to do the same elsewhere.
+        recipe: Recipe,
         /// Names of pairs, and the depth of their pixels.
         dense: Vec<(String, Dense)>,
     },
@@ -222,6 +246,7 @@ impl Request {
             Self::Photograph { .. }
             | Self::Board { .. }
             | Self::Frames { .. }
+            | Self::Picture { .. }
             | Self::Export { .. }
             | Self::Save { .. }
             | Self::Open { .. } => Branch::Files,

@@ -13,13 +13,27 @@ pub enum Sample {
     Alone,
     /// One photograph twice.
     Twice,
+    /// A poster from four places.
+    Plane,
+    /// Three photographs of one place, and three of another.
+    Mixed,
+    /// Five photographs by one camera, two of them upright.
+    Upright,
     /// A chessboard, to calibrate a camera with.
     Board,
 }
 
 impl Sample {
     /// All that can be reconstructed, or not.
-    pub const ALL: [Self; 4] = [Self::Table, Self::Turned, Self::Alone, Self::Twice];
+    pub const ALL: [Self; 7] = [
+        Self::Table,
+        Self::Upright,
+        Self::Plane,
+        Self::Mixed,
+        Self::Turned,
+        Self::Twice,
+        Self::Alone,
+    ];
 
     /// What it is, in a few words.
     pub fn title(self) -> &'static str {
@@ -28,6 +42,9 @@ impl Sample {
             Self::Turned => "A camera that only turned",
             Self::Alone => "One photograph alone",
             Self::Twice => "One photograph twice",
+            Self::Plane => "A poster, which is flat",
+            Self::Mixed => "Two places in one heap",
+            Self::Upright => "Some upright, some not",
             Self::Board => "A chessboard, ten photographs",
         }
     }
@@ -39,6 +56,9 @@ impl Sample {
             Self::Turned => 4,
             Self::Alone => 1,
             Self::Twice => 2,
+            Self::Plane => 4,
+            Self::Mixed => 6,
+            Self::Upright => 5,
             Self::Board => 10,
         }
     }
@@ -55,6 +75,9 @@ impl Sample {
             Self::Turned => "turned",
             Self::Alone => "alone",
             Self::Twice => "twice",
+            Self::Plane => "poster",
+            Self::Mixed => "mixed",
+            Self::Upright => "held",
             Self::Board => "board",
         };
         format!("{place}-{}.png", index + 1)

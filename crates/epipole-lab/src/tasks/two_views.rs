@@ -8,7 +8,7 @@ use epipole::two_view::{
 };
 use nalgebra::{Matrix3, Point2};
 
-/// Chooses among E, F and H.
+/// Chooses among E, F and H, just as `epipole two-view` does with known intrinsics: the least ambiguous matches first.
 ///
 /// Matches from which nothing can be estimated are an answer, too: [`Shows::Nothing`].
 ///
@@ -16,11 +16,18 @@ use nalgebra::{Matrix3, Point2};
 /// A sentence for numbers that no photograph has.
 pub(super) fn two_views(
     places: &[[f64; 4]],
+    ratios: &[f32],
     cameras: &[Calibrated; 2],
     options: &PairOptions,
 ) -> Result<TwoViews, String> {
-    let first: Vec<Point2<f64>> = places.iter().map(|p| Point2::new(p[0], p[1])).collect();
-    let second: Vec<Point2<f64>> = places.iter().map(|p| Point2::new(p[2], p[3])).collect();
+    if ratios.len() != places.len() {
+        return Err("the matches did not arrive whole".to_owned());
+    }
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&a, &b| ratios[a].total_cmp(&ratios[b]));
+    let ordered = || order.iter().map(|&n| places[n]);
+    let first: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[0], p[1])).collect();
+    let second: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[2], p[3])).collect();
     let [k1, k2] = [intrinsics(&cameras[0])?, intrinsics(&cameras[1])?];
     let how = TwoViewOptions {
         ransac: RansacOptions {
@@ -40,6 +47,10 @@ pub(super) fn two_views(
         Configuration::Panoramic => Shows::Turn,
         Configuration::Degenerate => Shows::Nothing,
     };
+    let mut inliers = vec![false; places.len()];
+    for (&place, is_inlier) in order.iter().zip(&found.inliers) {
+        inliers[place] = *is_inlier;
+    }
     Ok(TwoViews {
         shows,
         model: match found.model {
@@ -52,7 +63,7 @@ pub(super) fn two_views(
         iterations: found.iterations as u32,
         turn_deg: (found.cam2_from_cam1).map(|motion| motion.rotation.angle().to_degrees()),
         angle_deg: found.median_triangulation_angle_rad.map(f64::to_degrees),
-        inliers: found.inliers,
+        inliers,
     })
 }
 

@@ -1,7 +1,7 @@
 //! What the page calls, and what it calls the page for.
 
 use super::mirror::Mirror;
-use crate::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use crate::panels::{About, App, Arrival, Host, Report, WorkId, prepare, wear};
 use crate::tasks::{Blob, Branch};
 use eframe::web_sys::HtmlCanvasElement;
 use egui::accesskit::Action;
@@ -28,7 +28,7 @@ extern "C" {
     #[wasm_bindgen(method, structural, js_name = askForCamera)]
     fn ask_for_camera(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForFrames)]
-    fn ask_for_frames(this: &Shell, video: u32, num_parts: u32);
+    fn ask_for_frames(this: &Shell, video: u32, part: u32, num_parts: u32);
     #[wasm_bindgen(method, structural)]
     fn save(this: &Shell, name: &str, bytes: Vec<u8>);
     #[wasm_bindgen(method, structural)]
@@ -45,8 +45,8 @@ struct Inbox {
     reports: Vec<Report>,
     arrivals: Vec<Arrival>,
     photographs: Vec<(String, Blob)>,
-    parts: Vec<Vec<Blob>>,
-    dark: Option<bool>,
+    frames: Vec<Blob>,
+    theme: Option<String>,
     context: Option<egui::Context>,
 }
 
@@ -95,8 +95,8 @@ impl Host for Page {
         true
     }
 
-    fn ask_for_frames(&mut self, video: u32, num_parts: u32) {
-        self.shell.ask_for_frames(video, num_parts);
+    fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32) {
+        self.shell.ask_for_frames(video, part, num_parts);
     }
 
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
@@ -126,11 +126,8 @@ struct Frames(App<Page>);
 impl eframe::App for Frames {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let inbox = Rc::clone(&self.0.host().inbox);
-        if let Some(dark) = inbox.borrow_mut().dark.take() {
-            ui.ctx().set_theme(match dark {
-                true => egui::Theme::Dark,
-                false => egui::Theme::Light,
-            });
+        if let Some(theme) = inbox.borrow_mut().theme.take() {
+            wear(ui.ctx(), &theme);
         }
         // Answers ask for a frame when they come, so nothing has to be drawn until then.
         self.0.go_on();
@@ -237,27 +234,26 @@ impl Lab {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Video(video)));
     }
 
-    /// Brings a frame of a part of a video, which is seen with the next [`Lab::frames`].
-    pub fn frame(&self, part: usize, bytes: Vec<u8>) {
-        let parts = &mut self.inbox.borrow_mut().parts;
-        if part >= parts.len() {
-            parts.resize(part + 1, Vec::new());
-        }
-        parts[part].push(bytes.into());
+    /// Brings a frame of the part of a video that was asked for, which is seen with the next [`Lab::frames`].
+    pub fn frame(&self, bytes: Vec<u8>) {
+        self.inbox.borrow_mut().frames.push(bytes.into());
     }
 
-    /// All frames of a video have come.
+    /// All frames of that part have come.
     pub fn frames(&self, video: u32, name: String) {
         self.receive(|inbox| {
-            let parts = std::mem::take(&mut inbox.parts);
-            inbox.arrivals.push(Arrival::Frames(video, name, parts));
+            let frames = std::mem::take(&mut inbox.frames);
+            inbox.arrivals.push(Arrival::Frames(video, name, frames));
         });
     }
 
-    /// No more frames of a video come, and those that came are forgotten.
-    #[wasm_bindgen(js_name = dropFrames)]
-    pub fn drop_frames(&self) {
-        self.inbox.borrow_mut().parts.clear();
+    /// No more frames of a video come, and why.
+    #[wasm_bindgen(js_name = noFrames)]
+    pub fn no_frames(&self, video: u32, sentence: String) {
+        self.receive(|inbox| {
+            inbox.frames.clear();
+            inbox.arrivals.push(Arrival::NoFrames(video, sentence));
+        });
     }
 
     /// Says how far something is, or why it came to nothing.
@@ -279,9 +275,9 @@ impl Lab {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
     }
 
-    /// Sets the theme.
-    pub fn dark(&self, dark: bool) {
-        self.receive(|inbox| inbox.dark = Some(dark));
+    /// Puts a theme on: "light", "dark" or "high-contrast".
+    pub fn theme(&self, theme: String) {
+        self.receive(|inbox| inbox.theme = Some(theme));
     }
 
     /// All widgets, if they have changed: a line each, as `mirror.rs` says.

@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 use std::io::{Cursor, Read};
 
 /// The camera that a photograph of the table was rendered with.
-fn true_camera(index: usize) -> Camera {
+pub(crate) fn true_camera(index: usize) -> Camera {
     let middle = Point3::new(0.035, -0.13, 0.05);
     let angle = (index as f64 - 4.0) * 8.0_f64.to_radians();
     let height = [-0.43, -0.56][index % 2];

@@ -3,10 +3,14 @@
 #![allow(dead_code, reason = "each test uses some of it")]
 
 pub(crate) mod depth;
+#[cfg(feature = "panels")]
+pub(crate) mod desk;
 pub(crate) mod growing;
 
 use epipole_lab::project::{Event, Project};
+use epipole_lab::tasks::Blob;
 use epipole_lab::tasks::{Answer, Request, Sample, compute};
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use std::ops::ControlFlow;
 
 /// Computes until nothing is wanted. Returns how many tasks that took.
@@ -44,6 +48,22 @@ pub(crate) fn reopened(project: &Project) -> Project {
         panic!("it opens");
     };
     let mut again = Project::default();
-    again.update(Event::OpenProject(project, files));
+    again.update(Event::OpenProject(Box::new(project), files));
     again
+}
+
+/// A JPEG file with an EXIF orientation.
+pub(crate) fn jpeg(image: &RgbImage, orientation: u16) -> Blob {
+    let mut exif = b"II\x2a\0\x08\0\0\0\x01\0".to_vec();
+    for part in [0x0112_u16, 3, 1, 0, orientation, 0, 0, 0] {
+        exif.extend(part.to_le_bytes());
+    }
+    let mut bytes = Vec::new();
+    let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 92);
+    encoder.set_exif_metadata(exif).unwrap();
+    let (width, height) = image.dimensions();
+    encoder
+        .write_image(image.as_raw(), width, height, ExtendedColorType::Rgb8)
+        .unwrap();
+    bytes.into()
 }

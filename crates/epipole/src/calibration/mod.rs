@@ -6,6 +6,7 @@
 //! 3. [`calibrate_rig`] adds how a second camera stands beside the first.
 //! 4. [`photograph_of_board`] makes photographs to try this on, with exact truth.
 //! 5. [`Undistortion`] redraws photographs as a camera without distortion would show them.
+//! 6. With the feature `decode`, `prepare_photo` does so with files, turns them upright and reduces them.
 //!
 //! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at the origin.
 
@@ -21,6 +22,8 @@ mod coverage;
 mod crossing;
 mod find_board;
 mod lattice;
+#[cfg(feature = "decode")]
+mod prepare;
 mod problem;
 mod rig;
 mod saddles;
@@ -37,6 +40,8 @@ pub use calibrate::{
 pub use camera::CalibratedCamera;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::{BoardSearch, find_board};
+#[cfg(feature = "decode")]
+pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use rig::{RigCalibration, calibrate_rig};
 pub use synthetic::photograph_of_board;
 pub use undistort::{Keep, Undistortion};

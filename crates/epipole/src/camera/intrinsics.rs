@@ -90,6 +90,63 @@ impl Intrinsics {
         )
     }
 
+    /// The same camera after its image of size `from` was resized to `to`, whose shape may differ a little.
+    ///
+    /// * `from`, `to`: width and height, pixels
+    ///
+    /// # Errors
+    /// As [`Intrinsics::new`].
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::Intrinsics;
+    /// let half = Intrinsics::centered(500.0, 640, 480)?.resized((640, 480), (320, 240))?;
+    /// assert_eq!(half, Intrinsics::centered(250.0, 320, 240)?);
+    /// # Ok(()) }
+    /// ```
+    pub fn resized(&self, from: (u32, u32), to: (u32, u32)) -> Result<Self> {
+        let share = |to: u32, from: u32| f64::from(to) / f64::from(from.max(1));
+        let (across, down) = (share(to.0, from.0), share(to.1, from.1));
+        Self::new(
+            self.fu_px * across,
+            self.fv_px * down,
+            (self.cu_px + 0.5) * across - 0.5,
+            (self.cv_px + 0.5) * down - 0.5,
+        )
+    }
+
+    /// The same camera after its image was turned clockwise by so many quarters of a turn.
+    ///
+    /// * `size`: width and height before that, pixels
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::Intrinsics;
+    /// // The pixel (u, v) of a 640 × 480 image comes to (479 − v, u).
+    /// let upright = Intrinsics::new(500.0, 501.0, 320.0, 230.0)?.turned(1, (640, 480));
+    /// assert_eq!(upright, Intrinsics::new(501.0, 500.0, 249.0, 320.0)?);
+    /// # Ok(()) }
+    /// ```
+    pub fn turned(&self, quarters: u8, (width, height): (u32, u32)) -> Self {
+        let (right, bottom) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
+        let (mut fu_px, mut fv_px) = (self.fu_px, self.fv_px);
+        if !quarters.is_multiple_of(2) {
+            std::mem::swap(&mut fu_px, &mut fv_px);
+        }
+        let (cu_px, cv_px) = match quarters % 4 {
+            0 => (self.cu_px, self.cv_px),
+            1 => (bottom - self.cv_px, self.cu_px),
+            2 => (right - self.cu_px, bottom - self.cv_px),
+            _ => (self.cv_px, right - self.cu_px),
+        };
+        Self {
+            fu_px,
+            fv_px,
+            cu_px,
+            cv_px,
+        }
+    }
+
     /// Focal length along u, pixels.
     pub fn fu_px(&self) -> f64 {
         self.fu_px

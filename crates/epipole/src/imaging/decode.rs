@@ -34,6 +34,8 @@ pub struct Decoded<I> {
     /// A first guess of the focal length from the EXIF data, pixels of this image; `None` where
     /// the file says nothing. With the principal point in the middle it makes a first guess of K.
     pub focal_px: Option<f64>,
+    /// How the file wants to be turned to stand upright, whether or not it was.
+    pub orientation: Orientation,
 }
 
 /// The gray image in [0, 1] of a PNG, JPEG or WebP file.
@@ -50,7 +52,7 @@ pub struct Decoded<I> {
 /// assert!(decode_gray(b"not an image", &DecodeOptions::default()).is_err());
 /// ```
 pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<GrayImage32>> {
-    let (image, focal_px) = decode(bytes, options)?;
+    let (image, focal_px, orientation) = decode(bytes, options)?;
     let (width, height) = (image.width(), image.height());
     let values = match &image {
         DynamicImage::ImageLuma16(gray) => scaled(gray.as_raw(), 1),
@@ -62,6 +64,7 @@ pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<Gray
     Ok(Decoded {
         image: from_vec(width, height, values),
         focal_px,
+        orientation,
     })
 }
 
@@ -75,10 +78,11 @@ pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<Gray
 /// assert!(decode_rgb(&[], &DecodeOptions::default()).is_err());
 /// ```
 pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbImage>> {
-    let (image, focal_px) = decode(bytes, options)?;
+    let (image, focal_px, orientation) = decode(bytes, options)?;
     Ok(Decoded {
         image: image.into_rgb8(),
         focal_px,
+        orientation,
     })
 }
 
@@ -98,7 +102,10 @@ fn bad(error: &image::ImageError) -> Error {
     }
 }
 
-fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<(DynamicImage, Option<f64>)> {
+fn decode(
+    bytes: &[u8],
+    options: &DecodeOptions,
+) -> Result<(DynamicImage, Option<f64>, Orientation)> {
     let reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| Error::BadImage {
@@ -134,7 +141,7 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<(DynamicImage, Option
     if options.apply_orientation {
         image.apply_orientation(orientation);
     }
-    Ok((image, focal_px))
+    Ok((image, focal_px, orientation))
 }
 
 /// Whether a JPEG file reaches its end-of-image marker; the decoder alone would fill what is
@@ -250,6 +257,7 @@ mod tests {
         };
         let stored = decode_rgb(&bytes, &options).unwrap();
         assert_eq!(stored.image.dimensions(), (40, 30));
+        assert_eq!(stored.orientation, Orientation::Rotate90);
     }
 
     #[test]

@@ -23,9 +23,11 @@ mod gray;
 mod integral;
 pub(crate) mod kernel;
 mod pyramid;
+mod reduce;
 mod resize;
 mod sample;
 pub(crate) mod separable;
+mod sharpness;
 mod warp;
 mod weigh;
 
@@ -48,9 +50,11 @@ pub use integral::{IntegralImage, box_filter};
 pub use pyramid::{
     from_laplacian_pyramid, gaussian_pyramid, laplacian_pyramid, pyramid_down, pyramid_up,
 };
+pub use reduce::{reduce_rgb, reduced_size};
 pub use resize::resize;
 pub use sample::{sample_bicubic, sample_bilinear};
 pub use separable::separable_filter;
+pub use sharpness::sharpness;
 pub use warp::{Interpolation, WarpOptions, warp_affine, warp_perspective};
 
 /// The rows of an image in at most `count` ranges.

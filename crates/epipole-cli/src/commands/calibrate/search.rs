@@ -33,11 +33,11 @@ pub(super) fn search(
             if interrupt::requested() {
                 return Err(epipole::Error::Canceled.into());
             }
-            let photo = Photo::read(path)?;
-            let found = find_board(&photo.gray(), board)?;
+            let gray = Photo::of_sensor(path)?;
+            let found = find_board(&gray, board)?;
             let done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / paths.len() as f64);
-            Ok((photo.color.dimensions(), found))
+            Ok((gray.dimensions(), found))
         })
         .collect();
     drop(progress);

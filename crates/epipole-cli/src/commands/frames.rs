@@ -1,0 +1,76 @@
+//! `epipole frames`: the sharpest of many pictures that follow each other.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::{Photo, bytes};
+use crate::progress::Progress;
+use crate::report::Report;
+use crate::{files, interrupt};
+use clap::Args;
+use epipole::imaging::sharpness;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Choose the sharpest frame of each part of a video.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole frames walk/ --num-frames 20 -o photos, after\n\
+    ffmpeg -i walk.mp4 -qscale:v 2 walk/%05d.jpg\n\n\
+    The frames, in the order of their names, are divided into so many parts of equal length; of each part the\n\
+    sharpest one is copied as it is.\n\n\
+    JSON: num_frames (of those given), files (those written), chosen (name and sharpness of each: the mean square of\n\
+    its details of a few pixels)."
+)]
+pub(crate) struct Arguments {
+    /// Frames of one size, PNG, JPEG or WebP, or a folder of them.
+    #[arg(required = true, value_name = "FILES|FOLDER")]
+    frames: Vec<PathBuf>,
+    /// How many are chosen.
+    #[arg(long, default_value_t = 20, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    num_frames: u32,
+    /// The folder for the result.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let paths = super::sfm::photos(&arguments.frames)?;
+    let num_parts = (arguments.num_frames as usize).min(paths.len());
+    let progress = Progress::new(context, "looking for the sharpest frames");
+    // The best of each part so far, the first of equals.
+    let mut best: Vec<Option<(usize, f64)>> = vec![None; num_parts];
+    for (index, path) in paths.iter().enumerate() {
+        if interrupt::requested() {
+            return Err(epipole::Error::Canceled.into());
+        }
+        progress.set(index as f64 / paths.len() as f64);
+        let value = sharpness(&Photo::read(path)?.gray());
+        let part = &mut best[index * num_parts / paths.len()];
+        if part.is_none_or(|(_, most)| value > most) {
+            *part = Some((index, value));
+        }
+    }
+    drop(progress);
+    files::make_folder(&arguments.output)?;
+    let (mut written, mut chosen) = (Vec::new(), Vec::new());
+    for (index, value) in best.into_iter().flatten() {
+        let name = super::sfm::name(&paths[index]);
+        let target = arguments.output.join(&name);
+        if written.contains(&target.display().to_string()) {
+            return Err(Failure::usage(format!(
+                "two frames would be written to {}",
+                target.display()
+            )));
+        }
+        files::write(&target, &bytes(&paths[index])?)?;
+        written.push(target.display().to_string());
+        chosen.push(json!({ "name": name, "sharpness": value }));
+    }
+    Ok(Report::default()
+        .row("frames", paths.len())
+        .row("chosen", chosen.len())
+        .row("written", written.join(", "))
+        .field("num_frames", paths.len())
+        .field("files", written)
+        .field("chosen", chosen))
+}

@@ -1,0 +1,170 @@
+//! The photographs of `epipole sfm`, and what is known of their cameras.
+
+use crate::camera::{CameraArguments, Guess, of_focal};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::lens;
+use crate::photo::{Photo, SizeArguments};
+use clap::Args;
+use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
+use epipole::camera::Intrinsics;
+use epipole::sfm::Photo as SfmPhoto;
+use std::path::{Path, PathBuf};
+
+/// Photographs and cameras.
+#[derive(Debug, Args)]
+pub(super) struct InputArguments {
+    /// Photographs, or a folder of them.
+    #[arg(required = true, value_name = "FILES|FOLDER")]
+    photos: Vec<PathBuf>,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for one that is to be told
+    /// by --camera, by its EXIF data, or to be guessed.
+    #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, conflicts_with_all = ["k", "focal_px"])]
+    focals_px: Vec<Focal>,
+    /// A camera that `epipole calibrate` wrote: photographs of its size are freed of its distortion first, also those
+    /// that were taken upright.
+    #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
+    camera_file: Option<PathBuf>,
+    #[command(flatten)]
+    size: SizeArguments,
+}
+
+/// A focal length in pixels, or none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Focal(Option<f64>);
+
+fn focal(text: &str) -> Result<Focal, String> {
+    match text {
+        "-" => Ok(Focal(None)),
+        _ => crate::matrices::positive(text).map(|focal_px| Focal(Some(focal_px))),
+    }
+}
+
+/// What was read.
+pub(super) struct Input {
+    pub(super) photos: Vec<SfmPhoto>,
+    pub(super) intrinsics: Vec<Intrinsics>,
+    /// Of the focal lengths that nobody gave.
+    pub(super) guesses: Vec<Guess>,
+}
+
+impl InputArguments {
+    /// Reads all photographs.
+    ///
+    /// # Errors
+    /// A sentence, for files that cannot be read and numbers that do not fit.
+    pub(super) fn read(&self, context: &Context) -> Result<Input, Failure> {
+        let paths = photos(&self.photos)?;
+        if !self.focals_px.is_empty() && self.focals_px.len() != paths.len() {
+            return Err(Failure::usage(format!(
+                "--focals-px needs one for each photograph, but there are {} for {}",
+                self.focals_px.len(),
+                paths.len()
+            )));
+        }
+        let camera = self.camera_file.as_ref();
+        let camera = camera.map(|path| lens::read(path, false)).transpose()?;
+        let flat = camera
+            .as_ref()
+            .map(|camera| Undistortion::new(camera, Keep::Valid));
+        let flat = flat.transpose()?;
+        let mut input = Input {
+            photos: Vec::new(),
+            intrinsics: Vec::new(),
+            guesses: Vec::new(),
+        };
+        let (mut sizes, mut others) = (Vec::new(), Vec::new());
+        for (index, path) in paths.iter().enumerate() {
+            let photo = Photo::prepared(path, self.size, flat.as_ref())?;
+            let (k, guess) = match self.focals_px.get(index) {
+                Some(Focal(Some(focal_px))) => (of_focal(*focal_px, &photo)?, None),
+                _ => self.camera.or_guess(&photo)?,
+            };
+            if photo.k.is_none() {
+                others.push((name(path), photo.sensor_size));
+            }
+            sizes.push(photo.full_size);
+            input.guesses.extend(guess);
+            input.intrinsics.push(k);
+            input.photos.push(SfmPhoto {
+                name: name(path),
+                image: photo.color,
+            });
+        }
+        if let Some(camera) = &camera {
+            tell_of_others(camera, &others, paths.len(), context);
+        }
+        if self.camera.k.is_some()
+            && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
+        {
+            let ((w, h), (w0, h0)) = (sizes[place], sizes[0]);
+            context.warn(&format!(
+                "--k is taken for photographs of different sizes: {} is {w} × {h}, the first one {w0} × {h0}",
+                input.photos[place].name
+            ));
+        }
+        Ok(input)
+    }
+}
+
+/// Says for which photographs the calibrated camera was not used.
+fn tell_of_others(
+    camera: &CalibratedCamera,
+    others: &[(String, (u32, u32))],
+    num_photos: usize,
+    context: &Context,
+) {
+    let Some((name, (width, height))) = others.first() else {
+        return;
+    };
+    let why = match (*height, *width) == (camera.width, camera.height) {
+        true => "stands upright, and its file does not say how it was turned",
+        false => "has another size",
+    };
+    context.warn(&format!(
+        "the camera of --camera is used for {} of {num_photos} photographs: it was calibrated for {} × {}, and {name}, \
+         {width} × {height}, {why}",
+        num_photos - others.len(),
+        camera.width,
+        camera.height
+    ));
+}
+
+/// The name of a file without its folder.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// The files given, folders replaced by the photographs in them, sorted.
+pub(crate) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut paths = Vec::new();
+    for path in given {
+        if !path.is_dir() {
+            paths.push(path.clone());
+            continue;
+        }
+        let unreadable = |error: std::io::Error| {
+            Failure::new("read", format!("the folder cannot be read: {error}")).about(path)
+        };
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let file = entry.map_err(unreadable)?.path();
+            let extension = file.extension().and_then(|extension| extension.to_str());
+            let known = extension.map(str::to_lowercase);
+            if known.is_some_and(|e| ["png", "jpg", "jpeg", "webp"].contains(&&*e)) {
+                found.push(file);
+            }
+        }
+        if found.is_empty() {
+            return Err(
+                Failure::new("read", "there are no photographs in this folder").about(path),
+            );
+        }
+        found.sort();
+        paths.extend(found);
+    }
+    Ok(paths)
+}

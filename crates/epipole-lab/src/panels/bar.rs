@@ -1,0 +1,82 @@
+//! The bar above all steps: photographs, samples, projects, back and forth, what is under way.
+
+use super::host::Host;
+use super::work::{Errand, Work};
+use crate::project::{Event, Project, Step};
+use crate::tasks::Sample;
+use egui::Ui;
+
+/// What can be done in every step.
+pub(super) fn bar(
+    project: &Project,
+    work: &mut Work,
+    host: &mut impl Host,
+    narrow: bool,
+    ui: &mut Ui,
+    events: &mut Vec<Event>,
+) {
+    ui.add_space(3.0);
+    ui.horizontal_wrapped(|ui| {
+        let add = match project.view().step {
+            _ if narrow => "Add…",
+            Step::Calibrate => "Add photographs of a board…",
+            _ => "Add photographs…",
+        };
+        if !narrow {
+            ui.heading("Lab");
+        }
+        if ui.button(add).clicked() && !host.ask_for_photographs() {
+            work.news = Some("Drop photographs onto this window.".to_owned());
+        }
+        ui.menu_button("Samples", |ui| {
+            for sample in Sample::ALL {
+                if ui.button(sample.title()).clicked() {
+                    events.push(Event::OpenSample(sample));
+                }
+            }
+        });
+        ui.menu_button("Project", |ui| {
+            if ui.button("Open…").clicked() && !host.ask_for_project() {
+                work.news = Some("Drop a project onto this window.".to_owned());
+            }
+            if ui.button("Save").clicked() {
+                let request = project.save_request();
+                work.run(Errand::Save, &request, host);
+            }
+            if ui.button("Remove all photographs").clicked() {
+                events.push(Event::Clear);
+            }
+        });
+        if ui
+            .add_enabled(project.can_undo(), egui::Button::new("Undo"))
+            .clicked()
+        {
+            events.push(Event::Undo);
+        }
+        if ui
+            .add_enabled(project.can_redo(), egui::Button::new("Redo"))
+            .clicked()
+        {
+            events.push(Event::Redo);
+        }
+        let paused = project.is_paused();
+        if paused && ui.button("Go on").clicked() {
+            events.push(Event::Pause(false));
+        }
+        if let Some((words, share)) = work.words(project) {
+            if !paused && ui.button("Stop").clicked() {
+                events.push(Event::Pause(true));
+            }
+            ui.weak(match share > 0.0 {
+                true => format!("{words} ({:.0} %)", 100.0 * share),
+                false => words,
+            });
+        } else if paused {
+            ui.weak("stopped");
+        }
+        if let Some(news) = &work.news {
+            ui.weak(news);
+        }
+    });
+    ui.add_space(3.0);
+}

@@ -1,0 +1,108 @@
+//! What the knobs and numbers of the step "Depth" say.
+
+use super::knobs::{self, Turned};
+use super::look;
+use crate::project::{MAX_DISPARITY_PX, Project};
+use crate::tasks::Dense;
+use egui::{Color32, DragValue, Rect, Ui};
+
+/// Which disparities are looked for.
+pub(super) fn disparities(
+    ui: &mut Ui,
+    range_px: &mut Option<[i32; 2]>,
+    proposed: Option<[i32; 2]>,
+) -> Turned {
+    let mut as_proposed = range_px.is_none();
+    let mut turned = Turned::No;
+    let label = match proposed {
+        Some([low, high]) => format!("disparities as the points propose: {low} to {high} px"),
+        None => "disparities as the points propose".to_owned(),
+    };
+    if ui.checkbox(&mut as_proposed, label).changed() {
+        *range_px = match as_proposed {
+            true => None,
+            false => Some(proposed.unwrap_or([0, 63])),
+        };
+        turned = Turned::Done;
+    }
+    if let Some(range) = range_px {
+        for (end, name) in range
+            .iter_mut()
+            .zip(["Smallest disparity, px", "Largest disparity, px"])
+        {
+            ui.horizontal_wrapped(|ui| {
+                let label = ui.label(name);
+                let field = DragValue::new(end)
+                    .range(0..=MAX_DISPARITY_PX)
+                    .update_while_editing(false);
+                let response = ui.add(field).labelled_by(label.id);
+                turned = turned.max(
+                    match (
+                        response.dragged(),
+                        response.drag_stopped() || response.changed(),
+                    ) {
+                        (true, _) => Turned::Held,
+                        (false, done) => done.into(),
+                    },
+                );
+            });
+        }
+    }
+    turned
+}
+
+/// What the colors of the depth mean.
+pub(super) fn legend(project: &Project, range: Option<[f64; 2]>, ui: &mut Ui) {
+    let Some([near, far]) = range else { return };
+    let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 12.0), egui::Sense::hover());
+    let words = format!(
+        "bright: {}, dark: {}, plain: no answer",
+        length(project, near),
+        length(project, far)
+    );
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+    let theme = look::theme(ui);
+    for n in 0..70 {
+        let strip = Rect::from_min_size(
+            rect.min + egui::vec2(4.0 * n as f32, 0.0),
+            egui::vec2(4.5, rect.height()),
+        );
+        let [r, g, b] = theme.scale(1.0 - f64::from(n) / 69.0);
+        ui.painter()
+            .rect_filled(strip, 0.0, Color32::from_rgb(r, g, b));
+    }
+    ui.weak(words);
+}
+
+fn length(project: &Project, units: f64) -> String {
+    match project.scale() {
+        Some(scale) => format!("{:.3} m", units * scale.meters_per_unit),
+        None => format!("{units:.3} units"),
+    }
+}
+
+/// What the pixel says that was clicked.
+pub(super) fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, ui: &mut Ui) {
+    let Some([u, v]) = probe else {
+        ui.weak("Click a pixel: the same thing must be on the same line of the other photograph.");
+        return;
+    };
+    knobs::row(ui, "pixel", format!("({u}, {v})"));
+    match (found.disparity(u, v), found.depth(u, v)) {
+        (Some(disparity), Some(depth)) => {
+            knobs::row(ui, "disparity", format!("{disparity:.2} px"));
+            knobs::row(ui, "depth", length(project, depth));
+            // σ_Z = Z² σ_d / (f B), for half a pixel.
+            let step = depth * depth * 0.5 / (found.focal_px() * found.baseline);
+            knobs::row(ui, "half a pixel is", length(project, step));
+        }
+        (Some(disparity), None) => knobs::row(
+            ui,
+            "disparity",
+            format!("{disparity:.2} px: infinitely far"),
+        ),
+        _ => {
+            drop(ui.weak("No answer here: hidden from the other camera, too smooth, or ambiguous."))
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Videos, one after the other, part by part: of each part the sharpest frame is kept, and nothing else.
+
+use super::host::Host;
+use crate::tasks::Blob;
+use std::collections::VecDeque;
+
+/// A video that is being read, or waits for it.
+struct Reading {
+    video: u32,
+    num_parts: u32,
+    /// The part that was asked for.
+    part: u32,
+    chosen: Vec<(String, Blob)>,
+}
+
+/// All that are being read; the first of them is under way.
+#[derive(Default)]
+pub(super) struct Videos(VecDeque<Reading>);
+
+impl Videos {
+    /// One more, of which so many frames are wanted.
+    pub(super) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
+        self.0.push_back(Reading {
+            video,
+            num_parts,
+            part: 0,
+            chosen: Vec::new(),
+        });
+        // The others wait: each takes the machine for itself.
+        if self.0.len() == 1 {
+            host.ask_for_frames(video, 0, num_parts);
+        }
+    }
+
+    /// The part of a video that was asked for, if it is the one that is being read.
+    pub(super) fn part_of(&self, video: u32) -> Option<u32> {
+        let first = self.0.front().filter(|reading| reading.video == video);
+        first.map(|reading| reading.part)
+    }
+
+    /// How far the first one is, in words.
+    pub(super) fn words(&self) -> Option<String> {
+        let first = self.0.front()?;
+        Some(format!(
+            "Frames of a video: part {} of {}",
+            first.part + 1,
+            first.num_parts
+        ))
+    }
+
+    /// Takes the sharpest frame of the part that was asked for, if it had one. Returns the frames of all parts after the
+    /// last.
+    pub(super) fn take(
+        &mut self,
+        video: u32,
+        frames: Vec<(String, Blob)>,
+        host: &mut impl Host,
+    ) -> Option<Vec<(String, Blob)>> {
+        let first = self
+            .0
+            .front_mut()
+            .filter(|reading| reading.video == video)?;
+        first.chosen.extend(frames);
+        first.part += 1;
+        if first.part < first.num_parts {
+            host.ask_for_frames(video, first.part, first.num_parts);
+            return None;
+        }
+        let done = self.0.pop_front()?;
+        self.go_on(host);
+        Some(done.chosen)
+    }
+
+    /// Forgets a video, and goes on with the next.
+    pub(super) fn give_up(&mut self, video: u32, host: &mut impl Host) {
+        let before = self.part_of(video);
+        self.0.retain(|reading| reading.video != video);
+        if before.is_some() {
+            self.go_on(host);
+        }
+    }
+
+    fn go_on(&self, host: &mut impl Host) {
+        if let Some(next) = self.0.front() {
+            host.ask_for_frames(next.video, next.part, next.num_parts);
+        }
+    }
+}

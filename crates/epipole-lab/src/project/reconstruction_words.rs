@@ -1,0 +1,71 @@
+//! Cameras and points in words.
+
+use super::Project;
+use super::words::count;
+use crate::tasks::Shows;
+
+impl Project {
+    pub(super) fn reconstruction_words(&self) -> String {
+        if let Some(why) = self.reconstruction_failure() {
+            return format!("Nothing could be reconstructed: {why}.");
+        }
+        let photos = self.document.photos.len();
+        let Some(found) = self.reconstruction() else {
+            return match self.taking_part().len() {
+                0 | 1 => self.photographs_words(),
+                _ => match self.growing() {
+                    Some(so_far) => format!(
+                        "Cameras and points are being looked for: {} and {} so far.",
+                        count(so_far.num_registered(), "camera"),
+                        count(so_far.points.len(), "point")
+                    ),
+                    None => "Cameras and points are being looked for.".to_owned(),
+                },
+            };
+        };
+        let mut words = match found.components.get(self.view.component) {
+            Some(component) => format!(
+                "{} of {} have a camera; {} points, mean reprojection error {:.2} pixels.",
+                component.num_registered(),
+                count(photos, "photograph"),
+                component.points.len(),
+                found.mean_error_px.get(self.view.component).unwrap_or(&0.0)
+            ),
+            None => {
+                "No two photographs show enough of the same thing from different places.".to_owned()
+            }
+        };
+        if self.is_flat() {
+            words.push_str(
+                " All pairs show a plane and nothing beside it, which does not tell the focal length: cameras and points are \
+                 right only if that is. Type it, calibrate, or take photographs that show something with depth, too.",
+            );
+        }
+        if found.components.len() > 1 {
+            words.push_str(&format!(
+                " Part {} of {}, which nothing joins.",
+                self.view.component + 1,
+                found.components.len()
+            ));
+        }
+        for (id, _) in self.left_out() {
+            if let Some(photo) = self.document.photo(id) {
+                words.push_str(&format!(" {}: {}.", photo.name, self.fate_words(photo)));
+            }
+        }
+        words
+    }
+
+    /// Whether everything that photographs share lies in planes, pair by pair.
+    fn is_flat(&self) -> bool {
+        let photos = self.taking_part();
+        let enough = self.document.settings.sfm.min_num_inliers;
+        let pairs =
+            super::wanted::pairs(&photos).map(|(first, second)| self.two_views(first, second));
+        let mut joined = pairs
+            .flatten()
+            .filter(|pair| pair.num_inliers >= enough)
+            .peekable();
+        joined.peek().is_some() && joined.all(|pair| pair.shows == Shows::Plane)
+    }
+}

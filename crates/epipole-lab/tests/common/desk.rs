@@ -1,0 +1,114 @@
+//! The panels on a host that computes at once, operated by what they say.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::tasks::{Branch, compute};
+use std::ops::ControlFlow;
+
+/// A host that computes at once.
+#[derive(Default)]
+pub(crate) struct Desk {
+    pub(crate) reports: Vec<Report>,
+    pub(crate) arrivals: Vec<Arrival>,
+    pub(crate) saved: Vec<(String, Vec<u8>)>,
+    pub(crate) said: String,
+    pub(crate) asked: usize,
+    pub(crate) frames: Vec<(u32, u32, u32)>,
+    pub(crate) explained: Vec<About>,
+    pub(crate) address: String,
+}
+
+impl Host for Desk {
+    fn capacity(&self) -> usize {
+        4
+    }
+
+    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+        let result = compute(&request, &mut |_| ControlFlow::Continue(()));
+        self.reports.push(Report::Done(work, result));
+    }
+
+    fn cancel(&mut self, _work: WorkId) {}
+
+    fn reports(&mut self) -> Vec<Report> {
+        std::mem::take(&mut self.reports)
+    }
+
+    fn arrivals(&mut self) -> Vec<Arrival> {
+        std::mem::take(&mut self.arrivals)
+    }
+
+    fn ask_for_photographs(&mut self) -> bool {
+        self.asked += 1;
+        true
+    }
+
+    fn ask_for_project(&mut self) -> bool {
+        self.asked += 1;
+        true
+    }
+
+    fn ask_for_camera(&mut self) -> bool {
+        self.asked += 1;
+        true
+    }
+
+    fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32) {
+        self.frames.push((video, part, num_parts));
+    }
+
+    fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
+        self.saved.push((name.to_owned(), bytes));
+        Ok(format!("{name} is saved."))
+    }
+
+    fn explain(&mut self, about: About) {
+        self.explained.push(about);
+    }
+
+    fn has_book(&self) -> bool {
+        true
+    }
+
+    fn address(&mut self, link: &str) {
+        self.address = link.to_owned();
+    }
+
+    fn say(&mut self, words: &str) {
+        self.said = words.to_owned();
+    }
+}
+
+pub(crate) type Bench<'a> = Harness<'a, App<Desk>>;
+
+/// The Lab in a screen of this size, when the sample is solved.
+pub(crate) fn open<'a>(width: f32, height: f32) -> Bench<'a> {
+    let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
+        app.go_on();
+        app.ui(ui);
+    };
+    let mut bench = Harness::builder()
+        .with_size(egui::vec2(width, height))
+        .with_context_setup(prepare)
+        .build_ui_state(frame, App::new(Desk::default()));
+    rest(&mut bench);
+    bench
+}
+
+/// Clicks the first thing of this name.
+pub(crate) fn click(bench: &mut Bench<'_>, name: &str) {
+    bench.get_all_by_label(name).next().unwrap().click();
+    bench.run_steps(4);
+}
+
+/// Draws frames until nothing is under way.
+pub(crate) fn rest(bench: &mut Bench<'_>) {
+    for _ in 0..200 {
+        bench.step();
+        if !bench.state_mut().go_on() && bench.state().project().wanted().is_empty() {
+            break;
+        }
+    }
+    bench.run_steps(3);
+}

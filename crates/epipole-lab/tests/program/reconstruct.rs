@@ -1,0 +1,66 @@
+//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and nothing else.
+
+use epipole::calibration::{CalibratedCamera, Keep, PrepareOptions, Undistortion, prepare_photo};
+use epipole::camera::{Intrinsics, Lens, LensKind};
+use epipole::feature::FeatureKind;
+use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
+use std::ops::ControlFlow;
+
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // Files, and their focal lengths in pixels where they do not tell it.
+    let files: [(&str, Option<f64>); 5] = [
+        ("photographs/b one.jpg", None),
+        ("photographs/a.jpg", None),
+        ("photographs/upright.jpg", None),
+        ("photographs/other.jpg", None),
+        ("photographs/typed.jpg", Some(750.0)),
+    ];
+    let lens = Lens::from_coefficients(LensKind::Brown, &[-0.01, 0.003, 0.0005, -0.0004, 0.0])?;
+    let camera = CalibratedCamera {
+        intrinsics: Intrinsics::new(800.0, 801.0, 321.0, 238.5)?,
+        lens,
+        width: 640,
+        height: 480,
+    };
+    let flat = Undistortion::new(&camera, Keep::Valid)?;
+    let undistortion = Some(&flat);
+    let prepare = PrepareOptions { max_pixels: 200000, undistortion };
+    let (mut photos, mut intrinsics) = (Vec::new(), Vec::new());
+    for (path, focal_px) in files {
+        let photo = prepare_photo(&std::fs::read(path)?, &prepare)?;
+        let (width, height) = photo.image.dimensions();
+        let longer = f64::from(width.max(height));
+        let told_px = photo.focal_px.unwrap_or(1.2 * longer);
+        intrinsics.push(match (focal_px.map(|f| photo.reduced_focal_px(f)), photo.intrinsics) {
+            (Some(f), Some(k)) => Intrinsics::new(f, f, k.principal_point().x, k.principal_point().y)?,
+            (Some(f), None) => Intrinsics::centered(f, width, height)?,
+            (None, Some(k)) => k,
+            (None, None) => Intrinsics::centered(told_px, width, height)?,
+        });
+        let name = path.rsplit('/').next().unwrap_or(path).to_owned();
+        photos.push(Photo { name, image: photo.image });
+    }
+    let mut how = PhotoOptions::default();
+    how.features.kind = FeatureKind::Sift;
+    how.features.max_features = 8192;
+    how.features.contrast_threshold = Some(0.02);
+    how.matching.max_ratio = Some(0.8);
+    how.matching.mutual = true;
+    let options = SfmOptions {
+        min_num_inliers: 15,
+        refine_focal: false,
+        refine_distortion: false,
+        seed: 0,
+        ..SfmOptions::default()
+    };
+    let (input, found) =
+        reconstruct_photos(&photos, &intrinsics, &how, &options, &mut |_| ControlFlow::Continue(()))?;
+    let largest = found.components.first().ok_or("no two photographs show enough of the same thing")?;
+    let model = largest.to_colmap(&input.images);
+    std::fs::create_dir_all("sparse/0")?;
+    std::fs::write("sparse/0/cameras.txt", model.cameras)?;
+    std::fs::write("sparse/0/images.txt", model.images)?;
+    std::fs::write("sparse/0/points3D.txt", model.points)?;
+    println!("{} of {} photographs, {} points", largest.num_registered(), photos.len(), largest.points.len());
+    Ok(())
+}

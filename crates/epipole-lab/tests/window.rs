@@ -1,0 +1,221 @@
+//! The window, on a display that nobody sees: it opens, draws with OpenGL, is clicked, and writes files.
+//!
+//! Needs `Xvfb`, `xdotool` and an OpenGL that draws on the processor; where they are missing it says that it skips.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![cfg(feature = "window")]
+
+mod common;
+
+use common::desk::{Bench, click, open, rest};
+use egui_kittest::kittest::Queryable;
+use epipole_lab::panels::Arrival;
+use image::RgbImage;
+use std::collections::BTreeSet;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const SIZE: (u32, u32) = (1280, 800);
+/// Nothing of this takes so long; it ends tests that would never end.
+const PATIENCE: Duration = Duration::from_secs(420);
+
+/// A program that ends with the test.
+struct Ended(Child);
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A display of its own, and a folder for what is written.
+struct Display {
+    _server: Ended,
+    name: String,
+    folder: PathBuf,
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
+
+fn is_there(program: &str) -> bool {
+    let found = Command::new("sh")
+        .args(["-c", &format!("command -v {program}")])
+        .output();
+    found.is_ok_and(|found| found.status.success())
+}
+
+impl Display {
+    /// `None` where there is nothing to show a window on.
+    fn open(test: &str) -> Option<Self> {
+        for program in ["Xvfb", "xdotool"] {
+            if !is_there(program) {
+                println!("skipped: there is no {program}; tests/tools/window.sh installs it");
+                return None;
+            }
+        }
+        let folder = std::env::temp_dir().join(format!("epipole-{test}-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("screen")).unwrap();
+        let (width, height) = SIZE;
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-nolisten", "tcp", "-fbdir"])
+            .arg(folder.join("screen"))
+            .args(["-screen", "0", &format!("{width}x{height}x24")])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        // It says which number it took once it answers.
+        let mut number = String::new();
+        let mut output = BufReader::new(server.stdout.take().unwrap());
+        output.read_line(&mut number).unwrap();
+        Some(Self {
+            _server: Ended(server),
+            name: format!(":{}", number.trim()),
+            folder,
+        })
+    }
+
+    /// The Lab with these files.
+    fn start(&self, files: &[PathBuf]) -> Ended {
+        let started = Command::new(env!("CARGO_BIN_EXE_epipole-lab"))
+            .args(files)
+            .current_dir(&self.folder)
+            .env("DISPLAY", &self.name)
+            .env("LIBGL_ALWAYS_SOFTWARE", "1")
+            .env("WINIT_X11_SCALE_FACTOR", "1")
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .stdin(Stdio::null())
+            .spawn();
+        Ended(started.unwrap())
+    }
+
+    fn click(&self, at: egui::Pos2) {
+        let place = [at.x, at.y].map(|x| (x.round() as i32).to_string());
+        let done = Command::new("xdotool")
+            .env("DISPLAY", &self.name)
+            .args(["mousemove", &place[0], &place[1]])
+            .args(["sleep", "0.3", "click", "1", "sleep", "0.3"])
+            .status();
+        assert!(done.unwrap().success());
+    }
+
+    /// What is to be seen, from the memory of the display: an XWD file, whose header is numbers of four bytes.
+    fn screen(&self) -> RgbImage {
+        let bytes = std::fs::read(self.folder.join("screen/Xvfb_screen0")).unwrap();
+        let number =
+            |n: usize| u32::from_be_bytes(bytes[4 * n..4 * n + 4].try_into().unwrap()) as usize;
+        let (header, width, height) = (number(0), number(4), number(5));
+        let (bits, line, colors) = (number(11), number(12), number(19));
+        assert_eq!((bits, width as u32, height as u32), (32, SIZE.0, SIZE.1));
+        let first = header + 12 * colors;
+        RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
+            let at = first + v as usize * line + 4 * u as usize;
+            // Least significant byte first: blue.
+            image::Rgb([bytes[at + 2], bytes[at + 1], bytes[at]])
+        })
+    }
+
+    /// Clicks these places, one after the other, until a file is there that can be read; a window that is not there yet
+    /// hears nothing.
+    fn click_until(&self, lab: &mut Ended, places: &[egui::Pos2], name: &str) -> Vec<String> {
+        let begun = Instant::now();
+        loop {
+            for place in places {
+                self.click(*place);
+            }
+            if let Some(names) = names_in(&self.folder.join(name)) {
+                return names;
+            }
+            assert_eq!(lab.0.try_wait().unwrap(), None, "the Lab has ended");
+            assert!(
+                begun.elapsed() < PATIENCE,
+                "no {name} came of clicking {places:?}"
+            );
+            std::thread::sleep(Duration::from_secs(1));
+        }
+    }
+}
+
+/// The names in a zip file, if it is whole.
+fn names_in(path: &Path) -> Option<Vec<String>> {
+    let file = std::fs::File::open(path).ok()?;
+    let archive = zip::ZipArchive::new(file).ok()?;
+    Some(archive.file_names().map(str::to_owned).collect())
+}
+
+/// Where a control is in a window of this size: panels are laid out alike everywhere.
+fn middle(bench: &Bench<'_>, name: &str) -> egui::Pos2 {
+    bench.get_all_by_label(name).next().unwrap().rect().center()
+}
+
+fn bench() -> Bench<'static> {
+    open(SIZE.0 as f32, SIZE.1 as f32)
+}
+
+#[test]
+fn the_sample_is_solved_in_a_window_and_saved() {
+    let Some(display) = Display::open("window") else {
+        return;
+    };
+    let mut lab = display.start(&[]);
+    let mut bench = bench();
+    let export = middle(&bench, "Export");
+    click(&mut bench, "Export");
+    let save = middle(&bench, "Save reconstruction.zip");
+    let names = display.click_until(&mut lab, &[export, save], "reconstruction.zip");
+    for name in [
+        "sparse/0/points3D.txt",
+        "points.ply",
+        "images/table-9.png",
+        "README.txt",
+    ] {
+        assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
+    }
+    // The space has thousands of points, and nine photographs standing in it.
+    let screen = display.screen();
+    let space = image::imageops::crop_imm(&screen, 180, 60, 760, 700).to_image();
+    let colors: BTreeSet<[u8; 3]> = space.pixels().map(|pixel| pixel.0).collect();
+    if let Some(path) = std::env::var_os("EPIPOLE_SCREEN") {
+        screen.save(path).unwrap();
+    }
+    assert!(colors.len() > 2000, "{} colors", colors.len());
+}
+
+#[test]
+fn files_that_are_given_take_the_place_of_the_sample() {
+    let Some(display) = Display::open("files") else {
+        return;
+    };
+    let files = ["one.png", "two.png"].map(|name| display.folder.join(name));
+    for (n, path) in files.iter().enumerate() {
+        let image = RgbImage::from_fn(64, 48, |u, v| {
+            image::Rgb([(u * 3) as u8, (v * 5) as u8, n as u8])
+        });
+        image.save(path).unwrap();
+    }
+    let mut lab = display.start(&files);
+    let mut bench = bench();
+    let photographs = files.iter().map(|path| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, std::fs::read(path).unwrap().into())
+    });
+    let arrival = Arrival::Photographs(photographs.collect());
+    bench.state_mut().host().arrivals.push(arrival);
+    bench.run_steps(3);
+    rest(&mut bench);
+    let menu = middle(&bench, "Project");
+    click(&mut bench, "Project");
+    let save = middle(&bench, "Save");
+    let names = display.click_until(&mut lab, &[menu, save], "project.zip");
+    for name in ["photographs/one.png", "photographs/two.png", "project.json"] {
+        assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
+    }
+}

@@ -1,0 +1,219 @@
+//! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is known, not too large.
+
+use super::Undistortion;
+use crate::Result;
+use crate::camera::Intrinsics;
+use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
+use image::metadata::Orientation;
+use image::{DynamicImage, RgbImage};
+
+/// What [`prepare_photo`] does to a photograph.
+#[derive(Debug, Clone, Copy)]
+pub struct PrepareOptions<'a> {
+    /// At most so many pixels are left.
+    pub max_pixels: u64,
+    /// How photographs of one camera are freed of its distortion: those that have its size as the sensor gave them, before
+    /// they are turned upright.
+    pub undistortion: Option<&'a Undistortion>,
+}
+
+impl Default for PrepareOptions<'_> {
+    /// Upright, and else as it is.
+    fn default() -> Self {
+        Self {
+            max_pixels: u64::MAX,
+            undistortion: None,
+        }
+    }
+}
+
+/// A photograph that is ready.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedPhoto {
+    /// The pixels, upright.
+    pub image: RgbImage,
+    /// A first guess of the focal length from the EXIF data, pixels of `image`.
+    pub focal_px: Option<f64>,
+    /// K, pixels of `image`, if the distortion of a known lens was removed.
+    pub intrinsics: Option<Intrinsics>,
+    /// Width and height before it was reduced, upright.
+    pub full_size: (u32, u32),
+    /// Width and height as the sensor gave it, before it was turned upright.
+    pub sensor_size: (u32, u32),
+    /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
+    pub is_as_stored: bool,
+}
+
+impl PreparedPhoto {
+    /// A focal length of the photograph before it was reduced, in its pixels now.
+    pub fn reduced_focal_px(&self, focal_px: f64) -> f64 {
+        focal_px * (f64::from(self.image.width()) / f64::from(self.full_size.0.max(1)))
+    }
+}
+
+/// Reads a PNG, JPEG or WebP file, removes the distortion if the camera is that of its size, turns it upright, and
+/// reduces it.
+///
+/// A lens belongs to the sensor, not to what the hand did with it: so a camera that was calibrated with photographs as
+/// the sensor gave them serves for photographs taken upright, too, if their files say how they were turned. A mirrored
+/// photograph is none of its.
+///
+/// # Errors
+/// As [`decode_rgb`].
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// use epipole::calibration::{PrepareOptions, prepare_photo};
+/// let mut file = std::io::Cursor::new(Vec::new());
+/// image::RgbImage::new(40, 30).write_to(&mut file, image::ImageFormat::Png)?;
+/// let options = PrepareOptions { max_pixels: 300, ..PrepareOptions::default() };
+/// let photo = prepare_photo(file.get_ref(), &options)?;
+/// assert_eq!((photo.image.dimensions(), photo.full_size), ((20, 15), (40, 30)));
+/// assert_eq!(photo.reduced_focal_px(50.0), 25.0);
+/// # Ok(()) }
+/// ```
+pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<PreparedPhoto> {
+    let as_stored = DecodeOptions {
+        apply_orientation: false,
+        ..DecodeOptions::default()
+    };
+    let decoded = decode_rgb(bytes, &as_stored)?;
+    let sensor_size = decoded.image.dimensions();
+    let quarters = quarters(decoded.orientation);
+    let its_own = |flat: &&Undistortion| (flat.map.width(), flat.map.height()) == sensor_size;
+    let redrawn = options.undistortion.filter(its_own).zip(quarters);
+    let (image, intrinsics) = match redrawn {
+        Some((flat, quarters)) => (
+            flat.map.warp_rgb(&decoded.image),
+            Some(flat.intrinsics.turned(quarters, sensor_size)),
+        ),
+        None => (decoded.image, None),
+    };
+    let mut image = DynamicImage::from(image);
+    image.apply_orientation(decoded.orientation);
+    let image = image.into_rgb8();
+    let full_size = image.dimensions();
+    let image = reduce_rgb(image, options.max_pixels);
+    let size = image.dimensions();
+    let mut photo = PreparedPhoto {
+        image,
+        focal_px: None,
+        intrinsics: intrinsics.map(|k| k.resized(full_size, size)).transpose()?,
+        full_size,
+        sensor_size,
+        is_as_stored: decoded.orientation == Orientation::NoTransforms
+            && redrawn.is_none()
+            && size == full_size,
+    };
+    photo.focal_px = decoded.focal_px.map(|f| photo.reduced_focal_px(f));
+    Ok(photo)
+}
+
+/// By how many quarters of a turn, clockwise, a photograph becomes upright; `None` for a mirrored one.
+fn quarters(orientation: Orientation) -> Option<u8> {
+    match orientation {
+        Orientation::NoTransforms => Some(0),
+        Orientation::Rotate90 => Some(1),
+        Orientation::Rotate180 => Some(2),
+        Orientation::Rotate270 => Some(3),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::{CalibratedCamera, Keep};
+    use crate::camera::{Lens, LensKind};
+    use image::{ExtendedColorType, ImageEncoder, Rgb};
+
+    /// A PNG file with an EXIF orientation.
+    fn file(image: &RgbImage, orientation: u16) -> Vec<u8> {
+        let mut exif = b"II\x2a\0\x08\0\0\0\x01\0".to_vec();
+        for part in [0x0112_u16, 3, 1, 0, orientation, 0, 0, 0] {
+            exif.extend(part.to_le_bytes());
+        }
+        let mut bytes = Vec::new();
+        let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
+        encoder.set_exif_metadata(exif).unwrap();
+        let (width, height) = image.dimensions();
+        encoder
+            .write_image(image.as_raw(), width, height, ExtendedColorType::Rgb8)
+            .unwrap();
+        bytes
+    }
+
+    fn camera() -> CalibratedCamera {
+        CalibratedCamera {
+            intrinsics: Intrinsics::new(70.0, 71.0, 42.0, 27.0).unwrap(),
+            lens: Lens::from_coefficients(LensKind::Brown, &[-0.2, 0.03, 0.004, -0.006, 0.0])
+                .unwrap(),
+            width: 80,
+            height: 60,
+        }
+    }
+
+    fn smooth() -> RgbImage {
+        let wave = |x: u32, slow: f64| (127.0 + 120.0 * libm::sin(f64::from(x) / slow)) as u8;
+        RgbImage::from_fn(80, 60, |u, v| {
+            Rgb([wave(u, 9.0), wave(v, 7.0), wave(u + v, 11.0)])
+        })
+    }
+
+    #[test]
+    fn however_the_camera_was_held_its_rays_are_the_same() {
+        let flat = Undistortion::new(&camera(), Keep::Valid).unwrap();
+        let options = PrepareOptions {
+            undistortion: Some(&flat),
+            ..PrepareOptions::default()
+        };
+        let lying = prepare_photo(&file(&smooth(), 1), &options).unwrap();
+        assert_eq!(lying.image, flat.map.warp_rgb(&smooth()));
+        assert_eq!(lying.intrinsics, Some(flat.intrinsics));
+        let (u, v) = (13, 41);
+        let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));
+        let ray = flat.intrinsics.ray(&place(u, v));
+        // Where the pixel comes to, and its ray, when the photograph is turned clockwise.
+        for (orientation, at, turned) in [
+            (6, (59 - v, u), [-ray.y, ray.x]),
+            (3, (79 - u, 59 - v), [-ray.x, -ray.y]),
+            (8, (v, 79 - u), [ray.y, -ray.x]),
+        ] {
+            let photo = prepare_photo(&file(&smooth(), orientation), &options).unwrap();
+            assert_eq!(photo.sensor_size, (80, 60));
+            assert_eq!(photo.image.dimensions(), photo.full_size);
+            assert_eq!(photo.full_size == (60, 80), orientation != 3);
+            assert!(!photo.is_as_stored);
+            assert_eq!(
+                photo.image.get_pixel(at.0, at.1),
+                lying.image.get_pixel(u, v)
+            );
+            let its_ray = photo.intrinsics.unwrap().ray(&place(at.0, at.1));
+            assert!((its_ray.x - turned[0]).abs() < 1e-12, "{orientation}");
+            assert!((its_ray.y - turned[1]).abs() < 1e-12, "{orientation}");
+        }
+    }
+
+    #[test]
+    fn a_photograph_of_another_camera_is_only_reduced() {
+        let flat = Undistortion::new(&camera(), Keep::Valid).unwrap();
+        let options = PrepareOptions {
+            max_pixels: 1200,
+            undistortion: Some(&flat),
+        };
+        // Upright pixels without a word of how they came to be so; and a mirrored photograph.
+        let upright = image::imageops::rotate90(&smooth());
+        for bytes in [file(&upright, 1), file(&smooth(), 2)] {
+            let photo = prepare_photo(&bytes, &options).unwrap();
+            assert_eq!(photo.intrinsics, None);
+            let (width, height) = photo.image.dimensions();
+            assert_eq!((2 * width, 2 * height), photo.full_size);
+        }
+        let photo = prepare_photo(&file(&smooth(), 6), &options).unwrap();
+        let expected = flat.intrinsics.turned(1, (80, 60)).scaled(0.5).unwrap();
+        assert_eq!(photo.intrinsics, Some(expected));
+        assert!(prepare_photo(b"nothing", &options).is_err());
+        let untouched = prepare_photo(&file(&smooth(), 1), &PrepareOptions::default()).unwrap();
+        assert!(untouched.is_as_stored && untouched.image == smooth());
+    }
+}

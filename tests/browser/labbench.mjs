@@ -1,0 +1,130 @@
+// What the Lab costs in a browser: `node labbench.mjs FOLDER FOCAL_PX` gives it the photographs of a folder and prints how
+// long they take on two cores, how frames come meanwhile, how fast a stop is, what a million points cost, and how much
+// memory there is. Times are those of the machine as it is: look at its load.
+
+import { readdirSync, readFileSync } from "node:fs";
+import { loadavg } from "node:os";
+import { join } from "node:path";
+import { chromium } from "@playwright/test";
+import { launchOptions } from "./chromium.mjs";
+import { book } from "./places.mjs";
+import { POLICY, serve } from "./server.mjs";
+
+const [folder, focal = ""] = process.argv.slice(2);
+const args = [
+  ...launchOptions.args,
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--enable-precise-memory-info",
+];
+const server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:` });
+const browser = await chromium.launch({ ...launchOptions, args });
+const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+await page.addInitScript(() => {
+  // As many workers as on a machine with two cores.
+  Object.defineProperty(navigator, "hardwareConcurrency", { value: 2 });
+  // When each frame of the page began.
+  window.frames_ms = [];
+  const tick = (time) => {
+    window.frames_ms.push(time);
+    requestAnimationFrame(tick);
+  };
+  requestAnimationFrame(tick);
+  window.tasks_ms = [];
+  new PerformanceObserver((list) => {
+    for (const { duration } of list.getEntries()) window.tasks_ms.push(duration);
+  }).observe({ entryTypes: ["longtask"] });
+});
+const say = (what, value) => console.log(`${what.padEnd(58)} ${value}`);
+const load = () => `(load ${loadavg()[0].toFixed(1)})`;
+const begun = performance.now();
+await page.goto(`${server.origin}/course/lab/index.html`);
+const said = () => page.locator("#said").textContent();
+const until = async (pattern, limit = 600_000) => {
+  const from = performance.now();
+  while (!pattern.test(await said())) {
+    if (performance.now() - from > limit) throw new Error(`${pattern} was not said, but: ${await said()}`);
+    await page.waitForTimeout(50);
+  }
+  return performance.now() - from;
+};
+await page.waitForFunction(() => document.querySelector("#notice")?.textContent === "");
+say("the Lab on screen, from the address", `${((performance.now() - begun) / 1e3).toFixed(2)} s ${load()}`);
+await until(/9 of 9 photographs have a camera/);
+say("the sample solved, from the address", `${((performance.now() - begun) / 1e3).toFixed(2)} s ${load()}`);
+
+const press = (role, name) =>
+  page.locator("#widgets").getByRole(role, { name, exact: true }).first().dispatchEvent("click");
+const frames = () => page.evaluate(() => ({ frames: window.frames_ms.splice(0), tasks: window.tasks_ms.splice(0) }));
+const tell = ({ frames, tasks }, what) => {
+  const gaps = frames.slice(1).map((time, n) => time - frames[n]).sort((a, b) => a - b);
+  const p95 = gaps[Math.floor(0.95 * gaps.length)] ?? 0;
+  say(`frames ${what}: p95, longest, tasks above 50 ms`, `${p95.toFixed(1)} ms, ${(gaps.at(-1) ?? 0).toFixed(0)} ms, ${tasks.length} (longest ${Math.max(0, ...tasks)} ms) ${load()}`);
+};
+
+/** Resident memory of every process of the browser, MB. */
+const memory = () => {
+  let total = 0;
+  for (const id of readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
+    try {
+      const words = readFileSync(`/proc/${id}/cmdline`, "utf8");
+      if (!words.includes("--type=renderer")) continue;
+      total += Number(readFileSync(`/proc/${id}/smaps_rollup`, "utf8").match(/^Pss:\s+(\d+)/m)?.[1] ?? 0) / 1024;
+    } catch {
+      // It has ended meanwhile.
+    }
+  }
+  return total;
+};
+let most = 0;
+const watching = setInterval(() => (most = Math.max(most, memory())), 500);
+if (folder) {
+  const files = readdirSync(folder).filter((name) => name.endsWith(".jpg")).sort().map((name) => join(folder, name));
+  await page.goto(`${server.origin}/course/lab/index.html?refine-focal=${focal ? "never" : "guessed"}`);
+  await until(/9 of 9 photographs have a camera/);
+  for (const count of [2, files.length]) {
+    await press("button", "Photographs");
+    await press("button", "Project");
+    await press("button", "Remove all photographs");
+    await until(/No photographs yet/);
+    await frames();
+    most = 0;
+    const from = performance.now();
+    await page.locator("#photographs").setInputFiles(files.slice(0, count));
+    await until(new RegExp(`${count} photographs`));
+    await press("button", count === 2 ? "Two views" : "Reconstruction");
+    await until(count === 2 ? /agree\. / : new RegExp(`of ${count} photographs have a camera`));
+    say(`${count} photographs, to ${count === 2 ? "their geometry" : "all cameras"}`, `${((performance.now() - from) / 1e3).toFixed(1)} s ${load()}`);
+    tell(await frames(), "meanwhile");
+    say("memory of the page and its workers, at most", `${most.toFixed(0)} MB`);
+  }
+  // Every pixel of a pair: more than a million points, which turn under the mouse.
+  await press("button", "Depth");
+  await until(/pixels have a depth|could be|nothing/);
+  console.log(await said());
+  await press("checkbox", "part of the cloud and of the export");
+  await press("button", "Reconstruction");
+  await page.waitForTimeout(4000);
+  await frames();
+  await page.mouse.move(500, 400);
+  await page.mouse.down();
+  for (let n = 0; n < 90; n += 1) await page.mouse.move(500 + 2 * n, 400 + n / 3);
+  tell(await frames(), "while a million points turn");
+  await page.mouse.up();
+  // Stop: from the press until no worker is left.
+  await press("button", "Features");
+  const knob = page.locator("#widgets").getByRole("radio", { name: "SIFT", exact: true }).first();
+  await knob.dispatchEvent("click");
+  while (page.workers().length === 0) await page.waitForTimeout(20);
+  await page.waitForTimeout(700);
+  const stopped = performance.now();
+  await press("button", "Stop");
+  while (page.workers().length > 0 && performance.now() - stopped < 5000) await page.waitForTimeout(5);
+  say("Stop, from the press until no worker computes", `${(performance.now() - stopped).toFixed(0)} ms ${load()}`);
+  clearInterval(watching);
+  await page.waitForTimeout(45_000);
+  say("memory at rest", `${memory().toFixed(0)} MB`);
+}
+clearInterval(watching);
+await browser.close();
+await server.close();

@@ -1,0 +1,51 @@
+/** What a reader chooses or drops: files, whole folders, and photographs that only the browser can decode. */
+
+/** These the Lab decodes itself, so that every browser gives the same pixels. */
+const ITS_OWN = /\.(png|jpe?g|webp|zip)$/i;
+const QUALITY = 0.95;
+
+/** Files that were dropped, and those in folders that were, in the order of their names. */
+export async function dropped(transfer: DataTransfer): Promise<File[]> {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.() ?? null);
+  if (!entries.some((entry) => entry?.isDirectory)) return [...transfer.files];
+  const files: File[] = [];
+  for (const entry of entries) if (entry) await walk(entry, files);
+  // Of a folder only what can be a photograph, a video or a project is meant.
+  return files.filter((file) => ITS_OWN.test(file.name) || /^(image|video)\//.test(file.type));
+}
+
+async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
+  if (entry.isFile) {
+    files.push(await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject)));
+    return;
+  }
+  const reader = (entry as FileSystemDirectoryEntry).createReader();
+  const within: FileSystemEntry[] = [];
+  // It gives some at a time, and none at the end.
+  for (;;) {
+    const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0) break;
+    within.push(...some);
+  }
+  within.sort((a, b) => (a.name < b.name ? -1 : 1));
+  for (const one of within) await walk(one, files);
+}
+
+/** A photograph as the Lab can read it, its name, and whether the browser had to decode it. */
+export async function photographOf(file: File): Promise<{ name: string; bytes: Uint8Array; foreign: boolean }> {
+  const as = (name: string, blob: Blob, foreign: boolean) =>
+    blob.arrayBuffer().then((bytes) => ({ name, bytes: new Uint8Array(bytes), foreign }));
+  if (ITS_OWN.test(file.name)) return as(file.name, file, false);
+  try {
+    const picture = await createImageBitmap(file);
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [picture.width, picture.height];
+    canvas.getContext("2d")?.drawImage(picture, 0, 0);
+    picture.close();
+    const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/jpeg", QUALITY));
+    if (blob) return await as(`${file.name}.jpg`, blob, true);
+  } catch {
+    // The Lab says what is wrong with the file.
+  }
+  return as(file.name, file, false);
+}
