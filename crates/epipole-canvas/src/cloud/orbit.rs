@@ -70,34 +70,50 @@ impl Orbit {
 
     /// Comes as near as it can with all of these places in the picture, and some border around them.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
+        const FILLED_PX: f64 = 920.0;
+        let (mut too_near, mut far) = self.bounds();
+        // Halved again and again: near to a place the picture grows so fast that steps by what is missing overshoot.
+        for _ in 0..24 {
+            let mut view = Self {
+                distance: (too_near * far).sqrt(),
+                ..*self
+            };
+            let fits = view.center(places).is_some_and(|span| span <= FILLED_PX);
+            match fits {
+                true => (far, *self) = (view.distance, view),
+                false => too_near = view.distance,
+            }
+        }
+    }
+
+    /// Puts the middle of these places into the middle of a picture of 1000 × 1000 pixels. Returns how many of them
+    /// they take; `None` if some are not seen, or all are one.
+    fn center(&mut self, places: &[[f64; 3]]) -> Option<f64> {
         const SIZE: (usize, usize) = (1000, 1000);
-        const FILLED: f64 = 0.92;
-        // A few rounds: what is nearer grows faster.
-        for _ in 0..12 {
+        let mut span = 0.0_f64;
+        // A few rounds: what is nearer moves farther.
+        for _ in 0..4 {
             let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            let mut all_seen = true;
             for place in places {
-                let seen = self.project(place.map(|x| x as f32), SIZE);
-                all_seen &= seen.is_some();
+                let (pixel, _) = self.project(place.map(|x| x as f32), SIZE)?;
                 for axis in 0..2 {
-                    if let Some((pixel, _)) = seen.filter(|(pixel, _)| pixel[axis].is_finite()) {
-                        least[axis] = least[axis].min(pixel[axis]);
-                        most[axis] = most[axis].max(pixel[axis]);
-                    }
+                    least[axis] = least[axis].min(pixel[axis]);
+                    most[axis] = most[axis].max(pixel[axis]);
                 }
             }
-            if !all_seen {
-                self.zoom(0.5);
-                continue;
-            }
             let middle = [0, 1].map(|axis| 0.5 * (least[axis] + most[axis]));
-            let span = (most[0] - least[0]).max(most[1] - least[1]);
+            span = (most[0] - least[0]).max(most[1] - least[1]);
             if !(span > 1e-6 && middle.iter().all(|x| x.is_finite())) {
-                return;
+                return None;
             }
             self.pan(500.0 - middle[0], 500.0 - middle[1], SIZE);
-            self.zoom((1000.0 * FILLED / span).clamp(0.5, 2.0));
         }
+        Some(span)
+    }
+
+    /// The least and the greatest distance.
+    fn bounds(&self) -> (f64, f64) {
+        (0.02 * self.size, 20.0 * self.size)
     }
 
     /// Camera from world: the camera looks along +z with y down.
@@ -129,7 +145,7 @@ impl Orbit {
     /// Comes nearer by a factor above 1.
     pub fn zoom(&mut self, factor: f64) {
         if factor > 0.0 && factor.is_finite() {
-            let (near, far) = (0.02 * self.size, 20.0 * self.size);
+            let (near, far) = self.bounds();
             self.distance = (self.distance / factor).clamp(near, far);
         }
     }

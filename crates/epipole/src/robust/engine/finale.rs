@@ -31,7 +31,11 @@ const WIDTH_MEDIANS: f64 = 2.5;
 
 /// How often data are weighed anew at the end. Where few data say what the many leave open, more of it would
 /// do away with them.
-const REWEIGHTINGS: usize = 6;
+const REWEIGHTINGS: usize = 8;
+
+/// In so many of these the width is that of the errors that are left, not of those at the start: from there the path
+/// of the search would show in the result. Then it stays, or weights and width would narrow each other.
+const REWEIGHTINGS_OF_WIDTH: usize = 3;
 
 impl<E: Estimator> Ransac<E> {
     /// As [`finish`](Ransac::finish), once.
@@ -207,15 +211,16 @@ impl<E: Estimator> Ransac<E> {
         }
         let mut model = candidate.model.clone();
         let mut weights = Vec::new();
-        for _ in 0..REWEIGHTINGS {
-            // The width is that of the errors that are left, not of those at the start: from there the
-            // path of the search would show in the result.
-            self.estimator
-                .inliers(&model, max_error_px, &mut self.inliers);
-            if self.inliers.is_empty() {
-                break;
+        let mut width_px = 0.0;
+        for round in 0..REWEIGHTINGS {
+            if round < REWEIGHTINGS_OF_WIDTH {
+                self.estimator
+                    .inliers(&model, max_error_px, &mut self.inliers);
+                if self.inliers.is_empty() {
+                    break;
+                }
+                width_px = self.medians_of_errors_px(&model, WIDTH_MEDIANS);
             }
-            let width_px = self.medians_of_errors_px(&model, WIDTH_MEDIANS);
             let reach_px = max_error_px.max(2.0 * width_px);
             self.estimator.inliers(&model, reach_px, &mut self.inliers);
             let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
