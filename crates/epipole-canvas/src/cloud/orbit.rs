@@ -70,7 +70,6 @@ impl Orbit {
 
     /// Comes as near as it can with all of these places in the picture, and some border around them.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
-        const FILLED_PX: f64 = 920.0;
         let (mut too_near, mut far) = self.bounds();
         // Halved again and again: near to a place the picture grows so fast that steps by what is missing overshoot.
         for _ in 0..24 {
@@ -78,37 +77,47 @@ impl Orbit {
                 distance: (too_near * far).sqrt(),
                 ..*self
             };
-            let fits = view.center(places).is_some_and(|span| span <= FILLED_PX);
-            match fits {
+            match view.center(places) {
                 true => (far, *self) = (view.distance, view),
                 false => too_near = view.distance,
             }
         }
     }
 
-    /// Puts the middle of these places into the middle of a picture of 1000 × 1000 pixels. Returns how many of them
-    /// they take; `None` if some are not seen, or all are one.
-    fn center(&mut self, places: &[[f64; 3]]) -> Option<f64> {
-        const SIZE: (usize, usize) = (1000, 1000);
-        let mut span = 0.0_f64;
-        // A few rounds: what is nearer moves farther.
-        for _ in 0..4 {
-            let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            for place in places {
-                let (pixel, _) = self.project(place.map(|x| x as f32), SIZE)?;
-                for axis in 0..2 {
-                    least[axis] = least[axis].min(pixel[axis]);
-                    most[axis] = most[axis].max(pixel[axis]);
-                }
+    /// Puts the middle of these places into the middle of the picture. Says whether all are in it then, and not all at
+    /// one place.
+    fn center(&mut self, places: &[[f64; 3]]) -> bool {
+        /// Of the side of the picture.
+        const BORDER: f64 = 0.04;
+        let mut is_inside = false;
+        for _ in 0..32 {
+            let Some(([left, top], [right, bottom])) = self.reach_of(places) else {
+                return false;
+            };
+            if right - left < 1e-9 && bottom - top < 1e-9 {
+                return false;
             }
-            let middle = [0, 1].map(|axis| 0.5 * (least[axis] + most[axis]));
-            span = (most[0] - least[0]).max(most[1] - least[1]);
-            if !(span > 1e-6 && middle.iter().all(|x| x.is_finite())) {
-                return None;
-            }
-            self.pan(500.0 - middle[0], 500.0 - middle[1], SIZE);
+            let inside = |x: f64| (BORDER..=1.0 - BORDER).contains(&x);
+            is_inside = [left, top, right, bottom].into_iter().all(inside);
+            // What is nearer moves farther than what is missing, so each step is a part of it.
+            let step = |low: f64, high: f64| 400.0 * (0.5 - 0.5 * (low + high));
+            self.pan(step(left, right), step(top, bottom), (1000, 1000));
         }
-        Some(span)
+        is_inside
+    }
+
+    /// From where to where places are in a square picture, in shares of its side; `None` if one of them is not seen.
+    fn reach_of(&self, places: &[[f64; 3]]) -> Option<([f64; 2], [f64; 2])> {
+        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for place in places {
+            let (pixel, _) = self.project(place.map(|x| x as f32), (1000, 1000))?;
+            for axis in 0..2 {
+                least[axis] = least[axis].min(pixel[axis] / 1000.0);
+                most[axis] = most[axis].max(pixel[axis] / 1000.0);
+            }
+        }
+        let is_finite = least.iter().chain(&most).all(|x| x.is_finite());
+        is_finite.then_some((least, most))
     }
 
     /// The least and the greatest distance.
