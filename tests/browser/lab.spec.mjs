@@ -95,11 +95,14 @@ test("every step is explained by a figure of the book, which runs beside it", as
     await expect(aside).toBeVisible();
     const figure = aside.locator("epipole-figure");
     await expect(figure.locator("canvas").first()).toBeVisible({ timeout: 60_000 });
-    const chapter = await aside.getByRole("link", { name: "Read the chapter" }).getAttribute("href");
-    const text = await (await fetch(chapter)).text();
-    const shown = await figure.getAttribute("name");
-    expect(chapter.startsWith(library)).toBe(true);
-    expect(text, `${chapter} has ${shown}`).toContain(`<epipole-figure name="${shown}"`);
+    // The link and the figure come one after the other.
+    await expect(async () => {
+      const chapter = await aside.getByRole("link", { name: "Read the chapter" }).getAttribute("href");
+      const text = await (await fetch(chapter)).text();
+      const shown = await figure.getAttribute("name");
+      expect(chapter.startsWith(library)).toBe(true);
+      expect(text.includes(`<epipole-figure name="${shown}"`), `${chapter} has ${shown}`).toBe(true);
+    }).toPass({ timeout: 15_000 });
   }
   await expectAccessible(lab);
   await lab.keyboard.press("Escape");
