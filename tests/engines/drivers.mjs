@@ -67,8 +67,8 @@ export async function webkit() {
     DISPLAY: display,
     GDK_BACKEND: "x11",
     WEBKIT_DISABLE_DMABUF_RENDERER: "1",
-    // The last of the three compilers for WebAssembly of WebKitGTK 2.50 crashes on a busy machine, each time in
-    // another figure, and once gave other bits. The other two do not, and what they do is what is compared.
+    // With the last of its compilers for WebAssembly, WebKitGTK 2.50 was seen to crash under load, each time in another
+    // figure, and once to give other bits; without it, never. What is left is what is compared.
     JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
   };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
