@@ -70,7 +70,7 @@ impl Coverage {
     /// Blends a color where the picture is covered, and covers nothing again.
     pub(super) fn blend(&mut self, pixels: &mut [u8], color: Rgb, opacity: f64) {
         let opacity = (opacity.clamp(0.0, 1.0) * 256.0).round() as u32;
-        let mut ink = Ink::new(color);
+        let ink = Ink::new(color);
         for row in std::mem::take(&mut self.rows) {
             let columns = std::mem::take(&mut self.touched[row]);
             let start = row * self.width + columns.start;
@@ -94,39 +94,31 @@ fn centers_within(low: f32, high: f32, count: usize) -> Range<usize> {
 }
 
 /// Pixels that are looked at together.
-const AT_ONCE: usize = 8;
+pub(super) const AT_ONCE: usize = 8;
 const BYTES: usize = 4 * AT_ONCE;
 
 /// A color to be blended into pixels of red, green, blue and an alpha of 255.
 pub(super) struct Ink {
-    color: [u8; 4],
-    /// A share that many pixels are covered to, and what the color then adds to each byte of them, with a half for
-    /// rounding.
-    alpha: u8,
-    added: [u16; BYTES],
+    /// Red and blue, and green and alpha, each in the low half of its sixteen bits.
+    color: [u32; 2],
 }
 
 impl Ink {
     pub(super) fn new([r, g, b]: Rgb) -> Self {
         Self {
-            color: [r, g, b, 255],
-            alpha: 0,
-            added: [128; BYTES],
+            color: halves(u32::from_le_bytes([r, g, b, 255])),
         }
     }
 
     /// Blends the color into a row of pixels, each covered to its share.
     #[inline]
-    pub(super) fn blend_row(&mut self, pixels: &mut [u8], alphas: &[u8]) {
+    pub(super) fn blend_row(&self, pixels: &mut [u8], alphas: &[u8]) {
         let (chunks, last_pixels) = pixels.as_chunks_mut::<BYTES>();
         let (alpha_chunks, last_alphas) = alphas.as_chunks::<AT_ONCE>();
         for (pixels, alphas) in chunks.iter_mut().zip(alpha_chunks) {
-            // Most are outside or inside of the mark, all to the same share; only the rim is a mixture.
-            let first = alphas[0];
-            if u64::from_ne_bytes(*alphas) != u64::from(first) * 0x0101_0101_0101_0101 {
-                self.mix(pixels, *alphas);
-            } else if first != 0 {
-                self.blend_even(pixels, first);
+            // Most marks are small or narrow in what they touch.
+            if *alphas != [0; AT_ONCE] {
+                self.mix(pixels, alphas);
             }
         }
         let count = last_alphas.len();
@@ -135,40 +127,36 @@ impl Ink {
             let (mut few, mut shares) = ([0; BYTES], [0; AT_ONCE]);
             few[..4 * count].copy_from_slice(last_pixels);
             shares[..count].copy_from_slice(last_alphas);
-            self.mix(&mut few, shares);
+            self.mix(&mut few, &shares);
             last_pixels.copy_from_slice(&few[..4 * count]);
         }
     }
 
-    fn blend_even(&mut self, pixels: &mut [u8; BYTES], alpha: u8) {
-        if alpha != self.alpha {
-            self.alpha = alpha;
-            for (i, added) in self.added.iter_mut().enumerate() {
-                *added = u16::from(self.color[i % 4]) * u16::from(alpha) + 128;
-            }
-        }
-        let rest = u16::from(255 - alpha);
-        for i in 0..BYTES {
-            pixels[i] = nearest_255th(self.added[i] + u16::from(pixels[i]) * rest);
-        }
-    }
-
-    /// Made for vector instructions: sixteen bits hold everything, and nothing branches.
-    #[inline]
-    fn mix(&self, pixels: &mut [u8; BYTES], alphas: [u8; AT_ONCE]) {
-        let alphas: [u8; BYTES] = std::array::from_fn(|i| alphas[i / 4]);
-        for i in 0..BYTES {
-            let (alpha, rest) = (u16::from(alphas[i]), u16::from(255 - alphas[i]));
-            let sum = u16::from(self.color[i % 4]) * alpha + u16::from(pixels[i]) * rest + 128;
-            pixels[i] = nearest_255th(sum);
+    /// Made for vector instructions: two bytes of a pixel are mixed at once in their halves of a number, and nothing
+    /// branches.
+    #[inline(always)]
+    fn mix(&self, pixels: &mut [u8; BYTES], alphas: &[u8; AT_ONCE]) {
+        for (pixel, &alpha) in pixels.as_chunks_mut::<4>().0.iter_mut().zip(alphas) {
+            let alpha = u32::from(alpha);
+            let paper = halves(u32::from_le_bytes(*pixel));
+            let [red_blue, green_alpha] =
+                [0, 1].map(|i| nearest_255ths(self.color[i] * alpha + paper[i] * (255 - alpha)));
+            *pixel = (red_blue | green_alpha << 8).to_le_bytes();
         }
     }
 }
 
-/// The nearest whole number to (sum - 128) / 255.
+const LOW_HALVES: u32 = 0x00ff_00ff;
+
+fn halves(pixel: u32) -> [u32; 2] {
+    [pixel & LOW_HALVES, (pixel >> 8) & LOW_HALVES]
+}
+
+/// The nearest whole numbers to 255ths of two numbers of sixteen bits.
 #[inline]
-fn nearest_255th(sum: u16) -> u8 {
-    ((sum + (sum >> 8)) >> 8) as u8
+fn nearest_255ths(sums: u32) -> u32 {
+    let sums = sums + 0x0080_0080;
+    ((sums + ((sums >> 8) & LOW_HALVES)) >> 8) & LOW_HALVES
 }
 
 // Unlike `f32::min` and `f32::max`, these are one instruction, also of a vector, and no call: for what is a number.

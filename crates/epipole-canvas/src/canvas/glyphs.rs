@@ -5,7 +5,7 @@
 //! then only blended.
 
 use super::coverage::Coverage;
-use super::stamp::{Kept, STEPS, Stamp, pixel_and_step};
+use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
 use super::strokes::{At, Cap};
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
@@ -89,7 +89,7 @@ fn cover(mut contours: Vec<Vec<At>>, casing: f32) -> Stamp {
     let margin = 0.5 * casing + 1.0;
     let left = (lowest(|at| at.0) - margin).floor();
     let top = (lowest(|at| at.1) - margin).floor();
-    let width = (highest(|at| at.0) + margin - left).ceil() as usize;
+    let width = stamp_width((highest(|at| at.0) + margin - left).ceil() as usize);
     let height = (highest(|at| at.1) + margin - top).ceil() as usize;
     for at in contours.iter_mut().flatten() {
         *at = (at.0 - left, at.1 - top);

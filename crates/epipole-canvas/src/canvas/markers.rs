@@ -4,7 +4,7 @@
 //! pixel both ways and then only blended.
 
 use super::coverage::Coverage;
-use super::stamp::{Kept, STEPS, Stamp, pixel_and_step};
+use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
 use super::strokes::{At, Cap};
 use super::{Canvas, Place, Shape};
 use crate::theme::{Rgb, Role};
@@ -103,7 +103,8 @@ fn cover(key: Key) -> Stamp {
     let side = 2 * margin as usize + 1;
     let middle = |step: u8| margin as f32 + f32::from(step) / STEPS as f32;
     let center = (middle(key.step.0), middle(key.step.1));
-    let mut coverage = Coverage::default().sized(side, side);
+    let stride = stamp_width(side);
+    let mut coverage = Coverage::default().sized(stride, side);
     add(&mut coverage, center, radius, key.shape, width);
     let mut alpha = coverage.into_alpha();
     if key.see_through > 0 {
@@ -115,7 +116,7 @@ fn cover(key: Key) -> Stamp {
     Stamp {
         left: -margin,
         top: -margin,
-        width: side,
+        width: stride,
         alpha,
     }
 }

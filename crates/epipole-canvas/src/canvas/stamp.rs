@@ -1,6 +1,6 @@
 //! Small shapes that are covered once and then only blended: glyphs and markers.
 
-use super::coverage::Ink;
+use super::coverage::{AT_ONCE, Ink};
 use crate::theme::Rgb;
 use tiny_skia::Pixmap;
 
@@ -45,6 +45,11 @@ impl<K: Copy + Ord> Kept<K> {
     }
 }
 
+/// How broad a stamp is made for a shape of this width: its rows are blended without anything left over.
+pub(super) fn stamp_width(width: usize) -> usize {
+    width.next_multiple_of(AT_ONCE)
+}
+
 /// How much of each pixel a shape covers.
 #[derive(Default)]
 pub(super) struct Stamp {
@@ -72,7 +77,7 @@ impl Stamp {
             return;
         }
         let data = pixmap.data_mut();
-        let mut ink = Ink::new(color);
+        let ink = Ink::new(color);
         for (row, alphas) in self.alpha.chunks_exact(self.width).enumerate() {
             let row = top + row as i64;
             if !(0..height).contains(&row) {

@@ -7,7 +7,7 @@
 //! stands behind.
 
 use super::render::Photograph;
-use crate::camera::{Camera, RigidTransform};
+use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::{Error, Result};
 use image::RgbImage;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -225,6 +225,8 @@ impl Photograph {
         let Some(moved) = moved else {
             if from == to {
                 target.pixels = self.packed().collect();
+            } else if from.cam_from_world == to.cam_from_world {
+                self.zoom(from, to, &mut target.pixels);
             } else {
                 carry.all(self, depths, &mut target.pixels);
             }
@@ -256,6 +258,35 @@ impl Photograph {
         }
         target.finish();
         Ok(())
+    }
+
+    /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
+    fn zoom(&self, from: &Camera, to: &Camera, target: &mut [u32]) {
+        let (width, height) = self.image.dimensions();
+        let (here, there) = (&from.intrinsics, &to.intrinsics);
+        let [center, new_center] = [here, there].map(Intrinsics::principal_point);
+        let (zoom_u, zoom_v) = (here.fu_px() / there.fu_px(), here.fv_px() / there.fv_px());
+        let sources = |size: u32, center: f64, new_center: f64, zoom: f64| {
+            (0..size).map(move |at| {
+                let source = (f64::from(at) - new_center) * zoom + center + 0.5;
+                (source >= 0.0 && source < f64::from(size)).then_some(source as usize)
+            })
+        };
+        let columns: Vec<_> = sources(width, center.x, new_center.x, zoom_u).collect();
+        let rows = sources(height, center.y, new_center.y, zoom_v);
+        let width = width as usize;
+        let pixels = self.image.as_raw().as_chunks::<3>().0;
+        for (source, target) in rows.zip(target.chunks_exact_mut(width.max(1))) {
+            let Some(source) = source else { continue };
+            let row = source * width..(source + 1) * width;
+            let (row, depths) = (&pixels[row.clone()], &self.depth_m.as_raw()[row]);
+            for (column, target) in columns.iter().zip(target) {
+                if let Some(column) = column.filter(|&column| depths[column] > 0.0) {
+                    let [r, g, b] = row[column];
+                    *target = u32::from_le_bytes([r, g, b, 255]);
+                }
+            }
+        }
     }
 
     fn packed(&self) -> impl Iterator<Item = u32> {
@@ -713,6 +744,38 @@ mod tests {
             .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
             .count();
         assert!(wrong * 8 < differs, "{wrong}, {differs}");
+    }
+
+    /// A longer lens enlarges what it sees, and that alone: no pixel covers another, and inside there is no gap.
+    #[test]
+    fn another_focal_length_zooms() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let mut seen = Reprojected::default();
+        for factor in [0.8, 1.25, 2.0] {
+            let k = &from.intrinsics;
+            let focal_px = factor * k.fu_px();
+            let to = Camera {
+                intrinsics: crate::camera::Intrinsics::centered(focal_px, SIZE.0, SIZE.1).unwrap(),
+                ..from
+            };
+            photograph.reproject(&from, &to, None, &mut seen).unwrap();
+            let truth = render(&scene, &to).image;
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (a, b) in pairs(&seen, &truth) {
+                sum += (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>();
+                count += 3.0;
+            }
+            assert!(sum / count < 8.0, "{factor}: {}", sum / count);
+            let whole = f64::from(SIZE.0 * SIZE.1);
+            let expected = whole * (1.0 - f64::min(factor * factor, 1.0));
+            let missing = seen.num_missing() as f64;
+            assert!(
+                (missing - expected).abs() < 0.02 * whole,
+                "{factor}: {missing}"
+            );
+        }
     }
 
     #[test]
