@@ -186,13 +186,14 @@ mod tests {
         }
     }
 
-    /// OpenCV weighs and shares the gradients of the same layers in the same way, but cuts the window at
-    /// a rounded radius.
+    /// OpenCV and scikit-image weigh and share the gradients of the same layers in the same way, but OpenCV cuts the
+    /// window at a rounded radius, and scikit-image rounds to whole numbers.
     #[test]
-    fn descriptors_equal_those_of_opencv() {
+    fn descriptors_equal_those_of_opencv_and_scikit_image() {
         let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
-        let expected = fixture::floats("sift_described.npy");
-        let rows: Vec<&[f32]> = expected.values.chunks_exact(132).collect();
+        let opencv = fixture::floats("sift_described.npy");
+        let rows: Vec<&[f32]> = opencv.values.chunks_exact(132).collect();
+        let scikit_image = fixture::floats("sift_described_by_scikit_image.npy");
         let keypoints: Vec<Keypoint> = (rows.iter())
             .map(|row| Keypoint {
                 scale_px: row[2],
@@ -207,12 +208,20 @@ mod tests {
         };
         let ours = describe_sift(&image, &keypoints, &options).unwrap();
         assert_eq!(rows.len(), 24);
-        for (index, row) in rows.iter().enumerate() {
-            let (ours, theirs) = (ours.get(index).unwrap(), &row[4..]);
+        let relative = |ours: &[f32], theirs: &[f32]| -> f32 {
             let apart = ours.iter().zip(theirs).map(|(a, b)| (a - b) * (a - b));
             let norm: f32 = theirs.iter().map(|b| b * b).sum();
-            let relative = (apart.sum::<f32>() / norm).sqrt();
-            assert!(relative < 0.02, "{index}: {relative}");
+            (apart.sum::<f32>() / norm).sqrt()
+        };
+        let peers = rows.iter().zip(scikit_image.values.chunks_exact(128));
+        for (index, (row, theirs)) in peers.enumerate() {
+            let ours = ours.get(index).unwrap();
+            let [opencv, scikit_image] = [&row[4..], theirs].map(|theirs| relative(&ours, theirs));
+            assert!(opencv < 0.02, "{index}: {opencv} from OpenCV");
+            assert!(
+                scikit_image < 0.02,
+                "{index}: {scikit_image} from scikit-image"
+            );
         }
     }
 
