@@ -46,19 +46,20 @@ test-browser: setup ## the book and the figures in a real browser
 	$(BOOK) build
 	cd tests/browser && npm test --silent
 
-test-lab: setup ## the Lab in a real browser, after building it
+test-lab: setup tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it
+	@tests/tools/engines.sh
 	$(BOOK) build
 	$(BOOK) lab
 	cd tests/browser && LAB=1 npx playwright test 'lab(faults)?\.spec'
+	cd tests/engines && npm run --silent lab
 
 test-window: setup-build ## the Lab in a window, on a display that nobody sees
 	@tests/tools/window.sh
 	cargo test --locked -p epipole-lab --features window --test window
 
-test-engines: setup tests/engines/node_modules/.installed ## the book and the Lab in Firefox and WebKit, compared with Chromium and with native bits
+test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
 	@tests/tools/engines.sh
 	$(BOOK) build
-	$(BOOK) lab
 	cd tests/engines && npm test --silent
 
 monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
