@@ -42,13 +42,11 @@ test-listings: setup-test ## the Python listings and the notebooks of the chapte
 	$(BOOK) notebooks target/book-work/notebooks
 	$(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
-test-browser: setup ## the book and the figures in a real browser
-	$(BOOK) build
+test-browser: setup build ## the book and the figures in a real browser
 	cd tests/browser && npm test --silent
 
-test-lab: setup tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it
+test-lab: setup build tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it
 	@tests/tools/engines.sh
-	$(BOOK) build
 	$(BOOK) lab
 	cd tests/browser && LAB=1 npx playwright test 'lab(faults)?\.spec'
 	cd tests/engines && npm run --silent lab
@@ -57,18 +55,15 @@ test-window: setup-build ## the Lab in a window, on a display that nobody sees
 	@tests/tools/window.sh
 	cargo test --locked -p epipole-lab --features window --test window
 
-test-engines: setup tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
+test-engines: setup build tests/engines/node_modules/.installed ## the book in Firefox and WebKit, compared with Chromium and with native bits
 	@tests/tools/engines.sh
-	$(BOOK) build
 	cd tests/engines && npm test --silent
 
-monkey: setup ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
-	$(BOOK) build
+monkey: setup build ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
 	cd tests/browser && SEED=$(SEED) MONKEY_SECONDS=$(MONKEY_SECONDS) npx playwright test monkey
 
-test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
+test-hosts: setup build tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh
-	$(BOOK) build
 	cargo build --locked --quiet --example mdbook
 	tests/browser/hosts/prepare.sh
 	cd tests/browser && npx playwright test --config hosts.config.mjs
@@ -76,8 +71,7 @@ test-hosts: setup tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.i
 test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
 	tests/tools/reproducible.sh
 
-python: setup-build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
-	$(BOOK) build
+python: build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
 	tests/browser/hosts/prepare.sh
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
@@ -86,8 +80,7 @@ audit: setup-build ## known holes in what we build from; asks the registries, so
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
-bench-lab: setup ## what the Lab costs in a browser: seconds, frames, memory
-	$(BOOK) build
+bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memory
 	$(BOOK) lab
 	cargo run --locked --quiet -p epipole-lab --example photographs -- target/lab-photographs
 	cd tests/browser && node labbench.mjs ../../target/lab-photographs 2500
