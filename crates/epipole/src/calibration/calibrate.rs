@@ -12,7 +12,7 @@ use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
 use crate::camera::{Intrinsics, LensKind, RigidTransform};
 use crate::optim::{Iteration, Termination};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 use nalgebra::Point3;
 use std::ops::ControlFlow;
@@ -119,8 +119,8 @@ pub fn calibrate(
 
 /// [`calibrate`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: hears, after each step of refinement, of the share of the starts that are done, and says whether
-///   to go on
+/// * `progress`: hears, after each step of refinement, what share of the starts is done, in the one stage
+///   [`Stage::Calibration`], and says whether to go on
 ///
 /// # Errors
 /// As [`calibrate`], and [`Error::Canceled`] if `progress` said so.
@@ -143,7 +143,13 @@ pub fn calibrate_with_progress(
     options: &CalibrationOptions,
     progress: Progress<'_>,
 ) -> Result<Calibration> {
-    if progress(0.0).is_break() {
+    let mut tell = |share| {
+        progress(Status {
+            stage: Stage::Calibration,
+            share,
+        })
+    };
+    if tell(0.0).is_break() {
         return Err(Error::Canceled);
     }
     let size = (width, height);
@@ -170,7 +176,7 @@ pub fn calibrate_with_progress(
     let num_starts = starts.len() as f32;
     for (index, start) in starts.into_iter().enumerate() {
         let share = index as f32 / num_starts;
-        let mut watch = |_: &Iteration| progress(share);
+        let mut watch = |_: &Iteration| tell(share);
         match refine_from(board, &given, start, size, options, &problem, &mut watch) {
             Err(Error::Canceled) => return Err(Error::Canceled),
             Ok((cost, state)) => {
@@ -435,9 +441,10 @@ mod tests {
         let run = |most: usize| {
             let (mut calls, mut last) = (0, 0.0);
             let found =
-                calibrate_with_progress(&board(), &views, (640, 480), &options, &mut |share| {
-                    assert!((last..=1.0).contains(&share));
-                    (calls, last) = (calls + 1, share);
+                calibrate_with_progress(&board(), &views, (640, 480), &options, &mut |status| {
+                    assert_eq!(status.stage, Stage::Calibration);
+                    assert!((last..=1.0).contains(&status.share));
+                    (calls, last) = (calls + 1, status.share);
                     if calls <= most {
                         ControlFlow::Continue(())
                     } else {

@@ -3,8 +3,10 @@
 mod problem;
 mod radial;
 
+use super::shares::iterations;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
+use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Translation3, Vector2};
 use problem::{Problem, State};
@@ -260,6 +262,24 @@ pub fn adjust_bundle(
     bundle.points = state.points;
     bundle.distortion = RadialDistortion { k1, k2 };
     Ok(report)
+}
+
+/// As [`adjust_bundle`], with the same result, telling `progress` what share of the steps that there may be at
+/// most is done, in the one stage [`Stage::BundleAdjustment`].
+///
+/// Whoever breaks gets the best bundle found so far, as [`LmReport::termination`] says.
+///
+/// # Errors
+/// As [`adjust_bundle`].
+///
+/// Source: as [`adjust_bundle`].
+pub fn adjust_bundle_with_progress(
+    bundle: &mut Bundle,
+    options: &BundleOptions,
+    progress: Progress<'_>,
+) -> Result<LmReport> {
+    let mut tell = iterations(progress, Stage::BundleAdjustment, &options.lm);
+    adjust_bundle(bundle, options, &mut tell)
 }
 
 #[cfg(test)]
