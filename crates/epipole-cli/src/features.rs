@@ -3,7 +3,6 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::interrupt;
 use crate::photo::Photo;
 use crate::progress::Progress;
 use clap::{ArgAction, Args, ValueEnum};
@@ -11,7 +10,6 @@ use epipole::feature::{
     AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
     detect_features_with_progress, match_any_descriptors,
 };
-use std::ops::ControlFlow;
 
 /// The kinds of feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -85,14 +83,7 @@ impl FeatureArguments {
     /// As the core's detectors.
     pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<AnyFeatures, Failure> {
         let progress = Progress::new(context, "features");
-        let watch = &mut |share: f32| {
-            progress.set(f64::from(share));
-            if interrupt::requested() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
+        let watch = &mut |status| progress.show(status);
         Ok(detect_features_with_progress(
             &photo.gray(),
             &self.options(),

@@ -1,7 +1,10 @@
 //! Progress bars on standard error.
 
 use crate::context::Context;
+use crate::interrupt;
+use epipole::progress::Status;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::ops::ControlFlow;
 
 const STEPS: u64 = 1000;
 
@@ -27,6 +30,17 @@ impl Progress {
     pub(crate) fn set(&self, share: f64) {
         self.0
             .set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+
+    /// Shows how far a function of the core is, its stage in the place of the label, and lets Ctrl-C end it.
+    pub(crate) fn show(&self, status: Status) -> ControlFlow<()> {
+        self.0.set_message(status.stage.words());
+        self.set(f64::from(status.share));
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 }
 

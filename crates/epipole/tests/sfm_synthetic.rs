@@ -3,10 +3,11 @@
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
 use epipole::math::random::Random;
+use epipole::progress::{Stage, Status};
 use epipole::sfm::{
     AlignmentKind, OdometryOptions, PairMatches, RadialDistortion, SfmImage, SfmInput, SfmOptions,
-    SfmProgress, SfmResult, align_points, keep_going, monocular_odometry, reconstruct,
-    stereo_odometry,
+    SfmResult, SfmStep, align_points, keep_going, monocular_odometry, reconstruct,
+    reconstruct_with_progress, stereo_odometry,
 };
 use nalgebra::{Point2, Point3, Vector3};
 use std::ops::ControlFlow;
@@ -314,8 +315,8 @@ fn canceling_leaves_a_valid_part() {
         Making::default(),
         12,
     );
-    let mut stop = |progress: &SfmProgress| match progress {
-        SfmProgress::Registered {
+    let mut stop = |step: &SfmStep| match step {
+        SfmStep::Registered {
             num_registered: 4, ..
         } => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
@@ -327,10 +328,43 @@ fn canceling_leaves_a_valid_part() {
     assert_eq!(result.unregistered.len(), 3);
     let (distance, _) = errors(&world, &result.components[0].cameras);
     assert!(distance < 1e-3, "{distance}");
-    let mut at_once = |_: &SfmProgress| ControlFlow::Break(());
+    let mut at_once = |_: &SfmStep| ControlFlow::Break(());
     let nothing =
         reconstruct(&world.input, &SfmOptions::default(), &mut at_once).expect("a result");
     assert!(nothing.canceled && nothing.components.is_empty());
+}
+
+#[test]
+fn progress_names_stages_and_shares_that_rise() {
+    let world = photograph(
+        arc(5, Point3::origin()),
+        &ball(120, Point3::origin(), 11),
+        Making::default(),
+        12,
+    );
+    let options = SfmOptions::default();
+    let mut told: Vec<Status> = Vec::new();
+    let mut watch = |status| {
+        told.push(status);
+        ControlFlow::Continue(())
+    };
+    let watched = reconstruct_with_progress(&world.input, &options, &mut watch);
+    assert_eq!(watched.expect("a result"), run(&world, &options));
+    assert!(told.is_sorted_by_key(|status| status.share));
+    assert!(told[told.len() - 1].share == 1.0);
+    for stage in [
+        Stage::PairVerification,
+        Stage::Registration,
+        Stage::BundleAdjustment,
+    ] {
+        assert!(told.iter().any(|status| status.stage == stage), "{stage:?}");
+    }
+    let mut stop = |status: Status| match status.stage {
+        Stage::PairVerification => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    };
+    let stopped = reconstruct_with_progress(&world.input, &options, &mut stop).expect("a part");
+    assert!(stopped.canceled && stopped.components[0].num_registered() == 2);
 }
 
 #[test]

@@ -8,6 +8,7 @@
 
 use epipole::Error;
 use epipole::math::random::Random;
+use epipole::progress::{Stage, Status};
 use epipole::stereo::{
     DisparityImage, StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm, fill_gaps,
 };
@@ -435,8 +436,9 @@ fn work_can_be_watched_and_stopped() {
             ..Default::default()
         };
         let mut shares = vec![];
-        let mut watch = |share| {
-            shares.push(share);
+        let mut watch = |status: Status| {
+            assert_eq!(status.stage, Stage::DenseMatching);
+            shares.push(status.share);
             ControlFlow::Continue(())
         };
         let watched = matcher

@@ -3,13 +3,12 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::interrupt;
 use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::optim::{LmOptions, RobustLoss, Termination};
+use epipole::progress::{Stage, Status};
 use epipole::sfm::{BalProblem, adjust_bal};
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -60,12 +59,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut history = Vec::new();
     let report = adjust_bal(&mut problem, &options, loss, &mut |iteration| {
         history.push((iteration.index, iteration.cost));
-        progress.set(iteration.index as f64 / arguments.max_iterations.max(1) as f64);
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        progress.show(Status {
+            stage: Stage::BundleAdjustment,
+            share: iteration.index as f32 / arguments.max_iterations.max(1) as f32,
+        })
     })?;
     drop(progress);
     if let Some(path) = &arguments.output {

@@ -8,10 +8,12 @@ use crate::failure::Failure;
 use crate::files;
 use crate::lens::{self, Model};
 use crate::matrices::{Motion, positive};
+use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::calibration::{
-    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate, calibrate_rig,
+    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate_rig,
+    calibrate_with_progress,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -133,7 +135,11 @@ impl Side {
         context: &Context,
     ) -> Result<Self, Failure> {
         let photographs = search(paths, board, context)?;
-        let found = calibrate(board, &photographs.views, photographs.size, options);
+        let progress = Progress::new(context, "calibration");
+        let (views, size) = (&photographs.views, photographs.size);
+        let mut watch = |status| progress.show(status);
+        let found = calibrate_with_progress(board, views, size, options, &mut watch);
+        drop(progress);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);
             // Why there are too few views is in those that failed.

@@ -11,9 +11,10 @@ use crate::progress::Progress;
 use crate::report::Report;
 use clap::Args;
 use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::progress::{Stage, Status};
 use epipole::sfm::{
     OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
-    SfmInput, SfmProgress, match_features, match_rectified, monocular_odometry, photo_features,
+    SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
     stereo_odometry,
 };
 use serde_json::json;
@@ -106,14 +107,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 impl Work<'_> {
-    /// Shows the share that is done, and says whether to go on.
-    fn watch(&self, share: f64) -> ControlFlow<()> {
-        self.progress.set(share);
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+    /// Shows how far the whole is, and says whether to go on.
+    fn watch(&self, stage: Stage, share: f64) -> ControlFlow<()> {
+        let share = share as f32;
+        self.progress.show(Status { stage, share })
     }
 
     /// The features of all pictures, one in memory at a time, and the intrinsics that they share.
@@ -146,7 +143,10 @@ impl Work<'_> {
             };
             features.push(photo_features(&photo, &self.options)?);
             let share = features.len() as f64 / paths.len() as f64;
-            if self.watch(DETECTED * share).is_break() {
+            if self
+                .watch(Stage::FeatureDetection, DETECTED * share)
+                .is_break()
+            {
                 return Err(epipole::Error::Canceled.into());
             }
         }
@@ -163,17 +163,28 @@ impl Work<'_> {
         intrinsics: Intrinsics,
     ) -> Result<OdometryResult, Failure> {
         let num_frames = left.len();
-        let mut observer = |step: &SfmProgress| {
-            let part = |from: f64, to: f64, done: usize, total: usize| {
-                self.watch(from + (to - from) * done as f64 / total.max(1) as f64)
+        let mut observer = |step: &SfmStep| {
+            let part = |stage, from: f64, to: f64, done: usize, total: usize| {
+                self.watch(
+                    stage,
+                    from + (to - from) * done as f64 / total.max(1) as f64,
+                )
             };
             let verified = (MATCHED + 1.0) / 2.0;
             match *step {
-                SfmProgress::Matched { done, total } => part(DETECTED, MATCHED, done, total),
-                SfmProgress::Verified { done, total } => part(MATCHED, verified, done, total),
-                SfmProgress::Registered { num_registered, .. } => {
-                    part(verified, 1.0, num_registered, num_frames)
+                SfmStep::Matched { done, total } => {
+                    part(Stage::FeatureMatching, DETECTED, MATCHED, done, total)
                 }
+                SfmStep::Verified { done, total } => {
+                    part(Stage::PairVerification, MATCHED, verified, done, total)
+                }
+                SfmStep::Registered { num_registered, .. } => part(
+                    Stage::Registration,
+                    verified,
+                    1.0,
+                    num_registered,
+                    num_frames,
+                ),
                 _ if interrupt::requested() => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }

@@ -4,12 +4,11 @@ use super::ba::termination;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::interrupt;
+use crate::progress::Progress;
 use crate::report::Report;
 use clap::Args;
 use epipole::optim::{LmOptions, RobustLoss};
 use epipole::sfm::PoseGraph;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 /// Optimize a pose graph.
@@ -30,7 +29,7 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
-pub(crate) fn run(arguments: &Arguments, _context: &Context) -> Result<Report, Failure> {
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let text = files::read_text(&arguments.graph)?;
     let parsed = PoseGraph::parse_g2o(&text);
     let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
@@ -38,13 +37,10 @@ pub(crate) fn run(arguments: &Arguments, _context: &Context) -> Result<Report, F
         max_iterations: arguments.max_iterations,
         ..LmOptions::default()
     };
-    let report = graph.optimize(&options, RobustLoss::Trivial, &mut |_| {
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    })?;
+    let progress = Progress::new(context, "pose graph");
+    let mut watch = |status| progress.show(status);
+    let report = graph.optimize_with_progress(&options, RobustLoss::Trivial, &mut watch)?;
+    drop(progress);
     if let Some(path) = &arguments.output {
         files::write(path, graph.to_g2o().as_bytes())?;
     }

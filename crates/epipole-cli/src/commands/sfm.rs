@@ -19,12 +19,11 @@ use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmProgress, SfmResult, reconstruct_photos,
-    why_unregistered,
+    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
+    reconstruct_photos_with_progress, why_unregistered,
 };
 use serde::Serialize;
 use serde_json::json;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Reconstruct cameras and points from photographs of one thing.
@@ -81,16 +80,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         best_first: options.ransac.sampler == SamplerKind::Prosac,
     };
     let progress = Progress::new(context, "structure from motion");
-    let observer = &mut |step: &SfmProgress| {
-        progress.set(share(step, photos.len()));
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    };
+    let watch = &mut |status| progress.show(status);
     let (input, result) =
-        reconstruct_photos(&photos, &intrinsics, &photo_options, &options, observer)?;
+        reconstruct_photos_with_progress(&photos, &intrinsics, &photo_options, &options, watch)?;
     drop(progress);
     let Some(largest) = result.components.first() else {
         if result.canceled {
@@ -210,22 +202,6 @@ fn unregistered(
         reason,
     });
     Ok(named.collect())
-}
-
-/// How far the whole is, judged by its longest parts.
-fn share(step: &SfmProgress, num_photos: usize) -> f64 {
-    let part = |from: f64, to: f64, done: usize, total: usize| {
-        from + (to - from) * done as f64 / total.max(1) as f64
-    };
-    match *step {
-        SfmProgress::Detected { done, total } => part(0.0, 0.3, done, total),
-        SfmProgress::Matched { done, total } => part(0.3, 0.6, done, total),
-        SfmProgress::Verified { done, total } => part(0.6, 0.7, done, total),
-        SfmProgress::Registered { num_registered, .. } => {
-            part(0.7, 1.0, num_registered, num_photos)
-        }
-        _ => 0.7,
-    }
 }
 
 fn write(

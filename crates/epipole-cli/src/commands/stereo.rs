@@ -3,7 +3,6 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::interrupt;
 use crate::matrices::positive;
 use crate::photo::Photo;
 use crate::progress::Progress;
@@ -11,7 +10,6 @@ use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, fill_gaps, point_cloud, q_from_rig};
 use image::GrayImage;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -104,14 +102,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
     }
     let progress = Progress::new(context, "stereo");
-    let mut watch = |share: f32| {
-        progress.set(f64::from(share));
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    };
+    let mut watch = |status| progress.show(status);
     let (min_disparity_px, num_disparities) = arguments.disparities()?;
     let mut disparity = match arguments.method {
         Method::Sgm => {

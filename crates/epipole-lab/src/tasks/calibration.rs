@@ -6,6 +6,7 @@ use epipole::calibration::{
     BoardView, CalibratedView, CalibrationWarning, calibrate_with_progress,
 };
 use epipole::camera::LensKind;
+use epipole::progress::Status;
 use nalgebra::Point2;
 
 /// Calibrates just as `epipole calibrate` does.
@@ -35,7 +36,7 @@ pub(super) fn calibration(
         },
         ..epipole::calibration::CalibrationOptions::default()
     };
-    let mut watch = |share| progress(Told::Share(share, "fitting the lens"));
+    let mut watch = |status: Status| progress(Told::Share(status.share, status.stage.words()));
     let found = calibrate_with_progress(&board, &views, size, &how, &mut watch);
     let found = found.map_err(|error| match error {
         epipole::Error::Canceled => "stopped".to_owned(),

@@ -4,6 +4,7 @@ use super::convert::{core_camera, to_image};
 use super::depth_size::{common_size, reduced_factor, span};
 use super::{CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Progress, Told};
 use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use epipole::progress::Status;
 use epipole::stereo::{
     DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoBm, StereoCamera,
     StereoSgm, rectify_calibrated,
@@ -201,7 +202,7 @@ fn matched(
     progress: Progress<'_>,
 ) -> Result<DisparityImage, epipole::Error> {
     let mut watch =
-        |share: f32| progress(Told::Share(0.1 + 0.85 * share, "matching along the rows"));
+        |status: Status| progress(Told::Share(0.1 + 0.85 * status.share, status.stage.words()));
     match options.method {
         DepthMethod::SemiGlobal => StereoSgm {
             min_disparity_px,

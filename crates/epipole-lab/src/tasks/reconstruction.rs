@@ -6,7 +6,7 @@ use super::{
     SfmOptions, Told,
 };
 use epipole::camera::Camera;
-use epipole::sfm::{PairMatches, Reconstruction, ScenePoint, SfmInput, SfmProgress};
+use epipole::sfm::{PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep};
 use std::cell::RefCell;
 
 /// Reconstructs just as `epipole sfm` does.
@@ -41,16 +41,16 @@ pub(super) fn reconstruct(
     };
     let progress = RefCell::new(progress);
     let mut costs = Vec::new();
-    let mut observer = |step: &SfmProgress| {
+    let mut observer = |step: &SfmStep| {
         let (share, words) = match step {
-            SfmProgress::Verified { done, total } => (
+            SfmStep::Verified { done, total } => (
                 0.3 * *done as f32 / (*total).max(1) as f32,
                 format!("{done} of {total} pairs checked"),
             ),
-            SfmProgress::Started { num_points, .. } => {
+            SfmStep::Started { num_points, .. } => {
                 (0.35, format!("started with two, {num_points} points"))
             }
-            SfmProgress::Registered {
+            SfmStep::Registered {
                 num_registered,
                 num_points,
                 ..
@@ -58,11 +58,11 @@ pub(super) fn reconstruct(
                 0.35 + 0.6 * *num_registered as f32 / images.len().max(1) as f32,
                 format!("{num_registered} photographs, {num_points} points"),
             ),
-            SfmProgress::Adjusted { cost } => {
+            SfmStep::Adjusted { cost } => {
                 costs.push(*cost);
                 return std::ops::ControlFlow::Continue(());
             }
-            SfmProgress::Detected { .. } | SfmProgress::Matched { .. } => {
+            SfmStep::Detected { .. } | SfmStep::Matched { .. } => {
                 return std::ops::ControlFlow::Continue(());
             }
         };

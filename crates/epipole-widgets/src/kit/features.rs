@@ -122,7 +122,9 @@ fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features
         ..SiftOptions::default()
     };
     let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
-    detect_sift_with_progress(&gray, &options, &mut |share| progress(f64::from(share)))
+    detect_sift_with_progress(&gray, &options, &mut |status| {
+        progress(f64::from(status.share))
+    })
 }
 
 fn cameras() -> [Camera; 2] {

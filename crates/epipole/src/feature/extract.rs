@@ -188,7 +188,8 @@ pub fn detect_features(image: &GrayImage32, options: &FeatureOptions) -> Result<
 
 /// [`detect_features`] that reports how far it is and can be stopped, where that takes long: for SIFT.
 ///
-/// * `progress`: hears of the share of the work that is done, and says whether to go on
+/// * `progress`: hears how far the one stage, [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection),
+///   is, and says whether to go on; ORB, which is quick, tells nothing
 ///
 /// # Errors
 /// As [`detect_features`], and [`Error::Canceled`] if `progress` said so.

@@ -1,77 +1,15 @@
 //! Bundle adjustment's normal equations: points are eliminated, the cameras' reduced system is
 //! solved densely.
-//!
-//! The file is long because the blocks of one linear system belong together.
+
+mod elimination;
+mod problem;
 
 use super::cholesky;
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
-use super::loss::RobustLoss;
 use super::parallel::{for_each, sum};
 
-/// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
-/// freedom), what all cameras share (`S`), and its point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObservationTerms<const C: usize, const S: usize> {
-    /// Predicted minus observed.
-    pub residual: [f64; 2],
-    /// ∂r/∂camera.
-    pub camera: [[f64; C]; 2],
-    /// ∂r/∂shared.
-    pub shared: [[f64; S]; 2],
-    /// ∂r/∂point.
-    pub point: [[f64; 3]; 2],
-}
-
-/// Steps of all blocks, as the Schur complement solves for them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BundleStep<const C: usize, const S: usize> {
-    /// One a camera.
-    pub cameras: Vec<[f64; C]>,
-    /// What all cameras share.
-    pub shared: [f64; S],
-    /// One a point.
-    pub points: Vec<[f64; 3]>,
-}
-
-/// A problem of cameras and points, where every residual has one of each.
-pub trait BundleProblem<const C: usize, const S: usize>: Sync {
-    /// Cameras, shared quantities and points.
-    type Parameters: Clone + Sync;
-
-    /// The number of cameras.
-    fn num_cameras(&self) -> usize;
-    /// The number of points.
-    fn num_points(&self) -> usize;
-    /// Camera and point of each observation; both must be in range.
-    fn observations(&self) -> &[(u32, u32)];
-    /// The residual of one observation.
-    fn residual(&self, parameters: &Self::Parameters, observation: usize) -> [f64; 2];
-    /// The residual of one observation with its Jacobians.
-    fn linearize(
-        &self,
-        parameters: &Self::Parameters,
-        observation: usize,
-    ) -> ObservationTerms<C, S>;
-    /// `from ⊞ step`.
-    fn step(&self, from: &Self::Parameters, step: &BundleStep<C, S>, into: &mut Self::Parameters);
-    /// The length of the parameters, for the relative step test.
-    fn parameter_norm(&self, parameters: &Self::Parameters) -> f64;
-    /// The loss of every residual.
-    fn loss(&self) -> RobustLoss;
-    /// Which degrees of freedom of a camera are held fixed.
-    fn held_camera(&self, _camera: usize) -> [bool; C] {
-        [false; C]
-    }
-    /// Which shared quantities are held fixed.
-    fn held_shared(&self) -> [bool; S] {
-        [false; S]
-    }
-    /// Whether a point is held fixed.
-    fn held_point(&self, _point: usize) -> bool {
-        false
-    }
-}
+pub use problem::{BundleProblem, BundleStep, ObservationTerms};
 
 #[derive(Clone)]
 struct CameraBlock<const C: usize, const S: usize> {
@@ -316,162 +254,6 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         });
     }
 
-    /// `V⁻¹` of every point, and what is multiplied by it.
-    fn invert_point_blocks(&mut self, damping: f64) {
-        for_each(&mut self.points, |_, block| {
-            let mut damped = block.hessian;
-            for i in 0..3 {
-                damped[i][i] = damp(damped[i][i], damping);
-            }
-            // A point whose block is singular even when damped stays where it is.
-            block.inverse = invert_symmetric(&damped).unwrap_or([[0.0; 3]; 3]);
-            for i in 0..3 {
-                block.solved_gradient[i] = 0.0;
-                block.solved_shared[i] = [0.0; S];
-                for k in 0..3 {
-                    block.solved_gradient[i] += block.inverse[i][k] * block.gradient[k];
-                    for s in 0..S {
-                        block.solved_shared[i][s] += block.inverse[i][k] * block.with_shared[k][s];
-                    }
-                }
-            }
-        });
-        let points = &self.points;
-        for_each(&mut self.couplings, |_, coupling| {
-            let inverse = &points[coupling.point as usize].inverse;
-            for k in 0..3 {
-                for c in 0..C {
-                    coupling.solved[k][c] = inverse[k][0] * coupling.cross[0][c]
-                        + inverse[k][1] * coupling.cross[1][c]
-                        + inverse[k][2] * coupling.cross[2][c];
-                }
-            }
-        });
-    }
-
-    /// `U − W V⁻¹ Wᵀ` and its right side, camera by camera.
-    fn reduce(&mut self, damping: f64) {
-        let (couplings, points, starts, of_camera) = (
-            &self.couplings,
-            &self.points,
-            &self.point_starts,
-            &self.camera_couplings,
-        );
-        for_each(&mut self.cameras, |c, block| {
-            let width = (c + 1) * C;
-            block.rows.fill(0.0);
-            for i in 0..C {
-                block.rows[i * width + c * C..(i + 1) * width].copy_from_slice(&block.hessian[i]);
-                block.rows[i * width + c * C + i] = damp(block.hessian[i][i], damping);
-            }
-            block.reduced_with_shared = block.with_shared;
-            block.reduced_gradient = block.gradient;
-            for &position in &of_camera[c] {
-                let coupling = &couplings[position as usize];
-                let p = coupling.point as usize;
-                let point = &points[p];
-                for k in 0..3 {
-                    for i in 0..C {
-                        block.reduced_gradient[i] -= coupling.solved[k][i] * point.gradient[k];
-                    }
-                    for s in 0..S {
-                        for i in 0..C {
-                            block.reduced_with_shared[s][i] -=
-                                point.with_shared[k][s] * coupling.solved[k][i];
-                        }
-                    }
-                }
-                for other in &couplings[starts[p]..starts[p + 1]] {
-                    let column = other.camera as usize * C;
-                    if column >= width {
-                        continue;
-                    }
-                    for i in 0..C {
-                        let target: &mut [f64; C] = (&mut block.rows
-                            [i * width + column..i * width + column + C])
-                            .try_into()
-                            .expect("a slice of C numbers");
-                        let (x, y, z) = (
-                            coupling.solved[0][i],
-                            coupling.solved[1][i],
-                            coupling.solved[2][i],
-                        );
-                        for j in 0..C {
-                            target[j] -= x * other.cross[0][j]
-                                + y * other.cross[1][j]
-                                + z * other.cross[2][j];
-                        }
-                    }
-                }
-            }
-        });
-        let num_cameras = self.cameras.len();
-        let size = num_cameras * C + S;
-        for (c, block) in self.cameras.iter().enumerate() {
-            let width = (c + 1) * C;
-            for i in 0..C {
-                let row = (c * C + i) * size;
-                self.reduced[row..row + width]
-                    .copy_from_slice(&block.rows[i * width..(i + 1) * width]);
-                self.right[c * C + i] = -block.reduced_gradient[i];
-            }
-            for s in 0..S {
-                let row = (num_cameras * C + s) * size + c * C;
-                self.reduced[row..row + C].copy_from_slice(&block.reduced_with_shared[s]);
-            }
-        }
-        for s in 0..S {
-            let row = num_cameras * C + s;
-            let mut gradient = self.shared_gradient[s];
-            let mut hessian = self.shared_hessian[s];
-            hessian[s] = damp(hessian[s], damping);
-            for point in &self.points {
-                for k in 0..3 {
-                    gradient -= point.with_shared[k][s] * point.solved_gradient[k];
-                    for q in 0..S {
-                        hessian[q] -= point.with_shared[k][s] * point.solved_shared[k][q];
-                    }
-                }
-            }
-            self.right[row] = -gradient;
-            self.reduced[row * size + num_cameras * C..(row + 1) * size].copy_from_slice(&hessian);
-        }
-    }
-
-    fn substitute_back(&mut self) {
-        for (c, delta) in self.delta.cameras.iter_mut().enumerate() {
-            delta.copy_from_slice(&self.right[c * C..(c + 1) * C]);
-        }
-        let shared_start = self.cameras.len() * C;
-        self.delta
-            .shared
-            .copy_from_slice(&self.right[shared_start..]);
-        let (couplings, points, starts) = (&self.couplings, &self.points, &self.point_starts);
-        let (cameras, shared) = (&self.delta.cameras, &self.delta.shared);
-        for_each(&mut self.delta.points, |p, delta| {
-            let block = &points[p];
-            let mut right = block.gradient;
-            for coupling in &couplings[starts[p]..starts[p + 1]] {
-                let camera = &cameras[coupling.camera as usize];
-                for k in 0..3 {
-                    for c in 0..C {
-                        right[k] += coupling.cross[k][c] * camera[c];
-                    }
-                }
-            }
-            for k in 0..3 {
-                for s in 0..S {
-                    right[k] += block.with_shared[k][s] * shared[s];
-                }
-            }
-            for i in 0..3 {
-                delta[i] = -(block.inverse[i][0] * right[0]
-                    + block.inverse[i][1] * right[1]
-                    + block.inverse[i][2] * right[2]);
-            }
-        });
-    }
-
     /// Predicted decrease and squared length of the step.
     fn measure(&self, damping: f64) -> (f64, f64) {
         let (mut predicted, mut norm_sq) = (0.0, 0.0);
@@ -500,47 +282,6 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         }
         (0.5 * predicted, norm_sq)
     }
-}
-
-/// A diagonal entry with its damping; 1 where nothing depends on the parameter, so that it stays.
-#[inline]
-fn damp(curvature: f64, damping: f64) -> f64 {
-    if curvature > 0.0 {
-        curvature + damping * damping_scale(curvature)
-    } else {
-        1.0
-    }
-}
-
-/// The inverse of a symmetric positive definite 3×3 matrix, `None` if it is not one.
-fn invert_symmetric(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    // Scaled to a unit diagonal, so that the test for singularity does not depend on units.
-    let mut scale = [0.0; 3];
-    for i in 0..3 {
-        scale[i] = 1.0 / m[i][i].sqrt();
-    }
-    let a = m[1][0] * scale[1] * scale[0];
-    let b = m[2][0] * scale[2] * scale[0];
-    let c = m[2][1] * scale[2] * scale[1];
-    let cofactor = [
-        [1.0 - c * c, b * c - a, a * c - b],
-        [b * c - a, 1.0 - b * b, a * b - c],
-        [a * c - b, a * b - c, 1.0 - a * a],
-    ];
-    let determinant = cofactor[0][0] + a * cofactor[0][1] + b * cofactor[0][2];
-    if !(determinant > 1e-15 && determinant.is_finite()) {
-        return None;
-    }
-    let mut inverse = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            inverse[i][j] = cofactor[i][j] / determinant * scale[i] * scale[j];
-            if !inverse[i][j].is_finite() {
-                return None;
-            }
-        }
-    }
-    Some(inverse)
 }
 
 impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSystem<'_, C, S, B> {

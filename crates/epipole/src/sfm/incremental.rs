@@ -3,9 +3,11 @@
 use super::builder::{Builder, undistorted};
 use super::bundle::RadialDistortion;
 use super::reconstruction::{Reconstruction, SfmImage};
+use super::shares::{Begin, Shares};
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
 use crate::camera::Intrinsics;
+use crate::progress::Progress;
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
 use crate::{Error, Result};
@@ -67,9 +69,9 @@ impl Default for SfmOptions {
     }
 }
 
-/// How far the work is.
+/// One step of structure from motion.
 #[derive(Debug, Clone, PartialEq)]
-pub enum SfmProgress {
+pub enum SfmStep {
     /// Features of a photograph were found.
     Detected {
         /// Photographs done.
@@ -125,8 +127,8 @@ pub struct SfmResult {
     pub canceled: bool,
 }
 
-/// Hears of progress and says whether to go on.
-pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmProgress) -> ControlFlow<()>;
+/// Hears of every step and says whether to go on.
+pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmStep) -> ControlFlow<()>;
 
 /// Sees cameras and points while they become more.
 pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction);
@@ -140,8 +142,8 @@ pub(super) struct Reporter<'a> {
 
 impl Reporter<'_> {
     /// Whether to go on.
-    pub(super) fn tell(&mut self, progress: &SfmProgress) -> bool {
-        if !self.canceled && (self.observer)(progress).is_break() {
+    pub(super) fn tell(&mut self, step: &SfmStep) -> bool {
+        if !self.canceled && (self.observer)(step).is_break() {
             self.canceled = true;
         }
         !self.canceled
@@ -251,6 +253,37 @@ pub fn reconstruct(
         canceled: false,
     };
     reconstruct_telling(input, options, reporter)
+}
+
+/// As [`reconstruct`], with the same result, telling `progress` how far it is.
+///
+/// Its stages are [`Stage::PairVerification`](crate::progress::Stage::PairVerification), then by turns
+/// [`Stage::Registration`](crate::progress::Stage::Registration) and
+/// [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment). Whoever breaks gets what there is so far,
+/// as [`SfmResult::canceled`] says.
+///
+/// # Errors
+/// As [`reconstruct`].
+///
+/// Source: as [`reconstruct`].
+///
+/// ```
+/// use epipole::sfm::{SfmInput, SfmOptions, reconstruct_with_progress};
+/// use std::ops::ControlFlow;
+/// let mut show = |status: epipole::progress::Status| {
+///     println!("{}, {:.0} %", status.stage.words(), 100.0 * status.share);
+///     ControlFlow::Continue(())
+/// };
+/// let nothing = SfmInput::default();
+/// assert!(reconstruct_with_progress(&nothing, &SfmOptions::default(), &mut show).is_err());
+/// ```
+pub fn reconstruct_with_progress(
+    input: &SfmInput,
+    options: &SfmOptions,
+    progress: Progress<'_>,
+) -> Result<SfmResult> {
+    let mut shares = Shares::new(progress, Begin::Matches, input.images.len());
+    reconstruct(input, options, &mut |step| shares.tell(step))
 }
 
 /// As [`reconstruct`], with the same result, showing `watcher` what there is after the first two images and after
@@ -397,7 +430,7 @@ pub(super) fn verify(
         });
         verified.extend(found.into_iter().flatten());
         let done = (group * 8 + pairs.len()).min(total);
-        if !reporter.tell(&SfmProgress::Verified { done, total }) {
+        if !reporter.tell(&SfmStep::Verified { done, total }) {
             break;
         }
     }

@@ -25,6 +25,7 @@ mod odometry;
 mod photos;
 mod pose_graph;
 mod reconstruction;
+mod shares;
 mod tokens;
 mod tracks;
 mod triangulate_track;
@@ -37,14 +38,15 @@ pub use alignment::{
     AlignmentKind, ErrorStatistics, RelativePoseError, absolute_trajectory_error, align_points,
     relative_pose_error,
 };
-pub use bal::{BalCamera, BalProblem, adjust_bal};
+pub use bal::{BalCamera, BalProblem, adjust_bal, adjust_bal_with_progress};
 pub use bundle::{
     Bundle, BundleOptions, Gauge, Observation, RadialDistortion, Sensor, adjust_bundle,
+    adjust_bundle_with_progress,
 };
 pub use export::ColmapModel;
 pub use incremental::{
-    SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, SfmWatcher, reconstruct,
-    reconstruct_verified, reconstruct_watched,
+    SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, SfmWatcher, reconstruct,
+    reconstruct_verified, reconstruct_watched, reconstruct_with_progress,
 };
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
@@ -54,7 +56,7 @@ pub use odometry::{
 };
 pub use photos::{
     Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
-    photo_features, reconstruct_photos,
+    photo_features, reconstruct_photos, reconstruct_photos_with_progress,
 };
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};

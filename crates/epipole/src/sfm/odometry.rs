@@ -2,7 +2,7 @@
 
 use super::builder::{Builder, undistorted};
 use super::bundle::{RadialDistortion, Sensor};
-use super::incremental::{Reporter, SfmInput, SfmObserver, SfmOptions, SfmProgress, check, verify};
+use super::incremental::{Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, verify};
 use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
@@ -250,9 +250,9 @@ fn follow(
         builder.filter();
         builder.complete();
         if let Some(cost) = cost {
-            reporter.tell(&SfmProgress::Adjusted { cost });
+            reporter.tell(&SfmStep::Adjusted { cost });
         }
-        reporter.tell(&SfmProgress::Registered {
+        reporter.tell(&SfmStep::Registered {
             image: frame,
             num_registered: (0..num_frames)
                 .filter(|&f| builder.cameras[f].is_some())
@@ -337,6 +337,6 @@ fn result_of(builder: Builder<'_>, num_frames: usize, canceled: bool) -> Odometr
 /// assert!(too_few.is_err());
 /// # Ok(()) }
 /// ```
-pub fn keep_going(_: &SfmProgress) -> ControlFlow<()> {
+pub fn keep_going(_: &SfmStep) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }

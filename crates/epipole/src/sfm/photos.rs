@@ -1,13 +1,15 @@
 //! The whole way from photographs to a reconstruction.
 
-use super::incremental::{SfmInput, SfmObserver, SfmOptions, SfmProgress, SfmResult, reconstruct};
+use super::incremental::{SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, reconstruct};
 use super::reconstruction::SfmImage;
+use super::shares::{Begin, Shares};
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
     AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
     match_any_descriptors, photo_to_gray,
 };
+use crate::progress::Progress;
 use crate::{Error, Result};
 use image::RgbImage;
 
@@ -102,11 +104,11 @@ pub fn match_features(
                 image2,
                 matches: match_pair(&features[image1], &features[image2], options)?,
             });
-            let progress = SfmProgress::Matched {
+            let step = SfmStep::Matched {
                 done: pairs.len(),
                 total,
             };
-            if observer(&progress).is_break() {
+            if observer(&step).is_break() {
                 return Ok(None);
             }
         }
@@ -179,11 +181,11 @@ pub fn match_photos(
     let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
         features.push(photo_features(photo, options)?);
-        let progress = SfmProgress::Detected {
+        let step = SfmStep::Detected {
             done: index + 1,
             total: photos.len(),
         };
-        if observer(&progress).is_break() {
+        if observer(&step).is_break() {
             return Ok((images(features), None));
         }
     }
@@ -240,4 +242,28 @@ pub fn reconstruct_photos(
     }
     let result = reconstruct(&input, options, observer)?;
     Ok((input, result))
+}
+
+/// As [`reconstruct_photos`], with the same result, telling `progress` how far it is.
+///
+/// Its stages are [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection),
+/// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching), and those of
+/// [`reconstruct_with_progress`](super::reconstruct_with_progress). Whoever breaks gets what there is so far, as
+/// [`SfmResult::canceled`] says.
+///
+/// # Errors
+/// As [`reconstruct_photos`].
+///
+/// Source: as [`reconstruct`].
+pub fn reconstruct_photos_with_progress(
+    photos: &[Photo],
+    intrinsics: &[Intrinsics],
+    photo_options: &PhotoOptions,
+    options: &SfmOptions,
+    progress: Progress<'_>,
+) -> Result<(SfmInput, SfmResult)> {
+    let mut shares = Shares::new(progress, Begin::Photos, photos.len());
+    reconstruct_photos(photos, intrinsics, photo_options, options, &mut |step| {
+        shares.tell(step)
+    })
 }

@@ -115,7 +115,8 @@ impl StereoBm {
         self.compute(&left, &right)
     }
 
-    /// As [`StereoBm::compute`], telling `progress` the share done, and stopping when it says so.
+    /// As [`StereoBm::compute`], telling `progress` how far the one stage,
+    /// [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching), is, and stopping when it says so.
     ///
     /// # Errors
     /// As [`StereoBm::compute`], and [`Error::Canceled`].

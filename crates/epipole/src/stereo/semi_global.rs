@@ -138,7 +138,8 @@ impl StereoSgm {
         self.compute(&left, &right)
     }
 
-    /// As [`StereoSgm::compute`], telling `progress` the share done, and stopping when it says so.
+    /// As [`StereoSgm::compute`], telling `progress` how far the one stage,
+    /// [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching), is, and stopping when it says so.
     ///
     /// # Errors
     /// As [`StereoSgm::compute`], and [`Error::Canceled`].

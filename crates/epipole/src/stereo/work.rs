@@ -1,6 +1,6 @@
 //! Dividing work between threads, telling how far it is, and stopping it.
 
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,7 +22,8 @@ impl Reporter<'_> {
         if let (Some(callback), true) = (&mut self.callback, done.is_multiple_of(8)) {
             let part = done as f32 / all.max(1) as f32;
             let share = self.shares.start + (self.shares.end - self.shares.start) * part;
-            if callback(share).is_break() {
+            let stage = Stage::DenseMatching;
+            if callback(Status { stage, share }).is_break() {
                 self.canceled.store(true, Ordering::Relaxed);
             }
         }

@@ -3,17 +3,21 @@
 //! Nothing in a scene moves its light, so shadows and the shade near contacts are computed once,
 //! for the first photograph, and a pixel only looks them up.
 
+mod baking;
+mod maps;
+mod proxy;
+
 use super::body::{Body, Placement};
-use super::noise::split;
 use super::shading::single;
-use super::shape::{Ray, Shape};
-use nalgebra::{Matrix3, Vector3};
+use super::shape::Ray;
+use nalgebra::Vector3;
+
+pub(crate) use baking::{Baking, Detail, Shading};
+pub(crate) use maps::{Decal, LightMap};
+pub(crate) use proxy::Proxy;
 
 /// Offset that lifts a surface point off its own surface, metres.
 const LIFT_M: f64 = 2e-4;
-
-/// Cells along each side of the shade of a movable thing.
-const DECAL_CELLS: usize = 96;
 
 /// Heights above a surface at which the room's openness is probed, metres, and their weights.
 const PROBES: [(f64, f32); 5] = [
@@ -99,112 +103,6 @@ impl Lighting {
             }
         }
         color
-    }
-}
-
-/// A simple body for the shade near contacts, with a cheap distance.
-#[derive(Debug, Clone)]
-pub(crate) enum Proxy {
-    Box {
-        center: Vector3<f64>,
-        local_from_world: Matrix3<f64>,
-        half: Vector3<f64>,
-    },
-    Ball {
-        center: Vector3<f64>,
-        radius: f64,
-    },
-    /// An upright cylinder, `center` in its middle.
-    Post {
-        center: Vector3<f64>,
-        radius: f64,
-        half_height: f64,
-    },
-    Room {
-        center: Vector3<f64>,
-        half: Vector3<f64>,
-    },
-}
-
-impl Proxy {
-    pub(crate) fn moved(&self, by: &Vector3<f64>) -> Self {
-        let mut moved = self.clone();
-        match &mut moved {
-            Self::Box { center, .. }
-            | Self::Ball { center, .. }
-            | Self::Post { center, .. }
-            | Self::Room { center, .. } => *center += by,
-        }
-        moved
-    }
-
-    fn distance(&self, p: &Vector3<f64>) -> f64 {
-        match self {
-            Self::Box {
-                center,
-                local_from_world,
-                half,
-            } => {
-                let q = (local_from_world * (p - center)).abs() - half;
-                let outside = q.map(|x| x.max(0.0)).norm();
-                outside + q.max().min(0.0)
-            }
-            Self::Ball { center, radius } => (p - center).norm() - radius,
-            Self::Post {
-                center,
-                radius,
-                half_height,
-            } => {
-                let d = p - center;
-                let side = (d.x * d.x + d.z * d.z).sqrt() - radius;
-                let end = d.y.abs() - half_height;
-                let (a, b) = (side.max(0.0), end.max(0.0));
-                (a * a + b * b).sqrt() + side.max(end).min(0.0)
-            }
-            Self::Room { center, half } => (half - (p - center).abs()).min(),
-        }
-    }
-}
-
-/// Light on a chart: red, green, blue, and the part of the window that is seen.
-#[derive(Debug, Clone)]
-pub(crate) struct LightMap {
-    width: usize,
-    height: usize,
-    wraps: bool,
-    cells: Vec<[f32; 4]>,
-}
-
-impl LightMap {
-    /// Light at chart coordinates (s, t), between the centers of four cells.
-    #[inline]
-    pub(crate) fn sample(&self, s: f32, t: f32) -> [f32; 4] {
-        let (x, fx) = split(s * self.width as f32 - 0.5);
-        let (y, fy) = split(t * self.height as f32 - 0.5);
-        let (w, h) = (self.width as i32, self.height as i32);
-        let (x0, x1) = if self.wraps {
-            (
-                if x < 0 { w - 1 } else { x.min(w - 1) },
-                if x + 1 >= w { 0 } else { x + 1 },
-            )
-        } else {
-            (x.clamp(0, w - 1), (x + 1).clamp(0, w - 1))
-        };
-        let (y0, y1) = (y.clamp(0, h - 1), (y + 1).clamp(0, h - 1));
-        let cell = |x: i32, y: i32| self.cells[(y * w + x) as usize];
-        let (a, b, c, d) = (cell(x0, y0), cell(x1, y0), cell(x0, y1), cell(x1, y1));
-        let mut light = [0.0; 4];
-        for i in 0..4 {
-            let upper = a[i] + (b[i] - a[i]) * fx;
-            let lower = c[i] + (d[i] - c[i]) * fx;
-            light[i] = upper + (lower - upper) * fy;
-        }
-        light
-    }
-
-    #[cfg(test)]
-    pub(crate) fn bytes(&self) -> usize {
-        16 * self.cells.len()
     }
 }
 
@@ -399,140 +297,5 @@ impl<'a> Shade<'a> {
         let up = Vector3::new(0.0, -1.0, 0.0);
         let (_, seen) = self.window(usize::MAX, ground, &p, &up);
         [seen as f32, self.openness(usize::MAX, &p, &up)]
-    }
-}
-
-/// The shade that a movable thing throws on the table, carried along with it.
-#[derive(Debug)]
-pub(crate) struct Decal {
-    cells: usize,
-    side_m: f64,
-    factors: Vec<[f32; 2]>,
-}
-
-impl Decal {
-    /// Factors for window and soft light at a place relative to the thing's foot; `None` outside.
-    pub(crate) fn sample(&self, x_m: f64, z_m: f64) -> Option<[f32; 2]> {
-        let n = self.cells as f64;
-        let (x, z) = (
-            (x_m / self.side_m + 0.5) * n - 0.5,
-            (z_m / self.side_m + 0.5) * n - 0.5,
-        );
-        if !(x >= 0.0 && z >= 0.0 && x < n - 1.0 && z < n - 1.0) {
-            return None;
-        }
-        let (x0, fx) = split(x as f32);
-        let (z0, fz) = split(z as f32);
-        let at = |dx: usize, dz: usize| {
-            let x = (x0 as usize + dx).min(self.cells - 1);
-            let z = (z0 as usize + dz).min(self.cells - 1);
-            self.factors[z * self.cells + x]
-        };
-        let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
-        Some([0, 1].map(|i| {
-            let upper = a[i] + (b[i] - a[i]) * fx;
-            let lower = c[i] + (d[i] - c[i]) * fx;
-            upper + (lower - upper) * fz
-        }))
-    }
-}
-
-/// How finely light is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Detail {
-    /// Every cell.
-    Full,
-    /// For drafts: a sixteenth of the cells.
-    Sketch,
-}
-
-impl Detail {
-    fn side(self, cells: usize) -> usize {
-        match self {
-            Self::Full => cells,
-            Self::Sketch => cells.div_ceil(4),
-        }
-    }
-}
-
-/// Light maps as far as they are computed: one per body and chart.
-#[derive(Debug, Default)]
-pub(crate) struct Baking {
-    maps: Vec<Vec<LightMap>>,
-    cells: Vec<[f32; 4]>,
-}
-
-impl Baking {
-    /// Computes so many cells more, and counts them off; all maps once none is missing.
-    pub(crate) fn advance(
-        &mut self,
-        bodies: &[&Body],
-        lighting: &Lighting,
-        detail: Detail,
-        num_cells: &mut usize,
-    ) -> Option<Vec<Vec<LightMap>>> {
-        let shade = Shade::new(bodies, lighting);
-        for index in self.maps.len().saturating_sub(1)..bodies.len() {
-            let body = bodies[index];
-            if self.maps.len() == index {
-                self.maps.push(Vec::new());
-            }
-            for chart in self.maps[index].len()..body.paints.len() {
-                let size = body.paints[chart].light_cells.map(|side| detail.side(side));
-                while self.cells.len() < size[0] * size[1] {
-                    *num_cells = num_cells.checked_sub(1)?;
-                    let next = self.cells.len();
-                    self.cells
-                        .push(shade.cell((index, body, chart), size, next));
-                }
-                self.maps[index].push(LightMap {
-                    width: size[0],
-                    height: size[1],
-                    wraps: !matches!(body.shape, Shape::Cuboid(_)),
-                    cells: std::mem::take(&mut self.cells),
-                });
-            }
-        }
-        Some(std::mem::take(&mut self.maps))
-    }
-}
-
-/// The shade of a movable thing as far as it is computed.
-#[derive(Debug, Default)]
-pub(crate) struct Shading {
-    factors: Vec<[f32; 2]>,
-}
-
-impl Shading {
-    /// Computes so many cells more of the shade on a square of `side_m` around the origin of the
-    /// plane y = 0, and counts them off; the shade once none is missing.
-    pub(crate) fn advance(
-        &mut self,
-        bodies: &[&Body],
-        lighting: &Lighting,
-        (detail, side_m, ground): (Detail, f64, &Body),
-        num_cells: &mut usize,
-    ) -> Option<Decal> {
-        let shade = Shade::new(bodies, lighting);
-        let cells = detail.side(DECAL_CELLS);
-        // The edge of the square must not show.
-        let rim = |i: usize| {
-            let share = DECAL_CELLS as f32 / cells as f32;
-            (i.min(cells - 1 - i) as f32 * share / 3.0).min(1.0)
-        };
-        while self.factors.len() < cells * cells {
-            *num_cells = num_cells.checked_sub(1)?;
-            let (x, y) = (self.factors.len() % cells, self.factors.len() / cells);
-            let at = |i: usize| ((i as f64 + 0.5) / cells as f64 - 0.5) * side_m;
-            let fade = rim(x).min(rim(y));
-            let darker = shade.darker(at(x), at(y), ground);
-            self.factors
-                .push(darker.map(|factor| 1.0 - (1.0 - factor) * fade));
-        }
-        Some(Decal {
-            cells,
-            side_m,
-            factors: std::mem::take(&mut self.factors),
-        })
     }
 }

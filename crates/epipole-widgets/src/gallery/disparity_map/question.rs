@@ -10,7 +10,6 @@ use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, depth_from_disparity}
 use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
 use image::GrayImage;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 
 /// Size of the photographs, pixels.
 pub(super) const SIZE: (u32, u32) = (320, 240);
@@ -112,8 +111,8 @@ impl question::Question for Question {
         let right = scene.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
         tell(progress, 0.6)?;
         let gray = |photo: &Photograph| rgb_to_gray(&photo.image);
-        let found = self.search(&gray(&left), &gray(&right), &mut |share| {
-            progress(0.6 + 0.4 * f64::from(share))
+        let found = self.search(&gray(&left), &gray(&right), &mut |status| {
+            progress(0.6 + 0.4 * f64::from(status.share))
         })?;
         let truth = self.true_disparity(&left);
         let hidden = hidden(&truth.0, &self.true_disparity(&right).0);
@@ -144,7 +143,7 @@ impl Question {
         &self,
         left: &GrayImage,
         right: &GrayImage,
-        progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+        progress: epipole::progress::Progress<'_>,
     ) -> Result<DisparityImage, Error> {
         match self.method {
             Method::Blocks(window_px) => {

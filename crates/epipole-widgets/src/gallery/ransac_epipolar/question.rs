@@ -135,7 +135,7 @@ fn find_matches(
         &first.descriptors,
         &second.descriptors,
         &any_ratio,
-        &mut |share| progress(f64::from(share)),
+        &mut |status| progress(f64::from(status.share)),
     )?;
     let mut matches: Vec<Match> = Vec::with_capacity(found.len());
     for found in &found {

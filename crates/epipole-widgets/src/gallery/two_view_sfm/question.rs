@@ -283,7 +283,7 @@ fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error
     detect_sift_with_progress(
         &photo_to_gray(picture.image()),
         &options.sift(width, height),
-        &mut |share| progress(f64::from(share)),
+        &mut |status| progress(f64::from(status.share)),
     )
 }
 

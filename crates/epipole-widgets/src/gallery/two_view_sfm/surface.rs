@@ -74,7 +74,9 @@ pub(super) fn surface(
         ..StereoSgm::default()
     };
     let found = redrawn.disparity(|first, second| {
-        matcher.compute_with_progress(first, second, &mut |share| progress(f64::from(share)))
+        matcher.compute_with_progress(first, second, &mut |status| {
+            progress(f64::from(status.share))
+        })
     })?;
     // Every other pixel of every other row, and then those between.
     let part = |is_coarse: bool| -> Result<PointCloud, Error> {

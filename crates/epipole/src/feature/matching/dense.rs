@@ -7,10 +7,10 @@ use super::floats::Floats;
 use super::integers::Integers;
 use super::{Descriptors, Found, Neighbors, parallel};
 use crate::feature::descriptors::Values;
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 use std::borrow::Cow;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Descriptors of the first list that share a walk over the second.
 const ROWS: usize = 64;
@@ -29,9 +29,7 @@ pub(super) fn search(
             second: second.dimension(),
         });
     }
-    if progress(0.0).is_break() {
-        return Err(Error::Canceled);
-    }
+    tell(progress, 0.0)?;
     if first.is_empty() || second.is_empty() {
         return Ok(Found {
             rows: Vec::new(),
@@ -48,6 +46,14 @@ pub(super) fn search(
     let second = Floats::new(second.to_floats(), n);
     let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
     gather(first.len(), second.count(), scan, progress)
+}
+
+fn tell(progress: Progress<'_>, share: f32) -> Result<()> {
+    let stage = Stage::FeatureMatching;
+    match progress(Status { stage, share }) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Canceled),
+    }
 }
 
 /// What a walk over the second list found for a piece of the first.
@@ -96,9 +102,7 @@ fn gather<D: Distance>(
                 }
             }
         }
-        if progress(group.end as f32 / num_rows as f32).is_break() {
-            return Err(Error::Canceled);
-        }
+        tell(progress, group.end as f32 / num_rows as f32)?;
     }
     Ok(Found {
         rows,

@@ -170,7 +170,8 @@ pub fn match_descriptors(
 
 /// [`match_descriptors`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: hears of the share of the work that is done, and says whether to go on
+/// * `progress`: hears how far the one stage, [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching),
+///   is, and says whether to go on
 ///
 /// # Errors
 /// As [`match_descriptors`], and [`Error::Canceled`] if `progress` said so.

@@ -11,7 +11,7 @@ use super::keypoint::Keypoint;
 use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 pub use describe::{describe_sift, sift_directions};
 use descriptor::Samples;
@@ -126,7 +126,7 @@ pub fn detect_sift(image: &GrayImage32, options: &SiftOptions) -> Result<Feature
 
 /// [`detect_sift`] that reports how far it is and can be stopped.
 ///
-/// * `progress`: hears of the share of the work that is done, and says whether to go on
+/// * `progress`: hears how far the one stage, [`Stage::FeatureDetection`], is, and says whether to go on
 ///
 /// # Errors
 /// As [`detect_sift`], and [`Error::Canceled`] if `progress` said so.
@@ -146,9 +146,13 @@ pub fn detect_sift_with_progress(
 ) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
-    let mut tell = |share: f64| match progress(share.min(1.0) as f32) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Canceled),
+    let mut tell = |share: f64| {
+        let stage = Stage::FeatureDetection;
+        let share = share.min(1.0) as f32;
+        match progress(Status { stage, share }) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Canceled),
+        }
     };
     tell(0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();

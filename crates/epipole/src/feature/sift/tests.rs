@@ -199,8 +199,9 @@ fn bad_pixels_and_options_are_refused() {
 fn progress_rises_and_can_stop_the_work() {
     let image = blobs(160, 120);
     let mut shares = Vec::new();
-    let all = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |share| {
-        shares.push(share);
+    let all = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |status| {
+        assert_eq!(status.stage, Stage::FeatureDetection);
+        shares.push(status.share);
         ControlFlow::Continue(())
     });
     assert!(shares.len() > 4 && shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));

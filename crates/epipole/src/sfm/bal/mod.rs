@@ -4,8 +4,10 @@ mod problem;
 mod text;
 
 use super::bundle::{Observation, observation_pairs};
+use super::shares::iterations;
 use crate::Result;
 use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
+use crate::progress::{Progress, Stage};
 use nalgebra::{Point3, Vector3};
 use problem::{Problem, State};
 use std::ops::ControlFlow;
@@ -112,6 +114,25 @@ pub fn adjust_bal(
     }
     problem.points = state.points;
     Ok(report)
+}
+
+/// As [`adjust_bal`], with the same result, telling `progress` what share of the steps that there may be at most
+/// is done, in the one stage [`Stage::BundleAdjustment`].
+///
+/// Whoever breaks gets the best problem found so far, as [`LmReport::termination`] says.
+///
+/// # Errors
+/// As [`adjust_bal`].
+///
+/// Source: as [`adjust_bal`].
+pub fn adjust_bal_with_progress(
+    problem: &mut BalProblem,
+    options: &LmOptions,
+    loss: RobustLoss,
+    progress: Progress<'_>,
+) -> Result<LmReport> {
+    let mut tell = iterations(progress, Stage::BundleAdjustment, options);
+    adjust_bal(problem, options, loss, &mut tell)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ mod adjust;
 mod points;
 
 use super::bundle::{RadialDistortion, Sensor};
-use super::incremental::{Reporter, SfmOptions, SfmProgress};
+use super::incremental::{Reporter, SfmOptions, SfmStep};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
@@ -133,7 +133,7 @@ impl Builder<'_> {
                 tried[n] = true;
                 if self.start_from(&verified[n]) {
                     let pair = &verified[n].pair;
-                    reporter.tell(&SfmProgress::Started {
+                    reporter.tell(&SfmStep::Started {
                         images: [pair.image1, pair.image2],
                         num_points: self.num_points(),
                     });
@@ -203,9 +203,9 @@ impl Builder<'_> {
                 self.triangulate();
             }
             if let Some(cost) = cost {
-                reporter.tell(&SfmProgress::Adjusted { cost });
+                reporter.tell(&SfmStep::Adjusted { cost });
             }
-            reporter.tell(&SfmProgress::Registered {
+            reporter.tell(&SfmStep::Registered {
                 image,
                 num_registered: self.num_registered(),
                 num_points: self.num_points(),
@@ -221,7 +221,7 @@ impl Builder<'_> {
             let cost = self.adjust(None, 50, true);
             self.filter();
             if let Some(cost) = cost
-                && !reporter.tell(&SfmProgress::Adjusted { cost })
+                && !reporter.tell(&SfmStep::Adjusted { cost })
             {
                 return;
             }

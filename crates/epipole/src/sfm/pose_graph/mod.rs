@@ -2,9 +2,11 @@
 
 mod poses;
 
+use super::shares::iterations;
 use crate::optim::{
     EdgeTerms, GraphProblem, GraphSystem, Iteration, LmOptions, RobustLoss, Termination, minimize,
 };
+use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
 use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, Similarity3};
 use std::ops::ControlFlow;
@@ -281,6 +283,23 @@ impl PoseGraph {
             PoseGraph::Se3(graph) => graph.optimize(options, loss, observer),
             PoseGraph::Sim3(graph) => graph.optimize(options, loss, observer),
         }
+    }
+
+    /// As [`PoseGraph::optimize`], with the same result, telling `progress` what share of the steps that there may
+    /// be at most is done, in the one stage [`Stage::PoseGraph`].
+    ///
+    /// Whoever breaks gets the best graph found so far, as [`PoseGraphReport::termination`] says.
+    ///
+    /// # Errors
+    /// As [`Graph::optimize`].
+    pub fn optimize_with_progress(
+        &mut self,
+        options: &LmOptions,
+        loss: RobustLoss,
+        progress: Progress<'_>,
+    ) -> Result<PoseGraphReport> {
+        let mut tell = iterations(progress, Stage::PoseGraph, options);
+        self.optimize(options, loss, &mut tell)
     }
 
     /// Numbers of vertices and edges.

@@ -1,0 +1,204 @@
+//! Points are eliminated: the reduced system of the cameras, and the way back to the points.
+
+use super::{BundleProblem, SchurSystem};
+use crate::optim::fixed::damping_scale;
+use crate::optim::parallel::for_each;
+
+impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, S, B> {
+    /// `V⁻¹` of every point, and what is multiplied by it.
+    pub(super) fn invert_point_blocks(&mut self, damping: f64) {
+        for_each(&mut self.points, |_, block| {
+            let mut damped = block.hessian;
+            for i in 0..3 {
+                damped[i][i] = damp(damped[i][i], damping);
+            }
+            // A point whose block is singular even when damped stays where it is.
+            block.inverse = invert_symmetric(&damped).unwrap_or([[0.0; 3]; 3]);
+            for i in 0..3 {
+                block.solved_gradient[i] = 0.0;
+                block.solved_shared[i] = [0.0; S];
+                for k in 0..3 {
+                    block.solved_gradient[i] += block.inverse[i][k] * block.gradient[k];
+                    for s in 0..S {
+                        block.solved_shared[i][s] += block.inverse[i][k] * block.with_shared[k][s];
+                    }
+                }
+            }
+        });
+        let points = &self.points;
+        for_each(&mut self.couplings, |_, coupling| {
+            let inverse = &points[coupling.point as usize].inverse;
+            for k in 0..3 {
+                for c in 0..C {
+                    coupling.solved[k][c] = inverse[k][0] * coupling.cross[0][c]
+                        + inverse[k][1] * coupling.cross[1][c]
+                        + inverse[k][2] * coupling.cross[2][c];
+                }
+            }
+        });
+    }
+
+    /// `U − W V⁻¹ Wᵀ` and its right side, camera by camera.
+    pub(super) fn reduce(&mut self, damping: f64) {
+        let (couplings, points, starts, of_camera) = (
+            &self.couplings,
+            &self.points,
+            &self.point_starts,
+            &self.camera_couplings,
+        );
+        for_each(&mut self.cameras, |c, block| {
+            let width = (c + 1) * C;
+            block.rows.fill(0.0);
+            for i in 0..C {
+                block.rows[i * width + c * C..(i + 1) * width].copy_from_slice(&block.hessian[i]);
+                block.rows[i * width + c * C + i] = damp(block.hessian[i][i], damping);
+            }
+            block.reduced_with_shared = block.with_shared;
+            block.reduced_gradient = block.gradient;
+            for &position in &of_camera[c] {
+                let coupling = &couplings[position as usize];
+                let p = coupling.point as usize;
+                let point = &points[p];
+                for k in 0..3 {
+                    for i in 0..C {
+                        block.reduced_gradient[i] -= coupling.solved[k][i] * point.gradient[k];
+                    }
+                    for s in 0..S {
+                        for i in 0..C {
+                            block.reduced_with_shared[s][i] -=
+                                point.with_shared[k][s] * coupling.solved[k][i];
+                        }
+                    }
+                }
+                for other in &couplings[starts[p]..starts[p + 1]] {
+                    let column = other.camera as usize * C;
+                    if column >= width {
+                        continue;
+                    }
+                    for i in 0..C {
+                        let target: &mut [f64; C] = (&mut block.rows
+                            [i * width + column..i * width + column + C])
+                            .try_into()
+                            .expect("a slice of C numbers");
+                        let (x, y, z) = (
+                            coupling.solved[0][i],
+                            coupling.solved[1][i],
+                            coupling.solved[2][i],
+                        );
+                        for j in 0..C {
+                            target[j] -= x * other.cross[0][j]
+                                + y * other.cross[1][j]
+                                + z * other.cross[2][j];
+                        }
+                    }
+                }
+            }
+        });
+        let num_cameras = self.cameras.len();
+        let size = num_cameras * C + S;
+        for (c, block) in self.cameras.iter().enumerate() {
+            let width = (c + 1) * C;
+            for i in 0..C {
+                let row = (c * C + i) * size;
+                self.reduced[row..row + width]
+                    .copy_from_slice(&block.rows[i * width..(i + 1) * width]);
+                self.right[c * C + i] = -block.reduced_gradient[i];
+            }
+            for s in 0..S {
+                let row = (num_cameras * C + s) * size + c * C;
+                self.reduced[row..row + C].copy_from_slice(&block.reduced_with_shared[s]);
+            }
+        }
+        for s in 0..S {
+            let row = num_cameras * C + s;
+            let mut gradient = self.shared_gradient[s];
+            let mut hessian = self.shared_hessian[s];
+            hessian[s] = damp(hessian[s], damping);
+            for point in &self.points {
+                for k in 0..3 {
+                    gradient -= point.with_shared[k][s] * point.solved_gradient[k];
+                    for q in 0..S {
+                        hessian[q] -= point.with_shared[k][s] * point.solved_shared[k][q];
+                    }
+                }
+            }
+            self.right[row] = -gradient;
+            self.reduced[row * size + num_cameras * C..(row + 1) * size].copy_from_slice(&hessian);
+        }
+    }
+
+    pub(super) fn substitute_back(&mut self) {
+        for (c, delta) in self.delta.cameras.iter_mut().enumerate() {
+            delta.copy_from_slice(&self.right[c * C..(c + 1) * C]);
+        }
+        let shared_start = self.cameras.len() * C;
+        self.delta
+            .shared
+            .copy_from_slice(&self.right[shared_start..]);
+        let (couplings, points, starts) = (&self.couplings, &self.points, &self.point_starts);
+        let (cameras, shared) = (&self.delta.cameras, &self.delta.shared);
+        for_each(&mut self.delta.points, |p, delta| {
+            let block = &points[p];
+            let mut right = block.gradient;
+            for coupling in &couplings[starts[p]..starts[p + 1]] {
+                let camera = &cameras[coupling.camera as usize];
+                for k in 0..3 {
+                    for c in 0..C {
+                        right[k] += coupling.cross[k][c] * camera[c];
+                    }
+                }
+            }
+            for k in 0..3 {
+                for s in 0..S {
+                    right[k] += block.with_shared[k][s] * shared[s];
+                }
+            }
+            for i in 0..3 {
+                delta[i] = -(block.inverse[i][0] * right[0]
+                    + block.inverse[i][1] * right[1]
+                    + block.inverse[i][2] * right[2]);
+            }
+        });
+    }
+}
+
+/// A diagonal entry with its damping; 1 where nothing depends on the parameter, so that it stays.
+#[inline]
+fn damp(curvature: f64, damping: f64) -> f64 {
+    if curvature > 0.0 {
+        curvature + damping * damping_scale(curvature)
+    } else {
+        1.0
+    }
+}
+
+/// The inverse of a symmetric positive definite 3×3 matrix, `None` if it is not one.
+fn invert_symmetric(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    // Scaled to a unit diagonal, so that the test for singularity does not depend on units.
+    let mut scale = [0.0; 3];
+    for i in 0..3 {
+        scale[i] = 1.0 / m[i][i].sqrt();
+    }
+    let a = m[1][0] * scale[1] * scale[0];
+    let b = m[2][0] * scale[2] * scale[0];
+    let c = m[2][1] * scale[2] * scale[1];
+    let cofactor = [
+        [1.0 - c * c, b * c - a, a * c - b],
+        [b * c - a, 1.0 - b * b, a * b - c],
+        [a * c - b, a * b - c, 1.0 - a * a],
+    ];
+    let determinant = cofactor[0][0] + a * cofactor[0][1] + b * cofactor[0][2];
+    if !(determinant > 1e-15 && determinant.is_finite()) {
+        return None;
+    }
+    let mut inverse = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            inverse[i][j] = cofactor[i][j] / determinant * scale[i] * scale[j];
+            if !inverse[i][j].is_finite() {
+                return None;
+            }
+        }
+    }
+    Some(inverse)
+}

@@ -1,0 +1,67 @@
+//! A problem of cameras and points, as its solver sees it.
+
+use crate::optim::loss::RobustLoss;
+
+/// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
+/// freedom), what all cameras share (`S`), and its point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ObservationTerms<const C: usize, const S: usize> {
+    /// Predicted minus observed.
+    pub residual: [f64; 2],
+    /// ∂r/∂camera.
+    pub camera: [[f64; C]; 2],
+    /// ∂r/∂shared.
+    pub shared: [[f64; S]; 2],
+    /// ∂r/∂point.
+    pub point: [[f64; 3]; 2],
+}
+
+/// Steps of all blocks, as the Schur complement solves for them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BundleStep<const C: usize, const S: usize> {
+    /// One a camera.
+    pub cameras: Vec<[f64; C]>,
+    /// What all cameras share.
+    pub shared: [f64; S],
+    /// One a point.
+    pub points: Vec<[f64; 3]>,
+}
+
+/// A problem of cameras and points, where every residual has one of each.
+pub trait BundleProblem<const C: usize, const S: usize>: Sync {
+    /// Cameras, shared quantities and points.
+    type Parameters: Clone + Sync;
+
+    /// The number of cameras.
+    fn num_cameras(&self) -> usize;
+    /// The number of points.
+    fn num_points(&self) -> usize;
+    /// Camera and point of each observation; both must be in range.
+    fn observations(&self) -> &[(u32, u32)];
+    /// The residual of one observation.
+    fn residual(&self, parameters: &Self::Parameters, observation: usize) -> [f64; 2];
+    /// The residual of one observation with its Jacobians.
+    fn linearize(
+        &self,
+        parameters: &Self::Parameters,
+        observation: usize,
+    ) -> ObservationTerms<C, S>;
+    /// `from ⊞ step`.
+    fn step(&self, from: &Self::Parameters, step: &BundleStep<C, S>, into: &mut Self::Parameters);
+    /// The length of the parameters, for the relative step test.
+    fn parameter_norm(&self, parameters: &Self::Parameters) -> f64;
+    /// The loss of every residual.
+    fn loss(&self) -> RobustLoss;
+    /// Which degrees of freedom of a camera are held fixed.
+    fn held_camera(&self, _camera: usize) -> [bool; C] {
+        [false; C]
+    }
+    /// Which shared quantities are held fixed.
+    fn held_shared(&self) -> [bool; S] {
+        [false; S]
+    }
+    /// Whether a point is held fixed.
+    fn held_point(&self, _point: usize) -> bool {
+        false
+    }
+}

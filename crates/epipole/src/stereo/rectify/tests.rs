@@ -1,0 +1,242 @@
+//! Rigs that turn and converge, photographed and rectified.
+
+use super::*;
+use crate::math::random::Random;
+use nalgebra::{Point3, UnitQuaternion, Vector4};
+
+fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> StereoCamera {
+    StereoCamera {
+        intrinsics: Intrinsics::new(fu, fv, cu, cv).unwrap(),
+        distortion: Distortion::from_coefficients(k).unwrap(),
+    }
+}
+
+fn motion(rotation: [f64; 3], translation: [f64; 3]) -> RigidTransform {
+    RigidTransform::from_parts(
+        Vector3::from(translation).into(),
+        UnitQuaternion::from_scaled_axis(Vector3::from(rotation)),
+    )
+}
+
+fn photograph(camera: &StereoCamera, x_in_cam: &Point3<f64>) -> Point2<f64> {
+    let bent = camera.distortion.distort(&Point2::new(
+        x_in_cam.x / x_in_cam.z,
+        x_in_cam.y / x_in_cam.z,
+    ));
+    camera
+        .intrinsics
+        .project(&Point3::new(bent.x, bent.y, 1.0))
+        .unwrap()
+}
+
+fn wide_rig() -> [StereoCamera; 2] {
+    [
+        camera(
+            458.654,
+            457.296,
+            367.215,
+            248.375,
+            [-0.2834, 0.074, 0.0002, 1.8e-5, 0.0],
+        ),
+        camera(
+            457.587,
+            456.134,
+            379.999,
+            255.238,
+            [-0.2837, 0.0745, -0.0001, -3.6e-5, 0.0],
+        ),
+    ]
+}
+
+/// Points of the world land in the same row or column, at the disparity that Q turns back
+/// into their place, the right way up.
+#[test]
+fn matches_share_a_line_and_q_gives_them_back() {
+    let mut random = Random::new(5);
+    for (rotation, translation, vertical) in [
+        ([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009], false),
+        ([0.1, 0.15, -0.2], [-0.2, 0.05, 0.06], false),
+        ([0.02, -0.1, 0.1], [0.03, -0.15, 0.02], true),
+        ([0.02, 0.1, 0.1], [0.01, 0.15, 0.02], true),
+        ([0.0, 0.0, 0.0], [0.3, 0.0, 0.0], false),
+    ] {
+        let cam2_from_cam1 = motion(rotation, translation);
+        for (alpha, same) in [(0.0, true), (1.0, true), (0.5, false)] {
+            let options = RectifyOptions {
+                alpha,
+                zero_disparity_at_infinity: same,
+                ..Default::default()
+            };
+            let cameras = wide_rig();
+            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, 752, 480, &options).unwrap();
+            assert_eq!(rig.is_vertical, vertical);
+            let mut tested = 0;
+            for _ in 0..200 {
+                let x1 = Point3::new(
+                    random.uniform(-1.0, 1.0),
+                    random.uniform(-0.7, 0.7),
+                    random.uniform(1.5, 6.0),
+                );
+                let x2 = cam2_from_cam1 * x1;
+                if x2.z < 1.0 || x2.x.abs() > 0.9 * x2.z || x2.y.abs() > 0.7 * x2.z {
+                    continue;
+                }
+                tested += 1;
+                let [p1, p2] = [(0, x1), (1, x2)].map(|(i, x)| {
+                    let seen = photograph(&cameras[i], &x);
+                    let p = rig.rectify_pixel(i, &seen).unwrap();
+                    let back = rig.source_pixel(i, &p).unwrap().unwrap();
+                    assert!((back - seen).norm() < 1e-7);
+                    p
+                });
+                let d = p1 - p2;
+                let (along, across) = if vertical { (d.y, d.x) } else { (d.x, d.y) };
+                assert!(across.abs() < 1e-7, "off by {across}");
+                let x = rig.q * Vector4::new(p1.x, p1.y, along, 1.0);
+                let found = Point3::new(x.x / x.w, x.y / x.w, x.z / x.w);
+                assert!((found - rig.rect_from_cam[0] * x1).norm() < 1e-6);
+            }
+            assert!(tested > 50);
+            for (rotation, h) in rig.rect_from_cam.iter().zip(&rig.homographies) {
+                assert!(rotation.angle() < 0.6, "turned by {}", rotation.angle());
+                // Up stays up.
+                let m = rotation.matrix();
+                assert!(m[(0, 0)] > 0.7 && m[(1, 1)] > 0.7);
+                assert!(h.determinant() > 0.0);
+            }
+        }
+    }
+}
+
+/// The second camera stands to the side and ahead: up to 60° off the image plane there is a region that both
+/// saw, or the error says what the limit is.
+#[test]
+fn a_baseline_far_off_the_image_plane_is_rectified() {
+    for off_deg in [30.0_f64, 37.0, 45.0, 55.0] {
+        let off = off_deg.to_radians();
+        let mut num_rectified = 0;
+        for focal_px in [300.0, 500.0, 700.0, 1000.0, 2000.0, 5000.0] {
+            let lens = camera(focal_px, focal_px, 319.5, 239.5, [0.0; 5]);
+            let (sideways, ahead) = (-0.3 * libm::cos(off), -0.3 * libm::sin(off));
+            let corner = libm::atan(319.5 / focal_px);
+            for translation in [[sideways, 0.0, ahead], [0.0, -sideways, ahead]] {
+                let cam2_from_cam1 = motion([0.0; 3], translation);
+                for alpha in [0.0, 1.0] {
+                    let options = RectifyOptions {
+                        alpha,
+                        ..Default::default()
+                    };
+                    let rig = rectify_calibrated(&[lens; 2], &cam2_from_cam1, 640, 480, &options);
+                    let rig = match rig {
+                        Ok(rig) => rig,
+                        Err(error) => {
+                            assert!(corner + off > 1.45, "{off_deg}° at {focal_px} px: {error}");
+                            assert!(error.to_string().contains("along the baseline"));
+                            continue;
+                        }
+                    };
+                    num_rectified += 1;
+                    for i in 0..2 {
+                        let valid = rig.valid[i];
+                        let size = (valid.u_max - valid.u_min, valid.v_max - valid.v_min);
+                        let least = (1.0 - alpha) * 0.999;
+                        assert!(size.0 > least * 639.0, "{focal_px} {valid:?}");
+                        assert!(size.1 > least * 479.0, "{focal_px} {valid:?}");
+                        for (u, v) in [
+                            (valid.u_min, valid.v_min),
+                            (valid.u_max, valid.v_min),
+                            (valid.u_min, valid.v_max),
+                            (valid.u_max, valid.v_max),
+                        ] {
+                            let source = rig.source_pixel(i, &Point2::new(u, v)).unwrap();
+                            let p = source.unwrap();
+                            assert!((-1e-6..639.0 + 1e-6).contains(&p.x), "{p}");
+                            assert!((-1e-6..479.0 + 1e-6).contains(&p.y), "{p}");
+                        }
+                    }
+                    let x1 = Point3::new(0.1, -0.2, 9.0);
+                    let x2 = cam2_from_cam1 * x1;
+                    let p1 = rig.rectify_pixel(0, &photograph(&lens, &x1)).unwrap();
+                    let p2 = rig.rectify_pixel(1, &photograph(&lens, &x2)).unwrap();
+                    let across = 1 - usize::from(rig.is_vertical);
+                    assert!((p1 - p2)[across].abs() < 1e-6);
+                    let d = (p1 - p2)[1 - across];
+                    let x = rig.q * Vector4::new(p1.x, p1.y, d, 1.0);
+                    let found = Point3::new(x.x / x.w, x.y / x.w, x.z / x.w);
+                    assert!((found - rig.rect_from_cam[0] * x1).norm() < 1e-6);
+                }
+            }
+        }
+        assert!(num_rectified >= 12, "{off_deg}°: {num_rectified}");
+    }
+    // Beyond, the error names the limit.
+    let lens = camera(700.0, 700.0, 319.5, 239.5, [0.0; 5]);
+    let ahead = motion([0.0; 3], [-0.1, 0.0, -0.3]);
+    let error = rectify_calibrated(&[lens; 2], &ahead, 640, 480, &RectifyOptions::default());
+    assert!(error.unwrap_err().to_string().contains("60°"));
+}
+
+#[test]
+fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
+    let cam2_from_cam1 = motion([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009]);
+    let mut options = RectifyOptions::default();
+    let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+    for i in 0..2 {
+        let mask = tight.map(i).unwrap().mask(752, 480);
+        assert!(mask.as_raw().iter().all(|&m| m == 255));
+        let valid = tight.valid[i];
+        assert_eq!((valid.u_min, valid.v_min), (0.0, 0.0));
+        assert_eq!((valid.u_max, valid.v_max), (751.0, 479.0));
+    }
+    options.alpha = 1.0;
+    let wide = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+    for i in 0..2 {
+        for (u, v) in [
+            (0.0, 0.0),
+            (751.0, 0.0),
+            (0.0, 479.0),
+            (751.0, 479.0),
+            (375.0, 0.0),
+        ] {
+            let p = wide.rectify_pixel(i, &Point2::new(u, v)).unwrap();
+            assert!(p.x > -1e-6 && p.y > -1e-6 && p.x < 751.000001 && p.y < 479.000001);
+        }
+        assert!(wide.map(i).unwrap().mask(752, 480).as_raw().contains(&0));
+    }
+    assert!(wide.intrinsics[0].fu_px() < tight.intrinsics[0].fu_px());
+}
+
+#[test]
+fn hopeless_rigs_are_refused() {
+    let options = RectifyOptions::default();
+    let rig =
+        |m: RigidTransform, w, h, o: &RectifyOptions| rectify_calibrated(&wide_rig(), &m, w, h, o);
+    let side = motion([0.0; 3], [-0.1, 0.0, 0.0]);
+    assert!(matches!(
+        rig(motion([0.1, 0.0, 0.0], [0.0; 3]), 752, 480, &options),
+        Err(Error::Degenerate { .. })
+    ));
+    assert!(matches!(
+        rig(motion([0.0; 3], [0.01, 0.0, -0.5]), 752, 480, &options),
+        Err(Error::Degenerate { .. })
+    ));
+    assert!(
+        rig(
+            motion([0.0, 3.0, 0.0], [-0.1, 0.0, 0.0]),
+            752,
+            480,
+            &options
+        )
+        .is_err()
+    );
+    assert!(rig(motion([0.0; 3], [f64::NAN, 0.0, 0.0]), 752, 480, &options).is_err());
+    assert!(rig(side, 0, 480, &options).is_err());
+    for alpha in [-0.1, 1.1, f64::NAN] {
+        assert!(rig(side, 752, 480, &RectifyOptions { alpha, ..options }).is_err());
+    }
+    let good = rig(side, 752, 480, &options).unwrap();
+    assert!(good.map(2).is_err());
+    assert!(good.rectify_pixel(2, &Point2::new(0.0, 0.0)).is_err());
+    assert!(q_from_rig(0.0, 1.0, 0.0, 0.0).is_err());
+    assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
+}
