@@ -54,7 +54,7 @@ pub use odometry::{
 };
 pub use photos::{
     Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
-    photo_features, reconstruct_photos,
+    photo_features, photo_features_with_progress, reconstruct_photos,
 };
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
