@@ -49,7 +49,7 @@ test-browser: setup ## the book and the figures in a real browser
 test-lab: setup ## the Lab in a real browser, after building it
 	$(BOOK) build
 	$(BOOK) lab
-	cd tests/browser && LAB=1 npx playwright test 'lab(faults)?\.spec'
+	cd tests/browser && LAB=1 npx playwright test 'lab(faults|keep)?\.spec'
 
 test-window: setup-build ## the Lab in a window, on a display that nobody sees
 	@tests/tools/window.sh

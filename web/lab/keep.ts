@@ -53,6 +53,11 @@ export class Kept {
     return this.#isThere;
   }
 
+  /** Ends when everything that was asked for is done. */
+  get settled(): Promise<void> {
+    return this.#last;
+  }
+
   /** Keeps a project in place of the one before. */
   keep(project: Uint8Array, then: () => void): void {
     this.#next(async () => {

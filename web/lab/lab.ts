@@ -186,7 +186,12 @@ async function start(): Promise<void> {
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
-    restart(notice, given.slice(kept.isThere ? numKept : 0), kept.isThere);
+    restart(
+      notice,
+      () => given.slice(kept.isThere ? numKept : 0),
+      () => kept.settled,
+      kept.isThere,
+    );
   };
   canvas.addEventListener("webglcontextlost", () => stop("the context of WebGL is lost"));
   // Memory that cannot grow ends the module without a panic.
@@ -220,16 +225,21 @@ async function open(lab: Lab, kept: Kept, askForKept: () => Promise<boolean>): P
 }
 
 /** Nothing goes on in this page: a new one does, with the photographs. */
-function restart(where: HTMLElement, given: readonly File[], isKept: boolean): void {
+function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<void>, isKept: boolean): void {
   if (where.querySelector("button")) return;
+  const given = rest();
   const button = document.createElement("button");
   button.type = "button";
   const files = given.length === 1 ? "your file" : `your ${given.length} files`;
   const all = [...(isKept ? ["your project"] : []), ...(given.length > 0 ? [files] : [])];
   button.textContent = all.length > 0 ? `Start the Lab again with ${all.join(" and ")}` : "Start the Lab again";
   button.addEventListener("click", () => {
-    const kept = given.length > 0 ? putAside(given) : Promise.resolve();
-    void kept.catch((error: unknown) => console.warn(error)).then(() => location.reload());
+    // What was on its way into the project that is kept has come there by then.
+    const aside = settled().then(() => {
+      const left = rest();
+      return left.length > 0 ? putAside(left) : undefined;
+    });
+    void aside.catch((error: unknown) => console.warn(error)).then(() => location.reload());
   });
   where.replaceChildren(
     "The Lab has stopped, and nothing is lost on your machine. If it stops again, reduce photographs to fewer megapixels. ",
