@@ -48,7 +48,7 @@ test-browser: setup build ## the book and the figures in a real browser
 test-lab: setup build tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it
 	@tests/tools/engines.sh
 	$(BOOK) lab
-	cd tests/browser && LAB=1 npx playwright test 'lab(faults)?\.spec'
+	cd tests/browser && LAB=1 npx playwright test 'lab(faults|keep)?\.spec'
 	cd tests/engines && npm run --silent lab
 
 test-window: setup-build ## the Lab in a window, on a display that nobody sees

@@ -1,5 +1,6 @@
 // What the tests of the Lab share: a browser that draws WebGL on the processor, the page, and its controls by role.
 
+import { deflateSync } from "node:zlib";
 import { chromium } from "@playwright/test";
 import { launchOptions } from "./chromium.mjs";
 import { expect, expectAccessible, listen, test as base } from "./fixtures.mjs";
@@ -51,6 +52,13 @@ export async function press(page, role, name) {
   await control.dispatchEvent("click");
 }
 
+/** The same with an item of the menu of the project, which may be open. */
+export async function choose(page, role, name) {
+  const item = page.locator("#widgets").getByRole(role, { name, exact: true });
+  if ((await item.count()) === 0) await press(page, "button", "Project");
+  await item.first().dispatchEvent("click");
+}
+
 export async function solved(page) {
   await expect(said(page)).toContainText("9 of 9 photographs have a camera", { timeout: 90_000 });
 }
@@ -60,4 +68,43 @@ export async function read(download) {
   const chunks = [];
   for await (const chunk of await download.createReadStream()) chunks.push(chunk);
   return Buffer.concat(chunks);
+}
+
+/** A PNG file that promises so many pixels, gray ones; `whole` keeps the promise. */
+export function png(width, height, whole = true) {
+  const chunk = (name, data) => {
+    const body = Buffer.concat([Buffer.from(name), data]);
+    const length = Buffer.alloc(4);
+    length.writeUInt32BE(data.length);
+    const check = Buffer.alloc(4);
+    check.writeUInt32BE(crc(body));
+    return Buffer.concat([length, body, check]);
+  };
+  const head = Buffer.from([0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0]);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  const rows = Buffer.alloc(whole ? (width + 1) * height : 10, 0);
+  for (let v = 0; whole && v < height; v += 1) {
+    for (let u = 0; u < width; u += 1) rows[v * (width + 1) + 1 + u] = ((u >> 3) ^ (v >> 3)) & 1 ? 200 : 40;
+  }
+  const mark = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+  return Buffer.concat([mark, chunk("IHDR", head), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
+}
+
+function crc(bytes) {
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; bit += 1) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
+}
+
+/** A photograph to be chosen. */
+export const file = (name, width, height) => ({ name, mimeType: "image/png", buffer: png(width, height) });
+
+/** Gives two small photographs, and waits until they are there. */
+export async function give(lab) {
+  await lab.locator("#photographs").setInputFiles([file("one.png", 64, 48), file("two.png", 80, 60)]);
+  await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
 }

@@ -4,7 +4,7 @@
 import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { expect, expectAccessible, press, read, said, solved, test } from "./lab.mjs";
+import { choose, expect, expectAccessible, press, read, said, solved, test } from "./lab.mjs";
 
 test.describe.configure({ mode: "serial" });
 
@@ -30,6 +30,18 @@ test("the sample is solved, looked at in every step, and saved", async ({ lab })
   expect(bytes.subarray(0, 2).toString()).toBe("PK");
   for (const name of ["sparse/0/cameras.txt", "sparse/0/points3D.txt", "points.ply", "images/table-9.png"]) {
     expect(bytes.includes(name), name).toBe(true);
+  }
+});
+
+test("a project is saved from its menu, while the sample is still computed and again when it is solved", async ({ lab }) => {
+  for (const wait of [() => {}, solved]) {
+    await wait(lab);
+    const [download] = await Promise.all([lab.waitForEvent("download", { timeout: 60_000 }), choose(lab, "button", "Save")]);
+    expect(download.suggestedFilename()).toBe("project.zip");
+    const bytes = await read(download);
+    expect(bytes.subarray(0, 2).toString()).toBe("PK");
+    expect(bytes.includes("project.json")).toBe(true);
+    await expect(said(lab)).toContainText("project.zip is saved.");
   }
 });
 

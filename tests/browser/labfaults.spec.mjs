@@ -1,49 +1,11 @@
 // What can go wrong in the Lab: each ends in a sentence where the reader looks, with a way on, and the photographs stay.
 
-import { deflateSync } from "node:zlib";
-import { expect, expectAccessible, said, solved, test } from "./lab.mjs";
+import { expect, expectAccessible, give, png, press, said, solved, test } from "./lab.mjs";
 
 test.describe.configure({ mode: "default" });
 
 const notice = (page) => page.locator("#notice");
-
-/** A PNG file that promises so many pixels, gray ones; `whole` keeps the promise. */
-function png(width, height, whole = true) {
-  const chunk = (name, data) => {
-    const body = Buffer.concat([Buffer.from(name), data]);
-    const length = Buffer.alloc(4);
-    length.writeUInt32BE(data.length);
-    const check = Buffer.alloc(4);
-    check.writeUInt32BE(crc(body));
-    return Buffer.concat([length, body, check]);
-  };
-  const head = Buffer.from([0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0]);
-  head.writeUInt32BE(width, 0);
-  head.writeUInt32BE(height, 4);
-  const rows = Buffer.alloc(whole ? (width + 1) * height : 10, 0);
-  for (let v = 0; whole && v < height; v += 1) {
-    for (let u = 0; u < width; u += 1) rows[v * (width + 1) + 1 + u] = ((u >> 3) ^ (v >> 3)) & 1 ? 200 : 40;
-  }
-  const mark = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
-  return Buffer.concat([mark, chunk("IHDR", head), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
-}
-
-function crc(bytes) {
-  let crc = ~0;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit += 1) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return ~crc >>> 0;
-}
-
 const file = (name, buffer) => ({ name, mimeType: "image/png", buffer });
-
-/** Gives two small photographs, and waits until they are there. */
-async function give(lab) {
-  await lab.locator("#photographs").setInputFiles([file("one.png", png(64, 48)), file("two.png", png(80, 60))]);
-  await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
-}
 
 test("a file that is too large, or that is cut off, is told, and the others stay", async ({ lab }) => {
   await solved(lab);
@@ -126,5 +88,105 @@ test("a panic in the page is told, and the photographs come back", async ({ blan
   await give(blank);
   await blank.evaluate(() => (globalThis.panicked = "index out of bounds"));
   await goOn(blank);
+  complaints.length = 0;
+});
+
+/** The same module, whose memory can grow by so many pages of 64 KiB and no more: the section of its memory is written anew. */
+function capped(wasm, numPages) {
+  const read = (at) => {
+    let [value, shift] = [0, 0];
+    for (;;) {
+      const byte = wasm[at++];
+      value += (byte & 127) * 2 ** shift;
+      shift += 7;
+      if (byte < 128) return [value, at];
+    }
+  };
+  const written = (value) => {
+    const bytes = [];
+    for (; value > 127; value = Math.floor(value / 128)) bytes.push((value & 127) | 128);
+    return [...bytes, value];
+  };
+  for (let at = 8; at < wasm.length; ) {
+    const [size, body] = read(at + 1);
+    if (wasm[at] === 5) {
+      // One memory, of at least so many pages.
+      const [least] = read(body + 2);
+      const section = [1, 1, ...written(least), ...written(least + numPages)];
+      return Buffer.concat([wasm.subarray(0, at), Buffer.from([5, ...written(section.length), ...section]), wasm.subarray(body + size)]);
+    }
+    at = body + size;
+  }
+  throw new Error("the module has no memory");
+}
+
+/** Turns the knob for the size of photographs. */
+async function reduceTo(lab, megapixels) {
+  const knob = lab.locator("#widgets").getByRole("slider", { name: "Reduce to at most, megapixels" });
+  await knob.evaluate((input, value) => {
+    input.value = value;
+    input.dispatchEvent(new Event("change"));
+  }, String(megapixels));
+}
+
+test("memory that does not suffice is told, and smaller photographs are the way on", async ({ blank, library, complaints }) => {
+  await blank.context().route(/lab-vision[^/]*\.wasm$/, async (route) => {
+    const answer = await route.fetch();
+    await route.fulfill({ response: answer, body: capped(await answer.body(), 1000) });
+  });
+  await blank.goto(`${library}/lab/index.html`);
+  await solved(blank);
+  const large = [file("large.png", png(2400, 1800)), file("other.png", png(2400, 1796))];
+  await blank.locator("#photographs").setInputFiles(large);
+  await expect(said(blank)).toContainText("large.png: cannot be read: there is not memory enough for this", { timeout: 90_000 });
+  await expect(said(blank)).toContainText("reduce photographs to fewer megapixels");
+  await expect(said(blank)).toContainText("2 photographs.");
+  await expect(notice(blank)).toBeEmpty();
+  await reduceTo(blank, 0.1);
+  await expect(said(blank)).not.toContainText("not memory enough", { timeout: 60_000 });
+  await expect(said(blank)).toContainText("2 photographs.");
+  await blank.context().unrouteAll({ behavior: "ignoreErrors" });
+  complaints.length = 0;
+});
+
+test("a panic in a worker is told, and the next worker goes on", async ({ blank, library, complaints }) => {
+  // Modules that are loaded while `broken` is set panic at whatever they are asked: they leave a message, and trap.
+  let broken = false;
+  await blank.context().route("**/broken", (route) => route.fulfill({ status: broken ? 200 : 404, body: "" }));
+  await blank.context().route(/assets\/worker-[^/]*\.js$/, async (route) => {
+    const answer = await route.fetch();
+    const faulty = `
+      const load = WebAssembly.instantiateStreaming;
+      WebAssembly.instantiateStreaming = async (...all) => {
+        const loaded = await load(...all);
+        const { ok } = await fetch("broken");
+        if (!ok) return loaded;
+        const { exports } = loaded.instance;
+        const compute = () => {
+          throw new WebAssembly.RuntimeError("unreachable");
+        };
+        const take_panic = () => {
+          const message = new TextEncoder().encode("index out of bounds");
+          const at = exports.__wbindgen_malloc(message.length, 1);
+          new Uint8Array(exports.memory.buffer).set(message, at);
+          return [at, message.length];
+        };
+        return { module: loaded.module, instance: { exports: { ...exports, compute, take_panic } } };
+      };`;
+    await route.fulfill({ response: answer, body: `${faulty}\n${await answer.text()}` });
+  });
+  await blank.goto(`${library}/lab/index.html`);
+  await solved(blank);
+  // Workers that have nothing to do end after a while: those that come then have the other module.
+  await expect.poll(() => blank.workers().length, { timeout: 60_000 }).toBe(0);
+  broken = true;
+  await give(blank);
+  await expect(said(blank)).toContainText("one.png: cannot be read: the Lab itself has made a mistake here", { timeout: 30_000 });
+  await expect(notice(blank)).toBeEmpty();
+  broken = false;
+  await press(blank, "button", "Try again");
+  await expect(said(blank)).not.toContainText("mistake", { timeout: 30_000 });
+  await expect(said(blank)).toContainText("2 photographs.");
+  await blank.context().unrouteAll({ behavior: "ignoreErrors" });
   complaints.length = 0;
 });

@@ -5,7 +5,7 @@ export default defineConfig({
   testDir: ".",
   testMatch: "*.spec.mjs",
   // `make test-hosts` and `make test-lab` run those: what they test takes minutes to build.
-  testIgnore: process.env.LAB ? "hosts/**" : ["hosts/**", "lab.spec.mjs", "labfaults.spec.mjs"],
+  testIgnore: process.env.LAB ? "hosts/**" : ["hosts/**", "lab.spec.mjs", "labfaults.spec.mjs", "labkeep.spec.mjs"],
   outputDir: "test-results",
   fullyParallel: true,
   workers: 2,

@@ -16,12 +16,15 @@ declare module "epipole-lab-page" {
         say(words: string): void;
         explain(figure: string, page: string, title: string): void;
         address(link: string): void;
+        keep(project: Uint8Array): void;
+        forget(): void;
+        askForKept(): void;
       },
     ): Promise<void>;
     progress(work: number, share: number, words: string): void;
     soFar(work: number, answer: Uint8Array): void;
     done(work: number, answer: Uint8Array): void;
-    failed(work: number, sentence: string): void;
+    failed(work: number, sentence: string, broken: boolean): void;
     photograph(name: string, bytes: Uint8Array): void;
     deliver(): void;
     video(video: number): void;
@@ -31,6 +34,11 @@ declare module "epipole-lab-page" {
     news(sentence: string): void;
     link(parameters: string[]): void;
     project(archive: Uint8Array): void;
+    keptProject(archive: Uint8Array): void;
+    keptAside(sentence: string): void;
+    kept(numBytes: number): void;
+    notKept(why: string, isThere: boolean): void;
+    forgotten(): void;
     theme(theme: string): void;
     widgets(): string | undefined;
     operate(widget: string, value?: number): void;

@@ -9,7 +9,7 @@ export type Told = { work: number } & (
   | { share: number; words: string }
   | { soFar: Uint8Array }
   | { answer: Uint8Array }
-  | { problem: string }
+  | { problem: string; broken: boolean }
 );
 
 /** Which module a worker has. */
@@ -61,15 +61,15 @@ export class Crew {
         member.idleSince = performance.now();
       }
       this.#hear(data);
-      // After a panic the module is in no state to go on.
-      if ("problem" in data) this.#dismiss(member);
+      // Then the module is in no state to go on.
+      if ("problem" in data && data.broken) this.#dismiss(member);
     };
     worker.onerror = (event) => {
       event.preventDefault();
       const { work } = member;
       this.#dismiss(member);
       if (work !== undefined) {
-        this.#hear({ work, problem: "the code for this computation could not be loaded; reload the page" });
+        this.#hear({ work, problem: "the code for this computation could not be loaded; reload the page", broken: true });
       }
     };
     this.#members.push(member);

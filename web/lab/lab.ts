@@ -5,7 +5,7 @@ import { Camera } from "./camera.js";
 import { Crew, type Told } from "./crew.js";
 import { FigureBeside } from "./figure.js";
 import { dropped, photographOf } from "./files.js";
-import { putAside, takeBack } from "./keep.js";
+import { Kept, putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
 import { Frames, isVideo } from "./video.js";
 
@@ -59,7 +59,7 @@ async function start(): Promise<void> {
     if ("share" in told) lab.progress(told.work, told.share, told.words);
     else if ("soFar" in told) lab.soFar(told.work, told.soFar);
     else if ("answer" in told) lab.done(told.work, told.answer);
-    else lab.failed(told.work, told.problem);
+    else lab.failed(told.work, told.problem, told.broken);
   };
   const crew = new Crew(hear);
   const beside = new FigureBeside();
@@ -86,6 +86,24 @@ async function start(): Promise<void> {
       lab.noFrames(video, error instanceof Error ? error.message : String(error));
     }
   };
+  const kept = new Kept(lab);
+  /** So many of them are in the project that the browser keeps, and need not come back twice. */
+  let numKept = 0;
+  const askForKept = async () => {
+    try {
+      const project = await kept.read();
+      if (project) {
+        // As long as nobody forgets it.
+        given.push(new File([project as BlobPart], "project.zip"));
+        numKept = given.length;
+        lab.keptProject(project);
+      }
+      return project !== undefined;
+    } catch (error) {
+      lab.keptAside(error instanceof Error ? error.message : String(error));
+      return false;
+    }
+  };
   let resting: ReturnType<typeof setTimeout> | undefined;
   const shell = {
     capacity: () => crew.capacity,
@@ -102,6 +120,12 @@ async function start(): Promise<void> {
       resting = setTimeout(() => (said.textContent = words), REST_MS);
     },
     explain: (figure: string, page: string, title: string) => void beside.show(figure, page, title),
+    keep: (bytes: Uint8Array) => {
+      const count = given.length;
+      kept.keep(bytes, () => (numKept = count));
+    },
+    forget: () => kept.forget(),
+    askForKept: () => void askForKept(),
     address: (link: string) => history.replaceState(null, "", `?${link}`),
   };
 
@@ -141,7 +165,7 @@ async function start(): Promise<void> {
     if (event.dataTransfer) void dropped(event.dataTransfer).then(take);
   });
 
-  if (location.search) lab.link([...new URLSearchParams(location.search)].flat());
+  await open(lab, kept, askForKept);
 
   letTabLeave();
   try {
@@ -162,7 +186,12 @@ async function start(): Promise<void> {
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
-    restart(notice, given);
+    restart(
+      notice,
+      () => given.slice(kept.isThere ? numKept : 0),
+      () => kept.settled,
+      kept.isThere,
+    );
   };
   canvas.addEventListener("webglcontextlost", () => stop("the context of WebGL is lost"));
   // Memory that cannot grow ends the module without a panic.
@@ -180,16 +209,37 @@ async function start(): Promise<void> {
   if (before.length > 0) await take(before);
 }
 
+/** Opens what is kept, and then what the address asks for. */
+async function open(lab: Lab, kept: Kept, askForKept: () => Promise<boolean>): Promise<void> {
+  const link = new URLSearchParams(location.search);
+  const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
+  if (link.has("sample") && visit?.type !== "reload") {
+    // Whoever follows a link to a sample wants to see it, and nothing of the reader's is written over.
+    if (await kept.read().catch(() => undefined)) {
+      lab.keptAside("This browser keeps a project of yours: the menu of the project opens it.");
+    }
+  } else if (await askForKept()) {
+    link.delete("sample");
+  }
+  if (link.size > 0) lab.link([...link].flat());
+}
+
 /** Nothing goes on in this page: a new one does, with the photographs. */
-function restart(where: HTMLElement, given: readonly File[]): void {
+function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<void>, isKept: boolean): void {
   if (where.querySelector("button")) return;
+  const given = rest();
   const button = document.createElement("button");
   button.type = "button";
   const files = given.length === 1 ? "your file" : `your ${given.length} files`;
-  button.textContent = given.length > 0 ? `Start the Lab again with ${files}` : "Start the Lab again";
+  const all = [...(isKept ? ["your project"] : []), ...(given.length > 0 ? [files] : [])];
+  button.textContent = all.length > 0 ? `Start the Lab again with ${all.join(" and ")}` : "Start the Lab again";
   button.addEventListener("click", () => {
-    const kept = given.length > 0 ? putAside(given) : Promise.resolve();
-    void kept.catch((error: unknown) => console.warn(error)).then(() => location.reload());
+    // What was on its way into the project that is kept has come there by then.
+    const aside = settled().then(() => {
+      const left = rest();
+      return left.length > 0 ? putAside(left) : undefined;
+    });
+    void aside.catch((error: unknown) => console.warn(error)).then(() => location.reload());
   });
   where.replaceChildren(
     "The Lab has stopped, and nothing is lost on your machine. If it stops again, reduce photographs to fewer megapixels. ",

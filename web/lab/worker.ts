@@ -22,7 +22,7 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
   try {
     await loading;
   } catch {
-    tell({ work, problem: "the code for this computation could not be loaded; reload the page" });
+    tell({ work, problem: "the code for this computation could not be loaded; reload the page", broken: true });
     return;
   }
   let last = 0;
@@ -37,7 +37,9 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
     const answer = compute(request, { progress, soFar });
     tell({ work, answer }, [answer.buffer as ArrayBuffer]);
   } catch (problem) {
-    tell({ work, problem: typeof problem === "string" ? problem : sentence(problem, take_panic()) });
+    // A sentence is an answer; anything else broke the module.
+    if (typeof problem === "string") tell({ work, problem, broken: false });
+    else tell({ work, problem: sentence(problem, take_panic()), broken: true });
   }
 }
 
@@ -45,6 +47,6 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
 function sentence(problem: unknown, panic: string | undefined): string {
   console.warn(panic ?? problem);
   return panic === undefined
-    ? "there is not memory enough for this: reduce photographs to fewer megapixels, or close other pages"
-    : "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it";
+    ? "there is not memory enough for this: reduce photographs to fewer megapixels, or close other pages and try again"
+    : "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it, or if you try again";
 }

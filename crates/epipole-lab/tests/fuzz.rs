@@ -80,6 +80,7 @@ fn event() -> impl Strategy<Value = Event> {
         (id.clone(), id).prop_map(|(a, b)| Event::LookAtPair(a, b)),
         any::<usize>().prop_map(Event::LookAtComponent),
         any::<bool>().prop_map(Event::Pause),
+        Just(Event::TryAgain),
     ]
 }
 

@@ -5,10 +5,15 @@ use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
 use epipole_lab::tasks::{Branch, Told, compute};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, OnceLock};
+
+/// What is said of a panic.
+const MISTAKE: &str = "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it, \
+                       or if you try again";
 
 /// Opens the window.
 ///
@@ -94,7 +99,7 @@ impl Host for Window {
         std::thread::spawn(move || {
             // The window may be gone by now.
             let tell = |report| drop(sender.send(report));
-            let result = compute(&request, &mut |told| {
+            let mut progress = |told: Told<'_>| {
                 tell(match told {
                     Told::Share(share, words) => Report::Progress(work, share, words.to_owned()),
                     Told::SoFar(bytes) => Report::SoFar(work, bytes),
@@ -104,8 +109,13 @@ impl Host for Window {
                     true => ControlFlow::Break(()),
                     false => ControlFlow::Continue(()),
                 }
+            };
+            // Nothing that is shared can be left half done: a request goes in, an answer comes out.
+            let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut progress)));
+            tell(match computed {
+                Ok(result) => Report::Done(work, result),
+                Err(_) => Report::Broken(work, MISTAKE.to_owned()),
             });
-            tell(Report::Done(work, result));
             context.request_repaint();
         });
     }
@@ -119,7 +129,7 @@ impl Host for Window {
     fn reports(&mut self) -> Vec<Report> {
         let reports: Vec<Report> = self.receiver.try_iter().collect();
         for report in &reports {
-            if let Report::Done(work, _) = report {
+            if let Report::Done(work, _) | Report::Broken(work, _) = report {
                 self.canceled.remove(work);
             }
         }
@@ -160,6 +170,17 @@ impl Host for Window {
             Err(error) => Err(format!("{} could not be written: {error}", path.display())),
         }
     }
+
+    fn can_keep(&self) -> bool {
+        // Files are there to be saved and opened.
+        false
+    }
+
+    fn keep(&mut self, _project: Vec<u8>) {}
+
+    fn forget(&mut self) {}
+
+    fn ask_for_kept(&mut self) {}
 
     fn explain(&mut self, _about: About) {}
 

@@ -2,7 +2,7 @@
 
 use super::cloud::CloudView;
 use super::depth::DepthView;
-use super::host::{Host, Wish};
+use super::host::{Arrival, Host, Wish};
 use super::photo::{Lens, Pictures};
 use super::work::{Errand, Work};
 use super::{
@@ -12,6 +12,7 @@ use super::{
 use crate::project::{Event, Project, Settings, Step};
 use crate::tasks::{Request, Sample};
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
+use std::collections::VecDeque;
 
 /// Below this width, steps and knobs stand below each other.
 const NARROW: f32 = 760.0;
@@ -45,6 +46,8 @@ pub struct App<H> {
     project: Project,
     host: H,
     work: Work,
+    /// What has come and waits.
+    arrivals: VecDeque<Arrival>,
     memory: Memory,
     said: String,
     link: String,
@@ -73,6 +76,7 @@ impl<H: Host> App<H> {
             project,
             host,
             work: Work::default(),
+            arrivals: VecDeque::new(),
             memory: Memory::default(),
             said: String::new(),
             link: String::new(),
@@ -92,7 +96,11 @@ impl<H: Host> App<H> {
 
     /// Does what is to be done between two frames. True while something is under way.
     pub fn go_on(&mut self) -> bool {
-        for arrival in self.host.arrivals() {
+        self.arrivals.extend(self.host.arrivals());
+        // What comes with a project comes after it.
+        while !self.work.is_opening()
+            && let Some(arrival) = self.arrivals.pop_front()
+        {
             intake::take(arrival, &mut self.project, &mut self.work, &mut self.host);
         }
         self.work.go_on(&mut self.project, &mut self.host);
@@ -168,6 +176,7 @@ impl<H: Host> App<H> {
             }
             self.project.update(event);
         }
+        self.work.keep(&self.project, &mut self.host, ui);
     }
 
     fn keys(&self, ui: &Ui, events: &mut Vec<Event>) {

@@ -46,6 +46,9 @@ pub(super) fn bar(
             if ui.button("Remove all photographs").clicked() {
                 events.push(Event::Clear);
             }
+            if host.can_keep() {
+                work.keeping_menu(project, host, ui);
+            }
         });
         if ui
             .add_enabled(project.can_undo(), egui::Button::new("Undo"))
@@ -63,6 +66,9 @@ pub(super) fn bar(
         if paused && ui.button("Go on").clicked() {
             events.push(Event::Pause(false));
         }
+        if project.can_try_again() && ui.button("Try again").clicked() {
+            events.push(Event::TryAgain);
+        }
         if let Some((words, share)) = work.words(project) {
             if !paused && ui.button("Stop").clicked() {
                 events.push(Event::Pause(true));
@@ -74,8 +80,9 @@ pub(super) fn bar(
         } else if paused {
             ui.weak("stopped");
         }
-        if let Some(news) = &work.news {
+        if let Some(news) = work.news.clone() {
             ui.weak(news);
+            work.start_over(host, ui, events);
         }
     });
     ui.add_space(3.0);

@@ -15,6 +15,8 @@ pub enum Report {
     SoFar(WorkId, Vec<u8>),
     /// A piece of work has come to its end.
     Done(WorkId, Result<Vec<u8>, String>),
+    /// A piece of work has broken down, and a sentence why: not what it was asked for, but computing itself.
+    Broken(WorkId, String),
 }
 
 /// What the reader brought.
@@ -34,6 +36,28 @@ pub enum Arrival {
     NoFrames(u32, String),
     /// Nothing, and a sentence why; or how far it is.
     News(String),
+    /// What is kept where the Lab runs.
+    Kept(Kept),
+}
+
+/// What is told of a project that the reader chose to keep.
+#[derive(Debug, Clone)]
+pub enum Kept {
+    /// This one was kept when the Lab ran last, or was asked for by [`Host::ask_for_kept`].
+    Project(Blob),
+    /// There is one, which is not open, and a sentence why.
+    Aside(String),
+    /// What was given to [`Host::keep`] is kept: so many bytes.
+    Done(usize),
+    /// What was given is not kept.
+    Not {
+        /// A sentence why.
+        why: String,
+        /// Whether something is still there that was kept before.
+        is_there: bool,
+    },
+    /// Elsewhere, the reader has forgotten it.
+    Forgotten,
 }
 
 /// What a panel asks for that only the place where it runs can do.
@@ -72,6 +96,14 @@ pub trait Host {
     fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32);
     /// Gives the reader a file.
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
+    /// Whether a project can be kept here without giving the reader a file.
+    fn can_keep(&self) -> bool;
+    /// Keeps a project in place of what was kept before. What came of it arrives as [`Arrival::Kept`].
+    fn keep(&mut self, project: Vec<u8>);
+    /// Erases what is kept.
+    fn forget(&mut self);
+    /// Brings what is kept, as [`Arrival::Kept`].
+    fn ask_for_kept(&mut self);
     /// What is to be seen now, for whoever does not see it.
     fn say(&mut self, words: &str);
     /// Shows the figure of the book that explains a step.

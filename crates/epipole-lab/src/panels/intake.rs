@@ -30,6 +30,7 @@ pub(super) fn take(arrival: Arrival, project: &mut Project, work: &mut Work, hos
             work.videos.give_up(video, host);
             work.news = Some(sentence);
         }
+        Arrival::Kept(kept) => work.hear_of_kept(kept, host),
         Arrival::News(sentence) => work.news = Some(sentence),
     }
 }

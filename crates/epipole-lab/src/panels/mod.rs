@@ -11,6 +11,7 @@ mod export;
 mod features;
 mod host;
 mod intake;
+mod keeping;
 mod knobs;
 mod look;
 mod marks;
@@ -27,4 +28,4 @@ mod work;
 
 pub use about::About;
 pub use app::{App, prepare, wear};
-pub use host::{Arrival, Host, Report, WorkId};
+pub use host::{Arrival, Host, Kept, Report, WorkId};

@@ -2,6 +2,7 @@
 
 use super::host::{Host, Report, WorkId};
 use super::intake;
+use super::keeping::Keeping;
 use super::videos::Videos;
 use crate::project::{About, Event, Project, Task, count};
 use crate::tasks::{Answer, Blob, Request};
@@ -13,8 +14,12 @@ pub(super) enum Errand {
     Export,
     /// A zip file of the project.
     Save,
+    /// The same, to be kept where the Lab runs.
+    Keep,
     /// A project to open.
     Open,
+    /// The project that was kept.
+    Reopen,
     /// The sharpest frame of a part of the video of this number.
     Frames(u32),
     /// The space as a PNG file.
@@ -45,6 +50,8 @@ pub(super) struct Work {
     pub(super) news: Option<String>,
     /// Videos of which frames are taken.
     pub(super) videos: Videos,
+    /// What is kept where the Lab runs.
+    pub(super) keeping: Keeping,
 }
 
 impl Work {
@@ -57,7 +64,11 @@ impl Work {
             return;
         }
         self.seen = Some(project.revision());
-        let wanted = project.wanted();
+        let wanted = match self.is_opening() {
+            // Another project is about to take its place.
+            true => Vec::new(),
+            false => project.wanted(),
+        };
         self.running.retain(|running| match &running.what {
             What::Errand(_) => true,
             What::Task(task) => {
@@ -95,11 +106,27 @@ impl Work {
 
     /// Starts an errand, unless one of its kind is under way.
     pub(super) fn run(&mut self, errand: Errand, request: &Request, host: &mut impl Host) {
-        let what = What::Errand(errand);
-        if self.running.iter().all(|running| running.what != what) {
+        if !self.runs(errand) {
             self.news = None;
-            self.start(what, request, host);
+            self.keeping.is_back = false;
+            self.start_errand(errand, request, host);
         }
+    }
+
+    /// Starts an errand that the reader need not hear of.
+    pub(super) fn start_errand(&mut self, errand: Errand, request: &Request, host: &mut impl Host) {
+        self.start(What::Errand(errand), request, host);
+    }
+
+    /// Whether such an errand is under way.
+    pub(super) fn runs(&self, errand: Errand) -> bool {
+        let what = What::Errand(errand);
+        self.running.iter().any(|running| running.what == what)
+    }
+
+    /// Whether another project is about to take the place of this one.
+    pub(super) fn is_opening(&self) -> bool {
+        self.runs(Errand::Open) || self.runs(Errand::Reopen)
     }
 
     fn hear(&mut self, report: Report, project: &mut Project, host: &mut impl Host) {
@@ -119,20 +146,42 @@ impl Work {
                     project.so_far(key, &bytes);
                 }
             }
-            Report::Done(id, result) => {
-                let Some(place) = self.running.iter().position(|running| running.id == id) else {
-                    return;
-                };
-                self.seen = None;
-                match self.running.remove(place).what {
-                    What::Task(task) => project.done(task.key, result),
-                    What::Errand(Errand::Frames(video)) => {
-                        self.frames(video, result, project, host);
-                    }
-                    What::Errand(errand) => {
-                        self.news = Some(finish(errand, result, project, host));
-                    }
+            Report::Done(id, result) => match self.ended(id) {
+                Some(What::Task(task)) => project.done(task.key, result),
+                Some(What::Errand(errand)) => self.end_errand(errand, result, project, host),
+                None => {}
+            },
+            Report::Broken(id, sentence) => match self.ended(id) {
+                Some(What::Task(task)) => project.broke_down(task.key, sentence),
+                Some(What::Errand(errand)) => {
+                    self.end_errand(errand, Err(sentence), project, host);
                 }
+                None => {}
+            },
+        }
+    }
+
+    /// What has come to its end, if it is still wanted.
+    fn ended(&mut self, id: WorkId) -> Option<What> {
+        let place = self.running.iter().position(|running| running.id == id)?;
+        self.seen = None;
+        Some(self.running.remove(place).what)
+    }
+
+    fn end_errand(
+        &mut self,
+        errand: Errand,
+        result: Result<Vec<u8>, String>,
+        project: &mut Project,
+        host: &mut impl Host,
+    ) {
+        match errand {
+            Errand::Frames(video) => self.frames(video, result, project, host),
+            Errand::Keep => self.written(answer_of(result), host),
+            Errand::Reopen => self.reopened(answer_of(result), project),
+            _ => {
+                self.keeping.is_back = false;
+                self.news = Some(finish(errand, result, project, host));
             }
         }
     }
@@ -145,7 +194,7 @@ impl Work {
         project: &mut Project,
         host: &mut impl Host,
     ) {
-        let frames = match result.and_then(|bytes| Answer::from_bytes(&bytes)) {
+        let frames = match answer_of(result) {
             Ok(Answer::Frames(frames)) => frames,
             Ok(_) => Vec::new(),
             Err(sentence) => {
@@ -198,13 +247,18 @@ impl Work {
                 let words = self.videos.words();
                 words.unwrap_or_else(|| "Frames of a video".to_owned())
             }
-            What::Errand(Errand::Open) => "Opening the project".to_owned(),
+            What::Errand(Errand::Keep) => "Keeping the project".to_owned(),
+            What::Errand(Errand::Open | Errand::Reopen) => "Opening the project".to_owned(),
         };
         if !first.words.is_empty() {
             words.push_str(&format!(": {}", first.words));
         }
         Some((words, first.share))
     }
+}
+
+fn answer_of(result: Result<Vec<u8>, String>) -> Result<Answer, String> {
+    result.and_then(|bytes| Answer::from_bytes(&bytes))
 }
 
 /// What to say of an errand that is done.
@@ -214,7 +268,7 @@ fn finish(
     project: &mut Project,
     host: &mut impl Host,
 ) -> String {
-    let answer = result.and_then(|bytes| Answer::from_bytes(&bytes));
+    let answer = answer_of(result);
     let mut save = |name: &str, bytes: Blob| match host.save(name, bytes.to_vec()) {
         Ok(sentence) | Err(sentence) => sentence,
     };

@@ -110,6 +110,8 @@ pub enum Event {
     LookAtPair(PhotoId, PhotoId),
     /// Looks at a part of the reconstruction.
     LookAtComponent(usize),
+    /// Wants what broke down to be computed once more.
+    TryAgain,
     /// Stopped computing, or went on.
     Pause(bool),
 }

@@ -152,6 +152,22 @@ impl Project {
         self.results.tidy(|key| needed.contains(&key));
     }
 
+    /// Takes the sentence why computing a result broke down, through no fault of what it is computed from: memory is
+    /// full, or the Lab has made a mistake. [`Event::TryAgain`] computes it once more.
+    pub fn broke_down(&mut self, key: Key, sentence: String) {
+        self.revision += 1;
+        if self.growing.as_ref().is_some_and(|(of, _)| *of == key) {
+            self.growing = None;
+        }
+        self.results.break_down(key, sentence);
+    }
+
+    /// Whether computing something that is needed broke down.
+    pub fn can_try_again(&self) -> bool {
+        let broken = self.results.broken();
+        !broken.is_empty() && self.needed().intersection(broken).next().is_some()
+    }
+
     /// Takes what there is of a reconstruction that is on its way. Anything else is left alone.
     pub fn so_far(&mut self, key: Key, bytes: &[u8]) {
         if let Ok(Answer::Reconstruction(found)) = Answer::from_bytes(bytes) {

@@ -4,7 +4,7 @@ use super::keys::Key;
 use crate::tasks::{
     Answer, BoardFound, Calibration, Dense, Features, Match, Photograph, Reconstructed, TwoViews,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// A result, shared.
@@ -36,6 +36,8 @@ const MAX_BYTES: usize = 600_000_000;
 pub struct Results {
     kept: BTreeMap<Key, (Kept, usize, u64)>,
     failed: BTreeMap<Key, String>,
+    /// Those of the failed whose computing broke down: it may do better another time.
+    broken: BTreeSet<Key>,
     bytes: usize,
     age: u64,
 }
@@ -65,6 +67,24 @@ impl Results {
 
     pub(super) fn fail(&mut self, key: Key, sentence: String) {
         self.failed.insert(key, sentence);
+    }
+
+    /// The same of one whose computing broke down.
+    pub(super) fn break_down(&mut self, key: Key, sentence: String) {
+        self.fail(key, sentence);
+        self.broken.insert(key);
+    }
+
+    /// Forgets that anything broke down.
+    pub(super) fn try_again(&mut self) {
+        for key in std::mem::take(&mut self.broken) {
+            self.failed.remove(&key);
+        }
+    }
+
+    /// What broke down.
+    pub(super) fn broken(&self) -> &BTreeSet<Key> {
+        &self.broken
     }
 
     /// Lets go of the oldest results that are not `needed`, if all take too much.

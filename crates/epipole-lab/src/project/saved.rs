@@ -2,6 +2,7 @@
 
 use super::Project;
 use super::document::{Anchor, Document, Given, Measure, PhotoId, Settings};
+use super::keys::Key;
 use crate::tasks::{Blob, LensCamera, Packed, Request, Sample, Source};
 use serde::{Deserialize, Serialize};
 
@@ -81,15 +82,15 @@ fn all_renumbered<const N: usize>(
 }
 
 impl Project {
-    /// The request for a zip file that [`Event::OpenProject`](super::Event::OpenProject) brings back.
-    pub fn save_request(&self) -> Request {
+    /// What is written of it beside its photographs.
+    fn saved(&self) -> Saved {
         let photos = &self.document.photos;
         let place = |id: PhotoId| {
             let place = photos.iter().position(|photo| photo.id == id)?;
             Some(place as u32)
         };
         let measures = self.document.measures.iter();
-        let project = Saved {
+        Saved {
             version: VERSION,
             settings: self.document.settings.clone(),
             photos: photos.iter().map(SavedPhoto::of).collect(),
@@ -100,7 +101,32 @@ impl Project {
                 .collect(),
             boards: self.document.boards.iter().map(SavedPhoto::of).collect(),
             camera: self.document.camera.clone(),
+        }
+    }
+
+    /// The name of all that is written of it: equal projects have equal names.
+    pub fn saved_key(&self) -> Key {
+        let contents = self.given_photos().map(|photo| photo.content.0);
+        Key::of(&(self.saved(), contents.collect::<Vec<_>>()))
+    }
+
+    /// Bytes of all its files.
+    pub fn num_file_bytes(&self) -> usize {
+        let bytes = |photo: &Given| match &photo.source {
+            Source::File(bytes) => bytes.len(),
+            Source::Rendered(..) => 0,
         };
+        self.given_photos().map(bytes).sum()
+    }
+
+    /// All photographs, then those of boards.
+    fn given_photos(&self) -> impl Iterator<Item = &Given> {
+        self.document.photos.iter().chain(&self.document.boards)
+    }
+
+    /// The request for a zip file that [`Event::OpenProject`](super::Event::OpenProject) brings back.
+    pub fn save_request(&self) -> Request {
+        let photos = &self.document.photos;
         let packed = |photo: &Given, folder: &str| Packed {
             name: format!("{folder}{}", photo.name),
             source: photo.source.clone(),
@@ -111,7 +137,7 @@ impl Project {
             photographs: (photos.iter().map(|photo| packed(photo, "")))
                 .chain(boards.map(|photo| packed(photo, BOARDS)))
                 .collect(),
-            project,
+            project: self.saved(),
         }
     }
 

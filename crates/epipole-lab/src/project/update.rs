@@ -19,6 +19,7 @@ impl Project {
             Event::Look(id) => self.look(id),
             Event::LookAtPair(first, second) => self.look_at_pair(first, second),
             Event::LookAtComponent(component) => self.view.component = component,
+            Event::TryAgain => self.results.try_again(),
             Event::Pause(paused) => self.paused = paused,
             Event::Add(files) => self.add(files),
             Event::Begin(files) => {

@@ -30,12 +30,12 @@ fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         Request::Features {
             photograph,
             options,
-        } => Answer::Features(features::features(&photograph, &options)?),
+        } => Answer::Features(features::features(&photograph, &options, progress)?),
         Request::Matches {
             first,
             second,
             options,
-        } => Answer::Matches(matching::matches(first, second, &options)?),
+        } => Answer::Matches(matching::matches(first, second, &options, progress)?),
         Request::TwoViews {
             places,
             ratios,

@@ -22,6 +22,15 @@ use image::RgbImage;
 use nalgebra::Point3;
 use nalgebra::{Point2, Quaternion, Translation3, UnitQuaternion};
 
+/// Why the core gave no answer, in words.
+#[cfg(feature = "vision")]
+pub(super) fn sentence(error: epipole::Error) -> String {
+    match error {
+        epipole::Error::Canceled => "stopped".to_owned(),
+        other => other.to_string(),
+    }
+}
+
 /// The pixels as an image.
 pub(crate) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
     RgbImage::from_raw(

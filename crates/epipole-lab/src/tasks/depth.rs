@@ -1,6 +1,6 @@
 //! Depth of every pixel of a pair whose cameras are known: rectified, matched along the rows.
 
-use super::convert::{core_camera, to_image};
+use super::convert::{core_camera, sentence, to_image};
 use super::depth_size::{common_size, reduced_factor, span};
 use super::{CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Progress, Told};
 use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
@@ -216,12 +216,5 @@ fn matched(
             ..StereoBm::default()
         }
         .compute_with_progress(left, right, &mut watch),
-    }
-}
-
-fn sentence(error: epipole::Error) -> String {
-    match error {
-        epipole::Error::Canceled => "stopped".to_owned(),
-        other => other.to_string(),
     }
 }

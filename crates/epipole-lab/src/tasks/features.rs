@@ -1,17 +1,20 @@
 //! Features of a photograph.
 
-use super::convert::to_image;
-use super::{Described, Feature, FeatureKind, FeatureOptions, Features, Photograph};
+use super::convert::{sentence, to_image};
+use super::{
+    Described, Feature, FeatureKind, FeatureOptions, Features, Photograph, Progress, Told,
+};
 use epipole::feature::{self, Descriptors};
-use epipole::sfm::{Photo, PhotoOptions, photo_features};
+use epipole::sfm::{Photo, PhotoOptions, photo_features_with_progress};
 
 /// Finds features just as `epipole sfm` does.
 ///
 /// # Errors
-/// As [`photo_features`].
+/// As [`photo_features_with_progress`], if `progress` wants no more, too.
 pub(super) fn features(
     photograph: &Photograph,
     options: &FeatureOptions,
+    progress: Progress<'_>,
 ) -> Result<Features, String> {
     let photo = Photo {
         name: String::new(),
@@ -24,7 +27,8 @@ pub(super) fn features(
         FeatureKind::RootSift => feature::FeatureKind::RootSift,
         FeatureKind::Sift => feature::FeatureKind::Sift,
     };
-    let found = photo_features(&photo, &how).map_err(|error| error.to_string())?;
+    let mut watch = |_| progress(Told::Share(0.0, ""));
+    let found = photo_features_with_progress(&photo, &how, &mut watch).map_err(sentence)?;
     let list = (found.keypoints.iter().zip(&found.image.colors))
         .map(|(keypoint, color)| Feature {
             u: keypoint.u,

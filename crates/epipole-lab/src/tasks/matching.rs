@@ -1,24 +1,28 @@
 //! Matches of two photographs.
 
-use super::{Described, Match, MatchOptions};
-use epipole::feature::{Descriptors, match_descriptors};
+use super::convert::sentence;
+use super::{Described, Match, MatchOptions, Progress, Told};
+use epipole::feature::{Descriptors, match_descriptors_with_progress};
 
 /// Matches descriptors.
 ///
 /// # Errors
-/// As [`match_descriptors`].
+/// As [`match_descriptors_with_progress`], if `progress` wants no more, too.
 pub(super) fn matches(
     first: Described,
     second: Described,
     options: &MatchOptions,
+    progress: Progress<'_>,
 ) -> Result<Vec<Match>, String> {
     let how = epipole::feature::MatchOptions {
         max_ratio: Some(options.ratio),
         mutual: options.mutual,
         ..epipole::feature::MatchOptions::default()
     };
-    let found = match_descriptors(&read(first)?, &read(second)?, &how);
-    let found = found.map_err(|error| error.to_string())?;
+    let mut watch = |_| progress(Told::Share(0.0, ""));
+    let (first, second) = (read(first)?, read(second)?);
+    let found = match_descriptors_with_progress(&first, &second, &how, &mut watch);
+    let found = found.map_err(sentence)?;
     let plain = |m: &epipole::feature::Match| Match {
         first: m.index1 as u32,
         second: m.index2 as u32,

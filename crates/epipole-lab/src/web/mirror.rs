@@ -88,8 +88,8 @@ fn lines(update: &TreeUpdate) -> String {
             text.push_str(&line);
             text.push('\n');
         }
-        // Children of labels and buttons are runs of letters.
-        if !matches!(node.role(), Role::Label | Role::Button | Role::TextInput) {
+        // Children of labels are runs of letters. Those of a button may be the menu that it has opened.
+        if !matches!(node.role(), Role::Label | Role::TextInput) {
             open.extend(node.children().iter().rev());
         }
     }

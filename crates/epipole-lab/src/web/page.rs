@@ -1,7 +1,7 @@
 //! What the page calls, and what it calls the page for.
 
 use super::mirror::Mirror;
-use crate::panels::{About, App, Arrival, Host, Report, WorkId, prepare, wear};
+use crate::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare, wear};
 use crate::tasks::{Blob, Branch};
 use eframe::web_sys::HtmlCanvasElement;
 use egui::accesskit::Action;
@@ -37,6 +37,12 @@ extern "C" {
     fn explain(this: &Shell, figure: &str, page: &str, title: &str);
     #[wasm_bindgen(method, structural)]
     fn address(this: &Shell, link: &str);
+    #[wasm_bindgen(method, structural)]
+    fn keep(this: &Shell, project: Vec<u8>);
+    #[wasm_bindgen(method, structural)]
+    fn forget(this: &Shell);
+    #[wasm_bindgen(method, structural, js_name = askForKept)]
+    fn ask_for_kept(this: &Shell);
 }
 
 /// What came from outside and was not seen yet.
@@ -118,6 +124,22 @@ impl Host for Page {
 
     fn address(&mut self, link: &str) {
         self.shell.address(link);
+    }
+
+    fn can_keep(&self) -> bool {
+        true
+    }
+
+    fn keep(&mut self, project: Vec<u8>) {
+        self.shell.keep(project);
+    }
+
+    fn forget(&mut self) {
+        self.shell.forget();
+    }
+
+    fn ask_for_kept(&mut self) {
+        self.shell.ask_for_kept();
     }
 }
 
@@ -204,13 +226,14 @@ impl Lab {
         self.receive(|inbox| inbox.reports.push(Report::Done(work as WorkId, Ok(answer))));
     }
 
-    /// Says why there is none.
-    pub fn failed(&self, work: f64, sentence: String) {
-        self.receive(|inbox| {
-            inbox
-                .reports
-                .push(Report::Done(work as WorkId, Err(sentence)))
-        });
+    /// Says why there is none; `broken` if that lies in computing itself, not in what was asked.
+    pub fn failed(&self, work: f64, sentence: String, broken: bool) {
+        let work = work as WorkId;
+        let report = match broken {
+            true => Report::Broken(work, sentence),
+            false => Report::Done(work, Err(sentence)),
+        };
+        self.receive(|inbox| inbox.reports.push(report));
     }
 
     /// Brings a photograph, which is seen with the next [`Lab::deliver`].
@@ -273,6 +296,38 @@ impl Lab {
     /// Brings a project.
     pub fn project(&self, archive: Vec<u8>) {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
+    }
+
+    fn hear_of_kept(&self, kept: Kept) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Kept(kept)));
+    }
+
+    /// Brings the project that the browser keeps.
+    #[wasm_bindgen(js_name = keptProject)]
+    pub fn kept_project(&self, archive: Vec<u8>) {
+        self.hear_of_kept(Kept::Project(archive.into()));
+    }
+
+    /// The browser keeps a project that is not open, and a sentence why.
+    #[wasm_bindgen(js_name = keptAside)]
+    pub fn kept_aside(&self, sentence: String) {
+        self.hear_of_kept(Kept::Aside(sentence));
+    }
+
+    /// What was to be kept is: so many bytes.
+    pub fn kept(&self, num_bytes: f64) {
+        self.hear_of_kept(Kept::Done(num_bytes as usize));
+    }
+
+    /// What was to be kept is not, a sentence why, and whether something is still there that was kept before.
+    #[wasm_bindgen(js_name = notKept)]
+    pub fn not_kept(&self, why: String, is_there: bool) {
+        self.hear_of_kept(Kept::Not { why, is_there });
+    }
+
+    /// Another page has forgotten what was kept.
+    pub fn forgotten(&self) {
+        self.hear_of_kept(Kept::Forgotten);
     }
 
     /// Puts a theme on: "light", "dark" or "high-contrast".

@@ -2,7 +2,7 @@
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
+use epipole_lab::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare};
 use epipole_lab::tasks::{Branch, compute};
 use std::ops::ControlFlow;
 
@@ -17,6 +17,9 @@ pub(crate) struct Desk {
     pub(crate) frames: Vec<(u32, u32, u32)>,
     pub(crate) explained: Vec<About>,
     pub(crate) address: String,
+    pub(crate) kept: Option<Vec<u8>>,
+    /// Whether everything that is computed breaks down.
+    pub(crate) breaks: bool,
 }
 
 impl Host for Desk {
@@ -25,6 +28,11 @@ impl Host for Desk {
     }
 
     fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+        if self.breaks {
+            let sentence = "there is not memory enough".to_owned();
+            self.reports.push(Report::Broken(work, sentence));
+            return;
+        }
         let result = compute(&request, &mut |_| ControlFlow::Continue(()));
         self.reports.push(Report::Done(work, result));
     }
@@ -73,6 +81,26 @@ impl Host for Desk {
 
     fn address(&mut self, link: &str) {
         self.address = link.to_owned();
+    }
+
+    fn can_keep(&self) -> bool {
+        true
+    }
+
+    fn keep(&mut self, project: Vec<u8>) {
+        let arrival = Arrival::Kept(Kept::Done(project.len()));
+        self.arrivals.push(arrival);
+        self.kept = Some(project);
+    }
+
+    fn forget(&mut self) {
+        self.kept = None;
+    }
+
+    fn ask_for_kept(&mut self) {
+        let kept = self.kept.clone();
+        let arrival = kept.map(|project| Arrival::Kept(Kept::Project(project.into())));
+        self.arrivals.extend(arrival);
     }
 
     fn say(&mut self, words: &str) {

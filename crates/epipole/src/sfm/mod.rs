@@ -56,7 +56,8 @@ pub use odometry::{
 };
 pub use photos::{
     Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
-    photo_features, reconstruct_photos, reconstruct_photos_with_progress,
+    photo_features, photo_features_with_progress, reconstruct_photos,
+    reconstruct_photos_with_progress,
 };
 pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};

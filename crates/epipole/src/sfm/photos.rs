@@ -6,12 +6,13 @@ use super::shares::{Begin, Shares};
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
-    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
+    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features_with_progress,
     match_any_descriptors, photo_to_gray,
 };
 use crate::progress::Progress;
 use crate::{Error, Result};
 use image::RgbImage;
+use std::ops::ControlFlow;
 
 /// A photograph with a name.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -50,12 +51,38 @@ pub struct PhotoFeatures {
 /// Keypoints and descriptors of a photograph.
 ///
 /// # Errors
-/// As [`detect_features`].
+/// As [`detect_features`](crate::feature::detect_features).
 ///
 /// Source: Lowe 2004.
 pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeatures> {
+    photo_features_with_progress(photo, options, &mut |_| ControlFlow::Continue(()))
+}
+
+/// [`photo_features`] that reports how far it is and can be stopped.
+///
+/// * `progress`: as of [`detect_features_with_progress`]
+///
+/// # Errors
+/// As [`photo_features`], and [`Error::Canceled`] if `progress` said so.
+///
+/// Source: as [`photo_features`].
+///
+/// ```
+/// use epipole::sfm::{Photo, PhotoOptions, photo_features_with_progress};
+/// use std::ops::ControlFlow;
+/// let photo = Photo { name: String::new(), image: image::RgbImage::new(64, 48) };
+/// let stop = &mut |_| ControlFlow::Break(());
+/// let stopped = photo_features_with_progress(&photo, &PhotoOptions::default(), stop);
+/// assert_eq!(stopped.err(), Some(epipole::Error::Canceled));
+/// ```
+pub fn photo_features_with_progress(
+    photo: &Photo,
+    options: &PhotoOptions,
+    progress: Progress<'_>,
+) -> Result<PhotoFeatures> {
     let (width, height) = photo.image.dimensions();
-    let features = detect_features(&photo_to_gray(&photo.image), &options.features)?;
+    let gray = photo_to_gray(&photo.image);
+    let features = detect_features_with_progress(&gray, &options.features, progress)?;
     let color = |u: f64, v: f64| {
         let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
         photo.image.get_pixel(inside(u, width), inside(v, height)).0

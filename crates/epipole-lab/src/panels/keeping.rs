@@ -1,0 +1,216 @@
+//! A project that the reader chose to keep in the browser: when it is put there, how it comes back, how it is forgotten.
+
+use super::host::{Host, Kept};
+use super::work::{Errand, Work};
+use crate::project::{Event, Key, Project, Step};
+use crate::tasks::{Answer, Request, Sample};
+use std::time::Duration;
+
+/// Changes that came to rest for so long are kept, seconds.
+const REST_S: f64 = 1.0;
+
+/// What is kept, if anything is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum State {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// A project that is not open.
+    Aside,
+    /// The project that is open, with every change.
+    Open,
+}
+
+/// What is kept in the browser.
+#[derive(Default)]
+pub(super) struct Keeping {
+    state: State,
+    /// What is kept of it, or on its way there.
+    kept: Option<Key>,
+    /// What has changed, and since when, seconds.
+    changed: Option<(Key, f64)>,
+    /// Whether the reader waits to hear that it is kept.
+    is_new: bool,
+    /// Whether it has just come back.
+    pub(super) is_back: bool,
+}
+
+/// Bytes in words.
+fn megabytes(bytes: usize) -> String {
+    match bytes {
+        0..100_000 => "less than 0.1 MB".to_owned(),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
+impl Work {
+    /// The choice in the menu of the project.
+    pub(super) fn keeping_menu(
+        &mut self,
+        project: &Project,
+        host: &mut impl Host,
+        ui: &mut egui::Ui,
+    ) {
+        ui.separator();
+        let state = self.keeping.state;
+        if state == State::Aside {
+            if ui.button("Open what this browser keeps").clicked() {
+                host.ask_for_kept();
+            }
+        } else {
+            let mut is_on = state == State::Open;
+            if ui.checkbox(&mut is_on, "Keep in this browser").changed() {
+                match is_on {
+                    true => {
+                        self.keeping.state = State::Open;
+                        self.keeping.is_new = true;
+                    }
+                    false => self.forget_kept(host),
+                }
+            }
+        }
+        if state != State::Nothing && ui.button("Forget it").clicked() {
+            self.forget_kept(host);
+        }
+        if state != State::Aside {
+            let room = megabytes(project.num_file_bytes());
+            ui.weak(format!(
+                "Takes {room} on this machine; nothing is uploaded."
+            ));
+        }
+    }
+
+    /// Nothing is kept any more.
+    fn forget_kept(&mut self, host: &mut impl Host) {
+        self.keeping = Keeping::default();
+        host.forget();
+        self.news = Some("This browser keeps nothing of the project.".to_owned());
+    }
+
+    /// A way back to how the Lab opens for everyone, beside the sentence that a project came back.
+    pub(super) fn start_over(
+        &mut self,
+        host: &mut impl Host,
+        ui: &mut egui::Ui,
+        events: &mut Vec<Event>,
+    ) {
+        if self.keeping.is_back && ui.button("Start over").clicked() {
+            self.forget_kept(host);
+            events.push(Event::OpenSample(Sample::Table));
+            events.push(Event::Show(Step::Reconstruction));
+        }
+    }
+
+    /// Keeps the project once its changes have come to rest.
+    pub(super) fn keep(&mut self, project: &Project, host: &mut impl Host, ui: &egui::Ui) {
+        if self.keeping.state != State::Open {
+            return;
+        }
+        let key = project.saved_key();
+        if self.keeping.kept == Some(key) {
+            self.keeping.changed = None;
+            return;
+        }
+        let now_s = ui.input(|input| input.time);
+        let since_s = match self.keeping.changed {
+            Some((changed, since_s)) if changed == key => since_s,
+            _ => {
+                self.keeping.changed = Some((key, now_s));
+                now_s
+            }
+        };
+        let rest_s = since_s + REST_S - now_s;
+        if rest_s > 0.0 {
+            ui.ctx()
+                .request_repaint_after(Duration::from_secs_f64(rest_s));
+        } else if !self.runs(Errand::Keep) && !self.runs(Errand::Open) {
+            self.keeping.kept = Some(key);
+            self.start_errand(Errand::Keep, &project.save_request(), host);
+        }
+    }
+
+    /// Gives the browser what is to be kept, when it is written.
+    pub(super) fn written(&mut self, answer: Result<Answer, String>, host: &mut impl Host) {
+        match answer {
+            // It may have been forgotten meanwhile.
+            _ if self.keeping.state != State::Open => {}
+            Ok(Answer::Archive(bytes)) => host.keep(bytes.to_vec()),
+            Ok(_) => {}
+            Err(sentence) => self.not_kept(&sentence, false),
+        }
+    }
+
+    fn not_kept(&mut self, why: &str, is_there: bool) {
+        self.keeping = Keeping::default();
+        let before = match is_there {
+            true => {
+                self.keeping.state = State::Aside;
+                " What it kept before is still there."
+            }
+            false => "",
+        };
+        self.news = Some(format!(
+            "The project is not kept in this browser: {why} Project, Save gives it to you as a file.{before}"
+        ));
+    }
+
+    /// Hears of what is kept.
+    pub(super) fn hear_of_kept(&mut self, kept: Kept, host: &mut impl Host) {
+        match kept {
+            Kept::Project(archive) => {
+                self.keeping.state = State::Aside;
+                self.run(Errand::Reopen, &Request::Open { archive }, host);
+            }
+            Kept::Aside(sentence) => {
+                self.keeping = Keeping::default();
+                self.keeping.state = State::Aside;
+                self.news = Some(sentence);
+            }
+            Kept::Done(num_bytes) => {
+                if std::mem::take(&mut self.keeping.is_new) {
+                    let room = megabytes(num_bytes);
+                    self.news = Some(format!(
+                        "This browser keeps the project, {room}, and every change of it; nothing is uploaded."
+                    ));
+                }
+            }
+            Kept::Not { why, is_there } => self.not_kept(&why, is_there),
+            Kept::Forgotten => {
+                self.keeping = Keeping::default();
+                self.news = Some("Another page of the Lab has forgotten the project that this browser kept; here it is still open.".to_owned());
+            }
+        }
+    }
+
+    /// Opens what was kept, at the step that is open.
+    pub(super) fn reopened(&mut self, answer: Result<Answer, String>, project: &mut Project) {
+        match answer {
+            Ok(Answer::Opened {
+                project: saved,
+                files,
+            }) => {
+                let step = project.view().step;
+                project.update(Event::OpenProject(Box::new(saved), files));
+                project.update(Event::Show(step));
+                // What was there before nobody has seen.
+                project.forget_past();
+                self.keeping = Keeping {
+                    state: State::Open,
+                    kept: Some(project.saved_key()),
+                    is_back: true,
+                    ..Keeping::default()
+                };
+                self.news = Some(
+                    "The project that this browser kept is open again; nothing was uploaded."
+                        .to_owned(),
+                );
+            }
+            Ok(_) => {}
+            Err(sentence) => {
+                self.news = Some(format!(
+                    "What this browser keeps does not open: {sentence}. It stays until you forget it, in the menu of the project."
+                ));
+            }
+        }
+    }
+}
