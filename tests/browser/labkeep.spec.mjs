@@ -1,6 +1,6 @@
 // A project that is kept in the browser: only by choice, back at the next visit, gone when it is forgotten.
 
-import { choose, expect, expectAccessible, give, press, said, solved, test } from "./lab.mjs";
+import { choose, expect, expectAccessible, file, give, press, said, solved, test } from "./lab.mjs";
 
 const KEPT = "epipole-lab-kept";
 
@@ -131,6 +131,25 @@ for (const [what, { fault, words }] of Object.entries(FAULTS)) {
     complaints.length = 0;
   });
 }
+
+test("a lost context loses nothing of what is kept, and brings nothing back twice", async ({ lab, complaints }) => {
+  await solved(lab);
+  await give(lab);
+  await keep(lab);
+  // It is given, and lost before it has come to rest in what is kept.
+  await lab.locator("#photographs").setInputFiles([file("three.png", 96, 72)]);
+  await expect(said(lab)).toContainText("3 photographs.", { timeout: 30_000 });
+  await lab.evaluate(() => {
+    const canvas = document.querySelector("#lab");
+    const context = canvas.getContext("webgl2") ?? canvas.getContext("webgl");
+    context.getExtension("WEBGL_lose_context").loseContext();
+  });
+  await lab.getByRole("button", { name: /^Start the Lab again with your project/ }).click({ timeout: 30_000 });
+  await expect(said(lab)).toContainText("3 photographs.", { timeout: 60_000 });
+  for (const name of ["one.png", "two.png", "three.png"]) await expect(photograph(lab, name)).toHaveCount(1);
+  await expect(said(lab)).not.toContainText("same file");
+  complaints.length = 0;
+});
 
 test("what is kept but damaged, or of a newer Lab, is told and stays until it is forgotten", async ({ lab, complaints }) => {
   await solved(lab);

@@ -39,6 +39,7 @@ export class Kept {
   /** One after the other: what is forgotten must not be put there afterwards. */
   #last: Promise<void> = Promise.resolve();
   #isThere = false;
+  #isClosed = false;
 
   constructor(listener: Listener) {
     this.#listener = listener;
@@ -58,8 +59,14 @@ export class Kept {
     return this.#last;
   }
 
+  /** What was asked for is done; from now on nothing more is kept. */
+  close(): void {
+    this.#isClosed = true;
+  }
+
   /** Keeps a project in place of the one before. */
   keep(project: Uint8Array, then: () => void): void {
+    if (this.#isClosed) return;
     this.#next(async () => {
       try {
         await put(KEPT, new Blob([project as BlobPart]));

@@ -186,6 +186,8 @@ async function start(): Promise<void> {
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
+    // What it has not been given by now comes back beside it, and would else come back twice.
+    kept.close();
     restart(
       notice,
       () => given.slice(kept.isThere ? numKept : 0),
