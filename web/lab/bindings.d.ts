@@ -41,7 +41,7 @@ declare module "epipole-lab-page" {
     forgotten(): void;
     theme(theme: string): void;
     widgets(): string | undefined;
-    operate(widget: string, value?: number): void;
+    operate(widget: string, role: string, name: string, value?: number): void;
     panic(): string | undefined;
   }
   export default function load(options: { module_or_path: URL }): Promise<unknown>;

@@ -200,7 +200,7 @@ async function start(): Promise<void> {
   addEventListener("error", ({ error }) => {
     if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) stop(error);
   });
-  const mirror = new Mirror(find("widgets"), (widget, value) => lab.operate(widget, value));
+  const mirror = new Mirror(find("widgets"), (widget, role, name, value) => lab.operate(widget, role, name, value));
   const watch = setInterval(() => {
     const widgets = lab.widgets();
     if (widgets !== undefined) mirror.show(widgets);

@@ -6,12 +6,16 @@
 /** A line of the module: number, role, name, value, state, least, largest, step. */
 type Widget = [string, string, string, string, string, string, string, string];
 
+/** Does to a widget what somebody did to its element: by number, role and name, since numbers may go over to others. */
+type Operate = (widget: string, role: string, name: string, value?: number) => void;
+
 export class Mirror {
   readonly #root: HTMLElement;
-  readonly #operate: (widget: string, value?: number) => void;
+  readonly #operate: Operate;
   readonly #elements = new Map<string, HTMLElement>();
+  readonly #names = new Map<HTMLElement, string>();
 
-  constructor(root: HTMLElement, operate: (widget: string, value?: number) => void) {
+  constructor(root: HTMLElement, operate: Operate) {
     this.#root = root;
     this.#operate = operate;
   }
@@ -27,6 +31,7 @@ export class Mirror {
       kept.add(key);
       const element = this.#elements.get(key) ?? this.#make(widget);
       this.#elements.set(key, element);
+      this.#names.set(element, widget[2]);
       set(element, widget);
       const place = before ? before.nextElementSibling : this.#root.firstElementChild;
       if (place !== element) this.#root.insertBefore(element, place);
@@ -36,6 +41,7 @@ export class Mirror {
       if (kept.has(key)) continue;
       element.remove();
       this.#elements.delete(key);
+      this.#names.delete(element);
     }
   }
 
@@ -47,7 +53,7 @@ export class Mirror {
       input.tabIndex = -1;
       input.addEventListener("change", () => {
         const value = Number(input.value);
-        if (input.value !== "" && Number.isFinite(value)) this.#operate(id, value);
+        if (input.value !== "" && Number.isFinite(value)) this.#operate(id, role, this.#names.get(input) ?? "", value);
       });
       return input;
     }
@@ -61,7 +67,7 @@ export class Mirror {
     button.type = "button";
     button.tabIndex = -1;
     if (role !== "button") button.setAttribute("role", role);
-    button.addEventListener("click", () => this.#operate(id));
+    button.addEventListener("click", () => this.#operate(id, role, this.#names.get(button) ?? ""));
     return button;
   }
 }

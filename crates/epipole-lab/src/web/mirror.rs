@@ -14,7 +14,38 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) struct Told {
     widgets: String,
     is_new: bool,
-    wishes: Vec<(NodeId, Action, Option<f64>)>,
+    wishes: Vec<Wish>,
+}
+
+/// A widget to be operated, as the page has seen it.
+pub(super) struct Wish {
+    pub(super) widget: u64,
+    pub(super) role: String,
+    pub(super) name: String,
+    /// The number that it gets; else it is clicked.
+    pub(super) value: Option<f64>,
+}
+
+impl Wish {
+    /// The widget by its number now. The toolkit counts widgets, so a number may have gone over to another one since the
+    /// page has looked: whoever presses "Undo" does not mean what stands there now.
+    fn find(&self, widgets: &str) -> Option<NodeId> {
+        let alike = || {
+            widgets.lines().filter_map(|line| {
+                let mut fields = line.split('\t');
+                let number: u64 = fields.next()?.parse().ok()?;
+                let is_alike = fields.next()? == self.role;
+                is_alike.then_some((number, fields.next()?))
+            })
+        };
+        let is_same = |&(number, _): &(u64, &str)| number == self.widget;
+        let is_named = |&(_, name): &(u64, &str)| name == self.name;
+        // One whose name tells its state may have another name by now.
+        let found = (alike().find(|widget| is_same(widget) && is_named(widget)))
+            .or_else(|| alike().find(is_named))
+            .or_else(|| alike().find(is_same));
+        found.map(|(number, _)| NodeId(number))
+    }
 }
 
 /// One end of the line between page and toolkit.
@@ -32,8 +63,8 @@ impl Mirror {
     }
 
     /// Operates a widget with the next frame.
-    pub(super) fn wish(&self, widget: u64, action: Action, value: Option<f64>) {
-        self.told(|told| told.wishes.push((NodeId(widget), action, value)));
+    pub(super) fn wish(&self, wish: Wish) {
+        self.told(|told| told.wishes.push(wish));
     }
 }
 
@@ -47,10 +78,14 @@ impl egui::Plugin for Mirror {
     }
 
     fn input_hook(&mut self, _context: &egui::Context, input: &mut egui::RawInput) {
-        let wishes = self.told(|told| std::mem::take(&mut told.wishes));
-        for (target_node, action, value) in wishes {
+        let wishes = self.told(|told| {
+            let wishes = std::mem::take(&mut told.wishes);
+            let found = |wish: Wish| Some((wish.find(&told.widgets)?, wish.value));
+            wishes.into_iter().filter_map(found).collect::<Vec<_>>()
+        });
+        for (target_node, value) in wishes {
             let request = ActionRequest {
-                action,
+                action: value.map_or(Action::Click, |_| Action::SetValue),
                 target_tree: TreeId::ROOT,
                 target_node,
                 data: value.map(ActionData::NumericValue),

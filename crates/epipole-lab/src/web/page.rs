@@ -1,10 +1,9 @@
 //! What the page calls, and what it calls the page for.
 
-use super::mirror::Mirror;
+use super::mirror::{Mirror, Wish};
 use crate::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare, wear};
 use crate::tasks::{Blob, Branch};
 use eframe::web_sys::HtmlCanvasElement;
-use egui::accesskit::Action;
 use std::cell::RefCell;
 use std::rc::Rc;
 use wasm_bindgen::JsValue;
@@ -340,14 +339,15 @@ impl Lab {
         self.mirror.news()
     }
 
-    /// Operates a widget: clicks it, or sets its number.
-    pub fn operate(&self, widget: &str, value: Option<f64>) {
+    /// Operates a widget, by its number, role and name: clicks it, or sets its number.
+    pub fn operate(&self, widget: &str, role: String, name: String, value: Option<f64>) {
         let Ok(widget) = widget.parse() else { return };
-        let action = match value {
-            Some(_) => Action::SetValue,
-            None => Action::Click,
-        };
-        self.mirror.wish(widget, action, value);
+        self.mirror.wish(Wish {
+            widget,
+            role,
+            name,
+            value,
+        });
         self.receive(|_| {});
     }
 
