@@ -24,11 +24,20 @@ const extraPrefsFirefox = { "webgl.force-enabled": true, "webgl.disable-fail-if-
 
 export const chromium = () => byPuppeteer("Chromium", { ...launchOptions, args, browser: "chrome", headless: true });
 
-export const firefox = () => {
+export const firefox = () => openFirefox({ headless: true });
+
+/** In a window, on a display that nobody sees: without one it gives no page WebGL. */
+export async function firefoxWindow() {
+  const screen = hiddenScreen();
+  const engine = await openFirefox({ headless: false, env: { ...process.env, DISPLAY: screen.display, LIBGL_ALWAYS_SOFTWARE: "1" } });
+  return { ...engine, close: () => engine.close().finally(screen.close) };
+}
+
+function openFirefox(options) {
   const executablePath = process.env.FIREFOX ?? FIREFOX.find((path) => existsSync(path));
   if (!executablePath) throw new Error("Firefox is missing: install firefox-esr, or set FIREFOX=path");
-  return byPuppeteer("Firefox", { browser: "firefox", executablePath, extraPrefsFirefox, headless: true });
-};
+  return byPuppeteer("Firefox", { browser: "firefox", executablePath, extraPrefsFirefox, ...options });
+}
 
 async function byPuppeteer(name, options) {
   const browser = await puppeteer.launch({ ...options, defaultViewport: WINDOW, protocolTimeout: 600_000 });
@@ -53,15 +62,20 @@ async function byPuppeteer(name, options) {
 
 let windows = 0;
 
-/** Its driver tells nothing of the console, so pages report their own errors. */
-export async function webkit() {
-  const window = process.env.MINI_BROWSER ?? MINI_BROWSERS.find((path) => existsSync(path));
-  if (!window) throw new Error("WebKit is missing: install webkit2gtk-driver and its MiniBrowser");
-  // What a window before this one has used may not be free yet.
+/** A display that nobody sees, with a number of its own: what a window before has used may not be free yet. */
+function hiddenScreen() {
   const [display, port] = [`:${90 + (process.pid % 100) + 100 * windows}`, 4400 + (process.pid % 1000) + 1000 * windows];
   windows += 1;
   const size = `${WINDOW.width + 60}x${WINDOW.height + 160}x24`;
   const screen = spawn("Xvfb", [display, "-screen", "0", size, "-nolisten", "tcp"], { stdio: "ignore" });
+  return { display, port, close: () => void screen.kill() };
+}
+
+/** Its driver tells nothing of the console, so pages report their own errors. */
+export async function webkit() {
+  const window = process.env.MINI_BROWSER ?? MINI_BROWSERS.find((path) => existsSync(path));
+  if (!window) throw new Error("WebKit is missing: install webkit2gtk-driver and its MiniBrowser");
+  const { display, port, close } = hiddenScreen();
   const env = {
     ...process.env,
     DISPLAY: display,
@@ -113,7 +127,7 @@ export async function webkit() {
     close: async () => {
       await session.quit().catch(() => {});
       driver.kill();
-      screen.kill();
+      close();
     },
   };
 }

@@ -8,9 +8,9 @@ import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { book } from "../browser/places.mjs";
 import { POLICY, serve } from "../browser/server.mjs";
-import { chromium, firefox, webkit } from "./drivers.mjs";
+import { chromium, firefoxWindow, webkit } from "./drivers.mjs";
 
-const ENGINES = { firefox, webkit };
+const ENGINES = { firefox: firefoxWindow, webkit };
 const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.ONLY ?? ""));
 
 if (!existsSync(join(book, "lab/index.html"))) throw new Error("the Lab is missing: run `make lab` first");
