@@ -34,7 +34,11 @@ export async function fileServer(folder, under = "/") {
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
     origin: `http://127.0.0.1:${server.address().port}`,
-    close: () => new Promise((resolve) => server.close(resolve)),
+    close: () => {
+      // The browser may have opened a connection that it has not used yet, which would never end.
+      server.closeAllConnections();
+      return new Promise((resolve) => server.close(resolve));
+    },
   };
 }
 
@@ -72,7 +76,7 @@ export function started(child, pattern, patience = 90_000) {
       child.stdout.off("data", listen).resume();
       child.stderr.off("data", listen).resume();
       const { origin } = new URL(found[1]);
-      const close = () => new Promise((done) => (child.once("exit", done), child.kill()));
+      const close = () => new Promise((done) => (child.exitCode === null ? (child.once("exit", done), child.kill()) : done()));
       void answering(origin).then(() => {
         clearTimeout(late);
         resolve({ origin, close });
