@@ -301,8 +301,8 @@ const CHALLENGES: &[Challenge<GradientField>] = &[
         id: "down",
         goal: "Turn the edge until the gradient at the probe points straight down.",
         hint: "Which way is the edge when the gradient is down? And which side must be the bright one?",
-        why: "The gradient is perpendicular to the edge, toward the brighter side, so a level edge with the \
-              bright side below has a gradient of 90°.",
+        why: "The gradient is perpendicular to the edge and points to the brighter side, so on a level edge with \
+              the bright side below it points straight down: 90°.",
         check: |model| {
             let probed = model.probed().filter(|arrow| arrow.magnitude() > 10.0);
             let is_edge = model.edge().is_some();
@@ -314,7 +314,7 @@ const CHALLENGES: &[Challenge<GradientField>] = &[
         id: "noise",
         goal: "With noise of 20 gray levels or more, bring the arrows on the edge to within 6°.",
         hint: "An average is calmer than a single pixel.",
-        why: "The noise of a slope falls with the square of σ, the slope of the edge far more slowly.",
+        why: "The noise of a slope falls with the square of σ, and the slope of the edge falls far more slowly.",
         check: |model| {
             let is_noisy = model.edge().is_some_and(|edge| edge.noise >= 20.0);
             is_noisy && model.off_deg().is_some_and(|off| off <= 6.0)

@@ -29,24 +29,18 @@ impl Words for GradientField {
             Readout::number("direction", "Angle", arrow.angle_deg(), 1, "°").main(),
         ];
         if let Some(off_deg) = self.off_deg() {
-            readouts.push(Readout::number(
-                "off",
-                "Edge arrows off by",
-                off_deg,
-                1,
-                "°",
-            ));
+            readouts.push(Readout::number("off", "Arrow error", off_deg, 1, "°"));
         }
         for (smooth_px, ids, labels) in [
             (
                 self.smooth_px(),
                 ["slope", "left", "ratio"],
-                ["Slope of the edge", "Noise of a slope", "Slope / noise"],
+                ["Edge slope", "Slope noise", "Ratio"],
             ),
             (
                 Some(self.sigma_px()),
                 ["smooth-slope", "smooth-left", "smooth-ratio"],
-                ["Slope, smoothed", "Noise, smoothed", "Ratio, smoothed"],
+                ["Smoothed slope", "Smoothed noise", "Smoothed ratio"],
             ),
         ] {
             if let Some(quality) = self.quality(smooth_px) {
@@ -61,7 +55,7 @@ impl Words for GradientField {
         }
         readouts.push(Readout::words(
             "beside-it",
-            "Beside the image",
+            "Beside it",
             self.shown_beside(),
         ));
         readouts
@@ -89,7 +83,7 @@ impl Words for GradientField {
         };
         let off = self.off_deg().map_or(String::new(), |off| {
             format!(
-                " The arrows on the edge are off by {}°.",
+                " The arrows on the edge are off by {}° (root mean square).",
                 format_number(off, 1)
             )
         });

@@ -240,7 +240,7 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
         goal: "With the difference along u, get exactly 0 in the first column.",
         hint: "The pixel on the left is not there. Which border makes it equal to the one on the right?",
         why: "A mirrored border puts the right neighbor on the left as well, so across the border the image \
-              seems flat: every border invents a slope.",
+              looks flat. Every border invents a slope.",
         check: |model| {
             let chosen = [&KERNEL, &ALONG].map(|choice| model.settings.chosen(choice));
             chosen == [0, 0] && model.pixel().0 == 0 && model.answer(model.pixel()) == 0.0
@@ -255,8 +255,8 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
     Challenge {
         id: "shift",
         goal: "Build a kernel of your own that moves the image by one pixel.",
-        hint: "Your own kernel begins as a 1 in the middle, which leaves the image as it is.",
-        why: "The answer is put in the middle of the window, so a 1 to the right of it fetches the right \
+        hint: "Your own kernel starts with a 1 in the middle, which leaves the image as it is.",
+        why: "The answer belongs to the middle of the window, so a 1 to the right of it fetches the right \
               neighbor, and the image moves to the left.",
         check: |model| model.settings.chosen(&KERNEL) == OWN && model.own().is_shift(),
         solution: || {

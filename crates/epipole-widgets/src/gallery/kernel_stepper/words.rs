@@ -31,23 +31,17 @@ impl Words for KernelStepper {
         let sum = self.sum(pixel);
         let divisor = f64::from(self.kernel().divisor);
         vec![
-            Readout::number("sum", "Sum of products", sum, 0, "").main(),
-            Readout::number("divisor", "divided by", divisor, 0, "").main(),
+            Readout::number("sum", "Sum", sum, 0, "").main(),
+            Readout::number("divisor", "Divisor", divisor, 0, "").main(),
             Readout::number("answer", "Answer", self.answer(pixel), 2, "").main(),
             Readout::words(
                 "place",
                 "Pixel",
                 format!("column {}, row {}", pixel.0, pixel.1),
             ),
-            Readout::number(
-                "level",
-                "Its gray level",
-                f64::from(self.window()[4]),
-                0,
-                "",
-            ),
-            Readout::words("beyond", "Beyond the border", self.border_name()),
-            Readout::words("own-kernel", "Your own kernel", self.own().words()),
+            Readout::number("level", "Gray level", f64::from(self.window()[4]), 0, ""),
+            Readout::words("beyond", "Border", self.border_name()),
+            Readout::words("own-kernel", "Your kernel", self.own().words()),
         ]
     }
 

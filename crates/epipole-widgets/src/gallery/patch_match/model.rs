@@ -140,16 +140,16 @@ const CHALLENGES: &[Challenge<PatchMatch>] = &[
     Challenge {
         id: "four",
         goal: "Match at least four of the five.",
-        hint: "Look at what is around the middle, too.",
-        why: "You compared shapes and ignored light, direction and size: a descriptor has to do the same.",
+        hint: "Look at the surroundings of the middle, too.",
+        why: "You compared shapes and ignored light, direction and size. A descriptor has to do the same.",
         check: |model| model.score() >= 4,
         solution: || picks(RIGHT),
     },
     Challenge {
         id: "better",
-        goal: "Have more right than the nearest descriptor.",
-        hint: "One of the five is at a border, where half the window shows something else.",
-        why: "The nearest descriptor is only the one that looks most alike, and that is not always the same \
+        goal: "Beat the nearest descriptor.",
+        hint: "One patch lies on the rim of a thing, where half of it shows what is behind.",
+        why: "The nearest descriptor is only the most similar one, and that is not always the same \
               place: matches need a test.",
         check: |model| model.is_finished() && model.score() > model.machine_score(),
         solution: || picks(RIGHT),

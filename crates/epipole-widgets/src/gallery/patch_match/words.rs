@@ -13,7 +13,7 @@ impl Words for PatchMatch {
         };
         let yours = format!("{} of {}", self.score(), self.num_picked());
         vec![
-            Readout::words("score", "You have right", yours).main(),
+            Readout::words("score", "Your score", yours).main(),
             Readout::words("machine", "Nearest descriptor", machine).main(),
         ]
     }
@@ -29,13 +29,13 @@ impl Words for PatchMatch {
         if self.is_finished() {
             let machine = self.machine_score();
             return format!(
-                "All five patches are matched, {score} of them rightly. The nearest descriptor is right for \
+                "All five patches are matched, {score} of them correctly. The nearest descriptor is right for \
                  {machine} of {NUM_ROUNDS}."
             );
         }
         format!(
             "Five patches of photograph 1, each with four patches of photograph 2 of which one shows the same \
-             place. {picked} are matched, {score} of them rightly."
+             place. {picked} are matched, {score} of them correctly."
         )
     }
 }

@@ -143,10 +143,10 @@ impl Model for RatioTest {
 const CHALLENGES: &[Challenge<RatioTest>] = &[
     Challenge {
         id: "half-wrong",
-        goal: "Keep so many that more than half of them are wrong.",
-        hint: "Take out both tests.",
-        why: "Every feature has a nearest neighbor, also one whose true match is hidden or was not \
-              detected, so without a test each of those adds a wrong match.",
+        goal: "Keep so many matches that more than half of them are wrong.",
+        hint: "Switch both tests off.",
+        why: "Every feature has a nearest neighbor, even one whose true match is hidden or was not \
+              detected. Without a test, each of those adds a wrong match.",
         check: |model| {
             let precision = model.tally().and_then(|tally| tally.precision());
             precision.is_some_and(|precision| precision < 0.5)
@@ -155,7 +155,7 @@ const CHALLENGES: &[Challenge<RatioTest>] = &[
     },
     Challenge {
         id: "nine-of-ten",
-        goal: "Keep at least 100 matches, of which nine in ten are right.",
+        goal: "Keep at least 100 matches, nine in ten of them right.",
         hint: "Be stricter than usual.",
         why: "Wrong matches have ratios near 1, so a stricter test removes many of them for each right one.",
         check: |model| {
@@ -168,10 +168,10 @@ const CHALLENGES: &[Challenge<RatioTest>] = &[
     },
     Challenge {
         id: "right-and-rejected",
-        goal: "With τ = 0.8, find a feature whose nearest neighbor is right and rejected all the same.",
+        goal: "With τ = 0.8, find a feature whose nearest neighbor is right but rejected.",
         hint: "Look where one thing resembles the next.",
-        why: "The test asks whether the runner-up is clearly worse, not whether the winner is right: \
-              where things repeat, even a right match is not clearly better.",
+        why: "The test asks whether the runner-up is clearly worse, not whether the winner is right. \
+              Where things repeat, even a right match is not clearly better.",
         check: |model| {
             let rules = model.rules();
             let is_one = |found: &Candidate| found.is_right && !rules.keep(found);

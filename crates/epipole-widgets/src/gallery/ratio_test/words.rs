@@ -48,7 +48,7 @@ impl Words for RatioTest {
             Readout::words("verdict", "That match", verdict),
             Readout::words("place", "Feature at", place),
             Readout::count("features", "Features", answer.candidates.len()),
-            Readout::count("findable", "Could be found", answer.num_findable as usize),
+            Readout::count("findable", "Findable", answer.num_findable as usize),
         ]
     }
 

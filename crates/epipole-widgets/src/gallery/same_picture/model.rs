@@ -169,9 +169,9 @@ const CHALLENGES: &[Challenge<SamePicture>] = &[
     Challenge {
         id: "ordinary",
         goal: "Make it an ordinary mug, 10 cm tall, in the same photograph 1.",
-        hint: "It is 0.30 m tall at 1.50 m. Which of the two numbers can be divided by 3 alone?",
-        why: "A photograph fixes height over distance, here 0.2, and 0.10 m at 0.50 m is 0.2 as \
-              well as 0.30 m at 1.50 m.",
+        hint: "It is 0.30 m tall at 1.50 m. If the height is divided by 3, what happens to the distance?",
+        why: "A photograph fixes only height over distance, here 0.2. Both 0.10 m at 0.50 m and 0.30 m \
+              at 1.50 m make 0.2.",
         check: |model| model.grows() && model.height_m() < 0.105,
         solution: || vec![Event::moved("mug", 0.05, 0.5)],
     },

@@ -8,21 +8,21 @@ impl Words for SamePicture {
         let picture_px = self.picture_px().unwrap_or(f64::NAN);
         let column2_px = self.column2_px().unwrap_or(f64::NAN);
         vec![
-            Readout::number("picture", "In photograph 1", picture_px, 0, "px").main(),
+            Readout::number("picture", "Pixel height", picture_px, 0, "px").main(),
             Readout::number("height", "Height H", self.height_m(), 2, "m").main(),
             Readout::number("distance", "Distance Z", self.distance_m(), 2, "m").main(),
-            Readout::number("column2", "Column in photograph 2", column2_px, 0, "px"),
+            Readout::number("column2", "Column 2", column2_px, 0, "px"),
         ]
     }
 
     fn describe(&self) -> String {
         let size = match self.grows() {
-            true => "As it grows with its distance, photograph 1 is always the same.",
+            true => "It grows with its distance, so photograph 1 never changes.",
             false => "It keeps its size, so photograph 1 changes with its distance.",
         };
         format!(
             "A mug {} m tall stands {} m from camera 1, which sees it {} px tall. {size} Photograph \
-             2, from the side, shows it at the column {}.",
+             2, from the side, shows it in column {}.",
             format_number(self.height_m(), 2),
             format_number(self.distance_m(), 2),
             format_number(self.picture_px().unwrap_or(0.0), 0),

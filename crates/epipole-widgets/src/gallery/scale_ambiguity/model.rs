@@ -14,12 +14,12 @@ const PAIR: [usize; 2] = [1, 2];
 /// Photographs that differ by less are the same, pixels.
 const SAME_PX: f64 = 1e-6;
 
-const HOUSE: Slider = Slider::new("house", "House, times as large")
+const HOUSE: Slider = Slider::new("house", "House size")
     .range(0.5, 4.0, 0.25)
     .at(2.0)
     .digits(2)
     .unit("×");
-const BASELINE: Slider = Slider::new("baseline", "Baseline, times as long")
+const BASELINE: Slider = Slider::new("baseline", "Baseline length")
     .range(0.5, 4.0, 0.25)
     .at(2.0)
     .digits(2)
@@ -151,8 +151,8 @@ const CHALLENGES: &[Challenge<ScaleAmbiguity>] = &[
         id: "one-notices",
         goal: "Change photograph 2 by at least 40 px and photograph 1 not at all.",
         hint: "Does one camera alone notice the size of the house?",
-        why: "Enlarged about its center, a house keeps all its rays to camera 1; camera 2 sees it from the side, \
-              unless it moves along.",
+        why: "Enlarged about camera 1, the house keeps every corner on its ray to camera 1. Camera 2 sees those \
+              rays from the side, unless it moves along.",
         check: |model| {
             model
                 .changes_px()
@@ -164,7 +164,7 @@ const CHALLENGES: &[Challenge<ScaleAmbiguity>] = &[
         id: "thrice",
         goal: "Make the house three times as large with both photographs as they were.",
         hint: "Two things have to grow.",
-        why: "House and baseline grew by the same factor, so all rays meet as before: photographs give the \
+        why: "House and baseline grew by the same factor, so all rays meet as before. Photographs give the \
               shape of the world, never its size.",
         check: |model| {
             let is_same = model.changes_px() == Some([0.0; 2]);

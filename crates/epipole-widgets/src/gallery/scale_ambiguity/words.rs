@@ -33,7 +33,7 @@ impl Words for ScaleAmbiguity {
             None => "Part of the house is behind a camera now.".to_owned(),
         };
         format!(
-            "The house is {house} times as large, the baseline {baseline} times as long. {photographs}"
+            "The house is {house} times as large as before, the baseline {baseline} times as long. {photographs}"
         )
     }
 }

@@ -143,7 +143,7 @@ const CHALLENGES: &[Challenge<ScaleSpace>] = &[
         id: "peak",
         goal: "Set σ to the size of what is under the probe, within 5 %.",
         hint: "Where is the curve farthest from zero?",
-        why: "The difference answers most where the blur has the size of the thing, so the photograph itself \
+        why: "The difference is strongest where the blur has the size of the thing, so the photograph itself \
               says how large the window must be.",
         check: |model| {
             let extremum = model.extremum();
@@ -154,9 +154,9 @@ const CHALLENGES: &[Challenge<ScaleSpace>] = &[
     Challenge {
         id: "bright",
         goal: "Find something bright that is larger than 4 px.",
-        hint: "What is brighter than all around it loses to the blur.",
-        why: "Blur spreads the light of a bright spot, so more blur less less blur is negative there; SIFT \
-              keeps both kinds of extremum.",
+        hint: "Blur makes a bright spot darker, so its difference is negative.",
+        why: "Blur spreads the light of a bright spot, so subtracting the weaker blur from the stronger one leaves \
+              less than nothing there. SIFT keeps both kinds of extremum.",
         check: |model| {
             let extremum = model.extremum();
             extremum.is_some_and(|found| found.value < -4.0 && found.sigma_px > 4.0)

@@ -8,7 +8,7 @@ use crate::kit::question::Question as _;
 impl Words for ScaleSpace {
     fn readouts(&self) -> Vec<Readout> {
         let Some(now) = self.now() else {
-            return vec![Readout::words("peak", "Extremum at σ", "none yet").main()];
+            return vec![Readout::words("peak", "Extremum σ", "none yet").main()];
         };
         let extremum = self.extremum();
         let kind = match extremum.map(|found| found.value < 0.0) {
@@ -18,12 +18,12 @@ impl Words for ScaleSpace {
         };
         vec![
             match extremum {
-                Some(found) => Readout::number("peak", "Extremum at σ", found.sigma_px, 1, "px"),
-                None => Readout::words("peak", "Extremum at σ", "none"),
+                Some(found) => Readout::number("peak", "Extremum σ", found.sigma_px, 1, "px"),
+                None => Readout::words("peak", "Extremum σ", "none"),
             }
             .main(),
-            Readout::words("kind", "What is there", kind).main(),
-            Readout::number("now", "Difference at σ", now, 1, "levels").main(),
+            Readout::words("kind", "Found there", kind).main(),
+            Readout::number("now", "Difference", now, 1, "levels").main(),
             Readout::number(
                 "strongest",
                 "Strongest answer",
@@ -43,10 +43,10 @@ impl Words for ScaleSpace {
         };
         let (u, v) = self.place();
         let peak = self.extremum().map_or_else(
-            || "no blur answers more than its neighbors".to_owned(),
+            || "no blur gives more than its neighbors".to_owned(),
             |found| {
                 format!(
-                    "the answer is strongest at σ = {} px, where something {} is as large",
+                    "the difference is strongest at σ = {} px, the size of something {}",
                     format_number(found.sigma_px, 1),
                     if found.value < 0.0 { "bright" } else { "dark" }
                 )

@@ -164,8 +164,8 @@ const CHALLENGES: &[Challenge<SiftDescriptor>] = &[
     Challenge {
         id: "light-only",
         goal: "Change the photograph so that the normalized patch is recognized and the raw one is not.",
-        hint: "Undo what moves pixels, keep what changes their values.",
-        why: "Subtracting the mean and dividing by the spread removes brightness and contrast, and nothing \
+        hint: "Undo what moves pixels. Keep what changes their values.",
+        why: "Subtracting the mean and dividing by the length removes brightness and contrast, and nothing \
               else.",
         check: |model| match (model.ratio(0), model.ratio(1)) {
             (Some(raw), Some(normalized)) => raw > 0.8 && normalized < 0.5,
@@ -182,9 +182,9 @@ const CHALLENGES: &[Challenge<SiftDescriptor>] = &[
     Challenge {
         id: "lost",
         goal: "Leave the scale at 1 or above and make SIFT lose the keypoint.",
-        hint: "Its window follows the photograph because two things were found out first.",
-        why: "The 128 numbers themselves know nothing of turning: the window must be turned before they are \
-              counted.",
+        hint: "Its window follows the photograph only because two things are measured first. Switch one off.",
+        why: "The 128 numbers themselves know nothing about turning or size: the window must be turned and \
+              scaled before gradients are counted.",
         check: |model| {
             model.change().zoom >= 1.0 && model.ratio(2).is_some_and(|ratio| ratio > 0.8)
         },

@@ -28,28 +28,21 @@ impl Words for SiftDescriptor {
         let details = [
             (
                 "raw",
-                "Raw, to itself",
+                "Raw, original",
                 "raw-other",
-                "Raw, to another",
+                "Raw, other",
                 1,
                 "levels",
             ),
             (
                 "normalized",
-                "Normalized, to itself",
+                "Normalized, original",
                 "normalized-other",
-                "Normalized, to another",
+                "Normalized, other",
                 2,
                 "",
             ),
-            (
-                "sift",
-                "SIFT, to itself",
-                "sift-other",
-                "SIFT, to another",
-                2,
-                "",
-            ),
+            ("sift", "SIFT, original", "sift-other", "SIFT, other", 2, ""),
         ];
         for ((id, label, other_id, other, digits, unit), distance) in
             details.into_iter().zip(&compared.distances)
@@ -94,7 +87,7 @@ impl Words for SiftDescriptor {
         let change = self.change();
         format!(
             "The photograph is turned by {}°, scaled by {} and {} gray levels brighter. Distance to the \
-             original over distance to the nearest other feature: {}. Below 0.8 it would be recognized.",
+             original, divided by that to the nearest other feature: {}. Below 0.8 it would be recognized.",
             format_number(change.turn_rad.to_degrees(), 0),
             format_number(change.zoom, 2),
             format_number(change.brighter * 255.0, 0),

@@ -177,9 +177,9 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
     Challenge {
         id: "narrow",
         goal: "Make the region four times as long without touching the point or the noise.",
-        hint: "At which angle do the rays meet?",
-        why: "The depth error goes with one over the angle, for a small one: a quarter of the angle, four \
-              times the error.",
+        hint: "At what angle do the rays meet?",
+        why: "While the angle is small, the depth error is proportional to one over the angle: a quarter of the \
+              angle, four times the error.",
         check: |model| {
             let start = Triangulate::new();
             let long = |model: &Triangulate| model.estimates.as_ref().ok()?.uncertainty_m();
@@ -190,10 +190,10 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
     },
     Challenge {
         id: "fair",
-        goal: "Let the midpoint miss as little as the optimum, with the same noise.",
+        goal: "Make the midpoint as good as the optimum, with the same noise.",
         hint: "In which of the two photographs does the midpoint miss by more, and why there?",
-        why: "As far from one camera as from the other, a millimeter is as many pixels in both photographs: \
-              half-way is fair.",
+        why: "At the same distance from both cameras, a millimeter is as many pixels in one photograph as in the \
+              other, so halfway is fair.",
         check: |model| {
             let start = Triangulate::new();
             let same = [&NOISE, &SEED]
@@ -208,7 +208,7 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
     Challenge {
         id: "round",
         goal: "Make the region nearly round, at any place.",
-        hint: "Each camera measures well across its own ray. So the other one should look …",
+        hint: "Each camera measures well across its own ray. So where should the other one look from?",
         why: "At a right angle each camera measures the direction in which the other one is blind.",
         check: |model| {
             let axes = model

@@ -34,12 +34,12 @@ fn beside(show: Show, estimates: &Estimates) -> String {
             px(METHODS.len() - 1)
         ),
         Show::Angle => format!(
-            "With camera 2 led about P it would be {} at 5° and {} at 45°.",
+            "With camera 2 moved around P it would be {} at 5° and {} at 45°.",
             cm(&curves.angle, 5.0),
             cm(&curves.angle, 45.0)
         ),
         Show::Distance => format!(
-            "With P led away it would be {} at 5 m and {} at 50 m.",
+            "With P moved away it would be {} at 5 m and {} at 50 m.",
             cm(&curves.distance, 5.0),
             cm(&curves.distance, 50.0)
         ),
@@ -53,9 +53,9 @@ impl Words for Triangulate {
         };
         let predicted = estimates.uncertainty_m();
         let mut readouts = vec![
-            Readout::number("angle", "Rays meet at", estimates.angle_deg, 1, "°").main(),
-            centimeters("uncertainty", "1 σ along rays", predicted).main(),
-            centimeters("scatter", "200 pairs scatter by", estimates.scatter_m()),
+            Readout::number("angle", "Ray angle", estimates.angle_deg, 1, "°").main(),
+            centimeters("uncertainty", "Depth σ", predicted).main(),
+            centimeters("scatter", "Scatter", estimates.scatter_m()),
         ];
         for (index, (id, label)) in IDS.into_iter().zip(LABELS).enumerate() {
             let readout = match estimates.reprojection_px(index) {
@@ -101,8 +101,8 @@ impl Words for Triangulate {
 }
 
 const LABELS: [&str; 4] = [
-    "Midpoint misses by",
-    "DLT misses by",
-    "Angular misses by",
-    "Optimal misses by",
+    "Midpoint error",
+    "DLT error",
+    "Angular error",
+    "Optimal error",
 ];

@@ -177,8 +177,8 @@ const CHALLENGES: &[Challenge<TwoCameras>] = &[
     Challenge {
         id: "behind",
         goal: "Make the two rays meet behind the cameras.",
-        hint: "Then the column on the right is larger than the one on the left.",
-        why: "A true point always lies farther left in the right image; a match that says otherwise \
+        hint: "Then the right column is larger than the left one.",
+        why: "A true point always lies farther left in the right image. A match that says otherwise \
               makes the rays part, and they meet behind the cameras.",
         check: |model| matches!(model.meeting(), Meeting::Behind(_)),
         solution: || vec![Event::set(&WRONG, true), Event::moved("other", 1.2, 2.0)],

@@ -17,24 +17,12 @@ impl Words for TwoCameras {
             Readout::number("depth", "True depth", depth_m, 2, "m").main(),
         ];
         if let Ok([left, right]) = self.columns() {
-            readouts.push(Readout::number("left", "Column on the left", left, 1, "px"));
-            readouts.push(Readout::number(
-                "right",
-                "Column on the right",
-                right,
-                1,
-                "px",
-            ));
+            readouts.push(Readout::number("left", "Left column", left, 1, "px"));
+            readouts.push(Readout::number("right", "Right column", right, 1, "px"));
         }
         if let Meeting::Ahead(found) = self.meeting() {
             let error_m = found.y - depth_m;
-            readouts.push(Readout::number(
-                "error",
-                "Error of the depth",
-                error_m,
-                2,
-                "m",
-            ));
+            readouts.push(Readout::number("error", "Depth error", error_m, 2, "m"));
         }
         readouts
     }
@@ -45,7 +33,9 @@ impl Words for TwoCameras {
         let depth = format_number(depth_m, 2);
         let meeting = match self.meeting() {
             Meeting::Ahead(found) => format!("meet {} m away", format_number(found.y, 2)),
-            Meeting::Behind(_) => "part, and would meet behind the cameras".to_owned(),
+            Meeting::Behind(_) => {
+                "part; extended backward, they meet behind the cameras".to_owned()
+            }
             Meeting::Nowhere => "are parallel and meet nowhere".to_owned(),
         };
         match self.is_wrong() {
