@@ -26,7 +26,11 @@ impl Words for GradientField {
             slope("iu", "Iu", arrow.du).main(),
             slope("iv", "Iv", arrow.dv).main(),
             slope("magnitude", "Magnitude |∇I|", arrow.magnitude()).main(),
-            Readout::number("direction", "Angle", arrow.angle_deg(), 1, "°").main(),
+            match arrow.magnitude() > 0.0 {
+                true => Readout::number("direction", "Angle", arrow.angle_deg(), 1, "°"),
+                false => Readout::words("direction", "Angle", "none"),
+            }
+            .main(),
         ];
         if let Some(off_deg) = self.off_deg() {
             readouts.push(Readout::number("off", "Arrow error", off_deg, 1, "°"));
@@ -87,6 +91,11 @@ impl Words for GradientField {
                 format_number(off, 1)
             )
         });
+        if arrow.magnitude() == 0.0 {
+            return format!(
+                "{what}, {smoothed}. At column {u}, row {v} it is flat: the gradient is zero.{off}"
+            );
+        }
         format!(
             "{what}, {smoothed}. At column {u}, row {v} the gradient is ({}, {}), of magnitude {} and angle \
              {}°.{off}",
@@ -95,5 +104,28 @@ impl Words for GradientField {
             format_number(arrow.magnitude(), 1),
             format_number(arrow.angle_deg(), 1),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::{Event, Model};
+    use crate::kit::question::{settle, settled};
+    use image::RgbImage;
+
+    #[test]
+    fn a_photograph_of_one_color_has_no_direction() {
+        let own = Event::Set {
+            id: "source".into(),
+            value: "own".into(),
+        };
+        let mut model: GradientField = settled(&[own]);
+        model.take_photo("photo", RgbImage::new(40, 30)).unwrap();
+        settle(&mut model);
+        let readouts = model.readouts();
+        let direction = readouts.iter().find(|readout| readout.id == "direction");
+        assert_eq!(direction.unwrap().text, "none");
+        assert!(model.describe().contains("it is flat"));
     }
 }

@@ -255,7 +255,8 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
     Challenge {
         id: "shift",
         goal: "Build a kernel of your own that moves the image by one pixel.",
-        hint: "Your own kernel starts with a 1 in the middle, which leaves the image as it is.",
+        hint: "Your own kernel starts with a 1 in the middle, which leaves the image as it is. Its weights are under \
+              More settings.",
         why: "The answer belongs to the middle of the window, so a 1 to the right of it fetches the right \
               neighbor, and the image moves to the left.",
         check: |model| model.settings.chosen(&KERNEL) == OWN && model.own().is_shift(),

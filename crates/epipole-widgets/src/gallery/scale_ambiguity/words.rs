@@ -16,8 +16,8 @@ impl Words for ScaleAmbiguity {
             format_number(self.zoom(), 1)
         );
         vec![
-            change("first", "Photograph 1 changes", 0).main(),
-            change("second", "Photograph 2 changes", 1).main(),
+            change("first", "Photo 1 change", 0).main(),
+            change("second", "Photo 2 change", 1).main(),
             Readout::words("view", "Seen from", from),
         ]
     }

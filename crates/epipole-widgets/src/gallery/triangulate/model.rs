@@ -15,7 +15,7 @@ pub(super) const SIZE: (u32, u32) = (640, 480);
 /// How far to the left and to the right things may be, meters.
 pub(super) const ASIDE_M: [f64; 2] = [-1.2, 1.4];
 
-pub(super) const NOISE: Slider = Slider::new("noise", "Noise of a pixel, σ")
+pub(super) const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
     .range(0.1, 4.0, 0.1)
     .at(1.0)
     .digits(1)
