@@ -21,14 +21,14 @@ impl Words for ColumnSizes {
         vec![
             ratio(
                 "raw",
-                "Raw: largest / smallest",
+                "Raw ratio",
                 |both| both.raw.spread(),
                 0,
             )
             .main(),
             ratio(
                 "normalized",
-                "Normalized",
+                "Normalized ratio",
                 |both| both.normalized.spread(),
                 1,
             )

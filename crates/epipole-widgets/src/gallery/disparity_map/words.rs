@@ -43,7 +43,7 @@ impl Words for DisparityMap {
             number("coverage", "Coverage", coverage, 1, "%", waiting).main(),
             number(
                 "found",
-                "d at the probe",
+                "Found d",
                 found_px.map(f64::from),
                 2,
                 "px",
@@ -61,7 +61,7 @@ impl Words for DisparityMap {
                 "m",
                 waiting,
             ),
-            Readout::words("hidden", "At the probe", hidden),
+            Readout::words("hidden", "Visibility", hidden),
         ]
     }
 

@@ -37,14 +37,14 @@ impl Words for EpipolarClick {
             .main(),
             match distance {
                 Some(distance) => {
-                    Readout::number("residual", "Match to its line", distance, 3, "px")
+                    Readout::number("residual", "Residual", distance, 3, "px")
                 }
-                None => text("residual", "Match to its line", none()),
+                None => text("residual", "Residual", none()),
             }
             .main(),
             text(
                 "e2",
-                "Epipole e₂",
+                "Epipole e′",
                 of_geometry(&|geometry| short(&geometry.epipole2)),
             )
             .main(),
@@ -57,17 +57,17 @@ impl Words for EpipolarClick {
             ),
             text(
                 "sight",
-                "Camera 2 sees it",
+                "Visible",
                 matched.map_or_else(none, sight),
             ),
             text(
                 "line",
-                "Its line F x₁",
+                "Line ℓ′",
                 line.map_or_else(none, |line| words::line(&line)),
             ),
             text(
                 "e1",
-                "Epipole e₁",
+                "Epipole e",
                 of_geometry(&|geometry| short(&geometry.epipole1)),
             ),
             text(
@@ -114,7 +114,7 @@ impl Words for EpipolarClick {
             ),
         });
         text.push_str(&format!(
-            "; the epipole e₂, where all lines meet, is {}.",
+            "; the epipole e′, where all lines meet, is {}.",
             words::epipole(&geometry.epipole2)
         ));
         if let Some((index, point)) = self.selected() {

@@ -25,19 +25,19 @@ impl Words for Harris {
         vec![
             Readout::number(
                 "response",
-                "R at the probe",
+                "Score R",
                 probe.response / 1e6,
                 2,
                 "million",
             )
             .main(),
-            Readout::words("verdict", "so it is", probe.verdict.word()).main(),
+            Readout::words("verdict", "Verdict", probe.verdict.word()).main(),
             Readout::count("corners", "Corners", self.corners().len()).main(),
             number("lambda1", "λ₁", probe.lambda1, 0),
             number("lambda2", "λ₂", probe.lambda2, 0),
-            number("a", "A = Σ Iu²", probe.tensor.uu, 0),
-            number("b", "B = Σ Iv²", probe.tensor.vv, 0),
-            number("c", "C = Σ Iu Iv", probe.tensor.uv, 0),
+            number("a", "A, Σ Iu²", probe.tensor.uu, 0),
+            number("b", "B, Σ Iv²", probe.tensor.vv, 0),
+            number("c", "C, Σ IuIv", probe.tensor.uv, 0),
         ]
     }
 

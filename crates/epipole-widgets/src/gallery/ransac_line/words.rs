@@ -32,27 +32,27 @@ impl Words for RansacLine {
         vec![
             Readout::words(
                 "inliers",
-                "Votes, this sample",
+                "Votes now",
                 of(|tally| tally.candidate.as_ref()),
             )
             .main(),
             Readout::words(
                 "best",
-                "Votes, best so far",
+                "Best votes",
                 of(|tally| tally.best.as_ref()),
             )
             .main(),
             needed.main(),
-            number("near", "Runs of 100 within 1°", near, 0, "").main(),
+            number("near", "Runs within 1°", near, 0, "").main(),
             drawn,
-            number("error", "Best line off by", self.error_deg(), 1, "°"),
+            number("error", "Off by", self.error_deg(), 1, "°"),
             Readout::words(
                 "truth-votes",
-                "Votes, hidden line",
+                "Hidden line",
                 of(|tally| Some(&tally.truth)),
             ),
-            number("median", "Median of 100 runs", median, 2, "°"),
-            number("samples", "Samples a run", mean, 1, ""),
+            number("median", "Median error", median, 2, "°"),
+            number("samples", "Mean samples", mean, 1, ""),
         ]
     }
 

@@ -207,7 +207,7 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, model: &WindowShift, found:
         let [large, small, threshold] =
             [large, small, model.threshold()].map(|value| format_number(value, 0));
         let verdict = model.verdict(found).word();
-        let words = format!("{verdict}: λ₁ = {large}, λ₂ = {small}, large from {threshold}");
+        let words = format!("{verdict}: λ₁ = {large}, λ₂ = {small}, large above {threshold}");
         canvas.label((picture.x, y), &words, style);
         x = map.x;
     }
