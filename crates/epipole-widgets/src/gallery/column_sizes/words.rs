@@ -19,13 +19,7 @@ impl Words for ColumnSizes {
             None => Readout::words(id, label, "no columns"),
         };
         vec![
-            ratio(
-                "raw",
-                "Raw ratio",
-                |both| both.raw.spread(),
-                0,
-            )
-            .main(),
+            ratio("raw", "Raw ratio", |both| both.raw.spread(), 0).main(),
             ratio(
                 "normalized",
                 "Normalized ratio",

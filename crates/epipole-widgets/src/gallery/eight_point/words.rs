@@ -37,7 +37,7 @@ impl Words for EightPoint {
                 known.map(|estimate| estimate.used_px),
             )
             .main(),
-            px("miss", "Lines miss by", meeting.map(Meeting::shown_px)).main(),
+            px("miss", "Lines miss", meeting.map(Meeting::shown_px)).main(),
             words(
                 "condition",
                 "Condition number",

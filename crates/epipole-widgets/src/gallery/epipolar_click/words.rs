@@ -36,9 +36,7 @@ impl Words for EpipolarClick {
             )
             .main(),
             match distance {
-                Some(distance) => {
-                    Readout::number("residual", "Residual", distance, 3, "px")
-                }
+                Some(distance) => Readout::number("residual", "Residual", distance, 3, "px"),
                 None => text("residual", "Residual", none()),
             }
             .main(),
@@ -55,11 +53,7 @@ impl Words for EpipolarClick {
                     format!("{} at {}", index + 1, pixel(&point))
                 }),
             ),
-            text(
-                "sight",
-                "Visible",
-                matched.map_or_else(none, sight),
-            ),
+            text("sight", "Visible", matched.map_or_else(none, sight)),
             text(
                 "line",
                 "Line ℓ′",

@@ -44,14 +44,7 @@ impl Words for EpipolarPlane {
         vec![
             number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
             pixel("p2", "Image p′", 1).main(),
-            number(
-                "residual",
-                "Residual",
-                of(Scenery::residual_px),
-                3,
-                "px",
-            )
-            .main(),
+            number("residual", "Residual", of(Scenery::residual_px), 3, "px").main(),
             pixel("p1", "Image p", 0),
             Readout::words("lit", "Lit up", self.meaning()),
             number(

@@ -14,7 +14,7 @@ use image::RgbImage;
 
 const SOURCE: Choice = Choice::new(
     "source",
-    "Picture",
+    "Image",
     &[
         ("square", "Square"),
         ("still-life", "Still life"),

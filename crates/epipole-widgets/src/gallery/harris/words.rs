@@ -23,14 +23,7 @@ impl Words for Harris {
         };
         let number = |id, label, value, digits| Readout::number(id, label, value, digits, "");
         vec![
-            Readout::number(
-                "response",
-                "Score R",
-                probe.response / 1e6,
-                2,
-                "million",
-            )
-            .main(),
+            Readout::number("response", "Score R", probe.response / 1e6, 2, "million").main(),
             Readout::words("verdict", "Verdict", probe.verdict.word()).main(),
             Readout::count("corners", "Corners", self.corners().len()).main(),
             number("lambda1", "λ₁", probe.lambda1, 0),

@@ -12,9 +12,7 @@ impl Words for OutlierDrag {
             Err(_) => Readout::words(id, label, "no F"),
         };
         let without = match state {
-            Ok(state) => {
-                Readout::number("without", "Without it", state.without.mean_px, 2, "px")
-            }
+            Ok(state) => Readout::number("without", "Without it", state.without.mean_px, 2, "px"),
             Err(_) => Readout::words("without", "Without it", "no F"),
         };
         let farther = match state {

@@ -33,12 +33,7 @@ impl Words for RansacEpipolar {
             |drawn| drawn.readouts(),
         );
         let mut readouts = vec![
-            words(
-                "best",
-                "Best votes",
-                best.map(|best| of(best.num_votes)),
-            )
-            .main(),
+            words("best", "Best votes", best.map(|best| of(best.num_votes))).main(),
             Readout::words("right", "Right inliers", right).main(),
             drawn.main(),
             needed.main(),
@@ -53,11 +48,7 @@ impl Words for RansacEpipolar {
             readouts.push(Readout::number("sampson", label, best.mean_px, 3, unit));
             if self.num_right().is_some() {
                 let right = all.iter().filter(|found| found.is_right == Some(true));
-                readouts.push(Readout::count(
-                    "found",
-                    "Right matches",
-                    right.count(),
-                ));
+                readouts.push(Readout::count("found", "Right matches", right.count()));
             }
             if let Ok(line) = epipolar_line2(&best.fundamental, &self.probe()) {
                 let line = words::line(&line);

@@ -44,11 +44,7 @@ impl Words for RansacRace {
                 "Best votes",
                 votes(fits.best.as_ref().map(|line| line.num_votes())),
             ),
-            Readout::words(
-                "truth-votes",
-                "Hidden line",
-                of(fits.truth.num_votes()),
-            ),
+            Readout::words("truth-votes", "Hidden line", of(fits.truth.num_votes())),
             angle("between", "Angle between", angles.between),
         ]
     }

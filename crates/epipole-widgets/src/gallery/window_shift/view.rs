@@ -68,7 +68,7 @@ impl View for WindowShiftView {
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
         let panels = ["picture", "map", "surface"].map(|id| layout.panel(id));
-        let titles = ["Picture", "Change by shift", "The same as a surface"];
+        let titles = ["Image", "Change by shift", "The same as a surface"];
         for (panel, text) in panels.into_iter().zip(titles) {
             grid::title(canvas, panel.rect, text);
             canvas.panel(panel.rect);
