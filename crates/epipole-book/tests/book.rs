@@ -1065,3 +1065,45 @@ fn captions_are_short() {
     }
     assert!(long.is_empty(), "{long:#?}");
 }
+
+/// Every question of a quiz: its id, and of each choice the words, whether it is right, and what is said of it.
+fn choices() -> Vec<(String, Vec<(String, bool, bool)>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../content/quizzes");
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+        let file: toml::Table = toml::from_str(&text).unwrap();
+        for question in file["question"].as_array().unwrap() {
+            let id = question["id"].as_str().unwrap().to_owned();
+            let choices = question.get("choices").and_then(toml::Value::as_array);
+            let choice = |choice: &toml::Value| {
+                let text = choice["text"].as_str().unwrap().to_owned();
+                let is_right = choice.get("right").is_some();
+                (text, is_right, choice.get("why").is_some())
+            };
+            let choices = choices.into_iter().flatten().map(choice).collect();
+            found.push((id, choices));
+        }
+    }
+    assert!(found.len() > 50);
+    found
+}
+
+#[test]
+fn every_wrong_choice_is_explained_and_the_longest_is_not_the_right_one() {
+    let (mut single, mut longest) = (0, 0);
+    for (id, choices) in choices() {
+        for (text, is_right, has_why) in &choices {
+            assert!(*is_right || *has_why, "{id}: nothing is said of \"{text}\"");
+        }
+        if choices.iter().filter(|(_, is_right, _)| *is_right).count() == 1 {
+            let by_length = |choice: &&(String, bool, bool)| choice.0.chars().count();
+            single += 1;
+            longest += usize::from(choices.iter().max_by_key(by_length).unwrap().1);
+        }
+    }
+    assert!(
+        single > 25 && 2 * longest <= single,
+        "{longest} of {single}"
+    );
+}

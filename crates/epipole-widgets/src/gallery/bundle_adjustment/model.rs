@@ -23,17 +23,17 @@ const WRONG: Slider = Slider::new("outliers", "Wrong features")
     .range(0.0, 20.0, 1.0)
     .at(0.0)
     .unit("%");
-const DISTURBANCE: Slider = Slider::new("disturbance", "Disturbance at the start")
+const DISTURBANCE: Slider = Slider::new("disturbance", "Disturbance")
     .range(0.0, 60.0, 1.0)
     .at(8.0)
     .unit("%");
-const DAMPING: Slider = Slider::new("damping", "First damping, log₁₀ λ")
+const DAMPING: Slider = Slider::new("damping", "First log₁₀ λ")
     .range(-6.0, 4.0, 1.0)
     .at(-2.0);
 const STEPS: Slider = Slider::new("steps", "Steps taken")
     .range(0.0, MAX_STEPS as f64, 1.0)
     .at(MAX_STEPS as f64);
-const NOISE: Slider = Slider::new("noise", "Noise of the features")
+const NOISE: Slider = Slider::new("noise", "Feature noise")
     .range(0.0, 3.0, 0.25)
     .at(0.5)
     .digits(2)
@@ -204,7 +204,7 @@ impl Model for BundleAdjustment {
         let mut handles = vec![Handle {
             id: MARK.to_owned(),
             panel: "photo",
-            label: "Feature at the end of the ridge".to_owned(),
+            label: "Ridge feature".to_owned(),
             value_text: format!(
                 "column {}, row {}, {} px from where it belongs",
                 format_number(u, 0),

@@ -40,13 +40,13 @@ fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
 const NUM_MAIN: usize = 4;
 const ROWS: [(&str, &str); 8] = [
     ("error", "Error now"),
-    ("error-start", "Error at the start"),
-    ("off", "House off now"),
-    ("off-start", "House off at the start"),
+    ("error-start", "Start error"),
+    ("off", "House off"),
+    ("off-start", "Start off"),
     ("cost", "Cost"),
-    ("damping-now", "Damping λ of this step"),
+    ("damping-now", "Damping λ"),
     ("unknowns", "Unknowns"),
-    ("measured", "Numbers measured"),
+    ("measured", "Measured numbers"),
 ];
 
 fn values(model: &BundleAdjustment) -> Option<[String; 8]> {

@@ -19,16 +19,10 @@ impl Words for ColumnSizes {
             None => Readout::words(id, label, "no columns"),
         };
         vec![
-            ratio(
-                "raw",
-                "Raw: largest / smallest",
-                |both| both.raw.spread(),
-                0,
-            )
-            .main(),
+            ratio("raw", "Raw ratio", |both| both.raw.spread(), 0).main(),
             ratio(
                 "normalized",
-                "Normalized",
+                "Normalized ratio",
                 |both| both.normalized.spread(),
                 1,
             )

@@ -30,9 +30,9 @@ impl Words for Cover {
             })
             .main(),
             count("matches", "Matches", |answer| answer.matches.len()).main(),
-            count("inliers", "True to one motion", Answer::num_inliers).main(),
-            count("points", "Points in space", num_points).main(),
-            count("pixels", "Pixels with a depth", num_pixels),
+            count("inliers", "Inliers", Answer::num_inliers).main(),
+            count("points", "3-D points", num_points).main(),
+            count("pixels", "Dense points", num_pixels),
         ]
     }
 

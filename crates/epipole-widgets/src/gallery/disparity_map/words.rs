@@ -41,15 +41,7 @@ impl Words for DisparityMap {
         vec![
             number("bad", "Bad answers", bad, 1, "%", waiting).main(),
             number("coverage", "Coverage", coverage, 1, "%", waiting).main(),
-            number(
-                "found",
-                "d at the probe",
-                found_px.map(f64::from),
-                2,
-                "px",
-                none,
-            )
-            .main(),
+            number("found", "Found d", found_px.map(f64::from), 2, "px", none).main(),
             number("truth", "True d", truth_px.map(f64::from), 2, "px", waiting).main(),
             number("error", "Mean error", error_px, 2, "px", waiting),
             number("depth", "Depth found", depth_m(found_px), 3, "m", none),
@@ -61,7 +53,7 @@ impl Words for DisparityMap {
                 "m",
                 waiting,
             ),
-            Readout::words("hidden", "At the probe", hidden),
+            Readout::words("hidden", "Visibility", hidden),
         ]
     }
 

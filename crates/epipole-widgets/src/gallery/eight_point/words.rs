@@ -23,7 +23,7 @@ impl Words for EightPoint {
             words::magnitude(solution.condition_number, 0.0)
         };
         let meeting = known.and_then(|estimate| estimate.meeting);
-        let probe = "Match of the probe";
+        let probe = "Probe's match";
         let mut readouts = vec![
             px(
                 "held-out",
@@ -37,7 +37,7 @@ impl Words for EightPoint {
                 known.map(|estimate| estimate.used_px),
             )
             .main(),
-            px("miss", "Lines miss by", meeting.map(Meeting::shown_px)).main(),
+            px("miss", "Lines miss", meeting.map(Meeting::shown_px)).main(),
             words(
                 "condition",
                 "Condition number",
@@ -110,8 +110,8 @@ fn details(estimate: &Estimate) -> Vec<Readout> {
         None => "nearly parallel".to_owned(),
     };
     vec![
-        Readout::words("meeting", "The lines meet near", place),
-        Readout::words("values", "σ₁, σ₈, σ₉ of the rows", values.join(", ")),
-        Readout::words("third", "σ₃ of F over σ₁", words::magnitude(third, 1.0)),
+        Readout::words("meeting", "Meeting point", place),
+        Readout::words("values", "σ₁, σ₈, σ₉", values.join(", ")),
+        Readout::words("third", "σ₃ / σ₁", words::magnitude(third, 1.0)),
     ]
 }

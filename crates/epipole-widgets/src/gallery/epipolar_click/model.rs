@@ -12,7 +12,7 @@ use epipole::epipolar::Epipole;
 use nalgebra::Point2;
 
 const MAX_POINTS: usize = 6;
-const BASELINE: Slider = Slider::new("baseline", "Camera 2 to the right")
+const BASELINE: Slider = Slider::new("baseline", "Camera 2 right")
     .range(0.0, 0.8, 0.02)
     .at(0.2)
     .digits(2)
@@ -22,7 +22,7 @@ const FORWARD: Slider = Slider::new("forward", "Camera 2 forward")
     .at(0.2)
     .digits(2)
     .unit("m");
-const TURN: Slider = Slider::new("turn", "Camera 2 turned left")
+const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-15.0, 30.0, 1.0)
     .at(4.0)
     .unit("°");
@@ -264,7 +264,7 @@ impl Model for EpipolarClick {
 const CHALLENGES: &[Challenge<EpipolarClick>] = &[
     Challenge {
         id: "epipole-inside",
-        goal: "Bring the epipole e₂ into photograph 2.",
+        goal: "Bring the epipole e′ into photograph 2.",
         hint: "The epipole is where camera 2 sees camera 1, before or behind it. Which motion puts one \
                in front of the other?",
         why: "Moving forward turns the baseline towards the optical axis, and the epipole is where the \

@@ -120,7 +120,7 @@ fn draw_first(
         labels.keep_free(place, MARKER + 3.0);
     }
     if let Some(geometry) = geometry {
-        draw_epipole(canvas, panel, &mut labels, &geometry.epipole1, "e₁");
+        draw_epipole(canvas, panel, &mut labels, &geometry.epipole1, "e");
     }
     for (index, point) in model.points() {
         let place = panel.canvas_from_world((point.x, point.y));
@@ -176,7 +176,7 @@ fn draw_second(
         }
     }
     if let Some(geometry) = geometry {
-        draw_epipole(canvas, panel, &mut labels, &geometry.epipole2, "e₂");
+        draw_epipole(canvas, panel, &mut labels, &geometry.epipole2, "e′");
     }
     for (index, place, text) in texts {
         draw_number(canvas, &mut labels, place, index, &text);

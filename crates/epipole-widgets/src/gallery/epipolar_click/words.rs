@@ -36,15 +36,13 @@ impl Words for EpipolarClick {
             )
             .main(),
             match distance {
-                Some(distance) => {
-                    Readout::number("residual", "Match to its line", distance, 3, "px")
-                }
-                None => text("residual", "Match to its line", none()),
+                Some(distance) => Readout::number("residual", "Residual", distance, 3, "px"),
+                None => text("residual", "Residual", none()),
             }
             .main(),
             text(
                 "e2",
-                "Epipole e₂",
+                "Epipole e′",
                 of_geometry(&|geometry| short(&geometry.epipole2)),
             )
             .main(),
@@ -55,19 +53,15 @@ impl Words for EpipolarClick {
                     format!("{} at {}", index + 1, pixel(&point))
                 }),
             ),
-            text(
-                "sight",
-                "Camera 2 sees it",
-                matched.map_or_else(none, sight),
-            ),
+            text("sight", "Visible", matched.map_or_else(none, sight)),
             text(
                 "line",
-                "Its line F x₁",
+                "Line ℓ′",
                 line.map_or_else(none, |line| words::line(&line)),
             ),
             text(
                 "e1",
-                "Epipole e₁",
+                "Epipole e",
                 of_geometry(&|geometry| short(&geometry.epipole1)),
             ),
             text(
@@ -114,7 +108,7 @@ impl Words for EpipolarClick {
             ),
         });
         text.push_str(&format!(
-            "; the epipole e₂, where all lines meet, is {}.",
+            "; the epipole e′, where all lines meet, is {}.",
             words::epipole(&geometry.epipole2)
         ));
         if let Some((index, point)) = self.selected() {

@@ -45,7 +45,7 @@ const SHOW: Choice = Choice::new(
 .at(2);
 
 const DEPTHS_M: [f64; 2] = [0.5, 3.0];
-const DEPTH: Slider = Slider::new("depth", "P along its ray")
+const DEPTH: Slider = Slider::new("depth", "Depth of P")
     .range(DEPTHS_M[0], DEPTHS_M[1], 0.01)
     .at(1.64)
     .digits(2)

@@ -42,21 +42,14 @@ impl Words for EpipolarPlane {
             format_number(self.zoom(), 1)
         );
         vec![
-            number("tilt", "Plane tilted by", self.tilt_deg(), 1, "°").main(),
-            pixel("p2", "p′ in photograph 2", 1).main(),
-            number(
-                "residual",
-                "p′ to its line",
-                of(Scenery::residual_px),
-                3,
-                "px",
-            )
-            .main(),
-            pixel("p1", "p in photograph 1", 0),
+            number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
+            pixel("p2", "Image p′", 1).main(),
+            number("residual", "Residual", of(Scenery::residual_px), 3, "px").main(),
+            pixel("p1", "Image p", 0),
             Readout::words("lit", "Lit up", self.meaning()),
             number(
                 "before",
-                "P before the surface",
+                "Before surface",
                 of(Scenery::before_surface_m),
                 2,
                 "m",

@@ -8,7 +8,7 @@ use crate::contract::{
 use epipole::camera::RigidTransform;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-const TURN: Slider = Slider::new("turn", "Turn of camera 2")
+const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-45.0, 45.0, 1.0)
     .at(16.0)
     .unit("°");

@@ -14,7 +14,7 @@ use image::RgbImage;
 
 const SOURCE: Choice = Choice::new(
     "source",
-    "Picture",
+    "Image",
     &[
         ("square", "Square"),
         ("still-life", "Still life"),
@@ -22,7 +22,7 @@ const SOURCE: Choice = Choice::new(
     ],
 );
 const OWN: usize = 2;
-const THRESHOLD: Slider = Slider::new("threshold", "Threshold, share of the strongest")
+const THRESHOLD: Slider = Slider::new("threshold", "Threshold")
     .range(1.0, 90.0, 1.0)
     .at(20.0)
     .unit("%");

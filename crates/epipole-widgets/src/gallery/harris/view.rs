@@ -37,7 +37,7 @@ impl View for HarrisView {
 
     fn draw(&mut self, model: &Harris, layout: &Layout, canvas: &mut Canvas) {
         let [picture, response] = ["picture", "response"].map(|id| layout.panel(id));
-        for (panel, text) in [(picture, "Picture"), (response, "Response R")] {
+        for (panel, text) in [(picture, "Image"), (response, "Response R")] {
             grid::title(canvas, panel.rect, text);
             canvas.panel(panel.rect);
         }

@@ -23,21 +23,14 @@ impl Words for Harris {
         };
         let number = |id, label, value, digits| Readout::number(id, label, value, digits, "");
         vec![
-            Readout::number(
-                "response",
-                "R at the probe",
-                probe.response / 1e6,
-                2,
-                "million",
-            )
-            .main(),
-            Readout::words("verdict", "so it is", probe.verdict.word()).main(),
+            Readout::number("response", "Score R", probe.response / 1e6, 2, "million").main(),
+            Readout::words("verdict", "Verdict", probe.verdict.word()).main(),
             Readout::count("corners", "Corners", self.corners().len()).main(),
             number("lambda1", "λ₁", probe.lambda1, 0),
             number("lambda2", "λ₂", probe.lambda2, 0),
-            number("a", "A = Σ Iu²", probe.tensor.uu, 0),
-            number("b", "B = Σ Iv²", probe.tensor.vv, 0),
-            number("c", "C = Σ Iu Iv", probe.tensor.uv, 0),
+            number("a", "A, Σ Iu²", probe.tensor.uu, 0),
+            number("b", "B, Σ Iv²", probe.tensor.vv, 0),
+            number("c", "C, Σ IuIv", probe.tensor.uv, 0),
         ]
     }
 

@@ -15,7 +15,7 @@ use nalgebra::{Point2, Vector2};
 const COUNT: Slider = Slider::new("count", "True matches")
     .range(8.0, 59.0, 1.0)
     .at(19.0);
-const HEARD: Toggle = Toggle::new("heard", "Use the wrong match").on();
+const HEARD: Toggle = Toggle::new("heard", "Use wrong match").on();
 const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
     .range(0.0, 3.0, 0.1)
     .at(0.5)
@@ -136,7 +136,7 @@ impl Model for OutlierDrag {
         vec![Handle {
             id: WRONG.to_owned(),
             panel: "second",
-            label: "The wrong match in photograph 2".to_owned(),
+            label: "Wrong match".to_owned(),
             value_text: format!(
                 "column {}, row {}, {} px from where it belongs",
                 format_number(place.x, 0),

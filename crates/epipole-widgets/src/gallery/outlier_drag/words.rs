@@ -12,22 +12,20 @@ impl Words for OutlierDrag {
             Err(_) => Readout::words(id, label, "no F"),
         };
         let without = match state {
-            Ok(state) => {
-                Readout::number("without", "Mean without it", state.without.mean_px, 2, "px")
-            }
-            Err(_) => Readout::words("without", "Mean without it", "no F"),
+            Ok(state) => Readout::number("without", "Without it", state.without.mean_px, 2, "px"),
+            Err(_) => Readout::words("without", "Without it", "no F"),
         };
         let farther = match state {
             Ok(state) => format!("{} of {}", state.fit.num_farther, state.truth.len()),
             Err(_) => "none".to_owned(),
         };
         vec![
-            Readout::number("away", "Match moved by", self.away_px(), 0, "px").main(),
-            px("mean", "True matches: mean", |fit| fit.mean_px).main(),
-            px("worst", "True matches: worst", |fit| fit.worst_px).main(),
+            Readout::number("away", "Moved by", self.away_px(), 0, "px").main(),
+            px("mean", "True mean", |fit| fit.mean_px).main(),
+            px("worst", "True worst", |fit| fit.worst_px).main(),
             without.main(),
-            px("own", "Wrong match to its line", |fit| fit.wrong_px),
-            Readout::words("farther", "True ones farther off", farther),
+            px("own", "Wrong match", |fit| fit.wrong_px),
+            Readout::words("farther", "Farther off", farther),
         ]
     }
 

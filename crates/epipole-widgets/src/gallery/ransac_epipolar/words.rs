@@ -33,38 +33,29 @@ impl Words for RansacEpipolar {
             |drawn| drawn.readouts(),
         );
         let mut readouts = vec![
-            words(
-                "best",
-                "Votes for the best F",
-                best.map(|best| of(best.num_votes)),
-            )
-            .main(),
-            Readout::words("right", "Right ones among them", right).main(),
+            words("best", "Best votes", best.map(|best| of(best.num_votes))).main(),
+            Readout::words("right", "Right inliers", right).main(),
             drawn.main(),
             needed.main(),
             words(
                 "inliers",
-                "Votes for the last sample",
+                "Votes now",
                 last.map(|trial| of(trial.num_votes)),
             ),
         ];
         if let Some(best) = best {
-            let (label, unit) = ("Mean Sampson distance", "px");
+            let (label, unit) = ("Mean Sampson", "px");
             readouts.push(Readout::number("sampson", label, best.mean_px, 3, unit));
             if self.num_right().is_some() {
                 let right = all.iter().filter(|found| found.is_right == Some(true));
-                readouts.push(Readout::count(
-                    "found",
-                    "Right matches in all",
-                    right.count(),
-                ));
+                readouts.push(Readout::count("found", "Right matches", right.count()));
             }
             if let Ok(line) = epipolar_line2(&best.fundamental, &self.probe()) {
                 let line = words::line(&line);
-                readouts.push(Readout::words("line", "Line of the probe", line));
+                readouts.push(Readout::words("line", "Probe's line", line));
             }
             let f = words::matrix(&best.fundamental);
-            readouts.push(Readout::words("f", "F of all its voters, by rows", f));
+            readouts.push(Readout::words("f", "F, by rows", f));
         }
         readouts
     }

@@ -23,6 +23,8 @@ const LAST: f64 = 0.72;
 /// How long a vote flies.
 const FLIGHT: f64 = 0.26;
 const DECADES: [f64; 2] = [-1.7, 1.95];
+/// Where the axis ends: beyond the dots there is room for a number.
+const AXIS_END: f64 = 2.75;
 
 fn legend_entries() -> [Entry; 5] {
     [
@@ -30,7 +32,7 @@ fn legend_entries() -> [Entry; 5] {
         (Swatch::Line(best_stroke()), "best so far"),
         (Swatch::Line(truth_stroke()), "hidden line"),
         (Swatch::Marker(Shape::Disk, Role::Inlier), "votes"),
-        (Swatch::Marker(Shape::Cross, Role::Outlier), "does not"),
+        (Swatch::Marker(Shape::Cross, Role::Outlier), "no vote"),
     ]
 }
 
@@ -62,7 +64,7 @@ fn tally_rulers(model: &RansacLine) -> [Ruler; 2] {
 
 fn run_rulers() -> [Ruler; 2] {
     [
-        Ruler::decades(DECADES[0], DECADES[1]),
+        Ruler::decades(DECADES[0], AXIS_END),
         Ruler::things(&["count", "MSAC", "local", "both"]),
     ]
 }
@@ -111,7 +113,14 @@ impl View for RansacLineView {
                 ],
             ),
             (tally, &["Votes for each sample", "Votes"]),
-            (runs, &["100 runs each: degrees off", "100 runs: ° off"]),
+            (
+                runs,
+                &[
+                    "100 runs each: degrees off, and how many within 1°",
+                    "100 runs each: degrees off",
+                    "100 runs: ° off",
+                ],
+            ),
         ];
         for (panel, wordings) in titles {
             grid::fitting_title(canvas, panel.rect, wordings);
@@ -325,11 +334,7 @@ fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
     let mut labels = Labels::new(panel.rect.inset(2.0));
     for kind in 0..NUM_KINDS {
         let place = (panel.rect.right() - 4.0, at(1.0, kind as f64 + 1.0).1);
-        let near = format_number(runs.num_near(kind) as f64, 0);
-        let text = match panel.rect.width {
-            width if width > 200.0 => format!("{near} within 1°"),
-            _ => near,
-        };
+        let text = format_number(runs.num_near(kind) as f64, 0);
         let role = if kind == model.kind() {
             Role::Best
         } else {

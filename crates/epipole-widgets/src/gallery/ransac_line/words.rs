@@ -30,29 +30,15 @@ impl Words for RansacLine {
         let median = runs.and_then(|runs| runs.median_deg(kind));
         let mean = runs.and_then(|runs| runs.mean_samples(kind));
         vec![
-            Readout::words(
-                "inliers",
-                "Votes, this sample",
-                of(|tally| tally.candidate.as_ref()),
-            )
-            .main(),
-            Readout::words(
-                "best",
-                "Votes, best so far",
-                of(|tally| tally.best.as_ref()),
-            )
-            .main(),
+            Readout::words("inliers", "Votes now", of(|tally| tally.candidate.as_ref())).main(),
+            Readout::words("best", "Best votes", of(|tally| tally.best.as_ref())).main(),
             needed.main(),
-            number("near", "Runs of 100 within 1°", near, 0, "").main(),
+            number("near", "Runs within 1°", near, 0, "").main(),
             drawn,
-            number("error", "Best line off by", self.error_deg(), 1, "°"),
-            Readout::words(
-                "truth-votes",
-                "Votes, hidden line",
-                of(|tally| Some(&tally.truth)),
-            ),
-            number("median", "Median of 100 runs", median, 2, "°"),
-            number("samples", "Samples a run", mean, 1, ""),
+            number("error", "Off by", self.error_deg(), 1, "°"),
+            Readout::words("truth-votes", "Hidden line", of(|tally| Some(&tally.truth))),
+            number("median", "Median error", median, 2, "°"),
+            number("samples", "Mean samples", mean, 1, ""),
         ]
     }
 

@@ -346,6 +346,28 @@ mod tests {
         }
     }
 
+    /// What the book says of all seeds.
+    #[test]
+    fn at_seven_in_ten_no_seed_fails_and_at_eight_in_ten_one_in_three() {
+        let failures = |outliers: f64| -> Vec<(u32, Ending)> {
+            let run = |seed: u32| {
+                let model = after(&[
+                    Event::set(&OUTLIERS, outliers),
+                    Event::set(&SEED, f64::from(seed)),
+                    Event::set(&ITERATIONS, MAX_SAMPLES as f64),
+                ]);
+                let is_off = model.fits.angles_deg().ransac.unwrap() > 2.0;
+                is_off.then(|| (seed, model.fits.ending().unwrap()))
+            };
+            (1..=99).filter_map(run).collect()
+        };
+        assert_eq!(failures(0.7), []);
+        let failed = failures(0.8);
+        assert!((30..=36).contains(&failed.len()), "{failed:?}");
+        assert!(failed.contains(&(7, Ending::Outvoted)), "{failed:?}");
+        assert!(failed.contains(&(42, Ending::Missed)), "{failed:?}");
+    }
+
     #[test]
     fn four_outliers_to_an_inlier_take_more_than_a_hundred_samples() {
         let mut model = after(&[Event::set(&OUTLIERS, 0.8), Event::set(&ITERATIONS, 25.0)]);

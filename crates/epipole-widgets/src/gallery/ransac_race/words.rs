@@ -25,10 +25,10 @@ impl Words for RansacRace {
             |samples| samples.drawn().readouts(),
         );
         vec![
-            angle("ransac-error", "RANSAC off by", angles.ransac).main(),
+            angle("ransac-error", "RANSAC error", angles.ransac).main(),
             angle(
                 "least-squares-error",
-                "Least squares off by",
+                "Least-squares error",
                 angles.least_squares,
             )
             .main(),
@@ -36,20 +36,16 @@ impl Words for RansacRace {
             needed.main(),
             Readout::words(
                 "inliers",
-                "Votes for this sample",
+                "Votes now",
                 votes(fits.candidate.as_ref().map(|line| line.num_votes())),
             ),
             Readout::words(
                 "best",
-                "Votes for the best",
+                "Best votes",
                 votes(fits.best.as_ref().map(|line| line.num_votes())),
             ),
-            Readout::words(
-                "truth-votes",
-                "Votes for the hidden line",
-                of(fits.truth.num_votes()),
-            ),
-            angle("between", "Angle between the fits", angles.between),
+            Readout::words("truth-votes", "Hidden line", of(fits.truth.num_votes())),
+            angle("between", "Angle between", angles.between),
         ]
     }
 

@@ -63,9 +63,9 @@ impl View for RectifyView {
         grid::fitting_title(
             canvas,
             panels[0].rect,
-            &["Picture 1: click a match", "Picture 1"],
+            &["Image 1: click a match", "Image 1"],
         );
-        grid::title(canvas, panels[1].rect, "Picture 2");
+        grid::title(canvas, panels[1].rect, "Image 2");
         grid::fitting_title(canvas, top.rect, &["The cameras from above", "From above"]);
         canvas.panel(top.rect);
         for panel in panels {

@@ -18,10 +18,10 @@ impl Words for Rectify {
         };
         let valid = |state: &State| 100.0 * state.turned.valid_share();
         vec![
-            number("rows", "Rows differ by", &|state| state.worst_px(), 1, "px").main(),
+            number("rows", "Row offset", &|state| state.worst_px(), 1, "px").main(),
             number(
                 "apart",
-                "Headings differ by",
+                "Headings apart",
                 &|state| state.turned.apart_deg(),
                 1,
                 "°",
@@ -29,7 +29,7 @@ impl Words for Rectify {
             .main(),
             number(
                 "off",
-                "Off the baseline",
+                "Off baseline",
                 &|state| state.turned.off_baseline_deg(),
                 1,
                 "°",

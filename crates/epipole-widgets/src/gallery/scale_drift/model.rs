@@ -18,18 +18,18 @@ const CLOSURE: Choice = Choice::new(
     ],
 )
 .at(2);
-const DRIFT: Slider = Slider::new("drift", "Drift of scale per step")
+const DRIFT: Slider = Slider::new("drift", "Scale drift")
     .range(-2.0, 2.0, 0.1)
     .at(1.0)
     .digits(1)
     .unit("%");
-const NOISE: Slider = Slider::new("noise", "Noise of each step")
+const NOISE: Slider = Slider::new("noise", "Step noise")
     .range(0.0, 3.0, 0.1)
     .at(0.5)
     .digits(1)
     .unit("%");
 const STEREO: Toggle = Toggle::new("stereo", "Stereo rig");
-const STEPS: Slider = Slider::new("steps", "Steps around the block")
+const STEPS: Slider = Slider::new("steps", "Steps around")
     .range(
         *drive::STEPS.start() as f64,
         *drive::STEPS.end() as f64,

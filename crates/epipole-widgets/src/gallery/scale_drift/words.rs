@@ -57,14 +57,14 @@ fn readouts(model: &ScaleDrift) -> Vec<Readout> {
     };
     vec![
         Readout::words("error-before", "Error, odometry", error(before)).main(),
-        Readout::words("error", "Error, loop closed", closed(&error)).main(),
+        Readout::words("error", "Error, closed", closed(&error)).main(),
         Readout::words("scale-before", "Scale, odometry", scale(before)).main(),
-        Readout::words("scale", "Scale, loop closed", closed(&scale)).main(),
-        Readout::words("gap-before", "Gap at home, odometry", gap(before)),
-        Readout::words("gap", "Gap at home, loop closed", closed(&gap)),
-        Readout::words("worst-before", "Worst scale, odometry", worst(before)),
-        Readout::words("worst", "Worst scale, loop closed", closed(&worst)),
-        Readout::words("loop", "The loop says", loop_says),
+        Readout::words("scale", "Scale, closed", closed(&scale)).main(),
+        Readout::words("gap-before", "Gap, odometry", gap(before)),
+        Readout::words("gap", "Gap, closed", closed(&gap)),
+        Readout::words("worst-before", "Worst, odometry", worst(before)),
+        Readout::words("worst", "Worst, closed", closed(&worst)),
+        Readout::words("loop", "Loop says", loop_says),
     ]
 }
 

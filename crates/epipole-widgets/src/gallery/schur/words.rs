@@ -10,7 +10,7 @@ impl Words for Schur {
         let percent = |share: f64| 100.0 * share;
         vec![
             Readout::count("unknowns", "All unknowns", cameras + points).main(),
-            Readout::count("left", "Left to solve", cameras).main(),
+            Readout::count("left", "Unknowns left", cameras).main(),
             Readout::number("saving", "Less work", blocks.saving(), 0, "times").main(),
             Readout::number("filled", "Not zero", percent(blocks.filled_share()), 1, "%"),
             Readout::number(

@@ -60,7 +60,7 @@ impl StereoSlider {
         Handle {
             id: "object".to_owned(),
             panel: "top",
-            label: "Ball, seen from above".to_owned(),
+            label: "Ball".to_owned(),
             value_text: format!(
                 "{:.2} m away, {:.2} m to the {side}",
                 self.z_m,

@@ -201,6 +201,43 @@ mod tests {
         assert!(wins[0] < 10 && wins[5] >= 37, "{wins:?}");
     }
 
+    /// Successes in NumPy's own runs, by `tests/peers/tournament.py`, which knows nothing of the code here: shares
+    /// of the same methods on other points of the same kind are the same, up to chance.
+    #[test]
+    fn shares_are_those_of_an_independent_tournament_in_numpy() {
+        const NUM_RUNS: u32 = 200;
+        let theirs = include_str!("../../../../../tests/peers/fixtures/tournament.txt");
+        let mut num_cases = 0;
+        for row in theirs.lines().filter(|row| !row.starts_with('#')) {
+            let numbers: Vec<f64> = row.split(' ').map(|word| word.parse().unwrap()).collect();
+            let [ratio, threshold, num_theirs, theirs @ ..] = &numbers[..] else {
+                panic!("{row}");
+            };
+            let mut wins = [0_u32; NUM_RIVALS];
+            for seed in 0..NUM_RUNS {
+                let successes = fit_lines(u64::from(seed), *ratio, *threshold);
+                for (count, success) in wins.iter_mut().zip(successes) {
+                    *count += u32::from(success);
+                }
+            }
+            assert_eq!(theirs.len(), NUM_RIVALS);
+            for ((name, ours), theirs) in NAMES.iter().zip(wins).zip(theirs) {
+                let num_ours = f64::from(NUM_RUNS);
+                let (ours, sum) = (f64::from(ours), f64::from(ours) + theirs);
+                let share = sum / (num_ours + num_theirs);
+                let by_chance =
+                    (share * (1.0 - share) * (1.0 / num_ours + 1.0 / num_theirs)).sqrt();
+                let apart = (ours / num_ours - theirs / num_theirs).abs();
+                assert!(
+                    apart <= 3.5 * by_chance,
+                    "{name} at {ratio}, {threshold} sigma: {ours} of {num_ours}, {theirs} of {num_theirs}"
+                );
+            }
+            num_cases += 1;
+        }
+        assert_eq!(num_cases, 8);
+    }
+
     #[test]
     fn a_threshold_that_is_no_number_is_no_success() {
         assert!(!fit_lines(1, 0.2, f64::NAN)[3]);

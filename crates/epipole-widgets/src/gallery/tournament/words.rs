@@ -45,7 +45,7 @@ impl Words for Tournament {
             }
         };
         let mut readouts: Vec<Readout> = (0..NUM_RIVALS).map(share).collect();
-        readouts.push(Readout::count("runs", "Runs per ratio", self.num_runs()));
+        readouts.push(Readout::count("runs", "Runs", self.num_runs()));
         readouts
     }
 

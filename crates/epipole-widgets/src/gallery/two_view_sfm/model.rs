@@ -40,22 +40,22 @@ const PAIR: Choice = Choice::new(
 )
 .more();
 const OWN: usize = 2;
-const RATIO: Slider = Slider::new("ratio", "Ratio test, at most")
+const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
     .range(0.5, 0.95, 0.05)
     .at(0.8)
     .digits(2)
     .more();
-const THRESHOLD: Slider = Slider::new("threshold", "Inliers within ε")
+const THRESHOLD: Slider = Slider::new("threshold", "Threshold ε")
     .range(0.5, 4.0, 0.5)
     .at(1.5)
     .digits(1)
     .unit("px")
     .more();
-const FOCAL: Slider = Slider::new("focal", "Focal length assumed")
+const FOCAL: Slider = Slider::new("focal", "Assumed focal length")
     .range(0.4, 3.0, 0.05)
     .at(1.25)
     .digits(2);
-const KNOCK: Slider = Slider::new("knock", "Knock camera 2 by")
+const KNOCK: Slider = Slider::new("knock", "Knock camera 2")
     .range(0.0, 10.0, 0.5)
     .at(2.0)
     .digits(1)

@@ -89,7 +89,7 @@ fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
         say("error", "Error adjusted", Stage::Adjust, error(1)).main(),
         say("features", "Features", Stage::Detect, features),
         say("matches", "Matches", Stage::Match, matches),
-        say("in-front", "In front, four poses", Stage::Pose, in_front),
+        say("in-front", "In front", Stage::Pose, in_front),
         say("rotation", "Rotation", Stage::Pose, turn),
         say("truth", "True rotation", Stage::Pose, truth),
     ];

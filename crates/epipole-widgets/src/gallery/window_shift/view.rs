@@ -68,7 +68,7 @@ impl View for WindowShiftView {
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
         let panels = ["picture", "map", "surface"].map(|id| layout.panel(id));
-        let titles = ["Picture", "Change by shift", "The same as a surface"];
+        let titles = ["Image", "Change by shift", "The same as a surface"];
         for (panel, text) in panels.into_iter().zip(titles) {
             grid::title(canvas, panel.rect, text);
             canvas.panel(panel.rect);
@@ -207,7 +207,7 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, model: &WindowShift, found:
         let [large, small, threshold] =
             [large, small, model.threshold()].map(|value| format_number(value, 0));
         let verdict = model.verdict(found).word();
-        let words = format!("{verdict}: λ₁ = {large}, λ₂ = {small}, large from {threshold}");
+        let words = format!("{verdict}: λ₁ = {large}, λ₂ = {small}, large above {threshold}");
         canvas.label((picture.x, y), &words, style);
         x = map.x;
     }

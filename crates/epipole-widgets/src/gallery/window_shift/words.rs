@@ -25,7 +25,7 @@ impl Words for WindowShift {
         let change = found.change(du as i32, dv as i32);
         let number = |id, label, value| Readout::number(id, label, value, 0, "");
         vec![
-            Readout::words("verdict", "The window is on", self.verdict(found).word()).main(),
+            Readout::words("verdict", "Verdict", self.verdict(found).word()).main(),
             number("lambda1", "λ₁ per pixel", large).main(),
             number("lambda2", "λ₂ per pixel", small).main(),
             number("change", "Squared change", change).main(),
