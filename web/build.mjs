@@ -7,7 +7,7 @@
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -43,9 +43,7 @@ await build({
   outdir: out,
   bundle: true,
   target: "es2022",
-  // Not the white space: with it go the comments by which bundlers know an address to leave alone.
-  minifySyntax: true,
-  minifyIdentifiers: true,
+  minify: true,
   alias: { "epipole-web": parts[0].glue, "epipole-jobs": parts[1].glue },
   define: {
     EPIPOLE_WASM: '"./epipole-figures.wasm"',
@@ -55,6 +53,7 @@ await build({
   format: "esm",
   logLevel: "warning",
 });
+for (const name of ["index.js", "worker.js"]) leaveAlone(join(out, name));
 // A script of the old kind may import a module, but from elsewhere not by a name beside its own.
 writeFileSync(join(out, "auto.js"), 'import(new URL("index.js", document.currentScript.src));\n');
 writeFileSync(join(out, "react.js"), 'export { EpipoleFigure } from "./index.js";\n');
@@ -66,3 +65,23 @@ execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "type
 copyFileSync(join(here, "THIRD-PARTY-FIGURES.txt"), join(out, "THIRD-PARTY.txt"));
 copyFileSync(join(here, "react.d.ts"), join(out, "types/react.d.ts"));
 for (const name of ["auto", "script"]) writeFileSync(join(out, `types/${name}.d.ts`), "export {};\n");
+keepTypes(join(out, "types"), ["index", "react", "auto", "script"]);
+
+/** Bundlers know by a comment which address to leave alone, and with the white space go the comments. */
+function leaveAlone(path) {
+  const text = readFileSync(path, "utf8");
+  const open = /\bimport\((?!["'`])/g;
+  const count = [...text.matchAll(open)].length;
+  if (count > 1) throw new Error(`${path} imports ${count} addresses that are only known when it runs`);
+  writeFileSync(path, text.replace(open, "import(/* webpackIgnore: true */ /* @vite-ignore */ "));
+}
+
+/** Removes the types that nobody can ask for: those that the given ones do not name. */
+function keepTypes(folder, names) {
+  const kept = new Set(names);
+  for (const name of kept) {
+    const text = readFileSync(join(folder, `${name}.d.ts`), "utf8");
+    for (const [, other] of text.matchAll(/(?:from|import) ?\(?"\.\/([\w-]+)\.js"/g)) kept.add(other);
+  }
+  for (const file of readdirSync(folder)) if (!kept.has(file.replace(/\.d\.ts$/, ""))) rmSync(join(folder, file));
+}
