@@ -10,12 +10,18 @@ async function ready(figure) {
   await figure.dispatchEvent("pointerenter");
 }
 
-/** Somewhere on the first movable point of the figure. */
+/** Somewhere on the first movable point of the figure, once that stands still: pages go on arranging themselves. */
 async function grip(figure) {
   const found = figure.locator(".grip").first();
   await found.scrollIntoViewIfNeeded();
-  const box = await found.boundingBox();
-  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  let place;
+  await expect(async () => {
+    const before = place;
+    const box = await found.boundingBox();
+    place = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    expect(place).toEqual(before);
+  }).toPass({ intervals: [100], timeout: 30_000 });
+  return place;
 }
 
 /** Mouse, finger and keys move `ransac-race`; none of it reaches the page. */

@@ -1,7 +1,7 @@
 // Figures in the pages of others: built by each host's own tool from the recipe that we give, and dragged.
 
 import { execFile, spawn } from "node:child_process";
-import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
@@ -10,7 +10,7 @@ import { serve } from "../server.mjs";
 import { expect, test as base } from "../fixtures.mjs";
 import { answers, follows, operate } from "./drive.mjs";
 import { folderOf, work } from "./recipes.mjs";
-import { endServers, fileServer, started } from "./serving.mjs";
+import { endServers, fileServer, freePort, started } from "./serving.mjs";
 
 const run = promisify(execFile);
 const tools = join(here, "hosts/node_modules");
@@ -83,6 +83,19 @@ function withPackage(folder) {
 
 const copyFiles = (folder) =>
   tool(folder, "sh", "-c", "cp node_modules/@epipole/figures/dist/*.wasm node_modules/@epipole/figures/dist/worker.js dist/");
+
+test("the packages are small, and say rightly what is in them", async () => {
+  const [packed, wheel] = [[work, ".tgz"], [join(work, "wheel"), ".whl"]].map(([folder, end]) => join(folder, readdirSync(folder).find((file) => file.endsWith(end))));
+  const sizes = { npm: packed, wheel, _esm: join(root, "python/epipole_figures/glue.js") };
+  const bytes = Object.fromEntries(Object.entries(sizes).map(([what, path]) => [what, statSync(path).size]));
+  test.info().annotations.push({ type: "bytes", description: JSON.stringify(bytes) });
+  expect(bytes.npm).toBeLessThanOrEqual(1_000_000);
+  expect(bytes.wheel).toBeLessThanOrEqual(1_200_000);
+  expect(bytes._esm).toBeLessThanOrEqual(75_000);
+  await tool(work, npx("publint"), "run", packed, "--strict");
+  // Node's oldest way and CommonJS find no modules there: they are for browsers and bundlers.
+  await tool(work, npx("attw"), packed, "--profile", "esm-only", "--no-color", "--no-emoji");
+});
 
 const bundlers = {
   vite: async (folder) => (await tool(folder, npx("vite"), "build"), join(folder, "dist")),
@@ -331,7 +344,7 @@ test("JupyterLab", async ({ page, book, strangers }) => {
 
 test("marimo", async ({ page, book, strangers }) => {
   const folder = folderOf("marimo", book);
-  const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", "2719"], {
+  const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", String(await freePort())], {
     cwd: folder,
     env: { ...process.env, MARIMO_SKIP_UPDATE_CHECK: "1" },
   });
