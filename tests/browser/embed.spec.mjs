@@ -90,6 +90,24 @@ test("in a frame a figure with parameters in its address leaves the page around 
   await outer.close();
 });
 
+test("a figure in a frame that comes into view moves the frame's page, and not the one around it", async ({ page, site }) => {
+  const other = await elsewhere(site);
+  const frame = `<iframe src="${other.origin}/" width="900" height="500"></iframe>`;
+  const outer = await serve({
+    mounts: { "": () => `<!doctype html><title>A course</title><p style="height: 600px">Text</p>${frame}<p style="height: 3000px">` },
+    policy: false,
+  });
+  await page.goto(outer.origin);
+  const figure = page.frameLocator("iframe").locator("epipole-figure");
+  await figure.evaluate((element) => customElements.whenDefined(element.localName));
+  await figure.evaluate((element) => element.glide({ points: 40 }));
+  expect((await told(figure)).state.points).toBe("40");
+  expect(await page.frames()[1].evaluate(() => scrollY)).toBeGreaterThan(1000);
+  expect(await page.evaluate(() => scrollY)).toBe(0);
+  await other.close();
+  await outer.close();
+});
+
 test("a page's own switch of colors is followed, and so is a style sheet that comes later", async ({ page, site }) => {
   const other = await elsewhere(site);
   await page.goto(other.origin);

@@ -12,6 +12,7 @@ import { setAttribute } from "./dom.js";
 import { Life } from "./life.js";
 import { linkTo } from "./permalink.js";
 import { toSaved, type Saved } from "./saved.js";
+import { pictureOf } from "./saving.js";
 
 /** How long a glide takes, milliseconds. */
 const GLIDE_MS = 600;
@@ -210,6 +211,16 @@ export class EpipoleFigure extends Base {
     shell.jobs.goOn();
     life.warn(life.put(textOf(state)));
     shell.recall(solved);
+  }
+
+  /**
+   * What the figure shows, as a PNG: once it has computed what it shows, `scale` pixels to a CSS pixel of its layout.
+   * Null while there is no picture.
+   */
+  async toPng({ scale = 2 }: { scale?: number } = {}): Promise<Blob | null> {
+    await this.#life.answered();
+    const { session } = this.#life;
+    return session ? pictureOf(session, scale) : null;
   }
 
   /** Shows a sentence in the figure, and on the console. */

@@ -297,6 +297,13 @@ export class Life {
     }
   }
 
+  /** A picture that waits for a computation is not the one that anybody wants to keep. */
+  async answered(): Promise<void> {
+    while (this.#snapshot?.waiting && this.#session && this.#shell.jobs.busy) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+  }
+
   get #width(): number {
     return this.#session?.width ?? 0;
   }
@@ -519,11 +526,8 @@ export class Life {
   }
 
   async #save(): Promise<void> {
-    // A picture that waits for a computation is not the one that the reader wants to keep.
-    while (this.#snapshot?.waiting && this.#session && this.#shell.jobs.busy) {
-      await new Promise((resolve) => setTimeout(resolve, 100));
-    }
-    if (this.#session) savePicture(this.#session, this.#owner.getAttribute("name") ?? "");
+    await this.answered();
+    if (this.#session) await savePicture(this.#session, this.#owner.getAttribute("name") ?? "");
   }
 
   async #toggleFullscreen(): Promise<void> {

@@ -9,11 +9,16 @@ const KEPT_MS = 10_000;
 /** Device pixels to a pixel of the layout in a saved picture. */
 const SCALE = 2;
 
+/** The picture as it is now, a PNG. */
+export function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
+  const canvas = session.portrait(scale);
+  return new Promise((resolve) => (canvas ? canvas.toBlob(resolve) : resolve(null)));
+}
+
 /** Saves the picture as it is now. */
-export function savePicture(session: Session, name: string): void {
-  session.portrait(SCALE)?.toBlob((blob) => {
-    if (blob) download(blob, `${name}.png`);
-  });
+export async function savePicture(session: Session, name: string): Promise<void> {
+  const blob = await pictureOf(session);
+  if (blob) download(blob, `${name}.png`);
 }
 
 /** Saves what the figure offers besides its picture, if that is ready. */

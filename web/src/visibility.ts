@@ -65,7 +65,13 @@ export async function bringIntoView(element: Element): Promise<void> {
   const top = parseFloat(getComputedStyle(element).scrollMarginTop) || 0;
   if (document.hidden || box.height === 0 || (box.top >= top && box.bottom <= innerHeight)) return;
   const still = wantsStillness();
-  element.scrollIntoView({ block: "nearest", behavior: still ? "instant" : "smooth" });
+  const behavior = still ? "instant" : "smooth";
+  if (parent === window) element.scrollIntoView({ block: "nearest", behavior });
+  else {
+    // What is in a frame moves, and never the page around it.
+    const up = box.top - top;
+    scrollBy({ top: up < 0 ? up : Math.min(up, box.bottom - innerHeight), behavior });
+  }
   if (still) return;
   await new Promise<void>((resolve) => {
     const timer = setTimeout(resolve, SCROLL_MS);

@@ -335,6 +335,16 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   await expect(both.last()).toHaveAttribute("data-ready", "", { timeout: 60_000 });
   const told = (index) => both.nth(index).evaluate((element) => (element.flush(), [element.state, element.readouts]));
   expect(await told(1)).toEqual(await told(0));
+  // What a viewer without widgets is given: the picture, once the figure has rested.
+  await expect
+    .poll(
+      async () => {
+        await type("import base64; data, _ = race._repr_mimebundle_(); print(base64.b64decode(data.get('image/png', ''))[1:4])");
+        return page.locator(".jp-OutputArea-output pre").last().textContent();
+      },
+      { timeout: 60_000, intervals: [2000] },
+    )
+    .toBe("b'PNG'\n");
   const modules = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm")).length);
   expect(modules, "modules come through the kernel").toBe(0);
   // A page that is left asks nothing of a server that goes.
