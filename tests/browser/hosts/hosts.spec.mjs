@@ -310,6 +310,8 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   strangers.push(server.origin.replace("http", "ws"));
   await visit(page, `${server.origin}/lab/tree/figures.ipynb?token=t`, strangers);
   const cells = page.locator(".jp-Notebook .jp-CodeCell");
+  // What is run before the kernel is connected is lost.
+  await expect(page.getByRole("button", { name: /\| Idle$/ })).toBeVisible({ timeout: 90_000 });
   await cells.first().locator(".cm-content").click();
   for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
   await operate(page, race(page));
