@@ -3,6 +3,8 @@
 PORT ?= 8000
 SEED ?= 1
 MONKEY_SECONDS ?= 20
+# Four or five events each, for 31 figures: ten million.
+FUZZ_SEQUENCES ?= 72000
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 # The tools of other sites, and the packages that they install.
@@ -10,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey python bench bench-lab audit bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -61,6 +63,9 @@ test-engines: setup build tests/engines/node_modules/.installed ## the book in F
 
 monkey: setup build ## random hands on every figure: make monkey SEED=7 MONKEY_SECONDS=20
 	cd tests/browser && SEED=$(SEED) MONKEY_SECONDS=$(MONKEY_SECONDS) npx playwright test monkey
+
+fuzz: setup-build ## random events on every figure, natively: some ten million, a night's worth; make fuzz FUZZ_SEQUENCES=2000
+	FUZZ_SEQUENCES=$(FUZZ_SEQUENCES) cargo test --locked --test fuzz -- --nocapture
 
 test-hosts: setup build tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh

@@ -1,13 +1,13 @@
 // Makes the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
 //
 // DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
-// makes them for the web. Out come index.js, worker.js, the modules beside them, figure.css and early.js
-// for trees that prerender.mjs writes, auto.js for pages that load no modules, react.js, custom-elements.json, the types, and what is due to others (THIRD-PARTY.txt). (The book bundles the same sources itself, with names made
-// of their content.)
+// makes them for the web. Out come index.js, worker.js, the modules beside them, auto.js for pages that load no
+// modules, react.js, custom-elements.json, the types, and what is due to others (THIRD-PARTY.txt). (The book bundles
+// the same sources itself, with names made of their content.)
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -34,53 +34,54 @@ for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
   }
 }
 
+// What an earlier build has left there is not shipped.
+rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 for (const { name, wasm } of parts) copyFileSync(wasm, join(out, `epipole-${name}.wasm`));
-const elements = {
+await build({
+  entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
   outdir: out,
   bundle: true,
   target: "es2022",
-  // Not the white space: with it go the comments by which bundlers know an address to leave alone.
-  minifySyntax: true,
-  minifyIdentifiers: true,
+  minify: true,
   alias: { "epipole-web": parts[0].glue, "epipole-jobs": parts[1].glue },
   define: {
     EPIPOLE_WASM: '"./epipole-figures.wasm"',
     EPIPOLE_JOBS_WASM: '"./epipole-jobs.wasm"',
     EPIPOLE_WORKER: '"./worker.js"',
   },
-  logLevel: "warning",
-};
-await build({
-  ...elements,
-  entryPoints: [join(here, "src/index.ts"), join(here, "src/worker.ts")],
   format: "esm",
+  logLevel: "warning",
 });
-// A script of the old kind knows its address only while it runs.
-await build({
-  ...elements,
-  entryPoints: { auto: join(here, "src/index.ts") },
-  format: "iife",
-  minify: true,
-  define: { ...elements.define, "import.meta.url": "epipoleAddress" },
-  banner: { js: "(() => {\nconst epipoleAddress = document.currentScript.src;" },
-  footer: { js: "})();" },
-});
+for (const name of ["index.js", "worker.js"]) leaveAlone(join(out, name));
+// A script of the old kind may import a module, but from elsewhere not by a name beside its own.
+writeFileSync(join(out, "auto.js"), 'import(new URL("index.js", document.currentScript.src));\n');
 writeFileSync(join(out, "react.js"), 'export { EpipoleFigure } from "./index.js";\n');
 writeFileSync(join(out, "custom-elements.json"), `${JSON.stringify(manifest(), null, 2)}\n`);
-await build({
-  entryPoints: [join(here, "src/figure.css"), join(here, "src/early.ts")],
-  outdir: out,
-  bundle: true,
-  format: "iife",
-  minify: true,
-  target: "es2022",
-  logLevel: "warning",
-});
 execFileSync("npx", ["tsc", "--emitDeclarationOnly", "--outDir", join(out, "types")], {
   cwd: here,
   stdio: "inherit",
 });
-copyFileSync(join(here, "THIRD-PARTY.txt"), join(out, "THIRD-PARTY.txt"));
+copyFileSync(join(here, "THIRD-PARTY-FIGURES.txt"), join(out, "THIRD-PARTY.txt"));
 copyFileSync(join(here, "react.d.ts"), join(out, "types/react.d.ts"));
 for (const name of ["auto", "script"]) writeFileSync(join(out, `types/${name}.d.ts`), "export {};\n");
+keepTypes(join(out, "types"), ["index", "react", "auto", "script"]);
+
+/** Bundlers know by a comment which address to leave alone, and with the white space go the comments. */
+function leaveAlone(path) {
+  const text = readFileSync(path, "utf8");
+  const open = /\bimport\((?!["'`])/g;
+  const count = [...text.matchAll(open)].length;
+  if (count > 1) throw new Error(`${path} imports ${count} addresses that are only known when it runs`);
+  writeFileSync(path, text.replace(open, "import(/* webpackIgnore: true */ /* @vite-ignore */ "));
+}
+
+/** Removes the types that nobody can ask for: those that the given ones do not name. */
+function keepTypes(folder, names) {
+  const kept = new Set(names);
+  for (const name of kept) {
+    const text = readFileSync(join(folder, `${name}.d.ts`), "utf8");
+    for (const [, other] of text.matchAll(/(?:from|import) ?\(?"\.\/([\w-]+)\.js"/g)) kept.add(other);
+  }
+  for (const file of readdirSync(folder)) if (!kept.has(file.replace(/\.d\.ts$/, ""))) rmSync(join(folder, file));
+}

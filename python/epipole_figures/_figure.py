@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import pathlib
 from typing import Any
 
@@ -68,12 +69,35 @@ class Figure(anywidget.AnyWidget):
         if compact:
             look["compact"] = ""
         super().__init__(name=name, state=_texts(parameters), _look=look)
+        self._shown: tuple[dict[str, str], bytes] | None = None
         self.on_msg(self._on_message)
 
-    def _on_message(self, _widget: Any, content: Any, _buffers: Any) -> None:
-        if isinstance(content, dict) and content.get("kind") == "assets?":
+    def _on_message(self, _widget: Any, content: Any, buffers: Any) -> None:
+        kind = content.get("kind") if isinstance(content, dict) else None
+        if kind == "assets?":
             files = _assets.contents()
             self.send({"kind": "assets", "names": list(files)}, buffers=list(files.values()))
+        elif kind == "picture" and buffers and isinstance(content.get("state"), dict):
+            self._shown = (_texts(content["state"]), bytes(buffers[0]))
+
+    @property
+    def picture(self) -> bytes | None:
+        """What the figure shows in its present state, a PNG.
+
+        Nothing before it has rested on a page for a moment in that state: a figure is drawn in the browser.
+        """
+        if self._shown is None or self._shown[0] != self.state:
+            return None
+        return self._shown[1]
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        """As of any widget, with the picture for viewers that show no widgets."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        picture = self.picture
+        if bundle and picture is not None:
+            data = bundle[0] if isinstance(bundle, tuple) else bundle
+            data["image/png"] = base64.b64encode(picture).decode()
+        return bundle
 
     @traitlets.validate("state")
     def _validate_state(self, proposal: Any) -> dict[str, str]:

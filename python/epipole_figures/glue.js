@@ -5,6 +5,8 @@
 const KEY = Symbol.for("epipole-figures");
 /** How long what changes is gathered before Python is told, milliseconds. */
 const GATHER_MS = 60;
+/** A figure that rests for so long shows its picture to Python, milliseconds. */
+const REST_MS = 1500;
 /** How long the kernel may take to send the scripts, milliseconds. */
 const PATIENCE_MS = 30_000;
 
@@ -80,6 +82,18 @@ async function render({ model, el }) {
 
   let ready = false;
   let gathering;
+  let resting;
+  // For whoever looks at the notebook where no widgets are shown.
+  const show = async () => {
+    const [state, picture] = [figure.state, await figure.toPng({ scale: 1 })];
+    const bytes = await picture?.arrayBuffer();
+    if (!ready || !bytes) return;
+    try {
+      await model.send({ kind: "picture", state }, undefined, [bytes]);
+    } catch {
+      // Without a kernel nobody takes it.
+    }
+  };
   const tell = () => {
     clearTimeout(gathering);
     gathering = undefined;
@@ -89,6 +103,8 @@ async function render({ model, el }) {
     if (!same(solved, model.get("solved") ?? [])) model.set("solved", solved);
     if (figure.description !== model.get("description")) model.set("description", figure.description);
     ask(() => model.save_changes());
+    clearTimeout(resting);
+    resting = setTimeout(() => void show(), REST_MS);
   };
   const later = () => {
     if (ready) gathering ??= setTimeout(tell, GATHER_MS);
@@ -112,6 +128,7 @@ async function render({ model, el }) {
     // Also for a model that goes on calling.
     ready = false;
     clearTimeout(gathering);
+    clearTimeout(resting);
     ask(() => model.off("change:state", follow));
     ask(() => model.off("msg:custom", hear));
     figure.remove();

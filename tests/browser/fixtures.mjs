@@ -124,6 +124,26 @@ export async function settled(some) {
   await expect(some.locator("[aria-busy]")).toHaveCount(0);
 }
 
+/**
+ * Changes a page so that a figure is to wear a theme, and waits until it does: how long that took by the clock of the
+ * page, milliseconds, with the change itself.
+ */
+export async function followed(figure, theme, change) {
+  const watch = await figure.evaluateHandle((element, wanted) => {
+    const root = element.shadowRoot.querySelector(".root");
+    const start = performance.now();
+    const took = new Promise((done) => {
+      const look = () => root.dataset.theme === wanted && done(performance.now() - start);
+      new MutationObserver(look).observe(root, { attributes: true });
+      look();
+    });
+    return { took };
+  }, theme);
+  await change();
+  await expect(figure.locator(".root")).toHaveAttribute("data-theme", theme);
+  return watch.evaluate(({ took }) => took);
+}
+
 /** State, readouts and description of a figure, as its element tells them. */
 export function told(figure) {
   return figure.evaluate((element) => {

@@ -1,9 +1,11 @@
 // Seeded random hands, keys, sizes, attributes and moves, on every figure: whatever somebody does, nothing breaks,
-// and afterwards a fresh figure with the same state says the same.
+// and afterwards a fresh figure with the same state says the same. Meanwhile the page stays quick, and afterwards it
+// holds no more than before.
 //
 // `MONKEY_SECONDS` is how long each figure has to bear it, `SEED` what the hands do: `make monkey SEED=7`.
 
 import { expect, figures, listen, ready, settled, test, told } from "./fixtures.mjs";
+import { holds, keepMemory, tasksOf } from "./measure.mjs";
 
 const SECONDS = Number(process.env.MONKEY_SECONDS ?? 1);
 const SEED = Number(process.env.SEED ?? 1);
@@ -99,19 +101,40 @@ function deeds(page, figure, random) {
   };
 }
 
+/** The figure as it is at first, in an engine of its own: what it held before is free. */
+async function begin(page, figure) {
+  await figure.evaluate(async (element) => {
+    const name = element.getAttribute("name");
+    for (const { name: key } of [...element.attributes]) if (!/^(name|data-.*)$/.test(key)) element.removeAttribute(key);
+    element.setAttribute("name", "ransac-budget");
+    await element.whenReady();
+    element.setAttribute("name", name);
+  });
+  await ready(figure);
+  await expect(figure.locator("[aria-busy]")).toHaveCount(0, { timeout: 90_000 });
+  await settled(figure);
+  return holds(page);
+}
+
 for (const [index, { name }] of figures.entries()) {
-  test(`${name} bears ${SECONDS} s of anything`, async ({ page, open, context, complaints }) => {
+  test(`${name} bears ${SECONDS} s of anything`, async ({ page, open, context, browser, complaints }) => {
     test.setTimeout(120_000 + 4000 * SECONDS);
+    await keepMemory(page);
     const random = generator(1000 * SEED + index);
     let figure = await open(page, [name], { settle: false });
+    const before = await begin(page, figure);
     const next = deeds(page, figure, random);
     const done = [];
     const end = Date.now() + 1000 * SECONDS;
+    let middle;
+    const tasks = await tasksOf(browser, page);
     while (Date.now() < end || done.length < 25) {
       const [, what, act] = next();
       done.push(what);
       await act();
+      if (Date.now() > end - 500 * SECONDS) middle ??= await page.evaluate(() => window.memory.buffer.byteLength);
     }
+    const { p99, longest } = await tasks.end();
     await page.mouse.up();
     test.info().annotations.push({ type: "deeds", description: String(done.length) });
     await page.setViewportSize({ width: 1000, height: 900 });
@@ -128,6 +151,8 @@ for (const [index, { name }] of figures.entries()) {
     await settled(figure);
     const known = await told(figure);
     expect(JSON.stringify(known)).not.toMatch(/NaN|Infinity|undefined/);
+    expect(p99, "of a hundred tasks the longest but one, milliseconds").toBeLessThanOrEqual(50);
+    expect(longest, "the longest task, milliseconds").toBeLessThanOrEqual(200);
 
     const other = await context.newPage();
     listen(other, complaints);
@@ -138,5 +163,16 @@ for (const [index, { name }] of figures.entries()) {
     await expect(figure.locator("[aria-busy]")).toHaveCount(0, { timeout: 90_000 });
     await settled(figure);
     expect(await told(figure)).toEqual(known);
+    await other.close();
+
+    const after = await begin(page, page.locator("epipole-figure"));
+    const more = Object.fromEntries(Object.keys(after).map((key) => [key, after[key] - before[key]]));
+    test.info().annotations.push({ type: "cost", description: JSON.stringify({ p99, longest, ...more }) });
+    expect(more.listeners, "listeners").toBeLessThanOrEqual(20);
+    expect(more.nodes, "nodes").toBeLessThanOrEqual(200);
+    expect(more.heap, "bytes of scripts").toBeLessThanOrEqual(4 << 20);
+    // The module never gives memory back: what the largest picture has taken stays, and no more comes.
+    expect(more.wasm, "bytes of the module").toBeLessThanOrEqual(32 << 20);
+    if (SECONDS >= 10) expect(after.wasm - middle, "bytes of the module since the middle").toBeLessThanOrEqual(10 << 20);
   });
 }

@@ -13,6 +13,11 @@ import { launchOptions } from "../browser/chromium.mjs";
 /** Wide enough for the layout of a laptop. */
 export const WINDOW = { width: 1280, height: 900 };
 
+/** Nothing that a test asks of an engine takes longer, also on a busy machine; what does never ends. */
+const PATIENCE_MS = 240_000;
+/** How long an engine may take to end once it is asked to. */
+const GRACE_MS = 10_000;
+
 const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox", "/Applications/Firefox.app/Contents/MacOS/firefox"];
 const MINI_BROWSERS = ["x86_64-linux-gnu", "aarch64-linux-gnu"].flatMap((machine) =>
   ["4.1", "4.0"].map((version) => `/usr/lib/${machine}/webkit2gtk-${version}/MiniBrowser`),
@@ -29,7 +34,8 @@ export const firefox = () => openFirefox({ headless: true });
 /** In a window, on a display that nobody sees: without one it gives no page WebGL. */
 export async function firefoxWindow() {
   const screen = hiddenScreen();
-  const engine = await openFirefox({ headless: false, env: { ...process.env, DISPLAY: screen.display, LIBGL_ALWAYS_SOFTWARE: "1" } });
+  const env = { ...process.env, DISPLAY: screen.display, LIBGL_ALWAYS_SOFTWARE: "1" };
+  const engine = await orClose(() => openFirefox({ headless: false, env }), screen.close);
   return { ...engine, close: () => engine.close().finally(screen.close) };
 }
 
@@ -40,8 +46,8 @@ function openFirefox(options) {
 }
 
 async function byPuppeteer(name, options) {
-  const browser = await puppeteer.launch({ ...options, defaultViewport: WINDOW, protocolTimeout: 600_000 });
-  const page = await browser.newPage();
+  const browser = await puppeteer.launch({ ...options, defaultViewport: WINDOW, protocolTimeout: PATIENCE_MS });
+  const page = await orClose(() => browser.newPage(), () => browser.close());
   const complaints = [];
   page.on("console", (message) => {
     if (message.type() === "error") complaints.push(message.text());
@@ -58,6 +64,16 @@ async function byPuppeteer(name, options) {
     isAlive: async () => browser.connected,
     close: () => browser.close(),
   };
+}
+
+/** Does what opening takes; what has been started is ended where that fails, or it would keep the tests from ending. */
+async function orClose(work, close) {
+  try {
+    return await work();
+  } catch (problem) {
+    await close();
+    throw problem;
+  }
 }
 
 let windows = 0;
@@ -86,12 +102,18 @@ export async function webkit() {
     JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
   };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
+  const end = () => {
+    driver.kill();
+    close();
+  };
   const server = `http://127.0.0.1:${port}`;
-  await answers(`${server}/status`);
   const wanted = new Capabilities({ browserName: Browser.MINIBROWSER ?? "MiniBrowser" });
   wanted.set("webkitgtk:browserOptions", { binary: window, args: ["--automation"] });
-  const session = await new Builder().usingServer(server).withCapabilities(wanted).build();
-  await session.manage().setTimeouts({ script: 600_000, pageLoad: 120_000 });
+  const session = await orClose(async () => {
+    await answers(`${server}/status`);
+    return new Builder().usingServer(server).withCapabilities(wanted).build();
+  }, end);
+  await session.manage().setTimeouts({ script: PATIENCE_MS, pageLoad: 120_000 });
   await session.manage().window().setRect({ x: 0, y: 0, width: WINDOW.width, height: WINDOW.height + 90 });
   const complaints = [];
   return {
@@ -125,16 +147,17 @@ export async function webkit() {
     },
     isAlive: () => session.executeScript("return true").catch(() => false),
     close: async () => {
-      await session.quit().catch(() => {});
-      driver.kill();
-      close();
+      // A session that hangs ends with its driver.
+      const late = new Promise((resolve) => setTimeout(resolve, GRACE_MS).unref());
+      await Promise.race([session.quit().catch(() => {}), late]);
+      end();
     },
   };
 }
 
 /** Waits until somebody listens there. */
 async function answers(url) {
-  for (let attempt = 0; attempt < 100; attempt += 1) {
+  for (let attempt = 0; attempt < 600; attempt += 1) {
     const heard = await fetch(url).catch(() => undefined);
     if (heard?.ok) return;
     await new Promise((resolve) => setTimeout(resolve, 100));

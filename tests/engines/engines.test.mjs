@@ -16,6 +16,9 @@ import { chromium, firefox, webkit } from "./drivers.mjs";
 import { figuresOf, look, ready, takeHold } from "./steps.mjs";
 
 const ENGINES = { firefox, webkit };
+/** What hangs is red before it takes the time of everything after it, milliseconds. */
+const ONE_MS = 300_000;
+const WHOLE_MS = 1_500_000;
 const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.ONLY ?? ""));
 // The page of all figures comes last: most of them stand in a chapter as they stand there.
 const LAST = "gallery.html";
@@ -106,7 +109,7 @@ const ofReference = once((page) => {
 const nativeOf = once((name) => playNatively([write(Figure, name, LOOK)])[0]);
 
 const engineTests = (key) =>
-  describe(key, { timeout: 1_800_000 }, () => {
+  describe(key, { timeout: WHOLE_MS }, () => {
     let engine;
     before(async () => (engine = await ENGINES[key]()));
     after(() => engine?.close());
@@ -125,7 +128,7 @@ const engineTests = (key) =>
     }
 
     for (const name of names) {
-      test(`${name} gives the bits that it gives natively`, (report) => surviving(report, async () => {
+      test(`${name} gives the bits that it gives natively`, { timeout: ONE_MS }, (report) => surviving(report, async () => {
         const scripts = [write(Figure, name, LOOK)];
         const native = nativeOf(name);
         await engine.open(`${server.origin}/play`);
@@ -138,7 +141,7 @@ const engineTests = (key) =>
     }
 
     for (const page of pages) {
-      test(`${page}: its figures answer to keys as in Chromium, and permalinks bring states back`, (report) => surviving(report, async () => {
+      test(`${page}: its figures answer to keys as in Chromium, and permalinks bring states back`, { timeout: ONE_MS }, (report) => surviving(report, async () => {
         engine.complaints.length = 0;
         const [said, expected] = await Promise.all([tour(engine, page), ofReference(page)]);
         assert.deepEqual(compared(said), expected);

@@ -2,8 +2,9 @@
 //
 // 1. Lock files are complete: every package of ours is locked, comes from a registry and has a checksum.
 // 2. Every crate of the workspace's graph has a license that deny.toml allows.
-// 3. web/THIRD-PARTY.txt lists everything in the site and in the packages that is not ours, with the words of its
-//    license: crates in the WebAssembly modules, npm packages in the scripts, fonts. `--bless` writes it anew.
+// 3. web/THIRD-PARTY.txt lists everything in the site that is not ours, with the words of its license: crates in the
+//    WebAssembly modules, npm packages in the scripts, fonts; web/THIRD-PARTY-FIGURES.txt that in the packages of the
+//    figures alone. `--bless` writes them anew.
 //
 // Needs no network once everything is installed. Advisories need one: `make audit`.
 
@@ -14,7 +15,6 @@ import { fileURLToPath } from "node:url";
 import { chosen } from "./license.mjs";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
-const listed = join(root, "web/THIRD-PARTY.txt");
 const read = (path) => readFileSync(join(root, path), "utf8");
 const problems = [];
 
@@ -23,19 +23,26 @@ const NPM = ["web", "tests/browser", "tests/browser/hosts", "tests/engines", "te
 /** Python requirements, each file the whole of an environment. */
 const PIP = ["tests/listings/requirements.txt", "tests/peers/requirements.txt", "tests/browser/hosts/requirements.txt"];
 /** The WebAssembly modules: package, feature, where they end up. */
-const MODULES = [
+const FIGURES = [
   ["epipole-web", "figures", "figures"],
   ["epipole-web", "jobs", "long computations"],
+];
+const MODULES = [
+  ...FIGURES,
   ["epipole-lab", "page", "Lab"],
   ["epipole-lab", "vision-worker", "Lab's workers"],
   ["epipole-lab", "files-worker", "Lab's workers"],
 ];
 /** What esbuild makes scripts of. */
-const SCRIPTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts", "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
-/** Fonts: npm packages that the builder cuts, and the one inside the figures. */
-const FONTS = [
-  ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"],
-  ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"],
+const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
+const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
+/** Fonts: the one inside the figures, and npm packages that the builder cuts. */
+const FIGURE_SANS = ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"];
+const STIX = ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"];
+/** What is listed where: for the site, and for the packages of the figures. */
+const LISTS = [
+  { file: "web/THIRD-PARTY.txt", of: "Epipole's pages, modules and packages", modules: MODULES, scripts: SCRIPTS, fonts: [STIX, FIGURE_SANS] },
+  { file: "web/THIRD-PARTY-FIGURES.txt", of: "the figures of Epipole", modules: FIGURES, scripts: ELEMENTS, fonts: [FIGURE_SANS] },
 ];
 
 function cargo(...args) {
@@ -125,9 +132,9 @@ function words({ manifest_path: manifest }, license) {
   return own && readFileSync(join(folder, own), "utf8").replaceAll("\r\n", "\n").trim();
 }
 
-async function bundled() {
+async function bundled(scripts) {
   const { build } = await import(join(root, "web/node_modules/esbuild/lib/main.js"));
-  const entryPoints = SCRIPTS.map((path) => join(root, path));
+  const entryPoints = scripts.map((path) => join(root, path));
   const external = ["epipole-web", "epipole-jobs", "epipole-lab*", "stix-two:*"];
   const { metafile } = await build({
     absWorkingDir: root, entryPoints, external, bundle: true, write: false, metafile: true, outdir: "out", format: "esm", loader: { ".css": "text" }, logLevel: "error",
@@ -136,9 +143,9 @@ async function bundled() {
   return [...new Set(names.filter(Boolean))].sort();
 }
 
-async function thirdParty(all, allow) {
+async function thirdParty(all, allow, { of, modules, scripts, fonts: cut }) {
   const shipped = new Map();
-  for (const [name, feature, where] of MODULES) {
+  for (const [name, feature, where] of modules) {
     for (const key of linked(name, feature)) shipped.set(key, [...new Set([...(shipped.get(key) ?? []), where])]);
   }
   const texts = new Map();
@@ -155,7 +162,7 @@ async function thirdParty(all, allow) {
     const source = text ? "" : ` | its package has no text: ${crate.authors.join(", ") || "its authors"}, ${crate.repository}`;
     return `${key} | ${license} | ${where.join(", ")}${source}`;
   });
-  const packages = await bundled();
+  const packages = await bundled(scripts);
   const npm = packages.map((name) => {
     const { version, license } = JSON.parse(read(`web/node_modules/${name}/package.json`));
     const taken = chosen(license, allow);
@@ -164,13 +171,13 @@ async function thirdParty(all, allow) {
     if (file) keep(read(`web/node_modules/${name}/${file}`).trim(), `${name} ${version}`);
     return `${name} ${version} | ${taken}`;
   });
-  const fonts = FONTS.map(([name, license, path]) => {
+  const fonts = cut.map(([name, license, path]) => {
     keep(read(path).replaceAll("\r\n", "\n").trim(), name);
     return `${name} | ${license}`;
   });
   const line = "=".repeat(80);
   return [
-    "What is in Epipole's pages, modules and packages and comes from others.",
+    `What is in ${of} and comes from others.`,
     "Written by `make bless-licenses`; `make check` compares.",
     `\n${line}\nCrates in the WebAssembly modules\n`,
     ...rows,
@@ -189,10 +196,12 @@ checkLocks();
 const { allow, besides } = allowed();
 const all = crates(allow, besides);
 tell();
-const text = await thirdParty(all, allow);
-if (process.argv.includes("--bless")) writeFileSync(listed, text);
-else if (!existsSync(listed) || readFileSync(listed, "utf8") !== text) {
-  problems.push("web/THIRD-PARTY.txt is not what we ship: read the difference after `make bless-licenses`");
+for (const list of LISTS) {
+  const [path, text] = [join(root, list.file), await thirdParty(all, allow, list)];
+  if (process.argv.includes("--bless")) writeFileSync(path, text);
+  else if (!existsSync(path) || readFileSync(path, "utf8") !== text) {
+    problems.push(`${list.file} is not what we ship: read the difference after \`make bless-licenses\``);
+  }
 }
 tell();
 

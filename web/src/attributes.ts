@@ -59,3 +59,8 @@ export function wholeState(
   }
   return [...back, ...state];
 }
+
+/** Parameters as text, as attributes have them. */
+export function textOf(parameters: Record<string, string | number | boolean>): Parameters {
+  return Object.entries(parameters).map(([key, value]) => [key, String(value)]);
+}

@@ -3,7 +3,7 @@
 import type { Control, Parameters } from "./contract.js";
 
 /** What the properties need of the element. */
-interface Host extends HTMLElement {
+export interface Host extends HTMLElement {
   readonly controlValue: (id: string) => number | boolean | string | undefined;
   apply: (parameters: Record<string, string | number | boolean>) => void;
 }

@@ -1,6 +1,6 @@
 /** What a figure says: one polite live region, and notices that everyone sees. */
 
-import { make } from "./dom.js";
+import { capitalize, make } from "./dom.js";
 
 /** How long the figure must rest before it is described, milliseconds. */
 const REST_MS = 300;
@@ -40,6 +40,23 @@ export class Speaker {
     this.notice.hidden = unique.length === 0;
     this.#urgent = unique.join(" ");
     if (unique.length > 0) this.#later();
+  }
+
+  /** A sentence, and a way on. */
+  offer(sentence: string, again: (() => void) | undefined): void {
+    this.warn([sentence]);
+    if (!again) return;
+    const retry = make("button", { type: "button" }, "Try again");
+    retry.addEventListener("click", again);
+    this.notice.append(retry);
+  }
+
+  /** Shows in the figure and on the console what is wrong with what its page has asked for. */
+  complain(messages: string[]): void {
+    if (messages.length === 0) return;
+    const sentences = messages.map((message) => capitalize(message));
+    for (const sentence of sentences) console.warn(`epipole-figure: ${sentence}`);
+    this.warn(sentences.map((sentence) => `${sentence}.`));
   }
 
   /** Says something at the next rest, before what the figure shows. */

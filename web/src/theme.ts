@@ -63,7 +63,7 @@ function behindIsDark(element: HTMLElement): boolean {
   return false;
 }
 
-/** A page that changes its colors may take so long to blend from one to the other, milliseconds. */
+/** A page that changes its colors may take so long to blend from one to the other, milliseconds; longer ones tell. */
 const BLEND_MS = 400;
 
 /** Who is to be told, of all figures of the page. */
@@ -84,6 +84,7 @@ const page = {
     this.observer.observe(document.head, { attributes: true, childList: true, subtree: true });
     // A style sheet that has been put there counts once it has come.
     document.head.addEventListener("load", changed, true);
+    document.addEventListener("transitionend", blended);
     this.lists = queries.map((query) => matchMedia(query));
     for (const list of this.lists) list.addEventListener("change", changed);
   },
@@ -91,6 +92,7 @@ const page = {
   stop(): void {
     this.observer?.disconnect();
     document.head.removeEventListener("load", changed, true);
+    document.removeEventListener("transitionend", blended);
     for (const list of this.lists) list.removeEventListener("change", changed);
     clearTimeout(this.blended);
   },
@@ -102,6 +104,12 @@ function changed(): void {
   page.blended = setTimeout(() => {
     for (const tell of watching) tell();
   }, BLEND_MS);
+}
+
+/** The background of something with a figure in it has its new color at last. */
+function blended({ propertyName, target }: TransitionEvent): void {
+  if (propertyName !== "background-color" || !(target instanceof Element)) return;
+  if (target.querySelector("epipole-figure") || target.contains(document.body)) changed();
 }
 
 /** Calls back whenever the answer of `themeOf` may have changed. Returns how to stop. */

@@ -1,4 +1,9 @@
-/** When a figure nears the reader, and when it is in sight. */
+/** When a figure nears the reader, when it is in sight, and how it comes there. */
+
+import { wantsStillness } from "./theme.js";
+
+/** The longest time that scrolling to a figure may take, milliseconds. */
+const SCROLL_MS = 700;
 
 type Seen = (near: boolean) => void;
 
@@ -52,4 +57,28 @@ let turn = Promise.resolve();
 export function myTurn(): Promise<void> {
   turn = turn.then(() => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve))));
   return turn;
+}
+
+/** Scrolls so that all of an element is seen, if it is not; the focus stays where it is. */
+export async function bringIntoView(element: Element): Promise<void> {
+  const box = element.getBoundingClientRect();
+  const top = parseFloat(getComputedStyle(element).scrollMarginTop) || 0;
+  if (document.hidden || box.height === 0 || (box.top >= top && box.bottom <= innerHeight)) return;
+  const still = wantsStillness();
+  const behavior = still ? "instant" : "smooth";
+  if (parent === window) element.scrollIntoView({ block: "nearest", behavior });
+  else {
+    // What is in a frame moves, and never the page around it.
+    const up = box.top - top;
+    scrollBy({ top: up < 0 ? up : Math.min(up, box.bottom - innerHeight), behavior });
+  }
+  if (still) return;
+  await new Promise<void>((resolve) => {
+    const timer = setTimeout(resolve, SCROLL_MS);
+    const done = () => {
+      clearTimeout(timer);
+      resolve();
+    };
+    addEventListener("scrollend", done, { once: true, capture: true });
+  });
 }

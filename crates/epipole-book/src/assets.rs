@@ -4,6 +4,7 @@
 mod embed;
 mod fonts;
 mod lab;
+mod likeness;
 mod scripts;
 mod wasm;
 

@@ -1,5 +1,7 @@
 //! Thousands of random event sequences for every figure: whatever a reader or a page does, nothing
 //! breaks, every number is a number, and a link to the state restores it.
+//!
+//! `FUZZ_SEQUENCES` says how many sequences each figure bears: `make fuzz` takes a night's worth.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -12,8 +14,17 @@ use epipole_widgets::theme::Theme;
 use epipole_widgets::{Answers, Figure};
 use std::ops::ControlFlow;
 
+/// With four or five events each, that is ten thousand a figure.
 const NUM_SEQUENCES: u64 = 2000;
 const LONGEST: usize = 8;
+
+/// How many sequences of events each figure bears.
+fn num_sequences() -> u64 {
+    let wanted = std::env::var("FUZZ_SEQUENCES").ok();
+    wanted.map_or(NUM_SEQUENCES, |number| {
+        number.parse().expect("FUZZ_SEQUENCES is a number")
+    })
+}
 
 #[test]
 fn any_events_leave_a_sound_figure_whose_state_round_trips() {
@@ -27,7 +38,7 @@ fn any_events_leave_a_sound_figure_whose_state_round_trips() {
 fn fuzz(name: &str, seed: u64) {
     let mut refused = 0;
     let answers = Answers::new();
-    for sequence in 0..NUM_SEQUENCES {
+    for sequence in 0..num_sequences() {
         let mut random = Random::new(1_000_000 * seed + sequence);
         let mut figure = Figure::new(name).expect("it exists");
         for _ in 0..=random.below(LONGEST) {

@@ -1,7 +1,7 @@
 // Figures in the pages of others: built by each host's own tool from the recipe that we give, and dragged.
 
 import { execFile, spawn } from "node:child_process";
-import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
@@ -10,7 +10,7 @@ import { serve } from "../server.mjs";
 import { expect, test as base } from "../fixtures.mjs";
 import { answers, follows, operate } from "./drive.mjs";
 import { folderOf, work } from "./recipes.mjs";
-import { endServers, fileServer, started } from "./serving.mjs";
+import { endServers, fileServer, freePort, started } from "./serving.mjs";
 
 const run = promisify(execFile);
 const tools = join(here, "hosts/node_modules");
@@ -83,6 +83,19 @@ function withPackage(folder) {
 
 const copyFiles = (folder) =>
   tool(folder, "sh", "-c", "cp node_modules/@epipole/figures/dist/*.wasm node_modules/@epipole/figures/dist/worker.js dist/");
+
+test("the packages are small, and say rightly what is in them", async () => {
+  const [packed, wheel] = [[work, ".tgz"], [join(work, "wheel"), ".whl"]].map(([folder, end]) => join(folder, readdirSync(folder).find((file) => file.endsWith(end))));
+  const sizes = { npm: packed, wheel, _esm: join(root, "python/epipole_figures/glue.js") };
+  const bytes = Object.fromEntries(Object.entries(sizes).map(([what, path]) => [what, statSync(path).size]));
+  test.info().annotations.push({ type: "bytes", description: JSON.stringify(bytes) });
+  expect(bytes.npm).toBeLessThanOrEqual(1_000_000);
+  expect(bytes.wheel).toBeLessThanOrEqual(1_200_000);
+  expect(bytes._esm).toBeLessThanOrEqual(75_000);
+  await tool(work, npx("publint"), "run", packed, "--strict");
+  // Node's oldest way and CommonJS find no modules there: they are for browsers and bundlers.
+  await tool(work, npx("attw"), packed, "--profile", "esm-only", "--no-color", "--no-emoji");
+});
 
 const bundlers = {
   vite: async (folder) => (await tool(folder, npx("vite"), "build"), join(folder, "dist")),
@@ -297,6 +310,8 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   strangers.push(server.origin.replace("http", "ws"));
   await visit(page, `${server.origin}/lab/tree/figures.ipynb?token=t`, strangers);
   const cells = page.locator(".jp-Notebook .jp-CodeCell");
+  // What is run before the kernel is connected is lost.
+  await expect(page.getByRole("button", { name: /\| Idle$/ })).toBeVisible({ timeout: 90_000 });
   await cells.first().locator(".cm-content").click();
   for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
   await operate(page, race(page));
@@ -322,6 +337,16 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   await expect(both.last()).toHaveAttribute("data-ready", "", { timeout: 60_000 });
   const told = (index) => both.nth(index).evaluate((element) => (element.flush(), [element.state, element.readouts]));
   expect(await told(1)).toEqual(await told(0));
+  // What a viewer without widgets is given: the picture, once the figure has rested.
+  await expect
+    .poll(
+      async () => {
+        await type("import base64; data, _ = race._repr_mimebundle_(); print(base64.b64decode(data.get('image/png', ''))[1:4])");
+        return page.locator(".jp-OutputArea-output pre").last().textContent();
+      },
+      { timeout: 60_000, intervals: [2000] },
+    )
+    .toBe("b'PNG'\n");
   const modules = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm")).length);
   expect(modules, "modules come through the kernel").toBe(0);
   // A page that is left asks nothing of a server that goes.
@@ -331,7 +356,7 @@ test("JupyterLab", async ({ page, book, strangers }) => {
 
 test("marimo", async ({ page, book, strangers }) => {
   const folder = folderOf("marimo", book);
-  const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", "2719"], {
+  const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", String(await freePort())], {
     cwd: folder,
     env: { ...process.env, MARIMO_SKIP_UPDATE_CHECK: "1" },
   });

@@ -42,20 +42,46 @@ export async function fileServer(folder, under = "/") {
   };
 }
 
-/** Some servers tell their address before they listen there. */
-async function answering(origin) {
-  for (;;) {
-    const answer = await fetch(origin).catch(() => undefined);
+/** How long a server may take to end by itself once it is asked to, milliseconds. */
+const GRACE_MS = 10_000;
+
+/** Some servers tell their address before they listen there; of one that has ended nothing more is expected. */
+async function answering(origin, isOver) {
+  while (!isOver()) {
+    const answer = await fetch(origin, { signal: AbortSignal.timeout(GRACE_MS) }).catch(() => undefined);
     if (answer) return;
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
 }
 
+/** A port that nobody uses, for servers that do not look for one themselves. */
+export async function freePort() {
+  const server = createServer();
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
 const running = new Set();
 
+/** Ends a server: one that does not listen to being asked is not asked twice. */
+function end(child) {
+  // By a signal a process ends without a code.
+  if (child.exitCode !== null || child.signalCode !== null) return Promise.resolve();
+  return new Promise((resolve) => {
+    const late = setTimeout(() => child.kill("SIGKILL"), GRACE_MS);
+    child.once("exit", () => {
+      clearTimeout(late);
+      resolve();
+    });
+    child.kill();
+  });
+}
+
 /** Ends the servers that a test has left behind. */
-export function endServers() {
-  for (const child of running) child.kill();
+export async function endServers() {
+  await Promise.all([...running].map(end));
 }
 
 /** Waits until a server says its address, which `pattern` captures. */
@@ -64,8 +90,11 @@ export function started(child, pattern, patience = 90_000) {
   running.add(child);
   child.once("exit", () => running.delete(child));
   return new Promise((resolve, reject) => {
+    let isOver = false;
     const fail = (why) => {
-      child.kill();
+      isOver = true;
+      clearTimeout(late);
+      void end(child);
       reject(new Error(`${why}:\n${said}`));
     };
     const late = setTimeout(() => fail("the server does not start"), patience);
@@ -76,14 +105,14 @@ export function started(child, pattern, patience = 90_000) {
       child.stdout.off("data", listen).resume();
       child.stderr.off("data", listen).resume();
       const { origin } = new URL(found[1]);
-      const close = () => new Promise((done) => (child.exitCode === null ? (child.once("exit", done), child.kill()) : done()));
-      void answering(origin).then(() => {
+      void answering(origin, () => isOver).then(() => {
         clearTimeout(late);
-        resolve({ origin, close });
+        resolve({ origin, close: () => end(child) });
       });
     };
     child.stdout.on("data", listen);
     child.stderr.on("data", listen);
+    child.once("error", (problem) => fail(`the server cannot be started: ${problem.message}`));
     child.once("exit", () => fail("the server has ended"));
   });
 }

@@ -3,7 +3,7 @@
 //! Two modules of the same crate: the figures, which every page with a figure loads, and their long
 //! computations, which a worker loads when a figure asks for one.
 
-use super::{Tools, read};
+use super::{Tools, likeness, read};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -11,7 +11,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 /// A module and the script that loads it.
 pub(crate) struct Module {
-    /// The module as wasm-bindgen leaves it.
+    /// The module as readers download it.
     pub(super) wasm: Vec<u8>,
     /// The generated script.
     pub(super) glue: PathBuf,
@@ -105,8 +105,11 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         .remove_producers_section(true)
         .generate(&folder)
         .context("wasm-bindgen failed")?;
+    let path = folder.join(format!("{name}_bg.wasm"));
+    let wasm = likeness::ordered(&read(&path)?)?;
+    std::fs::write(&path, &wasm).with_context(|| format!("cannot write {}", path.display()))?;
     Ok(Module {
-        wasm: read(&folder.join(format!("{name}_bg.wasm")))?,
+        wasm,
         glue: folder.join(format!("{name}.js")),
     })
 }

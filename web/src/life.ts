@@ -1,0 +1,548 @@
+/**
+ * What goes on behind an element: its tree, the figure that runs in it, the page around both, and how one comes to
+ * the other. `element.ts` is what a page sees of it.
+ *
+ * Longer than most files: opening, drawing, renaming and leaving change the same few facts, and nobody else does.
+ */
+
+import { actsOn } from "./acts.js";
+import { changedParameters } from "./attributes.js";
+import { choiceOf } from "./choice.js";
+import { whyMissing } from "./compile.js";
+import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
+import { capitalize, setAttribute } from "./dom.js";
+import { Engine, hurryModule, loadModule, panicMessage } from "./module.js";
+import { Motion } from "./motion.js";
+import { openState } from "./opening.js";
+import { parametersIn } from "./permalink.js";
+import type { Host } from "./properties.js";
+import { layoutWidth, WIDTHS } from "./room.js";
+import { saveFile, savePicture } from "./saving.js";
+import { Session } from "./session.js";
+import { sheet } from "./sheet.js";
+import { Shell } from "./shell.js";
+import { StandIn } from "./stand_in.js";
+import { askTheme, watchDensity, watchTheme, type Theme } from "./theme.js";
+import { bringIntoView, myTurn, pageIsCalm, watchVisibility } from "./visibility.js";
+
+/** The element, as far as its life needs it. */
+export interface Owner extends Host {
+  readonly compact: boolean;
+  readonly state: Record<string, string>;
+  readonly readouts: Record<string, number | string>;
+  readonly permalink: string;
+  reset: () => void;
+}
+
+export class Life {
+  readonly #owner: Owner;
+  readonly #shadow: ShadowRoot;
+  #shell: Shell;
+  /** What the page has brought along, until the figure is ready. */
+  #standIn: StandIn | undefined;
+  readonly #motion = new Motion({
+    look: () => this.#session?.ask((engine) => engine.snapshot(this.#width || layoutWidth(1))),
+    move: (work) => void this.#session?.move(work),
+    apply: (parameters) => this.put(parameters),
+    busy: () => this.#snapshot?.waiting != null && this.#shell.jobs.busy,
+    freeze: (frozen) => this.#session?.freeze(frozen),
+    mark: (before, now) => {
+      this.#session?.flush();
+      this.#shell.markChanges(before, now);
+    },
+    point: (id) => this.#shell.markControl(id),
+  });
+  #session: Session | undefined;
+  #snapshot: Snapshot | undefined;
+  #state: Parameters = [];
+  #theme: Theme = "light";
+  #ready = false;
+  /** The names of readouts that the page asks for have been compared with those that there are. */
+  #judged = false;
+  #awaited = gate();
+  /** Somebody has done something; what comes by itself while the page loads is not announced. */
+  #touched = false;
+  #near = false;
+  #inSight = false;
+  /** Room for the picture, and how much of it the picture takes, CSS pixels. */
+  #room = 0;
+  #shown = 0;
+  /** The width that the picture of a compact figure is laid out for. */
+  #fitted: number | undefined;
+  /** Somebody has pointed at the figure or gone into it. */
+  #interested = false;
+  #opening = 0;
+  /** The goal whose solution is being played. */
+  #playing: string | undefined;
+  #resized: ResizeObserver | undefined;
+  #stop: (() => void)[] = [];
+
+  constructor(owner: Owner) {
+    this.#owner = owner;
+    this.#shadow = owner.shadowRoot ?? owner.attachShadow({ mode: "open" });
+    this.#shadow.adoptedStyleSheets = [sheet()];
+    this.#shell = this.#makeShell();
+    this.#standIn = StandIn.in(this.#shadow);
+    if (this.#standIn) this.#standIn.lend(this.#shell);
+    else this.#shadow.append(this.#shell.root);
+    // Whoever takes hold of the figure ends what it does by itself.
+    const takeOver = (event: Event) => {
+      this.touch();
+      if (event.isTrusted && !isModifier(event)) this.stopMotion();
+    };
+    for (const type of ["pointerdown", "keydown", "input"]) {
+      this.#shadow.addEventListener(type, takeOver, { capture: true });
+    }
+    // What is shown interest in is drawn with the next frame; it can be taken hold of at once.
+    const interest = () => {
+      this.#interested = true;
+      this.#begin();
+      this.#showLive();
+    };
+    for (const type of ["pointerenter", "touchstart", "focusin"]) {
+      owner.addEventListener(type, interest, { passive: true, capture: true });
+    }
+  }
+
+  get shell(): Shell {
+    return this.#shell;
+  }
+
+  /** The running figure, once there is one. */
+  get session(): Session | undefined {
+    return this.#session;
+  }
+
+  /** What was drawn last. */
+  get snapshot(): Snapshot | undefined {
+    return this.#snapshot;
+  }
+
+  /** What differs from the figure's defaults. */
+  get state(): Parameters {
+    return this.#state;
+  }
+
+  /** Resolves once the figure can be operated and asked. */
+  get whenReady(): Promise<void> {
+    return this.#awaited.passed;
+  }
+
+  /** The element has come into a page. */
+  connect(): void {
+    const owner = this.#owner;
+    this.#shell.role = this.#role;
+    // What observers tell is remembered: to ask would make the browser lay the page out at once.
+    this.#resized = new ResizeObserver((entries) => this.#onResize(entries));
+    this.#observeRoom();
+    const attributes = new MutationObserver((records) => this.#onAttributes(records));
+    attributes.observe(owner, { attributes: true });
+    const recolor = () => this.recolor();
+    const [before, after] = [() => this.#session?.prepareForPrint(), recolor];
+    addEventListener("beforeprint", before);
+    addEventListener("afterprint", after);
+    this.#stop = [
+      () => this.#resized?.disconnect(),
+      () => attributes.disconnect(),
+      () => removeEventListener("beforeprint", before),
+      () => removeEventListener("afterprint", after),
+      watchDensity(recolor),
+      watchTheme(recolor),
+      watchVisibility(owner, {
+        near: (near) => {
+          this.#near = near;
+          if (near) void pageIsCalm().then(() => this.#begin());
+        },
+        seen: (inSight) => {
+          this.#inSight = inSight;
+          this.#session?.setInSight(inSight);
+        },
+      }),
+    ];
+    this.recolor();
+    if (this.#snapshot) this.#shell.jobs.follow(this.#snapshot.waiting);
+    if (this.#isLinked()) void this.open(true);
+  }
+
+  /** It has left the page; it may come back. */
+  disconnect(): void {
+    for (const stop of this.#stop) stop();
+    this.#stop = [];
+    this.stopMotion();
+    this.#shell.speaker.silence();
+    this.#session?.setInSight(false);
+    this.#shell.jobs.end();
+  }
+
+  /** Another figure: everything that belongs to the old one goes. */
+  rename(): void {
+    const wanted = this.#session !== undefined || this.#near || this.#opening > 0;
+    this.#opening += 1;
+    this.stopMotion();
+    this.#shell.end();
+    this.#session?.end();
+    this.#session = undefined;
+    this.#snapshot = undefined;
+    this.#state = [];
+    if (this.#ready) this.#awaited = gate();
+    this.#ready = false;
+    setAttribute(this.#owner, "data-ready", false);
+    this.#standIn = undefined;
+    this.#shell = this.#makeShell();
+    this.#shell.role = this.#role;
+    this.#shell.theme = this.#theme;
+    this.#fitted = undefined;
+    this.#shadow.replaceChildren(this.#shell.root);
+    this.#observeRoom();
+    if (wanted && this.#owner.isConnected) void this.open(false);
+  }
+
+  /** Other controls, readouts and goals are to be shown. */
+  choose(): void {
+    this.#shell.choose(choiceOf((name) => this.#owner.getAttribute(name)));
+    if (!this.#session || !this.#snapshot) return;
+    this.#shell.update(this.#snapshot);
+    this.#fit();
+    this.#shell.speaker.warn([]);
+    this.#shell.speaker.complain(this.#shell.misnamed(this.#snapshot));
+  }
+
+  /** Compact, or no longer. */
+  squeeze(): void {
+    this.#shell.compact = this.#owner.compact;
+    this.#observeRoom();
+    this.#fit();
+  }
+
+  /** Finds out what colors the figure takes, and takes them. */
+  recolor(): void {
+    askTheme(this.#owner, (theme) => {
+      this.#theme = theme;
+      this.#shell.theme = theme;
+      if (this.#standIn) this.#standIn.theme = theme;
+      this.#session?.recolor(theme);
+    });
+  }
+
+  /** Somebody has done something to the figure. */
+  touch(): void {
+    this.#touched = true;
+  }
+
+  /** Puts parameters on top of the state; those that could not be used come back. */
+  put(parameters: Parameters): Refused[] {
+    let problems: Refused[] = [];
+    this.#session?.act((engine) => {
+      problems = engine.apply(parameters);
+      return undefined;
+    });
+    return problems;
+  }
+
+  /** Says which parameters could not be used. */
+  warn(problems: Refused[]): void {
+    this.#shell.speaker.complain(problems.map(({ message }) => message));
+  }
+
+  /** Moves what can be moved to parameters, after waking the figure and bringing it into view. */
+  glide(parameters: Parameters, duration: number): Promise<Refused[]> {
+    this.#endPlay();
+    this.#interested = true;
+    this.#near = true;
+    this.#begin();
+    return this.#motion.glide(parameters, duration, this.#ready ? this.#comeIntoView() : this.#wake());
+  }
+
+  /** Ends what the figure does by itself. */
+  stopMotion(): void {
+    this.#endPlay();
+    this.#motion.stop();
+  }
+
+  /** Opens the figure; `withAddress` lets the page's address speak. */
+  async open(withAddress: boolean): Promise<void> {
+    const attempt = ++this.#opening;
+    setAttribute(this.#owner, "data-failed", false);
+    const name = this.#owner.getAttribute("name") ?? "";
+    let memory: WebAssembly.Memory;
+    try {
+      ({ memory } = await loadModule(() => {
+        if (attempt !== this.#opening) return;
+        this.#shell.speaker.offer("The interactive part of this figure is slow to come.", hurryModule);
+      }));
+    } catch (problem) {
+      if (attempt === this.#opening) this.#fail(`${whyMissing(problem, "The interactive part of this figure")}.`, true);
+      return;
+    }
+    // Figures that have waited for the module would all open in one long task.
+    if (!this.#interested) await myTurn();
+    if (attempt !== this.#opening) return;
+    this.#session?.end();
+    this.#session = undefined;
+    this.#shell.jobs.end();
+    let engine: Engine;
+    try {
+      engine = new Engine(name, memory);
+    } catch (problem) {
+      this.#fail(`This figure cannot be shown: ${String(problem)}.`, false);
+      return;
+    }
+    try {
+      this.#start(engine, withAddress);
+    } catch (problem) {
+      const message = panicMessage() ?? String(problem);
+      console.error(`epipole-figure: ${message}`);
+      engine.free();
+      this.#break(message);
+    }
+  }
+
+  /** A picture that waits for a computation is not the one that anybody wants to keep. */
+  async answered(): Promise<void> {
+    while (this.#snapshot?.waiting && this.#session && this.#shell.jobs.busy) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+  }
+
+  get #width(): number {
+    return this.#session?.width ?? 0;
+  }
+
+  get #role(): "figure" | "group" {
+    return this.#owner.closest("figure") ? "group" : "figure";
+  }
+
+  /** A new tree. What the tree of another figure still does or finds out is nobody's business. */
+  #makeShell(): Shell {
+    const owner = this.#owner;
+    const mine = () => (this.#shell === shell ? this.#session : undefined);
+    const name = () => owner.getAttribute("name") ?? "";
+    const shell: Shell = new Shell(
+      {
+        ...actsOn({ session: mine, name }),
+        deeds: {
+          reset: () => owner.reset(),
+          link: () => owner.permalink,
+          save: () => void this.#save(),
+          saveFile: () => {
+            const session = mine();
+            if (session) saveFile(session, this.#snapshot?.file, name());
+          },
+          fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
+        },
+        showHow: (challenge) => void this.#showHow(challenge),
+      },
+      choiceOf((key) => owner.getAttribute(key)),
+    );
+    shell.compact = owner.compact;
+    return shell;
+  }
+
+  /** Finds the width to lay out a compact figure for. */
+  #fit(): void {
+    const { compact, clientHeight } = this.#owner;
+    const look = (width: number) => this.#session?.ask((engine) => engine.snapshot(width).layout);
+    const sizes = compact ? WIDTHS.map(look).filter((size) => size !== undefined) : [];
+    this.#fitted = sizes.length > 0 && clientHeight > 0 ? this.#shell.arrange(sizes) : undefined;
+    this.#session?.resize(this.#room, this.#shown, this.#fitted);
+  }
+
+  #observeRoom(): void {
+    this.#resized?.disconnect();
+    if (this.#owner.compact) this.#resized?.observe(this.#owner);
+    const standing = this.#standIn?.picture;
+    if (standing) this.#resized?.observe(standing);
+    else {
+      this.#resized?.observe(this.#shell.picture.element);
+      const { sheet } = this.#shell.picture;
+      try {
+        // Tells of another density as well.
+        this.#resized?.observe(sheet, { box: "device-pixel-content-box" });
+      } catch {
+        this.#resized?.observe(sheet);
+      }
+    }
+  }
+
+  #onResize(entries: ResizeObserverEntry[]): void {
+    for (const { target, contentRect } of entries) {
+      if (target === this.#owner) this.#fit();
+      else if (target === this.#shell.picture.sheet) this.#shown = contentRect.width;
+      else this.#room = contentRect.width;
+    }
+    this.#session?.resize(this.#room, this.#shown, this.#fitted);
+  }
+
+  #onAttributes(records: MutationRecord[]): void {
+    const parameters = changedParameters(this.#owner, records, this.#snapshot);
+    if (!this.#session || Object.keys(parameters).length === 0) return;
+    this.#shell.speaker.warn([]);
+    this.#owner.apply(parameters);
+  }
+
+  /** Whether the page's address speaks of this figure. */
+  #isLinked(): boolean {
+    return parametersIn(location.search, this.#owner).own.length > 0;
+  }
+
+  /** Opens the figure unless that has been done. */
+  #begin(): void {
+    if (this.#near && !this.#session && this.#opening === 0) void this.open(true);
+  }
+
+  /** Lets a new figure run. */
+  #start(engine: Engine, withAddress: boolean): void {
+    const owner = this.#owner;
+    this.#ready = false;
+    const { first, problems, linked } = openState(engine, owner, layoutWidth(this.#room), withAddress);
+    this.#shell.introduce(engine.title, engine.help);
+    if (first.waiting !== null && !this.#touched) this.#standIn?.lendNumbers(this.#shell);
+    this.#session = new Session(engine, this.#shell.picture.canvas, {
+      drawn: (snapshot, painted) => this.#drawn(snapshot, painted, linked),
+      refused: (sentence) => this.#shell.speaker.warn([`${capitalize(sentence)}.`], true),
+      broke: (message) => this.#break(message),
+    });
+    // The poster is this very picture; photographs are rendered once somebody takes an interest.
+    const isShown = withAddress && !linked && problems.length === 0 && owner.querySelector("img");
+    if (isShown && (!this.#interested || first.waiting !== null)) this.#session.hold();
+    this.#session.recolor(this.#theme);
+    this.#shell.speaker.warn([]);
+    this.#shell.speaker.complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
+    this.#judged = first.waiting === null;
+    if (owner.compact) {
+      // How much room the bar takes shows once its buttons and numbers are there.
+      this.#shell.update(first, this.#touched);
+      this.#fit();
+    } else this.#session.resize(this.#room, this.#shown);
+    this.#session.setInSight(this.#inSight);
+  }
+
+  #drawn(snapshot: Snapshot | undefined, painted: boolean, linked: boolean): void {
+    if (painted) this.#shell.picture.reveal();
+    if (snapshot) {
+      const before = this.#snapshot;
+      this.#snapshot = snapshot;
+      const solved = this.#shell.update(snapshot, this.#touched);
+      if (!this.#judged && snapshot.waiting === null) {
+        this.#judged = true;
+        this.#shell.speaker.complain(this.#shell.misnamed(snapshot));
+      }
+      if (this.#ready) this.#tell(before, snapshot, solved);
+      if (this.#interested) this.#showLive();
+    }
+    if (!this.#ready) this.#becomeReady(linked);
+  }
+
+  /** Draws in place of the poster; not while the figure waits for what the poster shows already. */
+  #showLive(): void {
+    if (this.#snapshot?.waiting === null) this.#session?.release();
+  }
+
+  #becomeReady(linked: boolean): void {
+    const owner = this.#owner;
+    this.#ready = true;
+    this.#shell.reveal();
+    if (this.#standIn) {
+      this.#standIn.yield(this.#shell);
+      this.#standIn = undefined;
+      this.#observeRoom();
+    }
+    this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
+    setAttribute(owner, "data-ready", true);
+    // In a frame the address is the figure's alone, and the page around it would be moved.
+    if (linked && !location.hash && parent === window) owner.scrollIntoView({ block: "start" });
+    this.#awaited.pass();
+    const { state, readouts } = owner;
+    this.#emit("epipole-ready", { name: owner.getAttribute("name"), state, readouts });
+  }
+
+  #tell(before: Snapshot | undefined, now: Snapshot, solved: Challenge[]): void {
+    const { speaker } = this.#shell;
+    speaker.moveOn();
+    if (this.#touched && before?.description !== now.description) speaker.describe(now.description);
+    const state = this.#session?.ask((engine) => engine.state()) ?? [];
+    if (JSON.stringify(state) !== JSON.stringify(this.#state)) {
+      this.#state = state;
+      this.#emit("epipole-change", this.#owner.state);
+    }
+    const text = (snapshot?: Snapshot) => snapshot?.readouts.map((readout) => readout.text).join("|");
+    if (text(before) !== text(now)) this.#emit("epipole-readout", this.#owner.readouts);
+    for (const { id, goal } of solved) {
+      speaker.say(`Solved: ${goal}`);
+      this.#emit("epipole-challenge", { id, goal });
+    }
+  }
+
+  #emit(type: string, detail: unknown): void {
+    this.#owner.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+  }
+
+  /** Waits for the figure to be there, whether anybody sees it or not; not for one that never comes. */
+  async #wake(): Promise<void> {
+    while (!this.#session && !this.#owner.hasAttribute("data-failed")) {
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    // In a hidden page no frame would come, and without room none is drawn.
+    this.#session?.flush();
+    await this.#comeIntoView();
+  }
+
+  #comeIntoView(): Promise<void> {
+    return bringIntoView(this.#shell.picture.element);
+  }
+
+  /** Plays the solution of a goal from the default state, or ends that. */
+  async #showHow(challenge: string): Promise<void> {
+    const again = this.#playing !== challenge;
+    this.stopMotion();
+    const events = this.#session?.ask((engine) => engine.solution(challenge));
+    if (!again || !events || events.length === 0) return;
+    this.#playing = this.#shell.playing = challenge;
+    this.#session?.act((engine) => engine.update({ type: "reset" }));
+    this.#shell.jobs.goOn();
+    await this.#motion.play(events);
+    if (this.#playing === challenge) this.#endPlay();
+  }
+
+  #endPlay(): void {
+    if (this.#playing === undefined) return;
+    this.#playing = this.#shell.playing = undefined;
+    this.#motion.stop();
+  }
+
+  /** A sentence where the figure should be; the poster stays, and Reset tries again. */
+  #fail(sentence: string, again: boolean): void {
+    this.#opening = 0;
+    setAttribute(this.#owner, "data-failed", true);
+    this.#shell.speaker.offer(sentence, again ? () => this.#owner.reset() : undefined);
+  }
+
+  /** The module has panicked. */
+  #break(message: string): void {
+    this.#session = undefined;
+    this.#shell.jobs.end();
+    this.#fail("This figure has stopped: a mistake of ours. Reset starts it again.", !this.#ready);
+    this.#emit("epipole-error", { message });
+  }
+
+  async #save(): Promise<void> {
+    await this.answered();
+    if (this.#session) await savePicture(this.#session, this.#owner.getAttribute("name") ?? "");
+  }
+
+  async #toggleFullscreen(): Promise<void> {
+    if (document.fullscreenElement) await document.exitFullscreen();
+    else await this.#owner.requestFullscreen().catch(() => this.#shell.speaker.say("Full screen is not allowed here."));
+  }
+}
+
+/** Keys that do nothing by themselves, and the one that only goes on. */
+function isModifier(event: Event): boolean {
+  return event instanceof KeyboardEvent && /^(Shift|Control|Alt|Meta|Tab)$/.test(event.key);
+}
+
+function gate(): { passed: Promise<void>; pass: () => void } {
+  let pass = () => {};
+  const passed = new Promise<void>((resolve) => (pass = resolve));
+  return { passed, pass };
+}

@@ -1,0 +1,35 @@
+/** What a reader keeps of a figure: its picture, or what it has computed, as a file. */
+
+import type { FileOffer } from "./contract.js";
+import { make } from "./dom.js";
+import type { Session } from "./session.js";
+
+/** How long the browser may take to begin with a file, milliseconds. */
+const KEPT_MS = 10_000;
+/** Device pixels to a pixel of the layout in a saved picture. */
+const SCALE = 2;
+
+/** The picture as it is now, a PNG. */
+export function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
+  const canvas = session.portrait(scale);
+  return new Promise((resolve) => (canvas ? canvas.toBlob(resolve) : resolve(null)));
+}
+
+/** Saves the picture as it is now. */
+export async function savePicture(session: Session, name: string): Promise<void> {
+  const blob = await pictureOf(session);
+  if (blob) download(blob, `${name}.png`);
+}
+
+/** Saves what the figure offers besides its picture, if that is ready. */
+export function saveFile(session: Session, offer: FileOffer | null | undefined, name: string): void {
+  const bytes = session.ask((engine) => engine.file());
+  if (offer?.is_ready && bytes) download(new Blob([bytes]), `${name}.${offer.extension}`);
+}
+
+/** Offers a file for saving, as if a link to it had been followed. */
+function download(blob: Blob, name: string): void {
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
+}
