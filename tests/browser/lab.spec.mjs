@@ -15,7 +15,7 @@ test("the sample is solved, looked at in every step, and saved", async ({ lab })
   await press(lab, "button", "Matches");
   await expect(said(lab)).toContainText("36 of 36 pairs share enough matches", { timeout: 60_000 });
   await press(lab, "button", "Two views");
-  await expect(said(lab)).toContainText("A scene with depth from two places");
+  await expect(said(lab)).toContainText("A scene with depth, seen from two places");
   await press(lab, "button", "Features");
   await expect(said(lab)).toContainText(/table-1\.png: \d+ features/);
 
@@ -33,6 +33,18 @@ test("the sample is solved, looked at in every step, and saved", async ({ lab })
   }
 });
 
+test("the sample comes solved, and is computed with the same result where that does not come", async ({ lab, library, complaints }) => {
+  await solved(lab);
+  expect(lab.workers(), "nothing was left to compute").toEqual([]);
+  const words = await said(lab).textContent();
+  await lab.route(/sample-[^/]*\.bin$/, (route) => route.fulfill({ status: 404, body: "" }));
+  await lab.goto(`${library}/lab/index.html`);
+  await solved(lab);
+  expect(lab.workers().length).toBeGreaterThan(0);
+  await expect(said(lab)).toHaveText(words);
+  complaints.length = 0;
+});
+
 test("a project is saved from its menu, while the sample is still computed and again when it is solved", async ({ lab }) => {
   for (const wait of [() => {}, solved]) {
     await wait(lab);
@@ -48,7 +60,7 @@ test("a project is saved from its menu, while the sample is still computed and a
 test("knobs recompute, and undo brings the result back at once", async ({ lab }) => {
   await solved(lab);
   await press(lab, "button", "Photographs");
-  await press(lab, "checkbox", "takes part");
+  await press(lab, "checkbox", "Use this photograph");
   await expect(said(lab)).toContainText("table-1.png: left out by you");
   await press(lab, "button", "Reconstruction");
   await expect(said(lab)).toContainText("8 of 9 photographs have a camera", { timeout: 60_000 });
@@ -125,10 +137,10 @@ test("every pixel of a pair gets a depth, which becomes part of the files", asyn
   await solved(lab);
   await press(lab, "button", "Depth");
   await expect(said(lab)).toContainText(/table-1\.png and table-2\.png: \d+ % of \d+ pixels have a depth/, { timeout: 90_000 });
-  await press(lab, "checkbox", "part of the cloud and of the export");
+  await press(lab, "checkbox", "Add to cloud and export");
   await press(lab, "button", "Reconstruction");
   await press(lab, "button", "Export");
-  await expect(said(lab)).toContainText("Every pixel's depth of 1 pair.");
+  await expect(said(lab)).toContainText("Dense depth of 1 pair.");
   const [download] = await Promise.all([
     lab.waitForEvent("download"),
     press(lab, "button", "Save reconstruction.zip"),

@@ -102,7 +102,7 @@ if (folder) {
   await press("button", "Depth");
   await until(/pixels have a depth|could be|nothing/);
   console.log(await said());
-  await press("checkbox", "part of the cloud and of the export");
+  await press("checkbox", "Add to cloud and export");
   await press("button", "Reconstruction");
   await page.waitForTimeout(4000);
   await frames();

@@ -122,7 +122,7 @@ function capped(wasm, numPages) {
 
 /** Turns the knob for the size of photographs. */
 async function reduceTo(lab, megapixels) {
-  const knob = lab.locator("#widgets").getByRole("slider", { name: "Reduce to at most, megapixels" });
+  const knob = lab.locator("#widgets").getByRole("slider", { name: "Largest size, megapixels" });
   await knob.evaluate((input, value) => {
     input.value = value;
     input.dispatchEvent(new Event("change"));
@@ -138,12 +138,12 @@ test("memory that does not suffice is told, and smaller photographs are the way 
   await solved(blank);
   const large = [file("large.png", png(2400, 1800)), file("other.png", png(2400, 1796))];
   await blank.locator("#photographs").setInputFiles(large);
-  await expect(said(blank)).toContainText("large.png: cannot be read: there is not memory enough for this", { timeout: 90_000 });
+  await expect(said(blank)).toContainText("large.png: cannot be read: there is not enough memory for this", { timeout: 90_000 });
   await expect(said(blank)).toContainText("reduce photographs to fewer megapixels");
   await expect(said(blank)).toContainText("2 photographs.");
   await expect(notice(blank)).toBeEmpty();
   await reduceTo(blank, 0.1);
-  await expect(said(blank)).not.toContainText("not memory enough", { timeout: 60_000 });
+  await expect(said(blank)).not.toContainText("not enough memory", { timeout: 60_000 });
   await expect(said(blank)).toContainText("2 photographs.");
   await blank.context().unrouteAll({ behavior: "ignoreErrors" });
   complaints.length = 0;
@@ -181,7 +181,7 @@ test("a panic in a worker is told, and the next worker goes on", async ({ blank,
   await expect.poll(() => blank.workers().length, { timeout: 60_000 }).toBe(0);
   broken = true;
   await give(blank);
-  await expect(said(blank)).toContainText("one.png: cannot be read: the Lab itself has made a mistake here", { timeout: 30_000 });
+  await expect(said(blank)).toContainText("one.png: cannot be read: this is a mistake of the Lab", { timeout: 30_000 });
   await expect(notice(blank)).toBeEmpty();
   broken = false;
   await press(blank, "button", "Try again");

@@ -21,7 +21,7 @@ test("photographs and knobs are there again at the next visit, until they are fo
   // Nothing is kept that nobody has chosen to keep.
   expect(await kept(lab)).toEqual([]);
   await press(lab, "button", "Project");
-  await expect(lab.locator("#widgets")).toContainText("on this machine; nothing is uploaded");
+  await expect(lab.locator("#widgets")).toContainText("on this machine. Nothing is uploaded");
   await choose(lab, "checkbox", "Keep in this browser");
   await expect(said(lab)).toContainText("This browser keeps the project", { timeout: 30_000 });
   expect(await kept(lab)).toEqual([KEPT]);
@@ -39,7 +39,7 @@ test("photographs and knobs are there again at the next visit, until they are fo
       KEPT,
     );
   const before = await size();
-  await press(lab, "checkbox", "takes part");
+  await press(lab, "checkbox", "Use this photograph");
   await expect(said(lab)).toContainText("one.png: left out by you");
   // The change is kept, too, once it has come to rest: one letter less, true for false.
   await expect.poll(size, { timeout: 30_000 }).not.toBe(before);
@@ -47,7 +47,7 @@ test("photographs and knobs are there again at the next visit, until they are fo
   // A visit, not a reload: the address says nothing.
   await lab.goto("about:blank");
   await lab.goto(`${library}/lab/index.html`);
-  await expect(said(lab)).toContainText("The project that this browser kept is open again", { timeout: 60_000 });
+  await expect(said(lab)).toContainText("The project kept in this browser is open again", { timeout: 60_000 });
   await press(lab, "button", "Photographs");
   await expect(said(lab)).toContainText("2 photographs.");
   for (const name of ["one.png", "two.png"]) await expect(photograph(lab, name)).toHaveCount(1);
@@ -56,11 +56,11 @@ test("photographs and knobs are there again at the next visit, until they are fo
   // Whoever follows a link to a sample sees it, and nothing is written over.
   await lab.goto(`${library}/lab/index.html?sample=turned`);
   await expect(said(lab)).toContainText("This browser keeps a project of yours", { timeout: 60_000 });
-  await choose(lab, "button", "Open what this browser keeps");
+  await choose(lab, "button", "Open the kept project");
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 60_000 });
 
   await choose(lab, "button", "Forget it");
-  await expect(said(lab)).toContainText("This browser keeps nothing of the project.");
+  await expect(said(lab)).toContainText("The project is no longer kept in this browser.");
   await expect(said(lab)).toContainText("2 photographs.");
   await expect.poll(() => kept(lab)).toEqual([]);
   await lab.goto(`${library}/lab/index.html`);
@@ -89,7 +89,7 @@ test("what one page forgets, another one that is open does not keep again", asyn
   await choose(other, "button", "Forget it");
   await expect.poll(() => kept(other)).toEqual([]);
   await other.close();
-  await expect(said(lab)).toContainText("Another page of the Lab has forgotten the project", { timeout: 30_000 });
+  await expect(said(lab)).toContainText("Another page of the Lab removed the kept project", { timeout: 30_000 });
   await expect(said(lab)).toContainText("2 photographs.");
   expect(complaints).toEqual([]);
 });
@@ -102,7 +102,7 @@ const FAULTS = {
         throw new DOMException("forbidden", "SecurityError");
       };
     },
-    words: "The project is not kept in this browser: it does not let this page keep anything. Project, Save",
+    words: "The project is not kept in this browser: it does not let this page keep anything. Save it as a file",
   },
   "is full": {
     fault: () => {
@@ -110,7 +110,7 @@ const FAULTS = {
         throw new DOMException("full", "QuotaExceededError");
       };
     },
-    words: "The project is not kept in this browser: there is no room for 0.0 MB. Project, Save",
+    words: "The project is not kept in this browser: there is no room for 0.0 MB. Save it as a file",
   },
 };
 

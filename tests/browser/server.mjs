@@ -24,9 +24,9 @@ export const POLICY =
 /**
  * Serves folders: `mounts` maps the first part of a path to a folder or to a function that returns
  * HTML for the rest of the address, or answers by itself and returns nothing. `policy: false` is a page of someone
- * else, who has none; `more` are further headers of every answer.
+ * else, who has none; `more` are further headers of every answer; addresses like `missing` are not there.
  */
-export async function serve({ mounts, policy = POLICY, more = {}, port = 0 }) {
+export async function serve({ mounts, policy = POLICY, more = {}, missing, port = 0 }) {
   const server = createServer(async (request, response) => {
     const url = new URL(request.url, "http://localhost");
     const [, first = "", ...rest] = url.pathname.split("/");
@@ -41,7 +41,7 @@ export async function serve({ mounts, policy = POLICY, more = {}, port = 0 }) {
         response.end(page);
         return;
       }
-      if (!mount) throw new Error("no such place");
+      if (!mount || missing?.test(url.pathname)) throw new Error("no such place");
       const path = normalize(join(mount, decodeURIComponent(rest.join("/"))));
       if (!path.startsWith(normalize(mount))) throw new Error("outside");
       const body = await readFile(path);

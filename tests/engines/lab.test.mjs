@@ -39,7 +39,9 @@ describe("the sample of the Lab", { timeout: 1_800_000 }, () => {
     }
   };
   before(async () => {
-    server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:` });
+    // Without the results that the sample comes with, every engine has to compute them.
+    const missing = /\/sample-[^/]*\.bin$/;
+    server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:`, missing });
     expected = await solve(chromium);
     assert.match(expected.said, /9 of 9 photographs have a camera; \d+ points/);
   });

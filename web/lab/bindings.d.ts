@@ -8,6 +8,7 @@ declare module "epipole-lab-page" {
         capacity(): number;
         start(work: number, branch: string, request: Uint8Array): void;
         cancel(work: number): void;
+        bringsSample(): boolean;
         askForPhotographs(): void;
         askForProject(): void;
         askForCamera(): void;
@@ -33,6 +34,7 @@ declare module "epipole-lab-page" {
     noFrames(video: number, sentence: string): void;
     news(sentence: string): void;
     link(parameters: string[]): void;
+    solved(computed: Uint8Array): void;
     project(archive: Uint8Array): void;
     keptProject(archive: Uint8Array): void;
     keptAside(sentence: string): void;
@@ -67,3 +69,5 @@ declare const LAB_PAGE_WASM: string;
 declare const LAB_VISION_WASM: string;
 declare const LAB_FILES_WASM: string;
 declare const LAB_WORKER: string;
+/** Where the results of the sample are, likewise. */
+declare const LAB_SAMPLE: string;

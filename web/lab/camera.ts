@@ -32,7 +32,7 @@ export class Camera {
   async open(): Promise<void> {
     if (this.#dialog.open) return;
     const media = navigator.mediaDevices as MediaDevices | undefined;
-    if (!media) throw new Error("This browser gives a page no camera, or only over https. Add photographs from files.");
+    if (!media) throw new Error("This browser offers no camera to this page, or only over https. Add photographs from files.");
     try {
       this.#stream = await media.getUserMedia({
         video: { facingMode: "environment", width: { ideal: 3840 }, height: { ideal: 2160 } },
@@ -62,7 +62,7 @@ export class Camera {
 
   #tell(): void {
     this.#count.textContent =
-      this.#taken === 0 ? "Take two or more, from a step aside each." : `${this.#taken} taken.`;
+      this.#taken === 0 ? "Take two or more, one step to the side each time." : `${this.#taken} taken.`;
   }
 
   #stop(): void {

@@ -36,12 +36,12 @@ export class FigureBeside {
     document.body.dataset["figure"] = name;
     this.#close.focus();
     if (this.#place.firstElementChild?.getAttribute("name") === name) return;
-    this.#place.textContent = "The figure is being loaded …";
+    this.#place.textContent = "Loading the figure …";
     try {
       await elements();
     } catch (error) {
       console.warn(error);
-      this.#place.textContent = "The figure could not be loaded. Its chapter has it, too.";
+      this.#place.textContent = "The figure could not be loaded. You will find it in the chapter.";
       return;
     }
     // Another one may have been asked for meanwhile.

@@ -107,7 +107,7 @@ export class Kept {
       // Where nobody may look there is nothing of ours.
       if (!this.#isThere) return undefined;
     }
-    throw new Error("The project that this browser keeps cannot be read any more. Forget it, in the menu of the project.");
+    throw new Error("The project that this browser keeps cannot be read any more. Forget it in the Project menu.");
   }
 
   #next(what: () => Promise<void>): void {

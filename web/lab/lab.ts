@@ -7,6 +7,7 @@ import { FigureBeside } from "./figure.js";
 import { dropped, photographOf } from "./files.js";
 import { Kept, putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
+import { solvedSample } from "./sample.js";
 import { Frames, isVideo } from "./video.js";
 
 function find<T extends HTMLElement>(id: string): T {
@@ -47,6 +48,9 @@ function theme(): string {
 }
 
 async function start(): Promise<void> {
+  const linked = new URLSearchParams(location.search).get("sample");
+  // While the module comes, so that nothing waits for it.
+  const sample = linked === null || linked === "table" ? solvedSample() : undefined;
   try {
     await load({ module_or_path: new URL(LAB_PAGE_WASM, import.meta.url) });
   } catch (error) {
@@ -110,6 +114,7 @@ async function start(): Promise<void> {
     start: (work: number, branch: string, request: Uint8Array) =>
       crew.start(work, branch === "files" ? "files" : "vision", request),
     cancel: (work: number) => crew.cancel(work),
+    bringsSample: () => sample !== undefined,
     askForPhotographs: () => photographs.click(),
     askForProject: () => project.click(),
     askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
@@ -149,7 +154,7 @@ async function start(): Promise<void> {
     }
     if (count > 0) lab.deliver();
     if (foreign.length > 0) {
-      lab.news(`${foreign.join(", ")}: decoded by this browser, so another one may give other pixels; marked by .jpg at the end.`);
+      lab.news(`${foreign.join(", ")}: decoded by this browser, so another browser may give other pixels. The name ends in .jpg to mark it.`);
     }
   };
   for (const input of [photographs, project]) {
@@ -173,9 +178,10 @@ async function start(): Promise<void> {
   } catch (error) {
     console.warn(error);
     notice.textContent =
-      "The Lab needs WebGL, which this browser does not give it. The command line does the same: epipole sfm --help";
+      "The Lab needs WebGL, which this browser does not offer. The command line does the same: epipole sfm --help";
     return;
   }
+  void sample?.then((computed) => lab.solved(computed));
   notice.textContent = "";
   // The toolkit takes typed letters through an input of its own.
   for (const input of document.querySelectorAll("input:not([aria-label])")) {
@@ -218,7 +224,7 @@ async function open(lab: Lab, kept: Kept, askForKept: () => Promise<boolean>): P
   if (link.has("sample") && visit?.type !== "reload") {
     // Whoever follows a link to a sample wants to see it, and nothing of the reader's is written over.
     if (await kept.read().catch(() => undefined)) {
-      lab.keptAside("This browser keeps a project of yours: the menu of the project opens it.");
+      lab.keptAside("This browser keeps a project of yours. Open it from the Project menu.");
     }
   } else if (await askForKept()) {
     link.delete("sample");
@@ -244,7 +250,7 @@ function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<
     void aside.catch((error: unknown) => console.warn(error)).then(() => location.reload());
   });
   where.replaceChildren(
-    "The Lab has stopped, and nothing is lost on your machine. If it stops again, reduce photographs to fewer megapixels. ",
+    "The Lab has stopped, but nothing is lost on your machine. If it happens again, reduce photographs to fewer megapixels. ",
     button,
   );
 }

@@ -96,7 +96,7 @@ function heard(video: HTMLVideoElement, name: string): Promise<void> {
     };
     const good = () => end(resolve);
     const bad = () => end(() => reject(new Error("this browser cannot decode it")));
-    const timer = setTimeout(() => end(() => reject(new Error("this browser does not get on with it"))), PATIENCE_MS);
+    const timer = setTimeout(() => end(() => reject(new Error("this browser takes too long to read it"))), PATIENCE_MS);
     video.addEventListener(name, good);
     video.addEventListener("error", bad);
   });

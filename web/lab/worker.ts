@@ -47,6 +47,6 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
 function sentence(problem: unknown, panic: string | undefined): string {
   console.warn(panic ?? problem);
   return panic === undefined
-    ? "there is not memory enough for this: reduce photographs to fewer megapixels, or close other pages and try again"
-    : "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it, or if you try again";
+    ? "there is not enough memory for this: reduce photographs to fewer megapixels, or close other pages and try again"
+    : "this is a mistake of the Lab, not of your photographs: try again, or try other settings";
 }

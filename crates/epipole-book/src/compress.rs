@@ -55,7 +55,11 @@ pub fn brotli(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
     Ok(compressed)
 }
 
-fn gzip(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
+/// The same as gzip.
+///
+/// # Errors
+/// As [`add`].
+pub fn gzip(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
     let level = if fast {
         flate2::Compression::fast()
     } else {

@@ -300,19 +300,22 @@ fn the_camera_is_turned_with_photographs_taken_upright() {
     assert_eq!(project.focal_origin(silent), Some(FocalOrigin::Guessed));
     let words = project.unused_camera_words(silent);
     assert!(
-        words.contains("stands the other way, without a word in its file"),
+        words.contains("in the other orientation without saying which way"),
         "{words}"
     );
     assert_eq!(project.unused_camera_words(upright), "");
     let words = project.describe();
     assert!(words.contains("used for 3 of 4 photographs"), "{words}");
     assert!(
-        words.contains("Not for 1 photograph that stands the other way"),
+        words.contains("not used for 1 photograph in the other orientation"),
         "{words}"
     );
     project.update(Event::Show(Step::Photographs));
     let words = project.describe();
-    assert!(words.contains("2 stand upright and 2 lie"), "{words}");
+    assert!(
+        words.contains("2 are upright and 2 are landscape"),
+        "{words}"
+    );
 }
 
 /// However the camera was held when it photographed the board, it is one camera.
@@ -379,14 +382,14 @@ fn what_gives_no_camera_is_told_with_what_helps() {
             "found in 0 of 2",
             "no board of 9 × 6",
             "view-2.png: cannot be read",
-            "two at least",
+            "at least two",
         ],
     );
     // One view alone.
     let project = with_boards(vec![view([0.0, 30.0])]);
     told(
         &project,
-        &["found in 1 of 1 photograph.", "two at least", "30° to 45°"],
+        &["found in 1 of 1 photograph.", "at least two", "30° to 45°"],
     );
     assert_eq!(project.calibration_failure(), None);
     // All parallel to the picture.

@@ -133,7 +133,7 @@ proptest! {
         let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
             return Err(TestCaseError::fail("it cannot be saved"));
         };
-        let Ok(Answer::Opened { project: saved, files }) = answer(&Request::Open { archive }) else {
+        let Ok(Answer::Opened { project: saved, files, .. }) = answer(&Request::Open { archive }) else {
             return Err(TestCaseError::fail("it cannot be opened"));
         };
         let mut again = Project::default();

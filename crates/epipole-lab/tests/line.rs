@@ -95,14 +95,14 @@ fn parts_that_nothing_joins_are_told(project: &mut Project) {
     project.done(key, Ok(Answer::Reconstruction(found).to_bytes()));
     let (each, all) = sentences(project);
     let of_part = |each: &[String], part: &str| -> usize {
-        let words = format!("belongs to part {part}: nothing joins it");
+        let words = format!("belongs to part {part}, which nothing joins");
         each.iter()
             .filter(|sentence| sentence.contains(&words))
             .count()
     };
     assert_eq!(of_part(&each, "2"), 3, "{each:?}");
     assert!(
-        all.contains("6 of 9") && all.contains("Part 1 of 2"),
+        all.contains("6 of 9") && all.contains("part 1 of 2"),
         "{all}"
     );
     project.update(Event::LookAtComponent(1));
@@ -273,7 +273,7 @@ fn the_files_can_be_read_again(project: &Project) {
         readme.contains("epipole sfm images/ --focal-px 600"),
         "{readme}"
     );
-    assert!(readme.contains("Lengths are meters"), "{readme}");
+    assert!(readme.contains("Lengths are in meters"), "{readme}");
 }
 
 fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
@@ -425,11 +425,11 @@ fn a_plane_is_told_so() {
         all.contains("4 of 4 photographs have a camera"),
         "{all} {each:?}"
     );
-    assert!(all.contains("All pairs show a plane"), "{all} {each:?}");
+    assert!(all.contains("Every pair shows a plane"), "{all} {each:?}");
     assert!(all.contains("Type it, calibrate"), "{all}");
     project.update(Event::Show(Step::TwoViews));
     let pair = project.describe();
-    assert!(pair.contains("a plane from two places: H"), "{pair}");
+    assert!(pair.contains("A plane, seen from two places: H"), "{pair}");
 }
 
 #[test]
@@ -437,10 +437,10 @@ fn two_places_in_one_heap_are_told_apart() {
     let mut project = solved(Sample::Mixed);
     let (each, all) = sentences(&mut project);
     assert!(
-        all.contains("3 of 6") && all.contains("Part 1 of 2, which nothing joins"),
+        all.contains("3 of 6") && all.contains("part 1 of 2: nothing joins the parts"),
         "{all}"
     );
-    let of_other = |words: &String| words.contains("belongs to part 2: nothing joins it");
+    let of_other = |words: &String| words.contains("belongs to part 2, which nothing joins");
     assert_eq!(
         each.iter().filter(|words| of_other(words)).count(),
         3,
@@ -465,7 +465,10 @@ fn some_upright_and_some_not_go_together_and_that_is_told() {
     );
     project.update(Event::Show(Step::Photographs));
     let words = project.describe();
-    assert!(words.contains("2 stand upright and 3 lie"), "{words}");
+    assert!(
+        words.contains("2 are upright and 3 are landscape"),
+        "{words}"
+    );
     // On the arc around the table neighbors are equally far from each other, however the camera was held.
     let component = project.component().unwrap();
     let centers: Vec<_> = (component.cameras.iter())
@@ -515,7 +518,7 @@ fn a_file_that_is_none_leaves_the_others_alone() {
     );
     let (each, all) = sentences(&mut project);
     assert!(each[0].starts_with("cannot be read"), "{each:?}");
-    assert!(each[1].contains("features are too few"), "{each:?}");
+    assert!(each[1].contains("features, which is too few"), "{each:?}");
     assert!(all.contains("broken.jpg: cannot be read"), "{all}");
     assert_eq!(project.document().photos[2].name, "flat-2.png");
 }

@@ -23,7 +23,7 @@ fn the_line_from_the_sample_to_a_file() {
     );
 
     click(&mut bench, "Photographs");
-    click(&mut bench, "takes part");
+    click(&mut bench, "Use this photograph");
     assert!(bench.state().project().document().photos[0].excluded);
     click(&mut bench, "Undo");
     assert!(!bench.state().project().document().photos[0].excluded);
@@ -96,11 +96,11 @@ fn a_board_gives_a_camera_and_its_file() {
     click(&mut bench, "Use for my photographs");
     let words = said(&mut bench);
     assert!(
-        words.contains("of 640 × 480 pixels, of which there are none yet"),
+        words.contains("of 640 × 480 pixels. There are none yet"),
         "{words}"
     );
     assert!(bench.state().project().document().camera.is_some());
-    click(&mut bench, "Do not use it any more");
+    click(&mut bench, "Stop using it");
     assert!(bench.state().project().document().camera.is_none());
     // What comes while this step is open is of a board, and the sample makes room.
     let broken = vec![("broken.png".to_owned(), vec![1_u8, 2, 3].into())];
@@ -327,7 +327,7 @@ fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
         "nobody has chosen to keep it"
     );
     click(&mut bench, "Project");
-    bench.get_by_label("Takes less than 0.1 MB on this machine; nothing is uploaded.");
+    bench.get_by_label("Uses less than 0.1 MB on this machine. Nothing is uploaded.");
     click(&mut bench, "Keep in this browser");
     bench.run_steps(40);
     let words = said(&mut bench);
@@ -355,7 +355,7 @@ fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
     assert_eq!(project.view().step, Step::Matches);
     let words = said(&mut again);
     assert!(
-        words.contains("that this browser kept is open again"),
+        words.contains("The project kept in this browser is open again"),
         "{words}"
     );
     again.run_steps(40);
@@ -403,11 +403,11 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
     );
     let words = said(&mut bench);
     assert!(
-        words.contains("there is no room for 3.0 MB. Project, Save"),
+        words.contains("there is no room for 3.0 MB. Save it as a file"),
         "{words}"
     );
     assert!(
-        words.contains("What it kept before is still there"),
+        words.contains("The project kept before is still there"),
         "{words}"
     );
     // It is not written over until the reader says so.
@@ -418,7 +418,7 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
     bench.state_mut().host().kept = before;
     click(&mut bench, "Project");
     assert!(bench.query_by_label("Keep in this browser").is_none());
-    click(&mut bench, "Open what this browser keeps");
+    click(&mut bench, "Open the kept project");
     rest(&mut bench);
     let words = said(&mut bench);
     assert!(words.contains("is open again"), "{words}");
@@ -449,7 +449,7 @@ fn what_broke_down_is_told_and_tried_again() {
     step(&mut bench, "SIFT");
     step(&mut bench, "Photographs");
     let words = said(&mut bench);
-    assert!(words.contains("there is not memory enough"), "{words}");
+    assert!(words.contains("there is not enough memory"), "{words}");
     assert_eq!(bench.state().project().document().photos.len(), 9);
     bench.state_mut().host().breaks = false;
     step(&mut bench, "Try again");
@@ -460,4 +460,33 @@ fn what_broke_down_is_told_and_tried_again() {
         "{words}"
     );
     assert!(bench.query_by_label("Try again").is_none());
+}
+
+#[test]
+fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
+    use epipole_lab::tasks::Sample;
+    let computed = common::solved(Sample::Table).all_computed().to_bytes();
+    for (bytes, num_started) in [(computed, 0), (Vec::new(), 1)] {
+        let mut bench = common::desk::open_with(
+            common::desk::Desk {
+                brings_sample: true,
+                ..Default::default()
+            },
+            1280.0,
+            720.0,
+        );
+        assert_eq!(bench.state_mut().host().num_started, 0, "it waits");
+        bench.get_by_label("Reconstructing.");
+        let arrival = Arrival::Solved(bytes.into());
+        bench.state_mut().host().arrivals.push(arrival);
+        rest(&mut bench);
+        bench.get_by_label("9 of 9");
+        let started = bench.state_mut().host().num_started;
+        assert_eq!(started.min(1), num_started, "{started}");
+        // Another sample is computed as ever.
+        click(&mut bench, "Samples");
+        click(&mut bench, Sample::Alone.title());
+        rest(&mut bench);
+        assert!(bench.state_mut().host().num_started > started);
+    }
 }

@@ -82,12 +82,16 @@ impl Display {
         })
     }
 
-    /// The Lab with these files.
+    /// The Lab with these files. Programs in the folder `programs` are found before others.
     fn start(&self, files: &[PathBuf]) -> Ended {
+        let mut programs = self.folder.join("programs").into_os_string();
+        programs.push(":");
+        programs.push(std::env::var_os("PATH").unwrap_or_default());
         let started = Command::new(env!("CARGO_BIN_EXE_epipole-lab"))
             .args(files)
             .current_dir(&self.folder)
             .env("DISPLAY", &self.name)
+            .env("PATH", programs)
             .env("LIBGL_ALWAYS_SOFTWARE", "1")
             .env("WINIT_X11_SCALE_FACTOR", "1")
             .env_remove("WAYLAND_DISPLAY")
@@ -189,11 +193,8 @@ fn the_sample_is_solved_in_a_window_and_saved() {
     assert!(colors.len() > 2000, "{} colors", colors.len());
 }
 
-#[test]
-fn files_that_are_given_take_the_place_of_the_sample() {
-    let Some(display) = Display::open("files") else {
-        return;
-    };
+/// Two small photographs in the folder of the display.
+fn two_photographs(display: &Display) -> [PathBuf; 2] {
     let files = ["one.png", "two.png"].map(|name| display.folder.join(name));
     for (n, path) in files.iter().enumerate() {
         let image = RgbImage::from_fn(64, 48, |u, v| {
@@ -201,7 +202,11 @@ fn files_that_are_given_take_the_place_of_the_sample() {
         });
         image.save(path).unwrap();
     }
-    let mut lab = display.start(&files);
+    files
+}
+
+/// Where "Project" and its "Save" are, once these files are open.
+fn save_places(files: &[PathBuf]) -> [egui::Pos2; 2] {
     let mut bench = bench();
     let photographs = files.iter().map(|path| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -213,9 +218,55 @@ fn files_that_are_given_take_the_place_of_the_sample() {
     rest(&mut bench);
     let menu = middle(&bench, "Project");
     click(&mut bench, "Project");
-    let save = middle(&bench, "Save");
-    let names = display.click_until(&mut lab, &[menu, save], "project.zip");
-    for name in ["photographs/one.png", "photographs/two.png", "project.json"] {
+    [menu, middle(&bench, "Save")]
+}
+
+const SAVED: [&str; 3] = ["photographs/one.png", "photographs/two.png", "project.json"];
+
+#[test]
+fn files_that_are_given_take_the_place_of_the_sample() {
+    let Some(display) = Display::open("files") else {
+        return;
+    };
+    let files = two_photographs(&display);
+    let mut lab = display.start(&files);
+    let names = display.click_until(&mut lab, &save_places(&files), "project.zip");
+    for name in SAVED {
+        assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
+    }
+}
+
+#[test]
+fn files_are_chosen_in_the_dialog_of_the_desktop() {
+    use std::os::unix::fs::PermissionsExt;
+    let Some(display) = Display::open("dialog") else {
+        return;
+    };
+    let files = two_photographs(&display);
+    // A dialog in which somebody has chosen these at once.
+    let programs = display.folder.join("programs");
+    std::fs::create_dir(&programs).unwrap();
+    let [one, two] = files.each_ref().map(|path| path.display().to_string());
+    let zenity = programs.join("zenity");
+    std::fs::write(
+        &zenity,
+        format!("#!/bin/sh\nprintf '%s\\n%s\\n' '{one}' '{two}'\ntouch asked\n"),
+    )
+    .unwrap();
+    std::fs::set_permissions(&zenity, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let add = middle(&bench(), "Add photographs…");
+    let mut lab = display.start(&[]);
+    let begun = Instant::now();
+    while !display.folder.join("asked").exists() {
+        assert_eq!(lab.0.try_wait().unwrap(), None, "the Lab has ended");
+        assert!(
+            begun.elapsed() < PATIENCE,
+            "no dialog came of clicking {add:?}"
+        );
+        display.click(add);
+    }
+    let names = display.click_until(&mut lab, &save_places(&files), "project.zip");
+    for name in SAVED {
         assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
     }
 }

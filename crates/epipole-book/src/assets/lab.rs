@@ -3,8 +3,9 @@
 use super::{Assets, Tools, add_hashed, read, scripts, wasm};
 use crate::compress;
 use crate::template::LAB_POLICY;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 /// The folder of the Lab below that of the site.
 pub(crate) const FOLDER: &str = "lab";
@@ -19,7 +20,9 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let vision = wasm::build(&tools, "epipole-lab", "vision-worker")?;
     let files = wasm::build(&tools, "epipole-lab", "files-worker")?;
     let mut assets = Assets::default();
-    let (css, script) = scripts::add_lab(&tools, [&page, &vision, &files], &mut assets)?;
+    let sample = compress::gzip(&solved(&tools)?, false)?;
+    let sample = add_hashed(&mut assets.files, "sample", "bin", sample);
+    let (css, script) = scripts::add_lab(&tools, [&page, &vision, &files], &sample, &mut assets)?;
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     let icon = add_hashed(&mut assets.files, "icon", "svg", icon);
     let html = String::from_utf8(read(&tools.project.join("web/lab/index.html"))?)?
@@ -46,4 +49,20 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     std::fs::rename(&next, &folder)
         .with_context(|| format!("cannot put the Lab at {}", folder.display()))?;
     Ok(assets.files.len())
+}
+
+/// What the Lab computes of the sample that it opens with, computed now so that no reader has to wait for it.
+fn solved(tools: &Tools) -> Result<Vec<u8>> {
+    let path = super::target_folder(&tools.project).join("lab-sample.bin");
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["run", "--quiet", "--package", "epipole-lab"])
+        .args(["--no-default-features", "--features", "threads"])
+        .args(["--example", "solved", "--"])
+        .arg(&path)
+        .current_dir(&tools.project)
+        .stdout(Stdio::null())
+        .status()
+        .context("cargo cannot be started")?;
+    ensure!(status.success(), "the sample of the Lab cannot be computed");
+    read(&path)
 }

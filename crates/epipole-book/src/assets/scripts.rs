@@ -104,6 +104,7 @@ pub(super) fn add_elements(
 pub(super) fn add_lab(
     tools: &Tools,
     [page, vision, files]: [&Module; 3],
+    sample: &str,
     assets: &mut Assets,
 ) -> Result<(String, String)> {
     let mut add =
@@ -122,6 +123,7 @@ pub(super) fn add_lab(
         define("LAB_PAGE_WASM", &page_wasm),
         define("LAB_VISION_WASM", &vision_wasm),
         define("LAB_FILES_WASM", &files_wasm),
+        define("LAB_SAMPLE", sample),
     ];
     let made = bundle(tools, "web/lab/worker.ts", &borrowed(&flags), false, assets)?;
     let worker = made.get("worker").context("esbuild made no worker.js")?;

@@ -1,6 +1,6 @@
 //! Zip files: how they are written, and projects, which are read again.
 
-use crate::project::{Saved, VERSION};
+use crate::project::{COMPUTED_BY, Computed, Saved, VERSION};
 use crate::tasks::{Blob, Packed, Source};
 use std::io::{Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
@@ -10,6 +10,8 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 const PROJECT: &str = "project.json";
 /// The folder of its photographs.
 const PHOTOGRAPHS: &str = "photographs/";
+/// The folder of its results, below it one for what they were computed with.
+const RESULTS: &str = "results/";
 const DAMAGED: &str = "this file is no project of the Lab, or it is damaged";
 /// What a project may unpack to.
 const MAX_BYTES: u64 = 2_000_000_000;
@@ -47,11 +49,15 @@ impl Archive {
     }
 }
 
-/// Photographs as they were given, and settings.
+/// Photographs as they were given, settings, and results.
 ///
 /// # Errors
 /// A sentence, if a file cannot be written.
-pub(crate) fn save(photographs: &[Packed], project: &Saved) -> Result<Vec<u8>, String> {
+pub(crate) fn save(
+    photographs: &[Packed],
+    project: &Saved,
+    computed: &Computed,
+) -> Result<Vec<u8>, String> {
     let mut archive = Archive::new();
     let text = serde_json::to_string_pretty(project).map_err(|error| error.to_string())?;
     archive.add(PROJECT, text.as_bytes())?;
@@ -61,18 +67,26 @@ pub(crate) fn save(photographs: &[Packed], project: &Saved) -> Result<Vec<u8>, S
             archive.add(&format!("{PHOTOGRAPHS}{}", photograph.name), bytes)?;
         }
     }
+    for (key, bytes) in &computed.results {
+        archive.add(&format!("{RESULTS}{}/{key:016x}", computed.by), bytes)?;
+    }
     archive.finish()
 }
 
-/// The settings and photographs of a project.
+/// The settings, photographs and results of a project; no results of another version of the Lab.
 ///
 /// # Errors
 /// A sentence, if the file is no project or is damaged.
-pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>), String> {
+pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>, Computed), String> {
     let damaged = DAMAGED;
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged)?;
     let mut project = None;
     let mut files = Vec::new();
+    let mut computed = Computed {
+        by: COMPUTED_BY.to_owned(),
+        ..Computed::default()
+    };
+    let results = format!("{RESULTS}{COMPUTED_BY}/");
     let mut total = 0_u64;
     for index in 0..archive.len() {
         let entry = archive.by_index(index).map_err(|_| damaged)?;
@@ -81,6 +95,9 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>), String>
             return Err("this project is too large to open here".to_owned());
         }
         let name = entry.name().to_owned();
+        if name.starts_with(RESULTS) && !name.starts_with(&results) {
+            continue;
+        }
         let mut content = Vec::new();
         // The size in the header is a promise that the file need not keep.
         entry
@@ -93,9 +110,13 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>), String>
             && !name.is_empty()
         {
             files.push((name.to_owned(), content.into()));
+        } else if let Some(name) = name.strip_prefix(&results)
+            && let Ok(key) = u64::from_str_radix(name, 16)
+        {
+            computed.results.push((key, content.into()));
         }
     }
-    Ok((project.ok_or(damaged)?, files))
+    Ok((project.ok_or(damaged)?, files, computed))
 }
 
 /// The settings, if they are of a version that is known here.
@@ -131,8 +152,20 @@ mod tests {
             source: Source::File(vec![1, 2, 3].into()),
             used: None,
         }];
-        let bytes = save(&photographs, &project()).unwrap();
-        let (read, files) = open(&bytes).unwrap();
+        let computed = Computed {
+            by: COMPUTED_BY.to_owned(),
+            results: vec![(7, vec![4, 5].into()), (u64::MAX, Blob::default())],
+        };
+        let bytes = save(&photographs, &project(), &computed).unwrap();
+        let (read, files, again) = open(&bytes).unwrap();
+        assert_eq!(again, computed);
+        // What something else has computed is no result here.
+        let older = Computed {
+            by: "older".to_owned(),
+            ..computed
+        };
+        let older = save(&photographs, &project(), &older).unwrap();
+        assert_eq!(open(&older).unwrap().2.results, []);
         assert_eq!(read, project());
         assert_eq!(files, [("a.jpg".to_owned(), Blob::from(vec![1, 2, 3]))]);
         for end in [0, 10, bytes.len() - 5] {
@@ -146,7 +179,7 @@ mod tests {
             version: VERSION + 1,
             ..Saved::default()
         };
-        let refused = open(&save(&[], &newer).unwrap()).unwrap_err();
+        let refused = open(&save(&[], &newer, &Computed::default()).unwrap()).unwrap_err();
         assert!(refused.contains("newer"), "{refused}");
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn json(order: &Order<'_>, images: &[SfmImage], model: &Reconstructio
 /// What the files are, and how to make them by the command line.
 pub(super) fn readme(order: &Order<'_>) -> String {
     let unit = match order.meters_per_unit {
-        Some(_) => "Lengths are meters, by the length that was measured.",
+        Some(_) => "Lengths are in meters, by the length that was measured.",
         None => "The unit of length is arbitrary: nothing was measured.",
     };
     let mut text = String::from(
@@ -63,7 +63,7 @@ pub(super) fn readme(order: &Order<'_>) -> String {
          reconstruct.rs       a program that does the same\n",
     );
     if order.recipe.camera_json.is_some() {
-        text.push_str("camera.json          the calibrated camera, without whose distortion photographs were used\n");
+        text.push_str("camera.json          the calibrated camera, which removed the distortion from the photographs\n");
     }
     if !order.dense.is_empty() {
         text.push_str(
@@ -74,7 +74,7 @@ pub(super) fn readme(order: &Order<'_>) -> String {
     }
     text.push_str(&format!("\n{unit}\n"));
     text.push_str(&format!(
-        "\nThe same by the command line\n\n    {}\n\nand by the program in reconstruct.rs. {}\n",
+        "\nThe same on the command line\n\n    {}\n\nand by the program in reconstruct.rs. {}\n",
         order.recipe.command, order.recipe.photographs
     ));
     text

@@ -1,6 +1,9 @@
-//! A window, and threads that compute. Files are given as arguments or dropped, and written to the
+//! A window, and threads that compute. Files are given as arguments, chosen or dropped, and written to the
 //! folder where the program was started.
 
+mod dialog;
+
+use dialog::Wanted;
 use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
 use epipole_lab::tasks::{Branch, Told, compute};
 use std::collections::HashMap;
@@ -12,8 +15,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, OnceLock};
 
 /// What is said of a panic.
-const MISTAKE: &str = "the Lab itself has made a mistake here, not your photographs; with other knobs it may get by it, \
-                       or if you try again";
+const MISTAKE: &str =
+    "this is a mistake of the Lab, not of your photographs: try again, or try other settings";
 
 /// Opens the window.
 ///
@@ -71,18 +74,52 @@ struct Window {
     receiver: Receiver<Report>,
     canceled: HashMap<WorkId, Arc<AtomicBool>>,
     arrivals: Vec<Arrival>,
+    /// What dialogs bring.
+    bring: Sender<Vec<Arrival>>,
+    brought: Receiver<Vec<Arrival>>,
+    /// Whether a dialog is open: one is enough.
+    asks: Arc<AtomicBool>,
 }
 
 impl Window {
     fn new(context: egui::Context, arrivals: Vec<Arrival>) -> Self {
         let (sender, receiver) = channel();
+        let (bring, brought) = channel();
         Self {
             context,
             sender,
             receiver,
             canceled: HashMap::new(),
             arrivals,
+            bring,
+            brought,
+            asks: Arc::default(),
         }
+    }
+
+    /// Opens a dialog, and goes on.
+    fn ask(&self, wanted: Wanted) {
+        if self.asks.swap(true, Ordering::Relaxed) {
+            return;
+        }
+        let (asks, bring, context) = (
+            Arc::clone(&self.asks),
+            self.bring.clone(),
+            self.context.clone(),
+        );
+        std::thread::spawn(move || {
+            let arrivals = match dialog::ask(wanted) {
+                Some(paths) => read(&paths),
+                None => {
+                    let sentence = "There is no file dialog here: drop files onto this window, or name them when you start the Lab.";
+                    vec![Arrival::News(sentence.to_owned())]
+                }
+            };
+            asks.store(false, Ordering::Relaxed);
+            // The window may be gone by now.
+            drop(bring.send(arrivals));
+            context.request_repaint();
+        });
     }
 }
 
@@ -137,15 +174,22 @@ impl Host for Window {
     }
 
     fn arrivals(&mut self) -> Vec<Arrival> {
+        self.arrivals.extend(self.brought.try_iter().flatten());
         std::mem::take(&mut self.arrivals)
     }
 
-    fn ask_for_photographs(&mut self) -> bool {
+    fn brings_sample(&self) -> bool {
         false
     }
 
+    fn ask_for_photographs(&mut self) -> bool {
+        self.ask(Wanted::Photographs);
+        true
+    }
+
     fn ask_for_project(&mut self) -> bool {
-        false
+        self.ask(Wanted::Project);
+        true
     }
 
     fn ask_for_camera(&mut self) -> bool {
@@ -166,7 +210,10 @@ impl Host for Window {
             number += 1;
         }
         match std::fs::write(&path, bytes) {
-            Ok(()) => Ok(format!("{} is saved.", path.display())),
+            Ok(()) => {
+                let whole = std::path::absolute(&path).unwrap_or(path);
+                Ok(format!("{} is saved.", whole.display()))
+            }
             Err(error) => Err(format!("{} could not be written: {error}", path.display())),
         }
     }

@@ -72,10 +72,11 @@ impl<H: Host> App<H> {
         project.update(Event::OpenSample(Sample::Table));
         project.update(Event::Show(Step::Reconstruction));
         project.forget_past();
+        let work = Work::new(host.brings_sample());
         Self {
             project,
             host,
-            work: Work::default(),
+            work,
             arrivals: VecDeque::new(),
             memory: Memory::default(),
             said: String::new(),
@@ -198,7 +199,9 @@ impl<H: Host> App<H> {
         }
         if project.document().photos.is_empty() {
             ui.centered_and_justified(|ui| {
-                ui.label("Add photographs of one thing from different places, or open a sample.")
+                ui.label(
+                    "Add photographs of one thing, taken from different places, or open a sample.",
+                )
             });
             return;
         }
@@ -225,6 +228,8 @@ impl<H: Host> App<H> {
             .id_salt(step)
             .auto_shrink(false)
             .show(ui, |ui| {
+                // Nothing lies under the bar that scrolls.
+                ui.set_max_width(ui.available_width() - 10.0);
                 ui.add_space(6.0);
                 ui.horizontal_wrapped(|ui| {
                     ui.heading(step.title());
@@ -256,7 +261,8 @@ impl<H: Host> App<H> {
         match wish {
             Wish::TakePhotographs => {
                 if !self.host.ask_for_camera() {
-                    self.work.news = Some("The Lab in a browser takes photographs.".to_owned());
+                    self.work.news =
+                        Some("Only the Lab in a browser can take photographs.".to_owned());
                 }
             }
             Wish::Export => {

@@ -63,7 +63,7 @@ pub(super) fn bar(
             events.push(Event::Redo);
         }
         let paused = project.is_paused();
-        if paused && ui.button("Go on").clicked() {
+        if paused && ui.button("Resume").clicked() {
             events.push(Event::Pause(false));
         }
         if project.can_try_again() && ui.button("Try again").clicked() {
@@ -78,7 +78,7 @@ pub(super) fn bar(
                 false => words,
             });
         } else if paused {
-            ui.weak("stopped");
+            ui.weak("Stopped");
         }
         if let Some(news) = work.news.clone() {
             ui.weak(news);

@@ -91,6 +91,15 @@ const SMALL_SIDE: u32 = 256;
 /// A frame of so many points is drawn while something moves.
 const MAX_MOVING: usize = 150_000;
 
+/// The side of a point on the screen: the fewer there are, the larger.
+fn size_of(num_points: usize) -> f64 {
+    match num_points {
+        0..10_000 => 3.0,
+        10_000..100_000 => 2.5,
+        _ => 2.0,
+    }
+}
+
 impl CloudView {
     /// Shows the part that is looked at. Returns the point that was clicked, if one was.
     pub(super) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
@@ -283,7 +292,7 @@ impl CloudView {
             true => self.scene.points.len().div_ceil(MAX_MOVING),
             false => 1,
         };
-        let point_px = 2.0 * f64::from(ui.ctx().pixels_per_point());
+        let point_px = size_of(self.scene.points.len()) * f64::from(ui.ctx().pixels_per_point());
         let look = Look {
             point_px,
             every,

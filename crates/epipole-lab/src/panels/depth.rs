@@ -4,7 +4,7 @@ use super::app::Memory;
 use super::depth_words::{disparities, legend, pixel};
 use super::knobs::{self, Turned};
 use super::{look, photo};
-use crate::project::{Event, Key, Project};
+use crate::project::{Event, Key, Project, Step};
 use crate::tasks::{Dense, DepthMethod};
 use egui::{Color32, ColorImage, Rect, Slider, TextureHandle, TextureOptions, Ui};
 use epipole_canvas::theme::{Role, Theme};
@@ -40,14 +40,27 @@ impl DepthView {
         self.made = Some((key, theme));
         let size = [pair.width as usize, pair.height as usize];
         let images = [
-            ColorImage::from_rgb(size, &pair.left),
-            ColorImage::from_rgb(size, &pair.right),
+            unbordered(size, &pair.left),
+            unbordered(size, &pair.right),
             heat(pair, self.range, theme),
         ];
         let names = ["rectified first", "rectified second", "depth"];
         let load = |(image, name)| ui.ctx().load_texture(name, image, TextureOptions::LINEAR);
         self.textures = images.into_iter().zip(names).map(load).collect();
     }
+}
+
+/// A rectified photograph, which stands turned: the black beyond its edges is left out.
+fn unbordered(size: [usize; 2], rgb: &[u8]) -> ColorImage {
+    let mut image = ColorImage::from_rgb(size, rgb);
+    for row in image.pixels.chunks_mut(size[0].max(1)) {
+        let is_beyond = |pixel: &&mut Color32| **pixel == Color32::BLACK;
+        let ends = row.iter_mut().take_while(is_beyond);
+        ends.for_each(|pixel| *pixel = Color32::TRANSPARENT);
+        let ends = row.iter_mut().rev().take_while(is_beyond);
+        ends.for_each(|pixel| *pixel = Color32::TRANSPARENT);
+    }
+    image
 }
 
 /// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the background.
@@ -103,7 +116,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let labels = [
         format!("{}, rectified", names[0]),
         format!("{}, rectified", names[1]),
-        "of every pixel: depth".to_owned(),
+        "depth of every pixel".to_owned(),
     ];
     let mut shown = Vec::new();
     for ((rect, texture), label) in [first, second, depth]
@@ -158,7 +171,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     if let Some(found) = found {
         let mut is_part = project.document().is_dense((a, b));
         if ui
-            .checkbox(&mut is_part, "part of the cloud and of the export")
+            .checkbox(&mut is_part, "Add to cloud and export")
             .changed()
         {
             events.push(Event::Dense(a, b, is_part));
@@ -172,9 +185,9 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         .max(1)
             - 1;
         let name = if found.is_vertical {
-            "Column of the ruler"
+            "Ruler column"
         } else {
-            "Row of the ruler"
+            "Ruler row"
         };
         knobs::slider(ui, name, Slider::new(&mut memory.depth.row, 0..=most));
         pixel(project, memory.depth.probe, found, ui);
@@ -196,19 +209,26 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
                 );
             }
         });
-        turned = turned.max(
-            ui.checkbox(&mut options.fill, "fill what has no answer")
-                .changed()
-                .into(),
-        );
+        turned = turned.max(ui.checkbox(&mut options.fill, "Fill gaps").changed().into());
         turned.max(disparities(ui, &mut options.range_px, proposed))
     });
-    knobs::book(ui, "Two eyes in a row", "stereo.html");
+    knobs::book(ui, Step::Depth);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_beyond_the_edges_of_a_turned_photograph_is_left_out() {
+        let gray = |level: u8| [level; 3];
+        let rows = [[0, 7, 0, 7, 0], [0, 0, 0, 0, 0]].concat();
+        let rgb: Vec<u8> = rows.into_iter().flat_map(gray).collect();
+        let image = unbordered([5, 2], &rgb);
+        let is_out: Vec<bool> = image.pixels.iter().map(|p| p.a() == 0).collect();
+        assert_eq!(is_out[..5], [true, false, false, false, true]);
+        assert_eq!(is_out[5..], [true; 5]);
+    }
 
     #[test]
     fn near_is_bright_and_far_is_dark() {

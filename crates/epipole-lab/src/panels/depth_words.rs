@@ -15,8 +15,8 @@ pub(super) fn disparities(
     let mut as_proposed = range_px.is_none();
     let mut turned = Turned::No;
     let label = match proposed {
-        Some([low, high]) => format!("disparities as the points propose: {low} to {high} px"),
-        None => "disparities as the points propose".to_owned(),
+        Some([low, high]) => format!("Range from the points: {low} to {high} px"),
+        None => "Range from the points".to_owned(),
     };
     if ui.checkbox(&mut as_proposed, label).changed() {
         *range_px = match as_proposed {
@@ -56,7 +56,7 @@ pub(super) fn legend(project: &Project, range: Option<[f64; 2]>, ui: &mut Ui) {
     let Some([near, far]) = range else { return };
     let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 12.0), egui::Sense::hover());
     let words = format!(
-        "bright: {}, dark: {}, plain: no answer",
+        "bright: {}, dark: {}, blank: no answer",
         length(project, near),
         length(project, far)
     );
@@ -84,7 +84,7 @@ fn length(project: &Project, units: f64) -> String {
 /// What the pixel says that was clicked.
 pub(super) fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, ui: &mut Ui) {
     let Some([u, v]) = probe else {
-        ui.weak("Click a pixel: the same thing must be on the same line of the other photograph.");
+        ui.weak("Click a pixel: its match must lie on the same line of the other photograph.");
         return;
     };
     knobs::row(ui, "pixel", format!("({u}, {v})"));
@@ -94,7 +94,7 @@ pub(super) fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, u
             knobs::row(ui, "depth", length(project, depth));
             // σ_Z = Z² σ_d / (f B), for half a pixel.
             let step = depth * depth * 0.5 / (found.focal_px() * found.baseline);
-            knobs::row(ui, "half a pixel is", length(project, step));
+            knobs::row(ui, "error for half a pixel", length(project, step));
         }
         (Some(disparity), None) => knobs::row(
             ui,

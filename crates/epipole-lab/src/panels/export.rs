@@ -2,7 +2,7 @@
 
 use super::host::Wish;
 use super::knobs;
-use crate::project::Project;
+use crate::project::{Project, Step};
 use egui::{Button, RichText, Ui};
 
 /// What can be saved. Returns what was asked for.
@@ -17,13 +17,13 @@ pub(super) fn knobs(project: &Project, ui: &mut Ui) -> Option<Wish> {
         wish = Some(Wish::Export);
     }
     ui.label(
-        "It holds images/ and sparse/0/ as COLMAP's text model, which other programs open; points.ply, the points with \
-         their colors; reconstruction.json, as the command line prints it; and a command and a Rust program that do the \
-         same. With the depth of pairs also dense.ply and depth/, a PFM file each.",
+        "Inside are images/ and sparse/0/ in COLMAP's text format, which other programs open; points.ply with colors; \
+         reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. Pairs with \
+         dense depth add dense.ply and a PFM file each in depth/.",
     );
     ui.weak(match project.scale() {
-        Some(_) => "Lengths are meters, by the length that you measured.",
-        None => "The unit is arbitrary: measure a length to have meters.",
+        Some(_) => "Lengths are in meters, by the length you measured.",
+        None => "The unit is arbitrary. Measure a known length to get meters.",
     });
     ui.separator();
     if ui
@@ -32,16 +32,16 @@ pub(super) fn knobs(project: &Project, ui: &mut Ui) -> Option<Wish> {
     {
         wish = Some(Wish::SaveView);
     }
-    ui.weak("The space as you have turned it.");
+    ui.weak("The 3-D view as you last saw it.");
     if let Some(recipe) = project.recipe().filter(|_| ready) {
         ui.separator();
-        ui.weak("The same by the command line:");
+        ui.weak("The same on the command line:");
         ui.label(RichText::new(&recipe.command).small());
         if ui.button("Copy the command").clicked() {
             ui.ctx().copy_text(recipe.command.clone());
         }
         ui.weak(&recipe.photographs);
     }
-    knobs::book(ui, "Where this leads", "connections.html");
+    knobs::book(ui, Step::Export);
     wish
 }

@@ -3,7 +3,7 @@
 use super::app::Memory;
 use super::knobs::{self, Turned};
 use super::{look, photo};
-use crate::project::{Event, Project};
+use crate::project::{Event, Project, Step};
 use crate::tasks::{Feature, FeatureKind};
 use egui::{Shape, Slider, Stroke, Ui};
 use epipole_canvas::theme::Role;
@@ -93,15 +93,19 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             }
         });
         let number = Slider::new(&mut options.max_features, 100..=20_000).logarithmic(true);
-        turned = turned.max(knobs::slider(ui, "At most so many", number));
+        turned = turned.max(knobs::slider(ui, "Most features", number));
         let contrast = Slider::new(&mut options.contrast, 0.001..=0.2).logarithmic(true);
-        turned.max(knobs::slider(ui, "Smallest contrast", contrast))
+        turned.max(knobs::slider(ui, "Contrast threshold", contrast))
     });
     match found.as_ref().zip(memory.feature) {
         Some((found, index)) if index < found.list.len() => {
             let feature = &found.list[index];
             ui.separator();
-            knobs::row(ui, "place", format!("({:.1}, {:.1})", feature.u, feature.v));
+            knobs::row(
+                ui,
+                "position",
+                format!("({:.1}, {:.1})", feature.u, feature.v),
+            );
             knobs::row(ui, "scale", format!("{:.2} px", feature.scale_px));
             let degrees = f64::from(feature.angle_rad).to_degrees();
             knobs::row(ui, "direction", format!("{degrees:.0}°"));
@@ -116,7 +120,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             ui.weak("Click a feature to see its scale, direction and descriptor.");
         }
     }
-    knobs::book(ui, "How features are described", "matching.html");
+    knobs::book(ui, Step::Features);
 }
 
 /// A descriptor as bars.

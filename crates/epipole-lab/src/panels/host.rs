@@ -38,6 +38,9 @@ pub enum Arrival {
     News(String),
     /// What is kept where the Lab runs.
     Kept(Kept),
+    /// What was computed of the sample before, as bytes of [`Computed`](crate::project::Computed); nothing where that did
+    /// not come.
+    Solved(Blob),
 }
 
 /// What is told of a project that the reader chose to keep.
@@ -85,6 +88,8 @@ pub trait Host {
     fn reports(&mut self) -> Vec<Report>;
     /// What the reader has brought since this was asked last.
     fn arrivals(&mut self) -> Vec<Arrival>;
+    /// Whether [`Arrival::Solved`] comes: until then nothing of the sample needs to be computed.
+    fn brings_sample(&self) -> bool;
     /// Asks the reader for photographs. False where there is no way but dropping them.
     fn ask_for_photographs(&mut self) -> bool;
     /// Asks the reader for a project. False likewise.

@@ -2,7 +2,7 @@
 
 use super::host::{Arrival, Host};
 use super::work::{Errand, Work};
-use crate::project::{Event, Given, Project, Step};
+use crate::project::{Computed, Event, Given, Project, Step};
 use crate::tasks::{Blob, Request, Source};
 
 /// Takes what has come.
@@ -31,13 +31,21 @@ pub(super) fn take(arrival: Arrival, project: &mut Project, work: &mut Work, hos
             work.news = Some(sentence);
         }
         Arrival::Kept(kept) => work.hear_of_kept(kept, host),
+        Arrival::Solved(bytes) => {
+            work.waits_for_sample = false;
+            project.bring(Computed::from_bytes(&bytes));
+        }
         Arrival::News(sentence) => work.news = Some(sentence),
     }
 }
 
+/// Whether a photograph is of a sample.
+pub(super) fn is_sample(photo: &Given) -> bool {
+    matches!(photo.source, Source::Rendered(..))
+}
+
 /// Takes photographs, which take the place of a sample.
 pub(super) fn photographs(project: &mut Project, files: Vec<(String, Blob)>) {
-    let is_sample = |photo: &Given| matches!(photo.source, Source::Rendered(..));
     let document = project.document();
     if project.view().step == Step::Calibrate {
         if document.boards.iter().all(is_sample) {

@@ -54,7 +54,7 @@ impl Work {
         ui.separator();
         let state = self.keeping.state;
         if state == State::Aside {
-            if ui.button("Open what this browser keeps").clicked() {
+            if ui.button("Open the kept project").clicked() {
                 host.ask_for_kept();
             }
         } else {
@@ -74,9 +74,7 @@ impl Work {
         }
         if state != State::Aside {
             let room = megabytes(project.num_file_bytes());
-            ui.weak(format!(
-                "Takes {room} on this machine; nothing is uploaded."
-            ));
+            ui.weak(format!("Uses {room} on this machine. Nothing is uploaded."));
         }
     }
 
@@ -84,7 +82,7 @@ impl Work {
     fn forget_kept(&mut self, host: &mut impl Host) {
         self.keeping = Keeping::default();
         host.forget();
-        self.news = Some("This browser keeps nothing of the project.".to_owned());
+        self.news = Some("The project is no longer kept in this browser.".to_owned());
     }
 
     /// A way back to how the Lab opens for everyone, beside the sentence that a project came back.
@@ -125,7 +123,7 @@ impl Work {
                 .request_repaint_after(Duration::from_secs_f64(rest_s));
         } else if !self.runs(Errand::Keep) && !self.runs(Errand::Open) {
             self.keeping.kept = Some(key);
-            self.start_errand(Errand::Keep, &project.save_request(), host);
+            self.start_errand(Errand::Keep, &project.keep_request(), host);
         }
     }
 
@@ -145,12 +143,12 @@ impl Work {
         let before = match is_there {
             true => {
                 self.keeping.state = State::Aside;
-                " What it kept before is still there."
+                " The project kept before is still there."
             }
             false => "",
         };
         self.news = Some(format!(
-            "The project is not kept in this browser: {why} Project, Save gives it to you as a file.{before}"
+            "The project is not kept in this browser: {why} Save it as a file from the Project menu.{before}"
         ));
     }
 
@@ -170,14 +168,14 @@ impl Work {
                 if std::mem::take(&mut self.keeping.is_new) {
                     let room = megabytes(num_bytes);
                     self.news = Some(format!(
-                        "This browser keeps the project, {room}, and every change of it; nothing is uploaded."
+                        "This browser keeps the project, {room}, and every change to it. Nothing is uploaded."
                     ));
                 }
             }
             Kept::Not { why, is_there } => self.not_kept(&why, is_there),
             Kept::Forgotten => {
                 self.keeping = Keeping::default();
-                self.news = Some("Another page of the Lab has forgotten the project that this browser kept; here it is still open.".to_owned());
+                self.news = Some("Another page of the Lab removed the kept project from this browser. It is still open here.".to_owned());
             }
         }
     }
@@ -188,9 +186,11 @@ impl Work {
             Ok(Answer::Opened {
                 project: saved,
                 files,
+                computed,
             }) => {
                 let step = project.view().step;
                 project.update(Event::OpenProject(Box::new(saved), files));
+                project.bring(computed);
                 project.update(Event::Show(step));
                 // What was there before nobody has seen.
                 project.forget_past();
@@ -201,14 +201,14 @@ impl Work {
                     ..Keeping::default()
                 };
                 self.news = Some(
-                    "The project that this browser kept is open again; nothing was uploaded."
+                    "The project kept in this browser is open again. Nothing was uploaded."
                         .to_owned(),
                 );
             }
             Ok(_) => {}
             Err(sentence) => {
                 self.news = Some(format!(
-                    "What this browser keeps does not open: {sentence}. It stays until you forget it, in the menu of the project."
+                    "The kept project does not open: {sentence}. It stays until you forget it in the Project menu."
                 ));
             }
         }

@@ -1,7 +1,7 @@
 //! What the knobs of all steps share.
 
 use super::app::Memory;
-use crate::project::{Event, Project, Settings};
+use crate::project::{Event, Project, Settings, Step};
 use egui::{Slider, Ui};
 
 /// What a reader does with a knob.
@@ -58,12 +58,17 @@ pub(super) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
     });
 }
 
-/// A link to where the book explains the step; a window has no book beside it.
-pub(super) fn book(ui: &mut Ui, words: &str, page: &str) {
+/// A link to the chapter that explains the step; a window has no book beside it.
+pub(super) fn book(ui: &mut Ui, step: Step) {
     if cfg!(target_arch = "wasm32") {
+        let about = step.about();
         ui.add_space(8.0);
-        let link = egui::Hyperlink::from_label_and_url(words, format!("../{page}"));
-        ui.add(link.open_in_new_tab(true));
+        ui.horizontal_wrapped(|ui| {
+            ui.weak("Chapter:");
+            let address = format!("../{}", about.page);
+            let link = egui::Hyperlink::from_label_and_url(about.title, address);
+            ui.add(link.open_in_new_tab(true));
+        });
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn picture(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
         let ink = look::color(ui, Role::Ink);
         for (n, photo) in photos.iter().enumerate() {
             let at = pos2(corner.x - 6.0, corner.y + (n as f32 + 0.5) * side);
-            let name = shortened(&photo.name, 15);
+            let name = format!("{}   {}", shortened(&photo.name, 12), n + 1);
             ui.painter().text(
                 at,
                 Align2::RIGHT_CENTER,
@@ -75,7 +75,7 @@ fn cell(
             pair.num_inliers,
             project.pair_words(pair)
         ),
-        _ => format!("{} and {}: not known yet", first.name, second.name),
+        _ => format!("{} and {}: not computed yet", first.name, second.name),
     };
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
     let enough = project.document().settings.sfm.min_num_inliers;
@@ -152,13 +152,13 @@ fn shortened(name: &str, most: usize) -> String {
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     ui.label(project.describe());
     ui.weak(
-        "Numbers are matches that agree with one motion of the camera. Click a pair to see it.",
+        "Each number counts the matches that agree on one camera motion. Click a pair to open it.",
     );
     knobs::edit(project, memory, events, |settings| {
         let ratio = Slider::new(&mut settings.matching.ratio, 0.3..=1.0);
-        let turned = knobs::slider(ui, "Nearest over second nearest, at most", ratio);
-        let mutual = ui.checkbox(&mut settings.matching.mutual, "each the other's nearest");
+        let turned = knobs::slider(ui, "Ratio test threshold", ratio);
+        let mutual = ui.checkbox(&mut settings.matching.mutual, "Mutual nearest only");
         turned.max(mutual.changed().into())
     });
-    knobs::book(ui, "A fingerprint for each corner", "matching.html");
+    knobs::book(ui, Step::Matches);
 }

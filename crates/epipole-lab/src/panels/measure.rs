@@ -3,7 +3,7 @@
 use super::app::Memory;
 use super::knobs;
 use super::look;
-use crate::project::{Event, Measure, Project};
+use crate::project::{Event, Measure, Project, Step};
 use egui::{DragValue, Stroke, Ui};
 use epipole_canvas::theme::Role;
 
@@ -97,17 +97,21 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             "Click three points of the floor: {} of 3.",
             corners.len()
         ));
-        if ui.button("No floor").clicked() {
+        if ui.button("Cancel").clicked() {
             memory.corners = None;
         }
         return;
     }
-    ui.label(match (project.document().measures.is_empty(), memory.first_end) {
-        (_, Some(_)) => "One end is chosen: click the other.",
-        (true, None) => "Click two points of which you know how far apart they are, and type the length: it sets the scale.",
-        (false, None) => "Click two points to measure another length.",
-    });
-    if memory.first_end.is_some() && ui.button("Choose another first end").clicked() {
+    ui.label(
+        match (project.document().measures.is_empty(), memory.first_end) {
+            (_, Some(_)) => "One end is chosen. Click the other.",
+            (true, None) => {
+                "Click two points whose distance you know and type it: it sets the scale."
+            }
+            (false, None) => "Click two points to measure another length.",
+        },
+    );
+    if memory.first_end.is_some() && ui.button("Choose another start").clicked() {
         memory.first_end = None;
     }
     let sets_scale = project.scale().map(|scale| scale.measure);
@@ -115,7 +119,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         ui.separator();
         ui.strong(format!("{}: {}", index + 1, project.length_words(index)));
         ui.horizontal_wrapped(|ui| {
-            let label = ui.label("known, m");
+            let label = ui.label("known length, m");
             let mut meters = measure.length_m.unwrap_or(0.0);
             let field = DragValue::new(&mut meters)
                 .range(0.0..=1e6)
@@ -138,20 +142,20 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             (measure.length_m, project.length_in_meters(index))
         {
             let off = 100.0 * (found.value / known - 1.0);
-            ui.weak(format!("{off:+.2} % off what you typed"));
+            ui.weak(format!("{off:+.2} % from what you typed"));
         }
     }
     ui.separator();
     match project.document().floor {
         None => {
-            if ui.button("Set the floor by three points").clicked() {
+            if ui.button("Set the floor").clicked() {
                 memory.corners = Some(Vec::new());
                 memory.first_end = None;
             }
         }
         Some(_) => {
             ui.label(project.floor_words().trim());
-            if ui.button("Forget the floor").clicked() {
+            if ui.button("Remove the floor").clicked() {
                 events.push(Event::Floor(None));
             }
         }
@@ -163,6 +167,8 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         }
     }
     ui.add_space(6.0);
-    ui.weak("± is one standard deviation, of the keypoints alone: the cameras are taken as right.");
-    knobs::book(ui, "Why photographs have no scale", "triangulation.html");
+    ui.weak(
+        "± is one standard deviation from the keypoints alone; the cameras are taken as exact.",
+    );
+    knobs::book(ui, Step::Measure);
 }

@@ -4,12 +4,14 @@ use super::app::Memory;
 use super::host::Wish;
 use super::knobs;
 use super::look;
-use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project};
-use egui::{DragValue, ScrollArea, Sense, Slider, Ui, vec2};
+use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project, Step};
+use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
 /// Width of a small picture, points.
 const SMALL: f32 = 176.0;
+/// Height of its name, points.
+const NAME: f32 = 24.0;
 
 /// All photographs, small.
 pub(super) fn picture(
@@ -19,10 +21,13 @@ pub(super) fn picture(
     events: &mut Vec<Event>,
 ) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.horizontal_wrapped(|ui| {
-            for photo in &project.document().photos {
-                card(project, memory, ui, photo, events);
-            }
+        // Room for the frame around the one that is looked at.
+        Frame::new().inner_margin(4.0).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                for photo in &project.document().photos {
+                    card(project, memory, ui, photo, events);
+                }
+            });
         });
     });
 }
@@ -35,43 +40,47 @@ fn card(
     events: &mut Vec<Event>,
 ) {
     let selected = project.view().photo == photo.id;
-    let height = 0.75 * SMALL + 22.0;
-    ui.allocate_ui(vec2(SMALL, height), |ui| {
-        ui.vertical(|ui| {
-            ui.set_width(SMALL);
-            let (rect, response) =
-                ui.allocate_exact_size(vec2(SMALL, 0.75 * SMALL), Sense::click());
-            let words = format!("{}: {}", photo.name, project.fate_words(photo));
-            response.widget_info(|| {
-                egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words)
-            });
-            ui.painter()
-                .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
-            if let Some(pixels) = project.photograph(photo) {
-                let key = project.key_of_photograph(photo);
-                let texture = memory.pictures.small(ui, key, pixels);
-                let size = texture.size_vec2();
-                let fit = (rect.width() / size.x).min(rect.height() / size.y);
-                let place = egui::Rect::from_center_size(rect.center(), size * fit);
-                let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-                let out = !matches!(project.fate(photo), Fate::Registered(_) | Fate::Open);
-                let tint = match out {
-                    true => egui::Color32::from_gray(110),
-                    false => egui::Color32::WHITE,
-                };
-                ui.painter().image(texture.id(), place, whole, tint);
-            }
-            if selected || response.has_focus() {
-                let stroke = egui::Stroke::new(3.0, look::color(ui, Role::Grip));
-                ui.painter()
-                    .rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Outside);
-            }
-            if response.clicked() {
-                events.push(Event::Look(photo.id));
-            }
-            ui.add(egui::Label::new(egui::RichText::new(&photo.name).small()).truncate());
-        });
-    });
+    let (whole, response) =
+        ui.allocate_exact_size(vec2(SMALL, 0.75 * SMALL + NAME), Sense::click());
+    let (rect, below) = whole.split_top_bottom_at_y(whole.bottom() - NAME);
+    let fate = project.fate(photo);
+    let words = format!("{}: {}", photo.name, project.fate_words(photo));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words));
+    ui.painter()
+        .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
+    let is_out = !matches!(fate, Fate::Registered(_) | Fate::Open);
+    if let Some(pixels) = project.photograph(photo) {
+        let key = project.key_of_photograph(photo);
+        let texture = memory.pictures.small(ui, key, pixels);
+        let size = texture.size_vec2();
+        let fit = (rect.width() / size.x).min(rect.height() / size.y);
+        let place = egui::Rect::from_center_size(rect.center(), size * fit);
+        let all = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+        let tint = match is_out {
+            true => egui::Color32::from_gray(110),
+            false => egui::Color32::WHITE,
+        };
+        ui.painter().image(texture.id(), place, all, tint);
+    }
+    if selected || response.has_focus() {
+        let stroke = egui::Stroke::new(3.0, look::color(ui, Role::Grip));
+        ui.painter()
+            .rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Outside);
+    }
+    let (name, role) = match is_out {
+        true => (format!("left out: {}", photo.name), Role::Outlier),
+        false => (photo.name.clone(), Role::Ink),
+    };
+    let font = egui::FontId::proportional(13.0);
+    let mut job = egui::text::LayoutJob::simple_singleline(name, font, look::color(ui, role));
+    job.wrap = egui::text::TextWrapping::truncate_at_width(SMALL);
+    let text = ui.painter().layout_job(job);
+    let at = below.left_top() + vec2(0.0, 5.0);
+    ui.painter().galley(at, text, look::color(ui, role));
+    if response.clicked() {
+        events.push(Event::Look(photo.id));
+    }
+    response.on_hover_text(words);
 }
 
 /// Size, focal length, fate of the one that is looked at, and of all that are left out.
@@ -104,13 +113,13 @@ pub(super) fn knobs(
     }
     knobs::edit(project, memory, events, |settings| {
         let size = Slider::new(&mut settings.max_megapixels, 0.1..=12.0).logarithmic(true);
-        let turned = knobs::slider(ui, "Reduce to at most, megapixels", size.max_decimals(1));
+        let turned = knobs::slider(ui, "Largest size, megapixels", size.max_decimals(1));
         let frames = Slider::new(&mut settings.num_frames, 2..=MAX_FRAMES);
-        turned.max(knobs::slider(ui, "Frames of a video", frames))
+        turned.max(knobs::slider(ui, "Frames from a video", frames))
     });
-    ui.weak("A video may stand for photographs: of so many equal parts, the sharpest frame of each is taken.");
-    ui.weak("Nothing is uploaded: photographs stay on this machine.");
-    knobs::book(ui, "What a photograph can tell", "rays.html");
+    ui.weak("You can add a video instead. The Lab cuts it into this many equal parts and takes the sharpest frame of each.");
+    ui.weak("Nothing is uploaded. Your photographs stay on this machine.");
+    knobs::book(ui, Step::Photographs);
     taken.then_some(Wish::TakePhotographs)
 }
 
@@ -128,10 +137,12 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
         }
         knobs::row(ui, "size", size);
         let origin = match project.focal_origin(photo) {
-            Some(FocalOrigin::Typed) => "typed",
-            Some(FocalOrigin::Calibration) => "from the calibration, which also undid its lens",
+            Some(FocalOrigin::Typed) => "you typed it",
+            Some(FocalOrigin::Calibration) => {
+                "from the calibration, which also removed the lens distortion"
+            }
             Some(FocalOrigin::File) => "from the file",
-            _ => "guessed: 1.2 times the longer side",
+            _ => "a guess: 1.2 × the longer side",
         };
         let factor = f64::from(width) / f64::from(pixels.width.max(1));
         let mut focal_px = camera.k[0] * factor;
@@ -152,16 +163,19 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
         if !unused.is_empty() {
             ui.weak(unused);
         }
-        if photo.focal_px.is_some() && ui.button("Forget what I typed").clicked() {
+        if photo.focal_px.is_some() && ui.button("Reset focal length").clicked() {
             events.push(Event::Focal(photo.id, None));
         }
     }
     ui.horizontal_wrapped(|ui| {
         let mut takes_part = !photo.excluded;
-        if ui.checkbox(&mut takes_part, "takes part").changed() {
+        if ui
+            .checkbox(&mut takes_part, "Use this photograph")
+            .changed()
+        {
             events.push(Event::Exclude(photo.id, !takes_part));
         }
-        if ui.button("Earlier").clicked() {
+        if ui.button("Move earlier").clicked() {
             events.push(Event::Earlier(photo.id));
         }
         if ui.button("Remove").clicked() {

@@ -5,7 +5,7 @@ use super::cloud::Coloring;
 use super::knobs::{self, Turned};
 use super::look;
 use super::marks::sights;
-use crate::project::{Event, Project, RefineFocal};
+use crate::project::{Event, Project, RefineFocal, Step};
 use egui::{Slider, Ui};
 use epipole_canvas::theme::Role;
 
@@ -32,31 +32,28 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     ui.separator();
     point(project, memory, ui);
     ui.horizontal_wrapped(|ui| {
-        ui.weak("color:");
+        ui.weak("Color by");
         for (coloring, name) in [
-            (Coloring::Photographs, "photographs"),
+            (Coloring::Photographs, "image"),
             (Coloring::Error, "error"),
-            (Coloring::Track, "photographs that see it"),
+            (Coloring::Track, "track length"),
         ] {
             ui.radio_value(&mut memory.cloud.coloring, coloring, name);
         }
     });
-    ui.checkbox(
-        &mut memory.cloud.photographs,
-        "photographs in front of their cameras",
-    );
+    ui.checkbox(&mut memory.cloud.photographs, "Show photographs");
     match memory.cloud.coloring {
         Coloring::Photographs => {}
         Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),
-        Coloring::Track => drop(ui.weak("dark: few, yellow: 8 or more")),
+        Coloring::Track => drop(ui.weak("dark: two photographs, yellow: eight or more")),
     }
-    if ui.button("Show all").clicked() {
+    if ui.button("Reset view").clicked() {
         memory.cloud.look_at_all();
     }
     ui.separator();
     knobs::edit(project, memory, events, |settings| {
         let mut turned = Turned::No;
-        ui.weak("Refine the focal lengths:");
+        ui.weak("Refine focal lengths");
         ui.horizontal_wrapped(|ui| {
             for (when, name) in [
                 (RefineFocal::WhenGuessed, "if guessed"),
@@ -69,19 +66,15 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         });
         let distortion = ui.checkbox(
             &mut settings.sfm.refine_distortion,
-            "refine radial distortion",
+            "Refine radial distortion",
         );
         turned = turned.max(distortion.changed().into());
         let enough = Slider::new(&mut settings.sfm.min_num_inliers, 6..=200);
-        turned = turned.max(knobs::slider(
-            ui,
-            "Fewest points that register a photograph",
-            enough,
-        ));
+        turned = turned.max(knobs::slider(ui, "Fewest inliers", enough));
         let seed = Slider::new(&mut settings.sfm.seed, 0..=20);
         turned.max(knobs::slider(ui, "Seed", seed))
     });
-    knobs::book(ui, "Structure from motion", "sfm.html");
+    knobs::book(ui, Step::Reconstruction);
 }
 
 fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
@@ -107,7 +100,7 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     let photos = project.document().photos.len();
     knobs::row(
         ui,
-        "photographs in",
+        "photographs",
         format!("{} of {photos}", component.num_registered()),
     );
     knobs::row(ui, "points", component.points.len().to_string());
@@ -136,12 +129,12 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
     if costs.len() < 2 || most <= 0.0 {
         return;
     }
-    ui.weak("cost after each adjustment, Σ r² / 2, px²:");
+    ui.weak("Cost after each bundle adjustment, Σ r² / 2, px²");
     let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 56.0), egui::Sense::hover());
     let last = costs.last().copied().unwrap_or(0.0);
     response.widget_info(|| {
         let words = format!(
-            "Cost after each of {} adjustments, at last {last:.0}",
+            "Cost after each of {} bundle adjustments, {last:.0} at the end",
             costs.len()
         );
         egui::WidgetInfo::labeled(egui::Role::Image, true, words)
@@ -154,7 +147,7 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
     let points: Vec<egui::Pos2> = costs.iter().enumerate().map(at).collect();
     ui.painter().add(egui::Shape::line(points, stroke));
     ui.weak(format!(
-        "{:.0} at first, {most:.0} at most, {last:.0} at last",
+        "first {:.0}, highest {most:.0}, last {last:.0}",
         costs[0]
     ));
 }
@@ -162,7 +155,7 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
 /// The point that was clicked.
 fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
     let Some(index) = memory.cloud.point else {
-        ui.weak("Drag to turn, Shift and drag to move, scroll to enlarge. Click a point to see who sees it.");
+        ui.weak("Drag to orbit, Shift and drag to pan, scroll to zoom. Click a point to see which photographs see it.");
         return;
     };
     let sights = sights(project, index);
@@ -172,6 +165,6 @@ fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
         sights.len()
     ));
     for (name, [u, v], error_px) in sights {
-        ui.label(format!("{name}: ({u:.1}, {v:.1}), off by {error_px:.2} px"));
+        ui.label(format!("{name}: ({u:.1}, {v:.1}), error {error_px:.2} px"));
     }
 }

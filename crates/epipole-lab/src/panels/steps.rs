@@ -3,13 +3,15 @@
 use crate::project::{Event, Project, Step};
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
-use egui::{Align, Response, ScrollArea, Ui};
+use egui::{Align, Layout, Response, ScrollArea, Ui};
 
 /// Below each other.
 pub(super) fn column(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
-    for step in Step::ALL {
-        button(project, ui, step, events);
-    }
+    ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
+        for step in Step::ALL {
+            button(project, ui, step, events);
+        }
+    });
 }
 
 /// One row, in which the step that is looked at is brought to the middle, and one that the keyboard reaches into sight.

@@ -3,7 +3,7 @@
 use super::app::Memory;
 use super::knobs;
 use super::{look, photo};
-use crate::project::{Event, Given, Project};
+use crate::project::{Event, Given, Project, Step};
 use crate::tasks::ViewModel;
 use egui::{Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
@@ -177,11 +177,11 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             "inliers",
             format!("{} of {}", pair.num_inliers, matches.len()),
         );
-        knobs::row(ui, "samples drawn", pair.iterations.to_string());
+        knobs::row(ui, "RANSAC samples", pair.iterations.to_string());
         if let Some(turn) = pair.turn_deg {
-            knobs::row(ui, "turn of the camera", format!("{turn:.1}°"));
+            knobs::row(ui, "camera rotation", format!("{turn:.1}°"));
         }
-        ui.weak(format!("{name}, of norm 1:"));
+        ui.weak(format!("{name}, scaled to norm 1"));
         egui::Grid::new("matrix").show(ui, |ui| {
             for row in values.chunks(3) {
                 for value in row {
@@ -195,8 +195,8 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             .and_then(|n| matches.get(n).map(|m| (n, m)))
         {
             let fits = match pair.inliers.get(m.0) {
-                Some(true) => "agrees",
-                _ => "does not agree",
+                Some(true) => "an inlier",
+                _ => "an outlier",
             };
             knobs::row(ui, "match", format!("ratio {:.2}, {fits}", m.1.ratio));
             patches(
@@ -208,18 +208,14 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             );
         }
     }
-    ui.weak("Click in the first photograph: the line in the second is where the same thing must be. Circles agree, crosses do not.");
+    ui.weak("Click in the first photograph: the same point must lie on the line in the second. Circles are inliers, crosses are outliers.");
     knobs::edit(project, memory, events, |settings| {
         let error = Slider::new(&mut settings.pairs.max_error_px, 0.1..=10.0).logarithmic(true);
-        let turned = knobs::slider(
-            ui,
-            "Largest error of an inlier ε, px",
-            error.max_decimals(2),
-        );
+        let turned = knobs::slider(ui, "Inlier threshold ε, px", error.max_decimals(2));
         let seed = Slider::new(&mut settings.pairs.seed, 0..=20);
         turned.max(knobs::slider(ui, "Seed", seed))
     });
-    knobs::book(ui, "One point, one line", "epipolar.html");
+    knobs::book(ui, Step::TwoViews);
 }
 
 /// What both features look like, each turned as its photograph is, in the window that its descriptor sees.
@@ -243,7 +239,7 @@ fn patches(
             let key = project.key_of_photograph(photo);
             let texture = memory.pictures.texture(ui, key, pixels);
             let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), egui::Sense::hover());
-            let words = format!("The patch of the match in {}", photo.name);
+            let words = format!("Patch of the match in {}", photo.name);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
             // Four by four cells of three times the scale.
             let half = (6.0 * feature.scale_px).max(4.0);

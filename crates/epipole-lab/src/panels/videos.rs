@@ -42,7 +42,7 @@ impl Videos {
     pub(super) fn words(&self) -> Option<String> {
         let first = self.0.front()?;
         Some(format!(
-            "Frames of a video: part {} of {}",
+            "Reading the video: part {} of {}",
             first.part + 1,
             first.num_parts
         ))

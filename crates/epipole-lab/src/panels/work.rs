@@ -52,9 +52,19 @@ pub(super) struct Work {
     pub(super) videos: Videos,
     /// What is kept where the Lab runs.
     pub(super) keeping: Keeping,
+    /// Whether the sample comes solved, and has not come yet.
+    pub(super) waits_for_sample: bool,
 }
 
 impl Work {
+    /// Nothing is under way; `waits_for_sample` if the sample comes solved.
+    pub(super) fn new(waits_for_sample: bool) -> Self {
+        Self {
+            waits_for_sample,
+            ..Self::default()
+        }
+    }
+
     /// Hears what is done, ends what is not wanted any more, starts what is.
     pub(super) fn go_on(&mut self, project: &mut Project, host: &mut impl Host) {
         for report in host.reports() {
@@ -64,8 +74,10 @@ impl Work {
             return;
         }
         self.seen = Some(project.revision());
-        let wanted = match self.is_opening() {
-            // Another project is about to take its place.
+        let waits =
+            self.waits_for_sample && project.document().photos.iter().all(intake::is_sample);
+        let wanted = match self.is_opening() || waits {
+            // Another project, or what was computed before, is about to come.
             true => Vec::new(),
             false => project.wanted(),
         };
@@ -229,14 +241,17 @@ impl Work {
         let mut words = match &first.what {
             What::Task(task) => match task.about {
                 About::Photograph(id) => format!("Reading {}", name(id)),
-                About::Features(id) => format!("Features of {}", name(id)),
+                About::Features(id) => format!("Finding features in {}", name(id)),
                 About::Matches(..) => "Matching pairs".to_owned(),
-                About::TwoViews(..) => "Judging pairs".to_owned(),
+                About::TwoViews(..) => "Verifying pairs".to_owned(),
                 About::Reconstruction => "Reconstructing".to_owned(),
-                About::Depth(..) => "Depth of a pair".to_owned(),
+                About::Depth(..) => "Computing depth".to_owned(),
                 About::Board(id) => {
                     let board = project.document().board(id);
-                    format!("Board in {}", board.map_or("", |photo| &photo.name))
+                    format!(
+                        "Looking for the board in {}",
+                        board.map_or("", |photo| &photo.name)
+                    )
                 }
                 About::Calibration => "Calibrating".to_owned(),
             },
@@ -245,7 +260,7 @@ impl Work {
             }
             What::Errand(Errand::Frames(_)) => {
                 let words = self.videos.words();
-                words.unwrap_or_else(|| "Frames of a video".to_owned())
+                words.unwrap_or_else(|| "Reading the video".to_owned())
             }
             What::Errand(Errand::Keep) => "Keeping the project".to_owned(),
             What::Errand(Errand::Open | Errand::Reopen) => "Opening the project".to_owned(),
@@ -281,12 +296,14 @@ fn finish(
             Ok(Answer::Opened {
                 project: saved,
                 files,
+                computed,
             }),
         ) => {
             project.update(Event::OpenProject(Box::new(saved), files));
+            project.bring(computed);
             "The project is open.".to_owned()
         }
         (Errand::View, Ok(Answer::Archive(bytes))) => save("view.png", bytes),
-        (_, Ok(_)) => "an answer came that nobody asked for".to_owned(),
+        (_, Ok(_)) => "an unexpected answer arrived".to_owned(),
     }
 }

@@ -10,16 +10,16 @@ impl Project {
     /// What became of a photograph of a board, for people, and what would help.
     pub fn board_words(&self, photo: &Given) -> String {
         match self.board_fate(photo) {
-            BoardFate::Open => "in work".to_owned(),
+            BoardFate::Open => "being processed".to_owned(),
             BoardFate::Excluded => "left out by you".to_owned(),
             BoardFate::Unreadable(why) => format!("cannot be read: {why}"),
             BoardFate::NotFound(why) => why,
             BoardFate::OtherSize((width, height), (most_width, most_height)) => format!(
-                "{width} × {height} pixels, the others {most_width} × {most_height}: a camera is calibrated for one size; \
-                 take it again in that of the others, or remove it"
+                "{width} × {height} pixels, the others {most_width} × {most_height}. A camera is calibrated for one size: \
+                 take it again at the size of the others, or remove it"
             ),
             BoardFate::Found(marks) => match self.view_of(photo) {
-                Some(rms_px) => format!("{marks} marks, off by {rms_px:.2} px"),
+                Some(rms_px) => format!("{marks} marks, error {rms_px:.2} px"),
                 None => format!("{marks} marks"),
             },
         }
@@ -53,8 +53,8 @@ impl Project {
     pub fn calibrate_status(&self) -> String {
         let boards = &self.document.boards;
         if boards.is_empty() {
-            return "No photographs of a board yet. Print a chessboard, fix it to something flat, and take ten to twenty \
-                    photographs of it, turned by 30° to 45° about several axes, also at the edges of the picture. Or \
+            return "No photographs of a board yet. Print a chessboard, mount it on something flat, and take ten to twenty \
+                    photographs of it, tilted by 30° to 45° about different axes, some near the edges of the image. Or \
                     open the sample."
                 .to_owned();
         }
@@ -66,18 +66,18 @@ impl Project {
             .count();
         if num_open > 0 {
             let looked = boards.len() - num_open;
-            return format!("The board is being looked for: {looked} of {all} looked through.");
+            return format!("Looking for the board: {looked} of {all} searched.");
         }
         let is_found = |fate: &&BoardFate| matches!(fate, BoardFate::Found(_));
         let num_found = fates.iter().filter(is_found).count();
         let mut words = format!("The board was found in {num_found} of {all}.");
         match self.calibration_failure() {
-            Some(why) => words.push_str(&format!(" No camera came of it: {why}.")),
+            Some(why) => words.push_str(&format!(" Calibration failed: {why}.")),
             None if num_found < 2 => words.push_str(
-                " A camera needs two at least, and ten to twenty make it sure: turn the board by 30° to 45° about several \
-                 axes in between.",
+                " Calibration needs at least two, better ten to twenty: tilt the board by 30° to 45° about different axes in \
+                 between.",
             ),
-            None if self.calibration().is_none() => words.push_str(" The lens is being fitted."),
+            None if self.calibration().is_none() => words.push_str(" Fitting the camera."),
             None => {}
         }
         words
@@ -87,8 +87,8 @@ impl Project {
         let [fu, fv, ..] = found.camera.k;
         let [su, sv, ..] = found.std_dev_k;
         let mut words = format!(
-            " Focal lengths {fu:.1} ± {su:.1} and {fv:.1} ± {sv:.1} px, error {:.2} px; boards reach {:.0} % of the \
-             picture.",
+            " Focal lengths {fu:.1} ± {su:.1} and {fv:.1} ± {sv:.1} px, error {:.2} px; the boards cover {:.0} % of the \
+             image.",
             found.rms_px,
             100.0 * found.coverage
         );
@@ -129,21 +129,21 @@ impl Project {
         let of_it = self.of_size(camera.size).len();
         let newer = match self.calibration() {
             Some(found) if found.camera != *camera => {
-                " What the boards say now is something else: use it anew."
+                " The boards now give another camera: press the button again to use it."
             }
             _ => "",
         };
         match num_files {
             0 => format!(
-                " The camera is used for photographs of {width} × {height} pixels, of which there are none yet.{newer}"
+                " The camera is used for photographs of {width} × {height} pixels. There are none yet.{newer}"
             ),
             _ if of_it == 0 => format!(
-                " The camera is of {width} × {height} pixels, and none of your photographs is: calibrate at their \
-                 size.{}{newer}",
+                " The camera was calibrated at {width} × {height} pixels, and none of your photographs has that size: \
+                 calibrate at theirs.{}{newer}",
                 self.upright_words()
             ),
             _ => format!(
-                " The camera is used for {of_it} of {}, without the distortion of its lens.{}{newer}",
+                " The camera is used for {of_it} of {}, and their lens distortion is removed.{}{newer}",
                 count(num_files, "photograph"),
                 self.upright_words()
             ),
@@ -158,9 +158,9 @@ impl Project {
             .count();
         match silent {
             0 => String::new(),
-            1 => " Not for 1 photograph that stands the other way, since its file does not say how it was turned.".to_owned(),
+            1 => " It is not used for 1 photograph in the other orientation, since its file does not say which way it was turned.".to_owned(),
             _ => format!(
-                " Not for {silent} photographs that stand the other way, since their files do not say how they were turned."
+                " It is not used for {silent} photographs in the other orientation, since their files do not say which way they were turned."
             ),
         }
     }
@@ -185,12 +185,12 @@ impl Project {
         let (width, height) = camera.size;
         let why = match self.is_of_unknown_turn(photo) {
             true => {
-                "and this one stands the other way, without a word in its file of how it was turned, "
+                "and this file is in the other orientation without saying which way it was turned, "
             }
             false => "",
         };
         format!(
-            "The calibrated camera is of {width} × {height} pixels, {why}so it is not used here."
+            "The calibrated camera is for {width} × {height} pixels, {why}so it is not used here."
         )
     }
 

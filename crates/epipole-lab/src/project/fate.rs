@@ -152,37 +152,37 @@ impl Project {
         let enough = self.document.settings.sfm.min_num_inliers;
         let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
         match self.fate(photo) {
-            Fate::Open => "in work".to_owned(),
-            Fate::Registered(points) => format!("in, sees {points} points"),
+            Fate::Open => "being processed".to_owned(),
+            Fate::Registered(points) => format!("has a camera, sees {points} points"),
             Fate::Excluded => "left out by you".to_owned(),
             Fate::Twin(name) => {
-                format!("the same file as {name}: one photograph twice shows no depth; take another from a step aside")
+                format!("the same file as {name}. The same photograph twice shows no depth: take another, a step to the side")
             }
             Fate::Unreadable(why) => format!("cannot be read: {why}"),
             Fate::Alone => {
-                "alone: one photograph gives directions, not distances; add another from a step aside".to_owned()
+                "alone. One photograph gives directions, not distances: add another, taken a step to the side".to_owned()
             }
             Fate::FewFeatures(count) => format!(
-                "{count} features are too few: take it sharper, or of something with more texture, or lower the contrast"
+                "only {count} features, which is too few: take it sharper, find more texture, or lower the contrast threshold"
             ),
             Fate::OverlapsNone(most) => format!(
-                "overlaps with no other photograph: at best {most} matches agree, {enough} are needed; \
-                 take one in between"
+                "overlaps no other photograph: at best {most} matches agree, and {enough} are needed. \
+                 Take one in between"
             ),
-            Fate::OnlyTurned => "between it and the others the camera only turned, and a turn shows no \
-                 depth; take a step aside between two photographs"
+            Fate::OnlyTurned => "the camera only turned between this one and the others, and turning shows no \
+                 depth. Take a step to the side between photographs"
                 .to_owned(),
             Fate::SeesFew(count) => format!(
-                "sees {count} points of {enough} that are needed; take one between it and its neighbor"
+                "sees {count} of the {enough} points it needs. Take one between it and its neighbor"
             ),
             Fate::NoPlace(count) if guessed => format!(
-                "sees {count} points, but they agree on no place: its focal length is only a guess, type the right one"
+                "sees {count} points, but they do not agree on where it was taken. Its focal length is only a guess: type the right one"
             ),
             Fate::NoPlace(count) => {
-                format!("sees {count} points, but they agree on no place; something may have moved")
+                format!("sees {count} points, but they do not agree on where it was taken. Something may have moved")
             }
             Fate::OtherPart(part) => format!(
-                "belongs to part {}: nothing joins it to the part shown; take one that shows both",
+                "belongs to part {}, which nothing joins to the part shown. Take one that shows both",
                 part + 1
             ),
             Fate::Failed(why) => format!("nothing could be reconstructed: {why}"),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use std::hash::{DefaultHasher, Hasher};
 
-/// The name of a result. Equal inputs have equal names, within one run of the program.
+/// The name of a result. Equal inputs have equal names, on every machine and in each run of the same program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Key(pub u64);
 
@@ -19,7 +19,7 @@ impl Key {
     pub(super) fn of_bytes(bytes: &[u8]) -> Self {
         let mut hasher = DefaultHasher::new();
         hasher.write(bytes);
-        hasher.write_usize(bytes.len());
+        hasher.write_u64(bytes.len() as u64);
         Self(hasher.finish())
     }
 }

@@ -4,6 +4,7 @@
 //! State changes only by [`Project::update`] and [`Project::done`]. [`Project::wanted`] says what there
 //! is to compute, and whoever can compute asks [`Project::request`] for the bytes.
 
+mod brought;
 mod calibration;
 mod calibration_words;
 mod document;
@@ -23,6 +24,7 @@ mod update;
 mod wanted;
 mod words;
 
+pub use brought::{COMPUTED_BY, Computed};
 pub use calibration::BoardFate;
 pub use document::{
     Anchor, Document, Given, MAX_DISPARITY_PX, MAX_FRAMES, MAX_MARKS, Measure, PhotoId,
@@ -33,6 +35,7 @@ pub use fate::Fate;
 pub use floor::Floor;
 pub use keys::Key;
 pub use measure::{Length, Scale};
+use results::Kept;
 pub use results::Results;
 pub use saved::{Saved, SavedPhoto, VERSION};
 pub use stages::FocalOrigin;
@@ -40,7 +43,7 @@ pub use wanted::{About, Task};
 #[cfg(feature = "panels")]
 pub(crate) use words::count;
 
-use crate::tasks::{Answer, Component, Reconstructed};
+use crate::tasks::{Answer, Blob, Component, Reconstructed};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -65,6 +68,8 @@ pub struct Project {
     pub(crate) document: Document,
     pub(crate) view: View,
     results: Results,
+    /// Results that came with a project or the sample, and were not wanted yet.
+    brought: BTreeMap<Key, Blob>,
     past: Vec<Document>,
     future: Vec<Document>,
     next_id: PhotoId,
@@ -89,6 +94,7 @@ impl Default for Project {
                 board: 0,
             },
             results: Results::default(),
+            brought: BTreeMap::new(),
             past: Vec::new(),
             future: Vec::new(),
             next_id: 0,
@@ -143,13 +149,14 @@ impl Project {
             Ok(answer) => {
                 if !self.results.keep(key, answer, size) {
                     self.results
-                        .fail(key, "an answer came that nobody asked for".to_owned());
+                        .fail(key, "an unexpected answer arrived".to_owned());
                 }
             }
             Err(sentence) => self.results.fail(key, sentence),
         }
         let needed = self.needed();
         self.results.tidy(|key| needed.contains(&key));
+        self.take_brought();
     }
 
     /// Takes the sentence why computing a result broke down, through no fault of what it is computed from: memory is

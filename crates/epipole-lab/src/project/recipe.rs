@@ -79,10 +79,10 @@ impl Project {
         let parts = self.parts()?;
         let photographs = match parts.as_given {
             true => {
-                "photographs/ is the folder of your files as you gave them; \"Save\" in the Lab's menu \"Project\" writes \
-                 them, too."
+                "photographs/ stands for the folder of your original files. Save in the Project menu writes them \
+                 too."
             }
-            false => "images/ holds the photographs, bit for bit as they were used.",
+            false => "images/ holds the photographs exactly as they were used.",
         };
         let camera = self.document.camera.as_ref().filter(|_| parts.uses_camera);
         Some(Recipe {

@@ -15,11 +15,11 @@ impl Project {
                 0 | 1 => self.photographs_words(),
                 _ => match self.growing() {
                     Some(so_far) => format!(
-                        "Cameras and points are being looked for: {} and {} so far.",
+                        "Reconstructing: {} and {} so far.",
                         count(so_far.num_registered(), "camera"),
                         count(so_far.points.len(), "point")
                     ),
-                    None => "Cameras and points are being looked for.".to_owned(),
+                    None => "Reconstructing.".to_owned(),
                 },
             };
         };
@@ -37,13 +37,13 @@ impl Project {
         };
         if self.is_flat() {
             words.push_str(
-                " All pairs show a plane and nothing beside it, which does not tell the focal length: cameras and points are \
-                 right only if that is. Type it, calibrate, or take photographs that show something with depth, too.",
+                " Every pair shows a plane and nothing else, and a plane does not tell the focal length: cameras and points are \
+                 right only if the focal length is. Type it, calibrate, or add photographs of something with depth.",
             );
         }
         if found.components.len() > 1 {
             words.push_str(&format!(
-                " Part {} of {}, which nothing joins.",
+                " This is part {} of {}: nothing joins the parts.",
                 self.view.component + 1,
                 found.components.len()
             ));

@@ -115,6 +115,21 @@ impl Results {
         self.failed.get(&key).map(String::as_str)
     }
 
+    /// The bytes of an answer that is kept, if it is of a wanted kind.
+    pub(super) fn bytes_if(&self, key: Key, is_wanted: impl Fn(&Kept) -> bool) -> Option<Vec<u8>> {
+        let answer = match self.get(key).filter(|kept| is_wanted(kept))? {
+            Kept::Photograph(found) => Answer::Photograph((**found).clone()),
+            Kept::Features(found) => Answer::Features((**found).clone()),
+            Kept::Matches(found) => Answer::Matches((**found).clone()),
+            Kept::TwoViews(found) => Answer::TwoViews((**found).clone()),
+            Kept::Reconstruction(found) => Answer::Reconstruction((**found).clone()),
+            Kept::Depth(found) => Answer::Depth((**found).clone()),
+            Kept::Board(found) => Answer::Board((**found).clone()),
+            Kept::Calibration(found) => Answer::Calibration((**found).clone()),
+        };
+        Some(answer.to_bytes())
+    }
+
     fn get(&self, key: Key) -> Option<&Kept> {
         self.kept.get(&key).map(|(kept, _, _)| kept)
     }

@@ -1,6 +1,7 @@
 //! What is written of a project beside its photographs.
 
 use super::Project;
+use super::brought::Computed;
 use super::document::{Anchor, Document, Given, Measure, PhotoId, Settings};
 use super::keys::Key;
 use crate::tasks::{Blob, LensCamera, Packed, Request, Sample, Source};
@@ -124,8 +125,18 @@ impl Project {
         self.document.photos.iter().chain(&self.document.boards)
     }
 
-    /// The request for a zip file that [`Event::OpenProject`](super::Event::OpenProject) brings back.
+    /// The request for a zip file that [`Event::OpenProject`](super::Event::OpenProject) brings back, and
+    /// [`Project::bring`] what was computed.
     pub fn save_request(&self) -> Request {
+        self.save_request_with(self.computed())
+    }
+
+    /// The same without results, which are computed once more: small, and written at once.
+    pub fn keep_request(&self) -> Request {
+        self.save_request_with(Computed::default())
+    }
+
+    fn save_request_with(&self, computed: Computed) -> Request {
         let photos = &self.document.photos;
         let packed = |photo: &Given, folder: &str| Packed {
             name: format!("{folder}{}", photo.name),
@@ -138,6 +149,7 @@ impl Project {
                 .chain(boards.map(|photo| packed(photo, BOARDS)))
                 .collect(),
             project: self.saved(),
+            computed,
         }
     }
 

@@ -104,6 +104,7 @@ impl Project {
         if self.document != before {
             self.remember(before);
         }
+        self.take_brought();
         self.look_at_what_is_there();
     }
 

@@ -15,8 +15,8 @@ impl Project {
     /// What the step that is looked at shows now.
     pub fn describe(&self) -> String {
         if self.document.photos.is_empty() && self.view.step != Step::Calibrate {
-            return "No photographs yet. Add two or more that show one thing from different places, or \
-                    open a sample."
+            return "No photographs yet. Add two or more of one thing, taken from different places, or open a \
+                    sample."
                 .to_owned();
         }
         let mut words = match self.view.step {
@@ -31,7 +31,7 @@ impl Project {
             Step::Export => self.export_words(),
         };
         if self.paused {
-            words.push_str(" Computing is stopped.");
+            words.push_str(" Computation is stopped.");
         }
         words
     }
@@ -61,8 +61,8 @@ impl Project {
         match (sizes(true), sizes(false)) {
             (0, _) | (_, 0) => String::new(),
             (upright, lying) => format!(
-                " {upright} stand upright and {lying} lie: each has the middle of its own picture as principal point, so they go \
-                 together, and one factor serves all focal lengths."
+                " {upright} are upright and {lying} are landscape. They still go together: each has its principal point at its own \
+                 center, and one common factor refines all focal lengths."
             ),
         }
     }
@@ -73,7 +73,7 @@ impl Project {
         };
         match self.features(photo) {
             Some(found) => format!("{}: {}.", photo.name, count(found.list.len(), "feature")),
-            None => format!("{}: features are being looked for.", photo.name),
+            None => format!("{}: looking for features.", photo.name),
         }
     }
 
@@ -92,7 +92,7 @@ impl Project {
         }
         let strongest = strongest.map_or(String::new(), |(inliers, first, second)| {
             format!(
-                " Most agree between {} and {}: {inliers}.",
+                " The strongest pair is {} and {}, with {inliers}.",
                 first.name, second.name
             )
         });
@@ -112,7 +112,7 @@ impl Project {
         let (Some(pair), Some(matches)) =
             (self.two_views(first, second), self.matches(first, second))
         else {
-            return format!("{names}: not known yet.");
+            return format!("{names}: not computed yet.");
         };
         format!(
             "{names}: {} of {} agree. {}",
@@ -127,8 +127,8 @@ impl Project {
         let turn = pair.turn_deg.unwrap_or(0.0);
         match (pair.shows, pair.model) {
             (Shows::Nothing, _) => {
-                "No more matches agree than might by chance: most likely the two show \
-                                    different things."
+                "No more matches agree than chance would give: the two most likely show different \
+                 things."
                     .to_owned()
             }
             (Shows::Turn, _) if turn < 0.05 => {
@@ -136,18 +136,18 @@ impl Project {
                     .to_owned()
             }
             (Shows::Turn, _) => format!(
-                "The camera only turned, by {turn:.1}°: H explains everything, and a turn shows no depth."
+                "The camera only turned, by {turn:.1}°: H explains everything, and turning shows no depth."
             ),
             (Shows::Plane, _) => {
-                "They show a plane from two places: H explains nearly all matches.".to_owned()
+                "A plane, seen from two places: H explains nearly all matches.".to_owned()
             }
             (Shows::Depth, ViewModel::Essential(_)) => format!(
-                "A scene with depth from two places: E, since the intrinsics hold. Rays meet at {:.1}°.",
+                "A scene with depth, seen from two places: E explains it, so the intrinsics hold. Rays meet at {:.1}°.",
                 pair.angle_deg.unwrap_or(0.0)
             ),
             (Shows::Depth, _) => {
-                "A scene with depth from two places: F explains more matches than E, so the \
-                                  focal length may be wrong."
+                "A scene with depth, seen from two places: F explains more matches than E, so the focal length \
+                 may be wrong."
                     .to_owned()
             }
         }
@@ -161,19 +161,17 @@ impl Project {
         if self.reconstruction().is_none() {
             return match self.reconstruction_failure() {
                 Some(why) => format!("{names}: nothing could be reconstructed: {why}."),
-                None => format!("{names}: the cameras are being looked for."),
+                None => format!("{names}: waiting for the cameras."),
             };
         }
         if self.depth_key(first, second).is_none() {
-            return format!(
-                "{names}: depth needs the cameras of both, and one of them has none here."
-            );
+            return format!("{names}: depth needs both cameras, and one of them is missing here.");
         }
         if let Some(why) = self.depth_failure(first, second) {
             return format!("{names}: {why}.");
         }
         let Some(found) = self.depth(first, second) else {
-            return format!("{names}: the depth of every pixel is being looked for.");
+            return format!("{names}: computing the depth of every pixel.");
         };
         let mut words = format!(
             "{names}: {:.0} % of {} pixels have a depth",
@@ -194,7 +192,7 @@ impl Project {
         words.push('.');
         if found.factor > 1 {
             words.push_str(&format!(
-                " Width and height were divided by {}: so many pixels and disparities are more than memory holds.",
+                " Width and height were divided by {}: at full size, pixels and disparities would not fit into memory.",
                 found.factor
             ));
         }
@@ -238,7 +236,7 @@ impl Project {
         }
         match self.length_in_units(measure) {
             Some(units) => format!("{} units", with_sigma(units.value, units.sigma)),
-            None => "a point of it is gone".to_owned(),
+            None => "one of its points is gone".to_owned(),
         }
     }
 
@@ -248,7 +246,7 @@ impl Project {
                 let dense = self.dense_pairs().len();
                 let depth = match dense {
                     0 => String::new(),
-                    _ => format!(" Every pixel's depth of {}.", count(dense, "pair")),
+                    _ => format!(" Dense depth of {}.", count(dense, "pair")),
                 };
                 let mut words = format!(
                     "Ready to save: {} and {}.{depth}",
@@ -258,7 +256,7 @@ impl Project {
                 let waiting = self.document.dense.len().saturating_sub(dense);
                 if waiting > 0 {
                     words.push_str(&format!(
-                        " Without the depth of {}, which is not there.",
+                        " The depth of {} is not ready and stays out.",
                         count(waiting, "pair")
                     ));
                 }

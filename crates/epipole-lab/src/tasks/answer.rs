@@ -1,7 +1,7 @@
 //! What can be answered.
 
 use super::{Blob, BoardFound, Calibration, Dense, Described};
-use crate::project::Saved;
+use crate::project::{Computed, Saved};
 use serde::{Deserialize, Serialize};
 
 /// A photograph, upright and of a size to work with.
@@ -188,5 +188,7 @@ pub enum Answer {
         project: Saved,
         /// Names and files.
         files: Vec<(String, Blob)>,
+        /// Results that came with it.
+        computed: Computed,
     },
 }

@@ -126,10 +126,15 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         Request::Save {
             photographs,
             project,
-        } => Answer::Archive(export::save(&photographs, &project)?.into()),
+            computed,
+        } => Answer::Archive(export::save(&photographs, &project, &computed)?.into()),
         Request::Open { archive } => {
-            let (project, files) = export::open(&archive)?;
-            Answer::Opened { project, files }
+            let (project, files, computed) = export::open(&archive)?;
+            Answer::Opened {
+                project,
+                files,
+                computed,
+            }
         }
         _ => return Err(ELSEWHERE.to_owned()),
     })

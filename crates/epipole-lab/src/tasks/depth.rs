@@ -34,7 +34,7 @@ pub(super) fn depth(
     options: &DepthOptions,
     progress: Progress<'_>,
 ) -> Result<Dense, String> {
-    tell(progress, 0.02, "turning the photographs until rows agree")?;
+    tell(progress, 0.02, "rectifying")?;
     let cameras = [
         core_camera(&pair.cameras[0])?,
         core_camera(&pair.cameras[1])?,
@@ -69,7 +69,7 @@ pub(super) fn depth(
         1 => whole,
         _ => rectify(pair, &cameras, order, small)?,
     };
-    tell(progress, 0.06, "drawing the photographs anew")?;
+    tell(progress, 0.06, "warping the photographs")?;
     let image = |index: usize| Ok::<_, String>(resized(to_image(&pair.photographs[index])?, small));
     let (first, second) = (image(order[0])?, image(order[1])?);
     let redrawn = RectifiedPair::new(&rig, [&first, &second]).map_err(sentence)?;

@@ -4,7 +4,7 @@ use super::{
     Blob, BoardOptions, CalibrationOptions, CameraFound, Dense, DepthOptions, FeatureOptions,
     LensCamera, MatchOptions, PairOptions, Photograph, Reconstructed, Sample, SfmOptions,
 };
-use crate::project::Saved;
+use crate::project::{Computed, Saved};
 use serde::{Deserialize, Serialize};
 
 /// Where a photograph comes from.
@@ -222,6 +222,8 @@ pub enum Request {
         photographs: Vec<Packed>,
         /// The rest of the project.
         project: Saved,
+        /// Results that need not be computed once more.
+        computed: Computed,
     },
     /// Read such a file.
     Open {

@@ -42,9 +42,9 @@ impl Sample {
             Self::Turned => "A camera that only turned",
             Self::Alone => "One photograph alone",
             Self::Twice => "One photograph twice",
-            Self::Plane => "A poster, which is flat",
-            Self::Mixed => "Two places in one heap",
-            Self::Upright => "Some upright, some not",
+            Self::Plane => "A flat poster",
+            Self::Mixed => "Two places mixed",
+            Self::Upright => "Mixed orientations",
             Self::Board => "A chessboard, ten photographs",
         }
     }

@@ -20,6 +20,8 @@ extern "C" {
     fn start(this: &Shell, work: f64, branch: &str, request: Vec<u8>);
     #[wasm_bindgen(method, structural)]
     fn cancel(this: &Shell, work: f64);
+    #[wasm_bindgen(method, structural, js_name = bringsSample)]
+    fn brings_sample(this: &Shell) -> bool;
     #[wasm_bindgen(method, structural, js_name = askForPhotographs)]
     fn ask_for_photographs(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForProject)]
@@ -83,6 +85,10 @@ impl Host for Page {
 
     fn arrivals(&mut self) -> Vec<Arrival> {
         std::mem::take(&mut self.inbox.borrow_mut().arrivals)
+    }
+
+    fn brings_sample(&self) -> bool {
+        self.shell.brings_sample()
     }
 
     fn ask_for_photographs(&mut self) -> bool {
@@ -290,6 +296,11 @@ impl Lab {
             .map(|pair| (pair[0].clone(), pair[1].clone()))
             .collect();
         self.receive(|inbox| inbox.arrivals.push(Arrival::Link(parameters)));
+    }
+
+    /// Brings what was computed of the sample before; no bytes where that did not come.
+    pub fn solved(&self, computed: Vec<u8>) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Solved(computed.into())));
     }
 
     /// Brings a project.

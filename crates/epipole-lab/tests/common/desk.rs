@@ -18,6 +18,10 @@ pub(crate) struct Desk {
     pub(crate) explained: Vec<About>,
     pub(crate) address: String,
     pub(crate) kept: Option<Vec<u8>>,
+    /// How many pieces of work were started.
+    pub(crate) num_started: usize,
+    /// Whether the sample comes solved.
+    pub(crate) brings_sample: bool,
     /// Whether everything that is computed breaks down.
     pub(crate) breaks: bool,
 }
@@ -28,8 +32,9 @@ impl Host for Desk {
     }
 
     fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+        self.num_started += 1;
         if self.breaks {
-            let sentence = "there is not memory enough".to_owned();
+            let sentence = "there is not enough memory".to_owned();
             self.reports.push(Report::Broken(work, sentence));
             return;
         }
@@ -45,6 +50,10 @@ impl Host for Desk {
 
     fn arrivals(&mut self) -> Vec<Arrival> {
         std::mem::take(&mut self.arrivals)
+    }
+
+    fn brings_sample(&self) -> bool {
+        self.brings_sample
     }
 
     fn ask_for_photographs(&mut self) -> bool {
@@ -112,6 +121,11 @@ pub(crate) type Bench<'a> = Harness<'a, App<Desk>>;
 
 /// The Lab in a screen of this size, when the sample is solved.
 pub(crate) fn open<'a>(width: f32, height: f32) -> Bench<'a> {
+    open_with(Desk::default(), width, height)
+}
+
+/// The same on a host of one's own.
+pub(crate) fn open_with<'a>(desk: Desk, width: f32, height: f32) -> Bench<'a> {
     let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
         app.go_on();
         app.ui(ui);
@@ -119,7 +133,7 @@ pub(crate) fn open<'a>(width: f32, height: f32) -> Bench<'a> {
     let mut bench = Harness::builder()
         .with_size(egui::vec2(width, height))
         .with_context_setup(prepare)
-        .build_ui_state(frame, App::new(Desk::default()));
+        .build_ui_state(frame, App::new(desk));
     rest(&mut bench);
     bench
 }

@@ -6,6 +6,8 @@ pub(crate) mod depth;
 #[cfg(feature = "panels")]
 pub(crate) mod desk;
 pub(crate) mod growing;
+#[cfg(feature = "panels")]
+pub(crate) mod raster;
 
 use epipole_lab::project::{Event, Project};
 use epipole_lab::tasks::Blob;
@@ -44,11 +46,18 @@ pub(crate) fn reopened(project: &Project) -> Project {
     let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
         panic!("a project is an archive");
     };
-    let Ok(Answer::Opened { project, files }) = answer(&Request::Open { archive }) else {
+    let opened = answer(&Request::Open { archive });
+    let Ok(Answer::Opened {
+        project,
+        files,
+        computed,
+    }) = opened
+    else {
         panic!("it opens");
     };
     let mut again = Project::default();
     again.update(Event::OpenProject(Box::new(project), files));
+    again.bring(computed);
     again
 }
 

@@ -4,7 +4,7 @@ use crate::panels::app::Memory;
 use crate::panels::host::Wish;
 use crate::panels::knobs::{self, Turned};
 use crate::panels::look;
-use crate::project::{BoardFate, Event, Given, MAX_MARKS, Project, SQUARES_M, Settings};
+use crate::project::{BoardFate, Event, Given, MAX_MARKS, Project, SQUARES_M, Settings, Step};
 use crate::tasks::{BoardPattern, Calibration, LensModel};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
 use epipole_canvas::theme::Role;
@@ -35,7 +35,7 @@ pub(in crate::panels) fn knobs(
     let used = project.use_words();
     if !used.is_empty() {
         ui.label(used.trim());
-        if ui.button("Do not use it any more").clicked() {
+        if ui.button("Stop using it").clicked() {
             events.push(Event::UseCalibration(false));
         }
     }
@@ -49,9 +49,9 @@ pub(in crate::panels) fn knobs(
         one(project, ui, given, events);
     }
     ui.separator();
-    ui.weak("The same by the command line:");
+    ui.weak("The same on the command line:");
     ui.label(egui::RichText::new(project.calibrate_command()).small());
-    knobs::book(ui, "What K is made of", "rays.html");
+    knobs::book(ui, Step::Calibrate);
     wish
 }
 
@@ -70,8 +70,8 @@ fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<E
             }
         });
         let (marks, side) = match options.board.pattern {
-            BoardPattern::Chessboard => ("Inner corners:", "Side of a square, mm"),
-            BoardPattern::Circles => ("Disks:", "Distance of two rows, mm"),
+            BoardPattern::Chessboard => ("Inner corners:", "Square side, mm"),
+            BoardPattern::Circles => ("Circles:", "Row spacing, mm"),
         };
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 5.0;
@@ -99,7 +99,7 @@ fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<E
         ui.weak("Lens:");
         ui.horizontal_wrapped(|ui| {
             for (lens, name) in [
-                (LensModel::Brown, "usual (Brown)"),
+                (LensModel::Brown, "standard (Brown)"),
                 (LensModel::Rational, "wide angle (rational)"),
                 (LensModel::Fisheye, "fisheye"),
             ] {
@@ -147,10 +147,10 @@ fn camera(
     knobs::row(ui, "error", format!("{:.3} px", found.rms_px));
     knobs::row(
         ui,
-        "reached by boards",
-        format!("{:.0} % of the picture", 100.0 * found.coverage),
+        "coverage",
+        format!("{:.0} % of the image", 100.0 * found.coverage),
     );
-    ui.checkbox(&mut memory.board.all_marks, "marks of all photographs");
+    ui.checkbox(&mut memory.board.all_marks, "Show marks of all photographs");
     for warning in project.calibration_warnings() {
         ui.colored_label(look::color(ui, Role::Outlier), format!("{warning}."));
     }
@@ -170,7 +170,7 @@ fn camera(
 fn errors(project: &Project, found: &Calibration, ui: &mut Ui, events: &mut Vec<Event>) {
     let errors = found.views.iter().flatten().map(|view| view.rms_px);
     let most = errors.fold(f64::MIN_POSITIVE, f64::max);
-    ui.weak("error of each photograph:");
+    ui.weak("Error by photograph");
     for (given, view) in project.boards_taking_part().into_iter().zip(&found.views) {
         let Some(view) = view else { continue };
         let size = vec2(ui.available_width().min(280.0), 22.0);
@@ -212,7 +212,10 @@ fn one(project: &Project, ui: &mut Ui, given: &Given, events: &mut Vec<Event>) {
     };
     ui.horizontal_wrapped(|ui| {
         let mut takes_part = !given.excluded;
-        if ui.checkbox(&mut takes_part, "takes part").changed() {
+        if ui
+            .checkbox(&mut takes_part, "Use this photograph")
+            .changed()
+        {
             events.push(Event::Exclude(given.id, !takes_part));
         }
         if ui.button("Remove").clicked() {

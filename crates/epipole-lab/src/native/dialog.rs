@@ -1,0 +1,111 @@
+//! The file dialog of the desktop, by a program that desktops bring: none of its toolkits becomes part of this one.
+
+use std::io::ErrorKind;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Any number of photographs.
+    Photographs,
+    /// One project.
+    Project,
+}
+
+impl Wanted {
+    fn title(self) -> &'static str {
+        match self {
+            Self::Photographs => "Add photographs",
+            Self::Project => "Open a project",
+        }
+    }
+
+    /// What their files are called, and the endings of their names.
+    fn kind(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Photographs => ("Photographs", &["jpg", "jpeg", "png"]),
+            Self::Project => ("Projects", &["zip"]),
+        }
+    }
+
+    /// `*.jpg *.JPG …`
+    fn patterns(self) -> String {
+        let endings = self.kind().1.iter();
+        let both =
+            endings.flat_map(|end| [format!("*.{end}"), format!("*.{}", end.to_uppercase())]);
+        both.collect::<Vec<_>>().join(" ")
+    }
+
+    /// Programs that ask, each with its arguments; they print a path a line.
+    fn programs(self) -> Vec<(&'static str, Vec<String>)> {
+        let title = self.title();
+        let name = self.kind().0;
+        if cfg!(target_os = "macos") {
+            let many = match self {
+                Self::Photographs => " with multiple selections allowed",
+                Self::Project => "",
+            };
+            // A list of one is made of one, so that both are gone through alike.
+            let script = format!(
+                "set all to \"\"\nrepeat with one in ((choose file with prompt \"{title}\"{many}) as list)\n\
+                 set all to all & POSIX path of one & linefeed\nend repeat\nall"
+            );
+            return vec![("osascript", vec!["-e".to_owned(), script])];
+        }
+        if cfg!(windows) {
+            let patterns = self.patterns().replace(' ', ";");
+            let many = self == Self::Photographs;
+            let script = format!(
+                "Add-Type -AssemblyName System.Windows.Forms; [Console]::OutputEncoding = [Text.Encoding]::UTF8; \
+                 $d = New-Object System.Windows.Forms.OpenFileDialog; $d.Title = '{title}'; $d.Multiselect = ${many}; \
+                 $d.Filter = '{name}|{patterns}'; if ($d.ShowDialog() -eq 'OK') {{ $d.FileNames }}"
+            );
+            let words = ["-NoProfile", "-STA", "-Command", &script];
+            return vec![("powershell", words.map(str::to_owned).to_vec())];
+        }
+        let patterns = self.patterns();
+        let mut zenity = vec![
+            "--file-selection".to_owned(),
+            format!("--title={title}"),
+            format!("--file-filter={name} | {patterns}"),
+        ];
+        let mut kdialog = vec!["--title".to_owned(), title.to_owned()];
+        if self == Self::Photographs {
+            zenity.extend(["--multiple".to_owned(), "--separator=\n".to_owned()]);
+            kdialog.extend(["--multiple", "--separate-output"].map(str::to_owned));
+        }
+        kdialog.extend([
+            "--getopenfilename".to_owned(),
+            ".".to_owned(),
+            format!("{name} ({patterns})"),
+        ]);
+        vec![("zenity", zenity), ("kdialog", kdialog)]
+    }
+}
+
+/// Asks, and waits until the reader has chosen: nothing, if that was given up. `None` where nothing can ask.
+pub(super) fn ask(wanted: Wanted) -> Option<Vec<PathBuf>> {
+    for (program, arguments) in wanted.programs() {
+        let asked = Command::new(program)
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stderr(Stdio::null())
+            .output();
+        match asked {
+            Ok(output) => {
+                let words = String::from_utf8_lossy(&output.stdout);
+                let lines = words.lines().map(|line| line.trim_end_matches('\r'));
+                return Some(
+                    lines
+                        .filter(|line| !line.is_empty())
+                        .map(PathBuf::from)
+                        .collect(),
+                );
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(_) => return None,
+        }
+    }
+    None
+}

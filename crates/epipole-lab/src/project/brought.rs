@@ -1,0 +1,200 @@
+//! Results that were computed before, and came with a project or with the sample. Each is taken once it is wanted, and
+//! only if it fits what it is a result of: a file may say anything.
+
+use super::document::PhotoId;
+use super::keys::Key;
+use super::wanted::About;
+use super::{Kept, Project};
+use crate::tasks::{
+    Answer, Blob, CameraFound, Component, Features, Match, Photograph, Reconstructed, TwoViews,
+    ViewModel,
+};
+use serde::{Deserialize, Serialize};
+
+/// What results are computed with: only those of the same are taken.
+pub const COMPUTED_BY: &str = env!("EPIPOLE_LAB_COMPUTED_BY");
+
+/// Results by their keys, and what they were computed with.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Computed {
+    /// [`COMPUTED_BY`] of whoever computed.
+    pub by: String,
+    /// Keys, and bytes of answers.
+    pub results: Vec<(u64, Blob)>,
+}
+
+impl Computed {
+    /// The same as bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        crate::tasks::to_bytes(self)
+    }
+
+    /// What these bytes hold; nothing, if they hold nothing of the kind.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        postcard::from_bytes(bytes).unwrap_or_default()
+    }
+}
+
+impl Project {
+    /// Takes results that were computed before, in place of others that were brought and that nobody wanted. What was
+    /// computed with something else, or does not fit, is left: it is computed as if it had not come.
+    pub fn bring(&mut self, computed: Computed) {
+        self.brought.clear();
+        if computed.by == COMPUTED_BY {
+            let results = computed.results.into_iter();
+            self.brought = results.map(|(key, bytes)| (Key(key), bytes)).collect();
+        }
+        self.revision += 1;
+        self.take_brought();
+    }
+
+    /// Takes what is wanted of it, and what is wanted then.
+    pub(super) fn take_brought(&mut self) {
+        let mut is_new = true;
+        while is_new && !self.brought.is_empty() {
+            is_new = false;
+            for task in self.wanted() {
+                let Some(bytes) = self.brought.remove(&task.key) else {
+                    continue;
+                };
+                if let Ok(answer) = Answer::from_bytes(&bytes)
+                    && self.fits(task.about, &answer)
+                {
+                    is_new |= self.results.keep(task.key, answer, bytes.len());
+                }
+            }
+        }
+    }
+
+    /// Features, matches, pairs and the reconstruction that there are: what takes long, but for pixels, which files have.
+    pub(super) fn computed(&self) -> Computed {
+        self.computed_if(|kept| {
+            matches!(
+                kept,
+                Kept::Features(_) | Kept::Matches(_) | Kept::TwoViews(_) | Kept::Reconstruction(_)
+            )
+        })
+    }
+
+    /// The same with the pixels: nothing is left to be computed.
+    pub fn all_computed(&self) -> Computed {
+        self.computed_if(|_| true)
+    }
+
+    fn computed_if(&self, is_wanted: impl Fn(&Kept) -> bool) -> Computed {
+        let needed = self.needed().into_iter();
+        let bytes = |key: Key| Some((key.0, self.results.bytes_if(key, &is_wanted)?.into()));
+        Computed {
+            by: COMPUTED_BY.to_owned(),
+            results: needed.filter_map(bytes).collect(),
+        }
+    }
+
+    /// Whether an answer can be what a task asks for.
+    fn fits(&self, about: About, answer: &Answer) -> bool {
+        let num_features = |id: PhotoId| {
+            let photo = self.document.photo(id)?;
+            Some(self.features(photo)?.list.len())
+        };
+        match (about, answer) {
+            (About::Photograph(_), Answer::Photograph(found)) => is_photograph(found),
+            (About::Features(_), Answer::Features(found)) => is_features(found),
+            (About::Matches(first, second), Answer::Matches(found)) => {
+                match (num_features(first), num_features(second)) {
+                    (Some(first), Some(second)) => is_matches(found, first, second),
+                    _ => false,
+                }
+            }
+            (About::TwoViews(first, second), Answer::TwoViews(found)) => {
+                let photos = (self.document.photo(first), self.document.photo(second));
+                let (Some(first), Some(second)) = photos else {
+                    return false;
+                };
+                let matches = self.matches(first, second);
+                matches.is_some_and(|matches| is_pair(found, matches.len()))
+            }
+            (About::Reconstruction, Answer::Reconstruction(found)) => {
+                let photos = self.taking_part().into_iter();
+                let counts: Option<Vec<usize>> =
+                    photos.map(|photo| num_features(photo.id)).collect();
+                counts.is_some_and(|counts| is_reconstruction(found, &counts))
+            }
+            _ => false,
+        }
+    }
+}
+
+fn are_finite(numbers: &[f64]) -> bool {
+    numbers.iter().all(|x| x.is_finite())
+}
+
+fn is_photograph(found: &Photograph) -> bool {
+    let num_bytes = u64::from(found.width) * u64::from(found.height) * 3;
+    let sizes = [found.full_size, found.sensor_size];
+    num_bytes > 0
+        && num_bytes == found.rgb.len() as u64
+        && sizes
+            .iter()
+            .all(|(width, height)| *width > 0 && *height > 0)
+        && found.focal_px.is_none_or(|f| f.is_finite() && f > 0.0)
+        && found
+            .k
+            .is_none_or(|k| are_finite(&k) && k[0] > 0.0 && k[1] > 0.0)
+}
+
+fn is_features(found: &Features) -> bool {
+    let dimension = found.described.dimension as usize;
+    dimension > 0
+        && found.list.len().checked_mul(dimension) == Some(found.described.values.len())
+        && (found.list.iter()).all(|feature| {
+            are_finite(&[feature.u, feature.v])
+                && feature.scale_px.is_finite()
+                && feature.angle_rad.is_finite()
+        })
+}
+
+fn is_matches(found: &[Match], first: usize, second: usize) -> bool {
+    found
+        .iter()
+        .all(|m| (m.first as usize) < first && (m.second as usize) < second && m.ratio.is_finite())
+}
+
+fn is_pair(found: &TwoViews, num_matches: usize) -> bool {
+    let (ViewModel::Essential(m) | ViewModel::Fundamental(m) | ViewModel::Homography(m)) =
+        &found.model;
+    let angles = found.turn_deg.into_iter().chain(found.angle_deg);
+    found.inliers.len() == num_matches
+        && found.inliers.iter().filter(|fits| **fits).count() == found.num_inliers as usize
+        && are_finite(m)
+        && found.fundamental.is_none_or(|f| are_finite(&f))
+        && angles.into_iter().all(f64::is_finite)
+}
+
+/// * `counts`: how many features each photograph has
+fn is_reconstruction(found: &Reconstructed, counts: &[usize]) -> bool {
+    let is_camera = |camera: &CameraFound| {
+        are_finite(&camera.intrinsics)
+            && are_finite(&camera.rotation)
+            && camera.rotation.iter().any(|x| *x != 0.0)
+            && are_finite(&camera.translation)
+    };
+    let is_seen = |component: &Component, (image, keypoint): (u32, u32)| {
+        let image = image as usize;
+        let has_camera = component.cameras.get(image).is_some_and(Option::is_some);
+        has_camera && counts.get(image).is_some_and(|n| (keypoint as usize) < *n)
+    };
+    let is_component = |component: &Component| {
+        component.cameras.len() == counts.len()
+            && component.cameras.iter().flatten().all(is_camera)
+            && are_finite(&component.distortion)
+            && (component.points.iter()).all(|point| {
+                are_finite(&point.position)
+                    && point.error_px.is_finite()
+                    && point.track.iter().all(|place| is_seen(component, *place))
+            })
+    };
+    found.components.iter().all(is_component)
+        && found.mean_error_px.len() == found.components.len()
+        && are_finite(&found.mean_error_px)
+        && are_finite(&found.costs)
+}
