@@ -86,7 +86,10 @@ pub(crate) fn damage_bytes(bytes: &[u8], changes: &[Damage]) -> Vec<u8> {
             Damage::Word(at, word) => {
                 let is_blank = |b: &u8| b.is_ascii_whitespace();
                 let near = place(*at, length);
-                let start = bytes[..near].iter().rposition(is_blank).map_or(0, |i| i + 1);
+                let start = bytes[..near]
+                    .iter()
+                    .rposition(is_blank)
+                    .map_or(0, |i| i + 1);
                 let end = (bytes[near..].iter().position(is_blank)).map_or(length, |i| near + i);
                 bytes.splice(start..end, WORDS[*word].bytes());
             }

@@ -40,7 +40,9 @@ fn exif() -> Vec<u8> {
 
 /// A picture in one of the formats, with these EXIF data.
 fn encoded(format: usize, exif: Vec<u8>) -> Vec<u8> {
-    let pixels: Vec<u8> = (0..WIDTH * HEIGHT * 3).map(|i| (i * 37 % 251) as u8).collect();
+    let pixels: Vec<u8> = (0..WIDTH * HEIGHT * 3)
+        .map(|i| (i * 37 % 251) as u8)
+        .collect();
     let mut bytes = Vec::new();
     let size = (WIDTH, HEIGHT, ExtendedColorType::Rgb8);
     match format {

@@ -19,7 +19,10 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
     let point = (
         [number(), number(), number()],
         any::<[u8; 3]>(),
-        prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>()), 2..5),
+        prop::collection::vec(
+            (any::<prop::sample::Index>(), any::<prop::sample::Index>()),
+            2..5,
+        ),
     );
     let lens = (-0.5..0.5_f64, any::<bool>());
     (
@@ -83,7 +86,11 @@ fn lines(text: &str) -> Vec<Vec<&str>> {
     let is_told = |line: &&str| !line.starts_with('#');
     // A line ends where COLMAP ends it, at its line feed.
     let whole = text.strip_suffix('\n').unwrap_or(text);
-    whole.split('\n').filter(is_told).map(|line| line.split(' ').collect()).collect()
+    whole
+        .split('\n')
+        .filter(is_told)
+        .map(|line| line.split(' ').collect())
+        .collect()
 }
 
 fn number(word: &str) -> f64 {
@@ -94,9 +101,15 @@ fn number(word: &str) -> f64 {
 
 /// The values behind the header of a binary PLY file with colors, and how many it promises.
 fn ply(bytes: &[u8]) -> (usize, &[u8]) {
-    let end = bytes.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+    let end = bytes
+        .windows(11)
+        .position(|w| w == b"end_header\n")
+        .unwrap()
+        + 11;
     let header = std::str::from_utf8(&bytes[..end]).unwrap();
-    let count = header.lines().find_map(|line| line.strip_prefix("element vertex "));
+    let count = header
+        .lines()
+        .find_map(|line| line.strip_prefix("element vertex "));
     (count.unwrap().parse().unwrap(), &bytes[end..])
 }
 
