@@ -12,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -89,6 +89,9 @@ bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memo
 	$(BOOK) lab
 	cargo run --locked --quiet -p epipole-lab --example photographs -- target/lab-photographs
 	cd tests/browser && node labbench.mjs ../../target/lab-photographs 2500
+
+api: ## what of the library's public surface changed, and whether it breaks users: make api SINCE=v0.1.0
+	@tests/tools/api.sh $(SINCE)
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Our robust estimators beside OpenCV's USAC_MAGSAC and PoseLib on real pairs with ground truth.
+"""Our robust estimators beside OpenCV's USAC_MAGSAC, PoseLib and SupeRANSAC on real pairs with ground truth.
 
     python compare_geometry.py DATA path/to/geometry_fit [ORDERS]
 
 Everybody gets the same matches, threshold, confidence (0.999) and budget of samples, in ORDERS
 (5) seeded orders of the matches; who takes a seed gets the number of the order. The rest are the
-defaults of each library: PoseLib draws at least 1000 samples, OpenCV takes no seed.
+defaults of each library: PoseLib draws at least 1000 samples, OpenCV takes no seed. SupeRANSAC has
+the settings of its own examples: PROSAC, of which random orders leave little, MAGSAC scores, nested
+RANSAC, at least 1000 samples; it takes no seed either.
 
 Pairs, for E and again for F, 1 px, at most 10 000 samples:
   fountain, dino  photographs of multiview/, neighbors and every second, turned at most 60°
@@ -30,6 +32,7 @@ Other problems, with measures in percent or pixels:
   homogr          root mean square error of annotated matches; 3 px
   evd             recall of label 1 at 4 px; at most 20 000 samples
   homography      mean error over a grid on image 1, where image 2 shows it; SIFT as above; 3 px
+  drawn planes    the same with exact truth, over noise, share of wrong matches and overlap; 3 px
 They are given as the mean over problems of the median over orders, then as the mean over both,
 then as the worst of all. An error of more than 100 px, or no model, counts as 100 px.
 
@@ -44,17 +47,18 @@ import os, subprocess, sys, tempfile, time
 import cv2
 import numpy as np
 import poselib
+import superansac
 from two_view_problems import WORST_PX, collect
 
 cv2.setNumThreads(1)
 binary = sys.argv[2]
 orders = int(sys.argv[3]) if len(sys.argv) > 3 else 5
 CONFIDENCE = 0.999
-WHO = ("ours", "MAGSAC", "PoseLib")
+WHO = ("ours", "MAGSAC", "PoseLib", "SupeR.")
 # Measures of the problems without a pose, the main one first; "+": more is better.
 MEASURES = {
     "adelaide": ["+recall %", "-label 0 %"], "kusvod2": ["-epipolar px"],
-    "homogr": ["-rms px"], "evd": ["+recall %"], "homography": ["-grid px"],
+    "homogr": ["-rms px"], "evd": ["+recall %"], "homography": ["-grid px"], "drawn planes": ["-grid px"],
 }
 # Groups of one kind of data, told together as well.
 TOGETHER = {"fountain": "multiview", "dino": "multiview", "euroc": "calib", "boards": "calib"}
@@ -95,6 +99,15 @@ def lib(p, a, b, seed):
     return model, told["inliers"]
 
 
+def super_ransac(p, a, b, _):
+    settings = superansac.settings(p.threshold_px, CONFIDENCE, p.trials)
+    if p.kind == "F":
+        return superansac.fundamental(a, b, settings)
+    if p.kind == "H":
+        return superansac.homography(a, b, settings)
+    return superansac.relative_pose(a, b, p.k, settings)
+
+
 def intrinsics(k):
     return [k[0, 0], k[1, 1], k[0, 2], k[1, 2]]
 
@@ -133,7 +146,7 @@ def judged(p, order, model, inliers, ms):
 problems = collect(sys.argv[1])
 tasks = [(p, np.random.default_rng(seed).permutation(len(p.rows)), seed) for p in problems for seed in range(orders)]
 results = {}  # (kind, group, who): problems × orders × measures
-for who, answers in zip(WHO, (our_answers(tasks), answers_of(opencv, tasks), answers_of(lib, tasks))):
+for who, answers in zip(WHO, (our_answers(tasks), *(answers_of(fit, tasks) for fit in (opencv, lib, super_ransac)))):
     for (p, order, seed), answer in zip(tasks, answers, strict=True):
         if seed == 0:
             results.setdefault((p.kind, p.group, who), []).append([])

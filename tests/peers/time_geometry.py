@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times robust estimation, triangulation and the minimal solvers beside OpenCV and PoseLib.
+"""Times robust estimation, triangulation and the minimal solvers beside OpenCV, PoseLib and SupeRANSAC.
 
     python time_geometry.py path/to/geometry_time [TURNS]
 
@@ -13,6 +13,7 @@ import os, pathlib, subprocess, sys, tempfile, time
 import cv2
 import numpy as np
 import poselib
+import superansac
 
 binary = sys.argv[1]
 turns = int(sys.argv[2]) if len(sys.argv) > 2 else 3
@@ -106,6 +107,10 @@ def lib_place(rows):
     return np.asarray((found.pose if hasattr(found, "pose") else found).Rt)
 
 
+def super_settings():
+    return superansac.settings(1.0, 0.999, 10_000)
+
+
 def fundamental(method):
     return lambda r: cv2.findFundamentalMat(r[:, :2], r[:, 2:4], method, 1.0, 0.999, 10_000)[0]
 
@@ -147,15 +152,19 @@ def cut(s, n):
 WORK = {
     "F RANSAC": (general, distance_px, "px", {
         "USAC_MAGSAC": fundamental(cv2.USAC_MAGSAC), "FM_RANSAC": fundamental(cv2.FM_RANSAC),
-        "PoseLib": lambda r: poselib.estimate_fundamental(r[:, :2], r[:, 2:4], ransac, {})[0]}),
+        "PoseLib": lambda r: poselib.estimate_fundamental(r[:, :2], r[:, 2:4], ransac, {})[0],
+        "SupeRANSAC": lambda r: superansac.fundamental(r[:, :2], r[:, 2:4], super_settings())[0]}),
     "E RANSAC": (general, pose_deg, "°", {
         "USAC_MAGSAC": lambda r: cv_pose(r, cv2.USAC_MAGSAC), "RANSAC": lambda r: cv_pose(r, cv2.RANSAC),
-        "PoseLib": lib_pose}),
+        "PoseLib": lib_pose,
+        "SupeRANSAC": lambda r: superansac.relative_pose(r[:, :2], r[:, 2:4], K, super_settings())[0]}),
     "H RANSAC": (planar, transfer_px, "px", {
         "USAC_MAGSAC": homography(cv2.USAC_MAGSAC), "RANSAC": homography(cv2.RANSAC),
-        "PoseLib": lambda r: poselib.estimate_homography(r[:, :2], r[:, 2:4], ransac, {})[0]}),
+        "PoseLib": lambda r: poselib.estimate_homography(r[:, :2], r[:, 2:4], ransac, {})[0],
+        "SupeRANSAC": lambda r: superansac.homography(r[:, :2], r[:, 2:4], super_settings())[0]}),
     "P3P RANSAC": (general, place_mm, "mm", {
-        "USAC_MAGSAC": lambda r: cv_place(r, cv2.USAC_MAGSAC), "PoseLib": lib_place}),
+        "USAC_MAGSAC": lambda r: cv_place(r, cv2.USAC_MAGSAC), "PoseLib": lib_place,
+        "SupeRANSAC": lambda r: superansac.absolute_pose(r[:, 2:4], r[:, 4:], FOCAL_PX, CENTER, super_settings())}),
     "triangulation": (clean, triangulation_mm, "mm", {"triangulatePoints": triangulate}),
     "F7 × 100": (minimal, None, "", {"OpenCV": each(
         lambda r, s: cv2.findFundamentalMat(r[cut(s, 7), :2], r[cut(s, 7), 2:4], cv2.FM_7POINT))}),

@@ -3,7 +3,7 @@ are stands in compare_geometry.py."""
 import collections, glob, itertools, json, os, re
 import cv2
 import numpy as np
-from planes import homogeneous, move, shared_grid
+from planes import homogeneous, inside, move, shared_grid
 
 POSE_PX, WORST_DEG, WORST_PX, MIN_MATCHES = 1.0, 180.0, 100.0, 15
 # `judge(model, inliers, order)` gives the measures of an answer to the rows in that order; the model
@@ -17,6 +17,7 @@ def collect(root):
     add_multiview(root, "dino", "dinoSparseRing")
     for add_some in (add_essential, add_euroc, add_boards, add_house, add_drive, add_labeled, add_planes):
         add_some(root)
+    add_drawn_planes()
     return problems
 
 
@@ -278,3 +279,37 @@ def add_planes(root):
         grid = shared_grid(np.loadtxt(path), *(cv2.imread(photo, cv2.IMREAD_GRAYSCALE).shape[::-1] for photo in photos))
         seen = np.hstack([grid, move(np.loadtxt(path), grid)])
         add("homography", "H", 3.0, 10_000, match(*photos), lambda h, seen=seen: [np.mean(transfer_px(h, seen))])
+
+
+def add_drawn_planes():
+    """Planes with exact truth: 200 matches, over noise, share of wrong ones and how much both images share."""
+    size, k = np.array([640, 480]), np.array([[600, 0, 319.5], [0, 600, 239.5], [0, 0, 1]])
+    for noise_px, wrong, overlap in itertools.product((0.3, 1.0, 2.0), (0.2, 0.5, 0.8), (0.3, 0.8)):
+        for number in range(3):
+            rng = np.random.default_rng([int(10 * noise_px), int(10 * wrong), int(10 * overlap), number])
+            while True:
+                h = plane_between(rng, k)
+                grid = shared_grid(h, size, size)
+                in_front = homogeneous(np.array([[0, 0], [639, 0], [0, 479], [639, 479]])) @ h[2] > 0
+                if in_front.all() and abs(len(grid) / 1600 - overlap) < 0.1:
+                    break
+            # Right ones lie where both images show them; one in five was placed three times as badly.
+            num_right = round(200 * (1 - wrong))
+            a = np.empty((0, 2))
+            while len(a) < num_right:
+                more = rng.uniform(0, size - 1, (500, 2))
+                a = np.vstack([a, more[inside(move(h, more), size)]])
+            a = a[:num_right]
+            scale = noise_px * np.where(rng.random(num_right) < 0.2, 3, 1)[:, None]
+            right = np.hstack([a, move(h, a)]) + scale * rng.normal(0, 1, (num_right, 4))
+            rows = np.vstack([right, rng.uniform(0, np.tile(size - 1, 2), (200 - num_right, 4))])
+            seen = np.hstack([grid, move(h, grid)])
+            add("drawn planes", "H", 3.0, 10_000, rows, lambda h, seen=seen: [np.mean(transfer_px(h, seen))])
+
+
+def plane_between(rng, k):
+    """What a plane 1 away, leaning by up to 60°, does between two cameras that see it."""
+    r = cv2.Rodrigues(rng.normal(0, 0.25, 3) * [1, 1, 2])[0]
+    normal = np.append(np.tan(np.radians(60)) * rng.uniform(-0.7, 0.7, 2), 1)
+    shift = rng.normal(0, 0.4, 3)
+    return k @ (r + np.outer(shift, normal / np.linalg.norm(normal))) @ np.linalg.inv(k)

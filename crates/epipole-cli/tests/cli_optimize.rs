@@ -248,6 +248,12 @@ fn contradicting_measurements_meet_in_the_middle() {
     // What is written is where it ended.
     let again = json(&["posegraph", path(&out)]);
     assert!((again["initial_chi2"].as_f64().unwrap() - 0.5).abs() < 1e-9);
+    // The measurements alone lead there, too: here least squares are linear.
+    let anew = json(&["posegraph", path(&file), "--initialize"]);
+    assert!(
+        (anew["initial_chi2"].as_f64().unwrap() - 0.5).abs() < 1e-9,
+        "{anew}"
+    );
 
     // A square whose last side is 0.4 too long: each of the four sides takes a quarter of it.
     let quarter = std::f64::consts::FRAC_PI_2;

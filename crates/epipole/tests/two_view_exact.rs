@@ -88,7 +88,7 @@ impl Pair {
     }
 }
 
-/// COLMAP's two_view_geometry_test: a hundred seeds, 50 exact matches; rotation, direction and the
+/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc: a hundred seeds, 50 exact matches; rotation, direction and the
 /// median angle of triangulation within 1e-6.
 #[test]
 fn a_hundred_pairs_with_known_intrinsics() {
@@ -169,7 +169,7 @@ fn rays(
     (motion, rays1, rays2)
 }
 
-/// COLMAP's essential_matrix_test: a hundred motions, 5, 20 and 1000 rays.
+/// COLMAP's src/colmap/estimators/solvers/essential_matrix_test.cc: a hundred motions, 5, 20 and 1000 rays.
 #[test]
 fn essential_matrices_of_few_and_of_many_rays() {
     let mut random = Random::new(1);

@@ -136,7 +136,7 @@ fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
-/// COLMAP's two_view_geometry_test, calibrated and uncalibrated: a hundred seeds, 50 exact
+/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc, calibrated and uncalibrated: a hundred seeds, 50 exact
 /// matches, rotation and direction within 1e-6.
 #[test]
 fn a_hundred_exact_pairs() {

@@ -15,12 +15,15 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
-    JSON: initial_chi2 and final_chi2 (sums of squares weighted by information), iterations,\n\
+    JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information, iterations,\n\
     termination (why it ended), num_vertices, num_edges."
 )]
 pub(crate) struct Arguments {
     /// A g2o file with poses in the plane, in space, or in space with scale.
     graph: PathBuf,
+    /// Place the vertices from the measurements first, wherever the file puts them.
+    #[arg(long)]
+    initialize: bool,
     /// Steps tried at most.
     #[arg(long, default_value_t = 100, value_name = "N")]
     max_iterations: usize,
@@ -33,6 +36,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let text = files::read_text(&arguments.graph)?;
     let parsed = PoseGraph::parse_g2o(&text);
     let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
+    if arguments.initialize {
+        graph.initialize()?;
+    }
     let options = LmOptions {
         max_iterations: arguments.max_iterations,
         ..LmOptions::default()

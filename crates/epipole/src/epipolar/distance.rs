@@ -223,7 +223,7 @@ mod tests {
     use crate::math::random::Random;
     use crate::robust::MatchSet;
 
-    /// COLMAP's essential_matrix_test: squared Sampson errors 0, 0.5 and 2.
+    /// COLMAP's src/colmap/geometry/essential_matrix_test.cc: squared Sampson errors 0, 0.5 and 2.
     #[test]
     fn published_squared_errors() {
         let e = essential_from_motion(&RigidTransform::translation(1.0, 0.0, 0.0)).unwrap();

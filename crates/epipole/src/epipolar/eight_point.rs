@@ -254,7 +254,7 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-    /// The values of COLMAP's fundamental_matrix_test, there from Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from Matlab.
     #[test]
     fn published_reference() {
         let points = |flat: &[f64]| -> Vec<Point2<f64>> {
@@ -279,7 +279,7 @@ mod tests {
         assert!((f.norm() - 1.0).abs() < 1e-14);
     }
 
-    /// A problem as COLMAP's test draws it: coordinates scaled by `scale`, noise on image 2.
+    /// A problem as that test draws it: coordinates scaled by `scale`, noise on image 2.
     fn problem(
         random: &mut Random,
         num_points: usize,

@@ -154,7 +154,7 @@ mod tests {
         core::array::from_fn(|i| Point2::new(flat[2 * i], flat[2 * i + 1]))
     }
 
-    /// The values of COLMAP's fundamental_matrix_test, there from Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from Matlab.
     #[test]
     fn published_reference() {
         let p1 = points(&[

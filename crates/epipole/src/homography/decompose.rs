@@ -161,7 +161,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// The values of COLMAP's homography_matrix_test, there from OpenCV.
+    /// The values of COLMAP's src/colmap/geometry/homography_matrix_test.cc, there from OpenCV.
     #[test]
     fn published_reference() {
         #[rustfmt::skip]

@@ -220,7 +220,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// COLMAP's ransac test in the plane: 1000 matches, the first 400 of them wrong.
+    /// As in COLMAP's src/colmap/optim/ransac_test.cc, in the plane: 1000 matches, the first 400 of them wrong.
     fn problem(seed: u64) -> (PlaneSimilarity, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let mut random = Random::new(seed);
         let truth = PlaneSimilarity {

@@ -21,7 +21,8 @@ impl Reconstruction {
     /// Cameras are `PINHOLE`, or `OPENCV` with k1 and k2 if there is distortion; images with equal
     /// size and intrinsics share one. Principal points and keypoints are moved by half a pixel,
     /// from centers at integers to COLMAP's convention, as by [`pixel_to_colmap`]. Numbers of images, cameras and points
-    /// start at 1; an image has the number of its place in the list plus 1.
+    /// start at 1; an image has the number of its place in the list plus 1. A name takes the rest of its line, so
+    /// line breaks in it are written as `_`.
     ///
     /// * `images`: those that the reconstruction was made of
     pub fn to_colmap(&self, images: &[SfmImage]) -> ColmapModel {
@@ -93,7 +94,7 @@ impl Reconstruction {
                 t.y,
                 t.z,
                 camera_of_image[index],
-                image.name
+                image.name.replace(['\n', '\r'], "_")
             );
             for (n, (keypoint, point)) in image
                 .keypoints

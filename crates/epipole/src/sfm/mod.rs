@@ -5,7 +5,8 @@
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
 //! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
-//!   the path of a camera whose scale drifts.
+//!   the path of a camera whose scale drifts. [`PoseGraph::initialize`] needs no start, and [`average_rotations`] is its
+//!   first step by itself.
 //! * [`two_view_reconstruction`] leads from the matches of two views and the motion between them to
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
@@ -59,7 +60,9 @@ pub use photos::{
     photo_features, photo_features_with_progress, reconstruct_photos,
     reconstruct_photos_with_progress,
 };
-pub use pose_graph::{Edge, Graph, GraphPose, PoseGraph, PoseGraphReport};
+pub use pose_graph::{
+    Edge, Graph, GraphPose, PoseGraph, PoseGraphReport, RelativeRotation, average_rotations,
+};
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
 pub use tracks::{PairMatches, TrackElement, build_tracks};
 pub use two_view_reconstruction::{

@@ -291,7 +291,7 @@ mod tests {
         m.to_matrix().fixed_view::<3, 4>(0, 0).into_owned()
     }
 
-    /// COLMAP's triangulation_test: listed points, within 1e-10.
+    /// COLMAP's src/colmap/geometry/triangulation_test.cc: listed points, within 1e-10.
     #[test]
     fn published_points() {
         let points = [

@@ -250,7 +250,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// The situations of COLMAP's triangulation_test.
+    /// The situations of COLMAP's src/colmap/geometry/triangulation_test.cc.
     #[test]
     fn rays_that_miss_or_never_meet() {
         let shift = RigidTransform::translation;

@@ -136,7 +136,7 @@ mod tests {
     use crate::triangulation::triangulate_optimal;
     use nalgebra::{Point2, Vector3};
 
-    /// COLMAP's triangulation_test.
+    /// COLMAP's src/colmap/geometry/triangulation_test.cc.
     #[test]
     fn published_angles() {
         let (o, y) = (Point3::origin(), Point3::new(0.0, 1.0, 0.0));

@@ -1,5 +1,6 @@
 //! Pose graphs: poses joined by measured relative poses, loops among them.
 
+mod chordal;
 mod poses;
 
 use super::shares::iterations;
@@ -11,6 +12,7 @@ use crate::{Error, Result};
 use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, Similarity3};
 use std::ops::ControlFlow;
 
+pub use chordal::{RelativeRotation, average_rotations};
 pub use poses::GraphPose;
 
 /// A measured relative pose between two vertices.
@@ -265,6 +267,18 @@ impl PoseGraph {
             PoseGraph::Se2(graph) => graph.chi2(),
             PoseGraph::Se3(graph) => graph.chi2(),
             PoseGraph::Sim3(graph) => graph.chi2(),
+        }
+    }
+
+    /// Places the vertices anew, from the measurements alone: see [`Graph::initialize`].
+    ///
+    /// # Errors
+    /// As [`Graph::initialize`].
+    pub fn initialize(&mut self) -> Result<()> {
+        match self {
+            PoseGraph::Se2(graph) => graph.initialize(),
+            PoseGraph::Se3(graph) => graph.initialize(),
+            PoseGraph::Sim3(graph) => graph.initialize(),
         }
     }
 

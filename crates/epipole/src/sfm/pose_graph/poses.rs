@@ -18,6 +18,10 @@ pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
     fn translation_sq(&self) -> f64;
     /// Whether every number is finite.
     fn is_finite(&self) -> bool;
+    /// The same in space, with a scale: a pose in the plane lies in x and y.
+    fn to_similarity(&self) -> Similarity3<f64>;
+    /// What a pose of this kind has of it.
+    fn from_similarity(pose: &Similarity3<f64>) -> Self;
 }
 
 /// An angle brought to (−π, π].
@@ -77,6 +81,21 @@ impl GraphPose<3> for Isometry2<f64> {
         self.translation.vector.iter().all(|x| x.is_finite())
             && self.rotation.re.is_finite()
             && self.rotation.im.is_finite()
+    }
+
+    fn to_similarity(&self) -> Similarity3<f64> {
+        let t = self.translation.vector;
+        let half = 0.5 * self.rotation.angle();
+        let (sin, cos) = (libm::sin(half), libm::cos(half));
+        let turn = UnitQuaternion::new_normalize(nalgebra::Quaternion::new(cos, 0.0, 0.0, sin));
+        Similarity3::from_parts(Translation3::new(t.x, t.y, 0.0), turn, 1.0)
+    }
+
+    fn from_similarity(pose: &Similarity3<f64>) -> Self {
+        let t = pose.isometry.translation.vector;
+        let x = pose.isometry.rotation * Vector3::x();
+        let turn = UnitComplex::new(libm::atan2(x.y, x.x));
+        Isometry2::from_parts(Translation2::new(t.x, t.y), turn)
     }
 }
 
@@ -174,6 +193,14 @@ impl GraphPose<6> for Isometry3<f64> {
         self.translation.vector.iter().all(|x| x.is_finite())
             && self.rotation.coords.iter().all(|x| x.is_finite())
     }
+
+    fn to_similarity(&self) -> Similarity3<f64> {
+        Similarity3::from_isometry(*self, 1.0)
+    }
+
+    fn from_similarity(pose: &Similarity3<f64>) -> Self {
+        pose.isometry
+    }
 }
 
 impl GraphPose<7> for Similarity3<f64> {
@@ -196,6 +223,14 @@ impl GraphPose<7> for Similarity3<f64> {
 
     fn is_finite(&self) -> bool {
         self.isometry.is_finite() && self.scaling().is_finite()
+    }
+
+    fn to_similarity(&self) -> Similarity3<f64> {
+        *self
+    }
+
+    fn from_similarity(pose: &Similarity3<f64>) -> Self {
+        *pose
     }
 }
 

@@ -1,0 +1,129 @@
+//! PNG, JPEG and WebP, and the EXIF data in them.
+
+use super::config;
+use super::damage::{damage_bytes, some_damage};
+use epipole::Error;
+use epipole::imaging::{DecodeOptions, decode_gray, decode_rgb};
+use image::codecs::{jpeg::JpegEncoder, png::PngEncoder, webp::WebPEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use proptest::prelude::*;
+use std::sync::LazyLock;
+
+const WIDTH: u32 = 13;
+const HEIGHT: u32 = 9;
+
+/// Turned by a quarter, with a focal length of 35 mm equivalent and one in millimeters.
+fn exif() -> Vec<u8> {
+    let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
+    let entry = |data: &mut Vec<u8>, tag: u16, kind: u16, value: u32| {
+        data.extend(tag.to_le_bytes());
+        data.extend(kind.to_le_bytes());
+        data.extend(1_u32.to_le_bytes());
+        data.extend(value.to_le_bytes());
+    };
+    data.extend(2_u16.to_le_bytes());
+    entry(&mut data, 0x0112, 3, 6);
+    entry(&mut data, 0x8769, 4, 38);
+    data.extend(0_u32.to_le_bytes());
+    data.extend(4_u16.to_le_bytes());
+    entry(&mut data, 0x920A, 5, 92);
+    entry(&mut data, 0xA20E, 5, 100);
+    entry(&mut data, 0xA210, 3, 3);
+    entry(&mut data, 0xA405, 3, 28);
+    data.extend(0_u32.to_le_bytes());
+    for (numerator, denominator) in [(50_u32, 10_u32), (1000, 1)] {
+        data.extend(numerator.to_le_bytes());
+        data.extend(denominator.to_le_bytes());
+    }
+    data
+}
+
+/// A picture in one of the formats, with these EXIF data.
+fn encoded(format: usize, exif: Vec<u8>) -> Vec<u8> {
+    let pixels: Vec<u8> = (0..WIDTH * HEIGHT * 3)
+        .map(|i| (i * 37 % 251) as u8)
+        .collect();
+    let mut bytes = Vec::new();
+    let size = (WIDTH, HEIGHT, ExtendedColorType::Rgb8);
+    match format {
+        0 => write(PngEncoder::new(&mut bytes), &pixels, size, exif),
+        1 => write(JpegEncoder::new(&mut bytes), &pixels, size, exif),
+        _ => write(WebPEncoder::new_lossless(&mut bytes), &pixels, size, exif),
+    }
+    bytes
+}
+
+fn write(
+    mut encoder: impl ImageEncoder,
+    pixels: &[u8],
+    (width, height, color): (u32, u32, ExtendedColorType),
+    exif: Vec<u8>,
+) {
+    encoder.set_exif_metadata(exif).unwrap();
+    encoder.write_image(pixels, width, height, color).unwrap();
+}
+
+static RIGHT: LazyLock<[Vec<u8>; 3]> =
+    LazyLock::new(|| std::array::from_fn(|format| encoded(format, exif())));
+
+const OPTIONS: DecodeOptions = DecodeOptions {
+    max_pixels: 20_000,
+    apply_orientation: true,
+};
+
+/// An answer holds what it says, an error is one of the two that decoding has.
+fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
+    match decode_gray(bytes, &OPTIONS) {
+        Ok(decoded) => {
+            let image = decoded.image;
+            let count = u64::from(image.width()) * u64::from(image.height());
+            prop_assert!(count <= OPTIONS.max_pixels && count as usize == image.as_raw().len());
+            prop_assert!(image.as_raw().iter().all(|gray| (0.0..=1.0).contains(gray)));
+            prop_assert!(decoded.focal_px.is_none_or(|f| f > 0.0 && f.is_finite()));
+            let color = decode_rgb(bytes, &OPTIONS).unwrap();
+            prop_assert_eq!(color.image.dimensions(), image.dimensions());
+            prop_assert_eq!(color.focal_px, decoded.focal_px);
+        }
+        Err(error) => {
+            let told = matches!(error, Error::BadImage { .. } | Error::TooManyPixels { .. });
+            prop_assert!(told, "{}", error);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_pictures_to_damage_are_right() {
+    for bytes in RIGHT.iter() {
+        let decoded = decode_gray(bytes, &OPTIONS).unwrap();
+        // Upright they are turned, and say how long the lens is.
+        assert_eq!(decoded.image.dimensions(), (HEIGHT, WIDTH));
+        assert!(decoded.focal_px.is_some());
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn png(changes in some_damage()) {
+        check(&damage_bytes(&RIGHT[0], &changes))?;
+    }
+
+    #[test]
+    fn jpeg(changes in some_damage()) {
+        check(&damage_bytes(&RIGHT[1], &changes))?;
+    }
+
+    #[test]
+    fn webp(changes in some_damage()) {
+        check(&damage_bytes(&RIGHT[2], &changes))?;
+    }
+
+    /// The checksum of the file is right, so that the damage arrives where EXIF is read.
+    #[test]
+    fn exif_data(format in 0..3_usize, changes in some_damage()) {
+        let damaged = damage_bytes(&exif(), &changes);
+        check(&encoded(format, damaged))?;
+    }
+}

@@ -1,0 +1,21 @@
+#!/bin/sh
+# What of the library's public surface changed since a revision, and whether that breaks who uses it: by name with
+# cargo-public-api, by rule with cargo-semver-checks. What could not be asked is said, and fails.
+set -u
+cd "$(dirname "$0")/../.."
+since=${1:-$(git describe --tags --abbrev=0 2>/dev/null || git rev-list --max-parents=0 HEAD)}
+status=0
+echo "the library since $since"
+if command -v cargo-semver-checks >/dev/null; then
+    cargo semver-checks --package epipole --baseline-rev "$since" || status=1
+else
+    echo "cargo semver-checks is missing: install it with \`cargo install --locked cargo-semver-checks\`" >&2
+    status=1
+fi
+if command -v cargo-public-api >/dev/null; then
+    cargo public-api --package epipole --simplified diff "$since..HEAD" || status=1
+else
+    echo "cargo public-api is missing: install it with \`cargo install --locked cargo-public-api\`, and a nightly toolchain" >&2
+    status=1
+fi
+exit $status
