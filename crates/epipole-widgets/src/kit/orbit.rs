@@ -119,7 +119,7 @@ impl Orbit {
             ),
             handle(
                 SPACE.pan,
-                "Middle of the scene",
+                "Scene center",
                 place,
                 self.panned,
                 HALF_RISE_DEG,

@@ -18,7 +18,7 @@ use epipole::epipolar::{Epipole, epipoles, fundamental_from_cameras};
 use nalgebra::{Matrix3, Point2};
 use std::cell::OnceCell;
 
-const COUNT: Slider = Slider::new("count", "Number of matches")
+const COUNT: Slider = Slider::new("count", "Matches")
     .range(8.0, MAX_USED as f64, 1.0)
     .at(16.0);
 const NOISE: Slider = Slider::new("noise", "Pixel noise σ")

@@ -73,7 +73,7 @@ const fn coordinate(id: &'static str, label: &'static str) -> Slider {
     slider.at(-REACH_M).digits(4).unit("m").hidden()
 }
 const PX: Slider = coordinate("px", "P to the right");
-const PY: Slider = coordinate("py", "P below the table's top");
+const PY: Slider = coordinate("py", "P below table");
 const PZ: Slider = coordinate("pz", "P away");
 const COORDINATES: [&Slider; 3] = [&PX, &PY, &PZ];
 

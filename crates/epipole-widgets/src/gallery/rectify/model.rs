@@ -13,7 +13,7 @@ use nalgebra::{Point2, Point3};
 const PARALLEL: Slider = Slider::new("parallel", "Make parallel")
     .range(0.0, 100.0, 1.0)
     .unit("%");
-const ALONG: Slider = Slider::new("along", "Follow the baseline")
+const ALONG: Slider = Slider::new("along", "Follow baseline")
     .range(0.0, 100.0, 1.0)
     .unit("%");
 const TURN: Slider = Slider::new("turn", "Camera 2 turned")

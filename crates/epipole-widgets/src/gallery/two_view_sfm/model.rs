@@ -51,7 +51,7 @@ const THRESHOLD: Slider = Slider::new("threshold", "Threshold ε")
     .digits(1)
     .unit("px")
     .more();
-const FOCAL: Slider = Slider::new("focal", "Assumed focal length")
+const FOCAL: Slider = Slider::new("focal", "Focal length")
     .range(0.4, 3.0, 0.05)
     .at(1.25)
     .digits(2);
