@@ -476,7 +476,7 @@ fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
             720.0,
         );
         assert_eq!(bench.state_mut().host().num_started, 0, "it waits");
-        bench.get_by_label("Reconstructing.");
+        assert!(bench.get_all_by_label("Reconstructing.").next().is_some());
         let arrival = Arrival::Solved(bytes.into());
         bench.state_mut().host().arrivals.push(arrival);
         rest(&mut bench);

@@ -16,6 +16,9 @@ const DAMAGED: &str = "this file is no project of the Lab, or it is damaged";
 /// What a project may unpack to.
 const MAX_BYTES: u64 = 2_000_000_000;
 
+/// Names, and what they hold.
+type Files = Vec<(String, Blob)>;
+
 /// A zip file in memory.
 pub(super) struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
@@ -77,7 +80,7 @@ pub(crate) fn save(
 ///
 /// # Errors
 /// A sentence, if the file is no project or is damaged.
-pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Vec<(String, Blob)>, Computed), String> {
+pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Files, Computed), String> {
     let damaged = DAMAGED;
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged)?;
     let mut project = None;

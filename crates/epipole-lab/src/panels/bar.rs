@@ -22,9 +22,6 @@ pub(super) fn bar(
             Step::Calibrate => "Add photographs of a board…",
             _ => "Add photographs…",
         };
-        if !narrow {
-            ui.heading("Lab");
-        }
         if ui.button(add).clicked() && !host.ask_for_photographs() {
             work.news = Some("Drop photographs onto this window.".to_owned());
         }

@@ -67,10 +67,11 @@ fn visuals(theme: Theme) -> Visuals {
         widget.fg_stroke.color = role(Role::Ink);
     }
     visuals.widgets.noninteractive.bg_stroke.color = role(Role::Edge);
-    // An edge tells what can be pressed from what cannot, also an empty box from the paper behind it.
+    // An edge tells what can be pressed from what cannot, also an empty box from the paper behind it. All are as wide, so
+    // that nothing moves under the pointer.
     visuals.widgets.inactive.bg_stroke = Stroke::new(1.0, role(Role::Muted));
-    visuals.widgets.hovered.bg_stroke = Stroke::new(1.5, role(Role::Ink));
-    visuals.widgets.active.bg_stroke = Stroke::new(2.0, role(Role::Best));
+    visuals.widgets.hovered.bg_stroke = Stroke::new(1.0, role(Role::Ink));
+    visuals.widgets.active.bg_stroke = Stroke::new(1.0, role(Role::Best));
     visuals
 }
 
