@@ -1066,8 +1066,11 @@ fn captions_are_short() {
     assert!(long.is_empty(), "{long:#?}");
 }
 
-/// Every question of a quiz: its id, and of each choice the words, whether it is right, and what is said of it.
-fn choices() -> Vec<(String, Vec<(String, bool, bool)>)> {
+/// A choice of a question: its words, whether it is right, and whether something is said of it.
+type Choice = (String, bool, bool);
+
+/// The questions of all quizzes: id and choices.
+fn choices() -> Vec<(String, Vec<Choice>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../content/quizzes");
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -1097,7 +1100,7 @@ fn every_wrong_choice_is_explained_and_the_longest_is_not_the_right_one() {
             assert!(*is_right || *has_why, "{id}: nothing is said of \"{text}\"");
         }
         if choices.iter().filter(|(_, is_right, _)| *is_right).count() == 1 {
-            let by_length = |choice: &&(String, bool, bool)| choice.0.chars().count();
+            let by_length = |choice: &&Choice| choice.0.chars().count();
             single += 1;
             longest += usize::from(choices.iter().max_by_key(by_length).unwrap().1);
         }

@@ -101,7 +101,7 @@ proptest! {
             Ok(read) => {
                 prop_assert!(read.as_raw().iter().all(|d| d.is_finite() || d.is_nan()));
                 let again = DisparityImage::from_pfm(&read.to_pfm()).unwrap();
-                let bits = |image: &DisparityImage| image.as_raw().iter().map(|d| d.is_nan().then_some(0).unwrap_or(d.to_bits())).collect::<Vec<_>>();
+                let bits = |image: &DisparityImage| image.as_raw().iter().map(|d| if d.is_nan() { 0 } else { d.to_bits() }).collect::<Vec<_>>();
                 prop_assert_eq!(bits(&again), bits(&read));
             }
             Err(error) => prop_assert!(matches!(error, Error::BadImage { .. }), "{}", error),
