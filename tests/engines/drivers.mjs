@@ -98,7 +98,7 @@ export async function webkit() {
     GDK_BACKEND: "x11",
     WEBKIT_DISABLE_DMABUF_RENDERER: "1",
     // With the last of its compilers for WebAssembly, WebKitGTK 2.50 was seen to crash under load, each time in another
-    // figure, and once to give other bits; without it, never. What is left is what is compared.
+    // figure, and once to give other bits; without it, that was seen in one run of three.
     JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
   };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
