@@ -129,7 +129,8 @@ impl Theme {
 pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
     std::array::from_fn(|channel| {
         let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
-        (a + (b - a) * share).round() as u8
+        // A cast cuts off: `round` is a call in WebAssembly.
+        (a + (b - a) * share + 0.5) as u8
     })
 }
 

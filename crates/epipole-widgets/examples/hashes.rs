@@ -13,12 +13,13 @@ use epipole_widgets::theme::Theme;
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-/// Draws the figure as it is at a width, and prints what it shows.
+/// Draws the figure as it is at a width, at once and then at full quality, and prints what it shows.
 fn print(figure: &mut Figure, what: &str, width: f64, theme: Theme) {
+    let at_once = figure.draw(width, 1.0, theme).unwrap().hash();
     let hash = figure.draw_settled(width, 1.0, theme).unwrap().hash();
     let (name, state) = (figure.name(), figure.query());
     println!(
-        "{name} {what} {width} {hash:016x} {state} {}",
+        "{name} {what} {width} {at_once:016x} {hash:016x} {state} {}",
         figure.describe()
     );
 }

@@ -4,6 +4,7 @@
 //! color is blended: where parts overlap, as the pieces of a curve do at their joints, nothing is
 //! drawn twice.
 
+use super::polygons::Edge;
 use crate::theme::Rgb;
 use std::ops::Range;
 
@@ -17,8 +18,10 @@ pub(super) struct Coverage {
     touched: Vec<Range<usize>>,
     /// The rows outside of which all is 0.
     rows: Range<usize>,
-    /// Room for one row of [`Coverage::add_polygon`].
+    /// Room for one row of [`Coverage::add_polygon`]; 0 between rows.
     pub(super) sums: Vec<f32>,
+    /// Room for its edges.
+    pub(super) edges: Vec<Edge>,
 }
 
 impl Coverage {
@@ -74,14 +77,20 @@ impl Coverage {
         for row in std::mem::take(&mut self.rows) {
             let columns = std::mem::take(&mut self.touched[row]);
             let start = row * self.width + columns.start;
-            let alphas = &mut self.alpha[start..][..columns.len()];
+            let alphas = &mut self.alpha[start..][..self.width - columns.start];
+            let touched = &mut alphas[..columns.len()];
             if opacity < 256 {
-                for alpha in alphas.iter_mut() {
+                for alpha in touched.iter_mut() {
                     *alpha = ((u32::from(*alpha) * opacity + 128) >> 8) as u8;
                 }
             }
-            ink.blend_row(&mut pixels[4 * start..][..4 * alphas.len()], alphas);
-            alphas.fill(0);
+            // What is not covered stays as it is, and together with it nothing is left over.
+            let together = columns.len().next_multiple_of(AT_ONCE).min(alphas.len());
+            ink.blend_row(
+                &mut pixels[4 * start..][..4 * together],
+                &alphas[..together],
+            );
+            alphas[..columns.len()].fill(0);
         }
     }
 }

@@ -113,12 +113,7 @@ fn cover(key: Key) -> Stamp {
             *alpha = ((u16::from(*alpha) * kept + 128) >> 8) as u8;
         }
     }
-    Stamp {
-        left: -margin,
-        top: -margin,
-        width: stride,
-        alpha,
-    }
+    Stamp::trimmed((-margin, -margin), stride, &alpha)
 }
 
 /// Covers a shape, or its outline if `width` is not 0; everything in device pixels.

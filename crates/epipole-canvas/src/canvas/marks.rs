@@ -94,7 +94,8 @@ impl Canvas {
         let side = side.clamp(0.5, 40.0);
         let num_pixels = (side * self.scale).round().max(1.0);
         let device = |middle: f64, clip: (f64, f64)| {
-            let first = (self.scale * (middle - side / 2.0)).round();
+            // As `round` where there are pixels, which is a call in WebAssembly.
+            let first = (self.scale * (middle - side / 2.0) + 0.5).floor();
             let low = first.max((clip.0 * self.scale).round()).max(0.0);
             let high = (first + num_pixels).min((clip.1 * self.scale).round());
             low as usize..high.max(low) as usize

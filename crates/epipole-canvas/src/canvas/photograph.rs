@@ -90,8 +90,9 @@ fn scale(
         let (upper, lower) = (&stretched[0].1[..length], &stretched[1].1[..length]);
         let bytes = &mut target[start..][..length];
         for ((byte, &a), &b) in bytes.iter_mut().zip(upper).zip(lower) {
-            let sum = a * (256 - weight) + b * weight;
-            *byte = ((sum + 128) >> 8) as u8;
+            // As in `blend`.
+            let sum = (a << 8).wrapping_add(b.wrapping_sub(a).wrapping_mul(weight));
+            *byte = (sum.wrapping_add(128) >> 8) as u8;
         }
     }
 }
@@ -102,7 +103,10 @@ fn scale(
 pub(super) fn blend(a: u64, b: u64, weight_256: u64) -> u64 {
     const LOW: u64 = 0x00ff_00ff_00ff_00ff;
     const HALF: u64 = 0x0080_0080_0080_0080;
-    ((a * (256 - weight_256) + b * weight_256 + HALF) >> 8) & LOW
+    // 256 a + (b − a) weight is the same with one multiplication less. The difference may go round,
+    // and comes back with the sum.
+    let sum = (a << 8).wrapping_add(b.wrapping_sub(a).wrapping_mul(weight_256));
+    (sum.wrapping_add(HALF) >> 8) & LOW
 }
 
 /// Where each device pixel along one side takes its color from.

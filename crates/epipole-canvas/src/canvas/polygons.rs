@@ -2,6 +2,7 @@
 
 use super::coverage::{Coverage, greater, lesser, parts};
 use super::strokes::At;
+use std::ops::Range;
 
 /// Pixels that are looked at together.
 const AT_ONCE: usize = 16;
@@ -19,10 +20,6 @@ impl Coverage {
     /// each edge adds to each pixel what it changes of the area to its right, and a running sum
     /// along the row is the coverage.
     pub(super) fn add_contours(&mut self, contours: &[&[At]]) {
-        let edges = || {
-            (contours.iter())
-                .flat_map(|&corners| corners.iter().zip(corners.iter().cycle().skip(1)))
-        };
         let corners = || contours.iter().copied().flatten();
         let (mut low, mut high) = ((f32::INFINITY, f32::INFINITY), (0.0_f32, 0.0_f32));
         if corners().any(|at| !at.0.is_finite() || !at.1.is_finite()) {
@@ -36,31 +33,42 @@ impl Coverage {
         let right = (high.0.ceil() as usize).min(self.width());
         let left = (low.0 as usize).min(right);
         let bottom = (high.1.ceil() as usize).min(self.height());
-        let mut sums = std::mem::take(&mut self.sums);
-        for row in low.1 as usize..bottom {
-            sums.clear();
+        let (mut sums, mut edges) = (
+            std::mem::take(&mut self.sums),
+            std::mem::take(&mut self.edges),
+        );
+        if sums.len() < right - left + 2 {
             sums.resize(right - left + 2, 0.0);
+        }
+        edges.clear();
+        for corners in contours {
+            let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+            edges.extend(pairs.map(|(&from, &to)| Edge::new(from, to)));
+        }
+        for row in low.1 as usize..bottom {
             let (above, below) = (row as f32, row as f32 + 1.0);
-            for (&from, &to) in edges() {
-                let (sign, upper, lower) = match from.1 <= to.1 {
-                    true => (1.0, from, to),
-                    false => (-1.0, to, from),
-                };
-                let (y0, y1) = (greater(upper.1, above), lesser(lower.1, below));
+            // The places between which the area changes within this row.
+            let (mut start, mut end) = (usize::MAX, 0);
+            for edge in &edges {
+                let (y0, y1) = (greater(edge.upper.1, above), lesser(edge.lower.1, below));
                 if y0 >= y1 {
                     continue;
                 }
-                let slope = (lower.0 - upper.0) / (lower.1 - upper.1);
                 let x = |y: f32| {
-                    let x = upper.0 + (y - upper.1) * slope - left as f32;
+                    let x = edge.upper.0 + (y - edge.upper.1) * edge.slope - left as f32;
                     lesser(greater(x, 0.0), (right - left) as f32)
                 };
-                accumulate(&mut sums, x(y0), x(y1), sign * (y1 - y0));
+                let changed = accumulate(&mut sums, x(y0), x(y1), edge.sign * (y1 - y0));
+                (start, end) = (start.min(changed.start), end.max(changed.end));
             }
+            if start >= end {
+                continue;
+            }
+            let changes = &mut sums[start..end];
+            let columns = (left + start).min(right)..(left + end).min(right);
             let (mut area, mut covered) = (0.0_f32, 0);
-            let changes = sums.chunks(AT_ONCE);
-            let part = self.part(row, left..right);
-            for (alphas, changes) in part.chunks_mut(AT_ONCE).zip(changes) {
+            let part = self.part(row, columns);
+            for (alphas, changes) in part.chunks_mut(AT_ONCE).zip(changes.chunks(AT_ONCE)) {
                 // Nothing changes inside and outside, where most pixels are.
                 let any = changes.iter().fold(0, |any, change| any | change.to_bits());
                 if any == 0 {
@@ -73,13 +81,39 @@ impl Coverage {
                     *alpha = covered;
                 }
             }
+            changes.fill(0.0);
         }
-        self.sums = sums;
+        (self.sums, self.edges) = (sums, edges);
     }
 }
 
-/// Adds what an edge within one row changes: to its right the area grows by `rise`.
-fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) {
+/// A side of a polygon.
+pub(super) struct Edge {
+    upper: At,
+    lower: At,
+    /// How far it goes to the right for each row down.
+    slope: f32,
+    /// 1 if it goes down, −1 if it goes up.
+    sign: f32,
+}
+
+impl Edge {
+    fn new(from: At, to: At) -> Self {
+        let (sign, upper, lower) = match from.1 <= to.1 {
+            true => (1.0, from, to),
+            false => (-1.0, to, from),
+        };
+        Self {
+            upper,
+            lower,
+            slope: (lower.0 - upper.0) / (lower.1 - upper.1),
+            sign,
+        }
+    }
+}
+
+/// Adds what an edge within one row changes: to its right the area grows by `rise`. Says where.
+fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) -> Range<usize> {
     let (low, high) = (lesser(x0, x1), greater(x0, x1));
     let first = low as usize;
     let last = high as usize;
@@ -88,7 +122,7 @@ fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) {
         let right = 1.0 - (0.5 * (low + high) - first as f32);
         sums[first] += rise * right;
         sums[first + 1] += rise * (1.0 - right);
-        return;
+        return first..first + 2;
     }
     // Over several: each has the rise of its own piece of the edge.
     let per_pixel = rise / (high - low);
@@ -100,6 +134,7 @@ fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) {
         sums[pixel] += part * right;
         sums[pixel + 1] += part * (1.0 - right);
     }
+    first..last + 2
 }
 
 #[cfg(test)]

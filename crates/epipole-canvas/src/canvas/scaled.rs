@@ -69,18 +69,26 @@ impl Scaled {
     }
 }
 
-/// A number that hardly ever is the same for two photographs, in a tenth of a millisecond.
+/// A number that hardly ever is the same for two photographs, in a twentieth of a millisecond.
 fn fingerprint(photograph: &RgbImage) -> u64 {
-    let mix = |hash: u64, word: u64| {
-        let product = (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mix = |hash: u64, word: &[u8; 8]| {
+        let product = (hash ^ u64::from_le_bytes(*word)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         product ^ (product >> 32)
     };
-    let words = photograph.as_raw().chunks(8).map(|bytes| {
-        let mut word = [0; 8];
-        word[..bytes.len()].copy_from_slice(bytes);
-        u64::from_le_bytes(word)
-    });
-    words.fold(0, mix)
+    let (words, rest) = photograph.as_raw().as_chunks::<8>();
+    // A multiplication waits for the one before: four rows of them, side by side, do not.
+    let (fours, last) = words.as_chunks::<4>();
+    let mut hashes = [0, 1, 2, 3];
+    for four in fours {
+        for (hash, word) in hashes.iter_mut().zip(four) {
+            *hash = mix(*hash, word);
+        }
+    }
+    let mut end = [0; 8];
+    end[..rest.len()].copy_from_slice(rest);
+    let hashes = hashes.map(u64::to_le_bytes);
+    let others = hashes.iter().chain(last).chain([&end]);
+    others.fold(0, mix)
 }
 
 #[cfg(test)]

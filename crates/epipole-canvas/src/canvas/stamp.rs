@@ -63,6 +63,35 @@ pub(super) struct Stamp {
 }
 
 impl Stamp {
+    /// A stamp without the rows and columns around the shape that it does not cover.
+    ///
+    /// * `left`, `top`: where the first column and row are, from the shape's place
+    /// * `alpha`: rows of `width` pixels
+    pub(super) fn trimmed((left, top): (i32, i32), width: usize, alpha: &[u8]) -> Self {
+        let is_covered = |alphas: &[u8]| alphas.iter().any(|&alpha| alpha != 0);
+        let rows: Vec<&[u8]> = alpha.chunks_exact(width.max(1)).collect();
+        let columns = |column: &usize| rows.iter().any(|row| row[*column] != 0);
+        let first_row = rows.iter().position(|row| is_covered(row));
+        let last_row = rows.iter().rposition(|row| is_covered(row));
+        let (first, last) = ((0..width).find(columns), (0..width).rev().find(columns));
+        let (Some(first_row), Some(last_row), Some(first), Some(last)) =
+            (first_row, last_row, first, last)
+        else {
+            return Self::default();
+        };
+        let stride = stamp_width(last + 1 - first);
+        let mut alpha = vec![0; stride * (last_row + 1 - first_row)];
+        for (target, row) in alpha.chunks_exact_mut(stride).zip(&rows[first_row..]) {
+            target[..=last - first].copy_from_slice(&row[first..=last]);
+        }
+        Self {
+            left: left + first as i32,
+            top: top + first_row as i32,
+            width: stride,
+            alpha,
+        }
+    }
+
     /// Blends a color where the shape covers the picture.
     pub(super) fn blend(&self, pixmap: &mut Pixmap, (x, y): (i32, i32), color: Rgb) {
         if self.width == 0 {

@@ -132,9 +132,15 @@ impl Source {
         let [u0, v0, u1, v1] = [start.0, start.1, end.0, end.1].map(fixed);
         let (step_u, step_v) = ((u1 - u0) / count, (v1 - v0) / count);
         let (mut u, mut v) = (u0, v0);
-        for pixel in pixels.chunks_exact_mut(4) {
-            let color = self.color(u, v);
-            pixel.copy_from_slice(&[color as u8, (color >> 16) as u8, (color >> 32) as u8, 255]);
+        // Between two places that are inside all are.
+        let is_inside = |a: i64, b: i64, last: i64| a.min(b) >= 0 && a.max(b) < last;
+        let are_inside = is_inside(u0, u1, self.last.0) && is_inside(v0, v1, self.last.1);
+        for pixel in pixels.as_chunks_mut::<4>().0 {
+            let color = match are_inside {
+                true => self.color_inside(u, v),
+                false => self.color(u, v),
+            };
+            *pixel = [color as u8, (color >> 16) as u8, (color >> 32) as u8, 255];
             (u, v) = (u + step_u, v + step_v);
         }
     }
@@ -144,7 +150,6 @@ impl Source {
     fn color(&self, u: i64, v: i64) -> u64 {
         let (u, v) = (u.clamp(0, self.last.0), v.clamp(0, self.last.1));
         let (column, row) = ((u >> BITS) as usize, (v >> BITS) as usize);
-        let weight = |at: i64| ((at >> (BITS - 8)) & 0xff) as u64;
         let first = row * self.width + column;
         let right = usize::from(u < self.last.0);
         let below = if v < self.last.1 { self.width } else { 0 };
@@ -154,6 +159,23 @@ impl Source {
         let (across, down) = (weight(u), weight(v));
         blend(blend(a, b, across), blend(c, d, across), down)
     }
+
+    /// The same where there is a pixel to the right and one below.
+    #[inline(always)]
+    fn color_inside(&self, u: i64, v: i64) -> u64 {
+        let first = (v >> BITS) as usize * self.width + (u >> BITS) as usize;
+        let four = &self.pixels[first..first + self.width + 2];
+        let [a, b] = [four[0], four[1]];
+        let [c, d] = [four[self.width], four[self.width + 1]];
+        let (across, down) = (weight(u), weight(v));
+        blend(blend(a, b, across), blend(c, d, across), down)
+    }
+}
+
+/// How much the second of two neighbors counts at a place, of 256.
+#[inline(always)]
+fn weight(at: i64) -> u64 {
+    ((at >> (BITS - 8)) & 0xff) as u64
 }
 
 /// The photograph at half its size, four pixels in one.

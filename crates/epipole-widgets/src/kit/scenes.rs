@@ -7,7 +7,7 @@ use epipole::math::random::Random;
 use epipole::synthetic::{
     MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, still_life_camera,
 };
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 use std::sync::OnceLock;
 
@@ -125,12 +125,20 @@ pub(crate) fn square_picture(noise: f64) -> RgbImage {
     let angle = 15.0_f64.to_radians();
     let (cos, sin) = (libm::cos(angle), libm::sin(angle));
     let half = 46.0;
-    RgbImage::from_fn(width, height, |u, v| {
-        let x = f64::from(u) - f64::from(width - 1) / 2.0;
-        let y = f64::from(v) - f64::from(height - 1) / 2.0;
-        let outside = (x * cos + y * sin).abs().max((y * cos - x * sin).abs()) - half;
-        let cover = (0.5 - outside).clamp(0.0, 1.0);
-        let gray = 215.0 - 150.0 * cover + noise * grain[(v * width + u) as usize];
-        Rgb([gray.round() as u8; 3])
-    })
+    let mut picture = RgbImage::new(width, height);
+    let columns = width as usize;
+    let rows = picture.as_chunks_mut::<3>().0.chunks_exact_mut(columns);
+    for (v, (row, grain)) in rows.zip(grain.chunks_exact(columns)).enumerate() {
+        let y = v as f64 - f64::from(height - 1) / 2.0;
+        let (along, across) = (y * sin, y * cos);
+        for (u, (pixel, grain)) in row.iter_mut().zip(grain).enumerate() {
+            let x = u as f64 - f64::from(width - 1) / 2.0;
+            let outside = (x * cos + along).abs().max((across - x * sin).abs()) - half;
+            let cover = (0.5 - outside).clamp(0.0, 1.0);
+            let gray = 215.0 - 150.0 * cover + noise * grain;
+            // A cast cuts off, and takes what is negative for 0.
+            *pixel = [(gray + 0.5) as u8; 3];
+        }
+    }
+    picture
 }

@@ -164,15 +164,22 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     let changes: Vec<Vec<f64>> = shifts()
         .map(|dv| shifts().map(|du| found.change(du, dv)).collect())
         .collect();
-    let level = |u: usize, v: usize| {
-        let ((left, right), (above, below)) = (places[u], places[v]);
-        let between = |row: &[f64]| row[left] * (1.0 - right) + row[left + 1] * right;
-        let (upper, lower) = (between(&changes[above]), between(&changes[above + 1]));
-        ((upper * (1.0 - below) + lower * below).sqrt() / LEVEL) as usize
-    };
-    let levels: Vec<usize> = (0..side * side)
-        .map(|index| level(index % side, index / side))
+    // Across the columns once for each row of shifts, then down the rows.
+    let across: Vec<Vec<f64>> = changes
+        .iter()
+        .map(|row| {
+            let between =
+                |&(left, right): &(usize, f64)| row[left] * (1.0 - right) + row[left + 1] * right;
+            places.iter().map(between).collect()
+        })
         .collect();
+    let mut levels = Vec::with_capacity(side * side);
+    for &(above, below) in &places {
+        let rows = across[above].iter().zip(&across[above + 1]);
+        levels.extend(rows.map(|(upper, lower)| {
+            ((upper * (1.0 - below) + lower * below).sqrt() / LEVEL) as usize
+        }));
+    }
     let most = levels.iter().copied().max().unwrap_or(0);
     let colors: Vec<[Rgb; 2]> = (0..=most)
         .map(|level| {
@@ -186,14 +193,20 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
             [color, mix(color, line, 0.45)]
         })
         .collect();
-    let at = |u: usize, v: usize| levels[v * side + u];
-    RgbImage::from_fn(side as u32, side as u32, |u, v| {
-        let (u, v) = (u as usize, v as usize);
-        let here = at(u, v);
-        let next = at((u + 1).min(side - 1), v).max(at(u, (v + 1).min(side - 1)));
-        let before = at(u.saturating_sub(1), v).max(at(u, v.saturating_sub(1)));
-        image::Rgb(colors[here][usize::from(here != next || here < before)])
-    })
+    let rows: Vec<&[usize]> = levels.chunks_exact(side).collect();
+    let mut map = RgbImage::new(side as u32, side as u32);
+    let pixels = map.as_chunks_mut::<3>().0;
+    for (v, pixels) in pixels.chunks_exact_mut(side).enumerate() {
+        let (row, below) = (rows[v], rows[(v + 1).min(side - 1)]);
+        let above = rows[v.saturating_sub(1)];
+        for (u, pixel) in pixels.iter_mut().enumerate() {
+            let here = row[u];
+            let next = row[(u + 1).min(side - 1)].max(below[u]);
+            let before = row[u.saturating_sub(1)].max(above[u]);
+            *pixel = colors[here][usize::from(here != next || here < before)];
+        }
+    }
+    map
 }
 
 /// What the window is on, and what the marks of the map mean.
