@@ -40,8 +40,8 @@ pub struct Reprojected {
     image: RgbImage,
     /// Red, green, blue and 255; 0 where no pixel came.
     pixels: Vec<u32>,
-    /// Places that stay empty.
-    missing: Vec<u32>,
+    /// Places that stay empty, each run of neighbors in a row.
+    missing: Vec<Range<u32>>,
 }
 
 impl Reprojected {
@@ -52,10 +52,11 @@ impl Reprojected {
 
     /// The number of pixels that are missing.
     pub fn num_missing(&self) -> usize {
-        self.missing.len()
+        self.missing.iter().map(Range::len).sum()
     }
 
-    /// Which pixels of a picture of `size` of the same view [`Reprojected::fill`] takes, row by row.
+    /// Which pixels of a picture of `size` of the same view [`Reprojected::fill`] takes, row by row;
+    /// of a larger one, also those between.
     pub fn wanted(&self, (width, height): (u32, u32)) -> Vec<bool> {
         let (own_width, own_height) = self.image.dimensions();
         let mut wanted = vec![false; width as usize * height as usize];
@@ -65,15 +66,15 @@ impl Reprojected {
         if wanted.is_empty() {
             return wanted;
         }
-        for row in self.missing.chunk_by(|a, b| a / own_width == b / own_width) {
-            let start = row[0] / own_width * own_width;
-            let (above, below, _) = between(row[0] / own_width, own_height, height);
-            for row_above in [above, below] {
-                let place = row_above * width as usize;
-                for &index in row {
-                    let (left, right, _) = columns[(index - start) as usize];
-                    wanted[place + left] = true;
-                    wanted[place + right] = true;
+        for runs in by_rows(&self.missing, own_width) {
+            let start = runs[0].start / own_width * own_width;
+            let (above, below, _) = between(runs[0].start / own_width, own_height, height);
+            for run in runs {
+                let (left, ..) = columns[(run.start - start) as usize];
+                let (_, right, _) = columns[(run.end - 1 - start) as usize];
+                for row in [above, below] {
+                    let place = row * width as usize;
+                    wanted[place + left..=place + right].fill(true);
                 }
             }
         }
@@ -94,24 +95,38 @@ impl Reprojected {
             .0
             .chunks_exact(draft_width as usize);
         let draft: Vec<&[[u8; 3]]> = draft.collect();
-        let pixels = self.image.as_chunks_mut::<3>().0;
-        // The two rows of the draft around a row, mixed once: 256 times as bright.
-        let mut mixed = vec![[0u32; 3]; draft_width as usize];
-        for row in self.missing.chunk_by(|a, b| a / width == b / width) {
-            let start = row[0] / width * width;
-            let (above, below, down) = between(row[0] / width, height, draft_height);
-            let (first, last) = (row[0] - start, row[row.len() - 1] - start);
-            let used = columns[first as usize].0..=columns[last as usize].1;
-            for at in used {
+        // The two rows of the draft around a row, mixed once: 2¹⁶ times as bright, with what rounds, and
+        // 256 times the way to the next column.
+        let mut mixed = vec![[[0i32; 3]; 2]; draft_width as usize];
+        for runs in by_rows(&self.missing, width) {
+            let start = runs[0].start / width * width;
+            let (above, below, down) = between(runs[0].start / width, height, draft_height);
+            let (first, last) = (runs[0].start - start, runs[runs.len() - 1].end - 1 - start);
+            let (down, last) = (down as i32, columns[last as usize].1);
+            let mix = |at: usize| {
                 let (a, b) = (draft[above][at], draft[below][at]);
-                let mix = |a: u8, b: u8| u32::from(a) * (256 - down) + u32::from(b) * down;
-                mixed[at] = [mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])];
+                [0, 1, 2].map(|i| i32::from(a[i]) * (256 - down) + i32::from(b[i]) * down)
+            };
+            let mut here = mix(columns[first as usize].0);
+            for at in columns[first as usize].0..=last {
+                let next = if at < last { mix(at + 1) } else { here };
+                mixed[at] = [
+                    here.map(|channel| channel * 256 + 32_768),
+                    [0, 1, 2].map(|i| next[i] - here[i]),
+                ];
+                here = next;
             }
-            for &index in row {
-                let (left, right, across) = columns[(index - start) as usize];
-                let (a, b) = (mixed[left], mixed[right]);
-                let mix = |a: u32, b: u32| ((a * (256 - across) + b * across + 32_768) >> 16) as u8;
-                pixels[index as usize] = [mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])];
+            let pixels = self.image.as_chunks_mut::<3>().0;
+            for run in runs {
+                let columns = &columns[(run.start - start) as usize..(run.end - start) as usize];
+                let pixels = &mut pixels[run.start as usize..run.end as usize];
+                for (pixel, &(left, _, across)) in pixels.iter_mut().zip(columns) {
+                    let [color, step] = mixed[left];
+                    let across = across as i32;
+                    for i in 0..3 {
+                        pixel[i] = ((color[i] + step[i] * across) >> 16) as u8;
+                    }
+                }
             }
         }
     }
@@ -119,7 +134,9 @@ impl Reprojected {
     /// A picture of this size of which all is missing.
     pub fn clear(&mut self, (width, height): (u32, u32)) {
         self.begin((width, height));
-        self.finish();
+        self.image.fill(0);
+        let rows = (0..height).map(|row| row * width..(row + 1) * width);
+        self.missing.extend(rows.filter(|row| !row.is_empty()));
     }
 
     fn begin(&mut self, (width, height): (u32, u32)) {
@@ -134,26 +151,75 @@ impl Reprojected {
     /// Makes the picture of the pixels that have come. A gap one pixel wide takes its neighbor's color.
     fn finish(&mut self) {
         let width = self.image.width() as usize;
-        let pixels = &self.pixels;
-        let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
-        for (index, target) in self.image.as_chunks_mut::<3>().0.iter_mut().enumerate() {
-            let mut pixel = pixels[index];
-            if pixel == 0 {
-                let [left, above] = [1, width].map(|step| at(index.wrapping_sub(step)));
-                let [right, below] = [1, width].map(|step| at(index + step));
-                pixel = match (left != 0 && right != 0, above != 0 && below != 0) {
-                    (true, _) => left,
-                    (false, true) => above,
-                    (false, false) => {
-                        self.missing.push(index as u32);
-                        0
-                    }
-                };
+        let (fours, rest) = self.pixels.as_chunks::<4>();
+        let targets = self.image.as_chunks_mut::<3>().0;
+        let (target_fours, target_rest) = targets.as_chunks_mut::<4>();
+        let mut missing = Missing {
+            width: width as u32,
+            runs: &mut self.missing,
+        };
+        for (index, (four, target)) in fours.iter().zip(target_fours).enumerate() {
+            // Whatever has come is opaque; most of a picture has.
+            if (four[0] & four[1] & four[2] & four[3]) >> 24 != 0 {
+                for (pixel, target) in four.iter().zip(target.iter_mut()) {
+                    *target = rgb(*pixel);
+                }
+            } else {
+                for (offset, target) in target.iter_mut().enumerate() {
+                    *target = closed(&self.pixels, width, 4 * index + offset, &mut missing);
+                }
             }
-            let [r, g, b, _] = pixel.to_le_bytes();
-            *target = [r, g, b];
+        }
+        let start = self.pixels.len() - rest.len();
+        for (offset, target) in target_rest.iter_mut().enumerate() {
+            *target = closed(&self.pixels, width, start + offset, &mut missing);
         }
     }
+}
+
+/// Runs that are in order, row by row.
+fn by_rows(runs: &[Range<u32>], width: u32) -> impl Iterator<Item = &[Range<u32>]> {
+    runs.chunk_by(move |a, b| a.start / width == b.start / width)
+}
+
+/// Runs of places that stay empty, as they are found.
+struct Missing<'a> {
+    width: u32,
+    runs: &'a mut Vec<Range<u32>>,
+}
+
+impl Missing<'_> {
+    fn push(&mut self, index: u32) {
+        match self.runs.last_mut() {
+            Some(run) if run.end == index && index % self.width != 0 => run.end += 1,
+            _ => self.runs.push(index..index + 1),
+        }
+    }
+}
+
+#[inline(always)]
+fn rgb(pixel: u32) -> [u8; 3] {
+    let [r, g, b, _] = pixel.to_le_bytes();
+    [r, g, b]
+}
+
+/// The color of a pixel, or of its neighbor if it is a gap one pixel wide; black if it is missing.
+fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
+    let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
+    let mut pixel = at(index);
+    if pixel == 0 {
+        let [left, above] = [1, width].map(|step| at(index.wrapping_sub(step)));
+        let [right, below] = [1, width].map(|step| at(index + step));
+        pixel = match (left != 0 && right != 0, above != 0 && below != 0) {
+            (true, _) => left,
+            (false, true) => above,
+            (false, false) => {
+                missing.push(index as u32);
+                0
+            }
+        };
+    }
+    rgb(pixel)
 }
 
 /// Between which two rows or columns of a picture one of another picture lies, and how much the
@@ -248,10 +314,10 @@ impl Photograph {
         }
         // It comes last, as if nothing stood in front of it.
         let carry = carry.moved(to, &moved.by);
-        for index in carried {
-            let (u, v) = (index % size.0, index / size.0);
+        for indices in carried.chunk_by(|a, b| a + 1 == *b && b % size.0 != 0) {
+            let (u, v) = (indices[0] % size.0, indices[0] / size.0);
             let run = Run {
-                places: u..u + 1,
+                places: u..u + indices.len() as u32,
                 is_upward: true,
             };
             carry.run(self, depths, (&run, (v, true)), &mut target.pixels);
@@ -564,7 +630,8 @@ mod tests {
         seen: &'a Reprojected,
         truth: &'a RgbImage,
     ) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + 'a {
-        let missing: std::collections::BTreeSet<u32> = seen.missing.iter().copied().collect();
+        let missing: std::collections::BTreeSet<u32> =
+            seen.missing.iter().cloned().flatten().collect();
         let pixels = seen.image.pixels().zip(truth.pixels()).enumerate();
         pixels
             .filter(move |(index, _)| !missing.contains(&(*index as u32)))
@@ -652,7 +719,7 @@ mod tests {
         let mut seen = Reprojected::default();
         let photograph = render(&scene, &from);
         photograph.reproject(&from, &to, None, &mut seen).unwrap();
-        let missing = seen.missing.clone();
+        let missing: Vec<u32> = seen.missing.iter().cloned().flatten().collect();
         assert!(!missing.is_empty());
         let mut num_new = 0;
         for &index in &missing {

@@ -90,10 +90,10 @@ impl Fixed {
         self.lights[detail as usize].get(|baking, amount| self.bake(detail, baking, amount))
     }
 
-    fn advance(&self, num_cells: usize) -> bool {
-        let full = Detail::Full;
-        self.lights[full as usize]
-            .advance(num_cells, |baking, amount| self.bake(full, baking, amount))
+    fn advance(&self, detail: Detail, num_cells: usize) -> bool {
+        self.lights[detail as usize].advance(num_cells, |baking, amount| {
+            self.bake(detail, baking, amount)
+        })
     }
 }
 
@@ -156,10 +156,9 @@ impl Movable {
         self.looks[detail as usize].get(|part, amount| self.work(lighting, detail, part, amount))
     }
 
-    fn advance(&self, lighting: &Lighting, num_cells: usize) -> bool {
-        let full = Detail::Full;
-        self.looks[full as usize].advance(num_cells, |part, amount| {
-            self.work(lighting, full, part, amount)
+    fn advance(&self, lighting: &Lighting, detail: Detail, num_cells: usize) -> bool {
+        self.looks[detail as usize].advance(num_cells, |part, amount| {
+            self.work(lighting, detail, part, amount)
         })
     }
 }
@@ -221,15 +220,32 @@ impl Scene {
     /// assert!(num_steps < 10_000 && !scene.prepare());
     /// ```
     pub fn prepare(&self) -> bool {
+        self.advance(Detail::Full)
+    }
+
+    /// The same for the first draft, which has coarser textures and light of its own.
+    ///
+    /// ```
+    /// use epipole::synthetic::Scene;
+    /// let scene = Scene::still_life();
+    /// let num_steps = (0..1000).take_while(|_| scene.prepare_draft()).count();
+    /// assert!(num_steps < 1000 && !scene.prepare_draft());
+    /// ```
+    pub fn prepare_draft(&self) -> bool {
+        self.advance(Detail::Sketch)
+    }
+
+    fn advance(&self, detail: Detail) -> bool {
         let lighting = &self.fixed.lighting;
         let movable = self.movable.iter();
-        if self.fixed.advance(CELLS_PER_STEP)
-            || (movable.clone()).any(|(movable, _)| movable.advance(lighting, CELLS_PER_STEP))
+        if self.fixed.advance(detail, CELLS_PER_STEP)
+            || (movable.clone())
+                .any(|(movable, _)| movable.advance(lighting, detail, CELLS_PER_STEP))
         {
             return true;
         }
         let mut paints = self.placed().flat_map(|(body, _)| &body.paints);
-        paints.any(|paint| paint.texture.advance(TEXELS_PER_STEP))
+        paints.any(|paint| paint.texture.advance(detail, TEXELS_PER_STEP))
     }
 
     /// The first surface that the ray `origin + a direction`, `a > 0`, meets; `None` if the

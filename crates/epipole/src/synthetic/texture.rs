@@ -4,6 +4,7 @@
 //! asked costs nothing.
 
 use super::gradual::Gradual;
+use super::light::Detail;
 use super::noise::split;
 use std::fmt;
 
@@ -71,23 +72,33 @@ impl Texture {
     }
 
     /// Makes so many texels more; false once all are there.
-    pub(crate) fn advance(&self, num_texels: usize) -> bool {
-        let size = (self.width, self.height);
-        self.levels.advance(num_texels, |part, amount| {
+    pub(crate) fn advance(&self, detail: Detail, num_texels: usize) -> bool {
+        let (levels, size) = self.of(detail);
+        levels.advance(num_texels, |part, amount| {
             painted(part, size, &self.paint, amount)
         })
     }
 
     fn levels(&self) -> &[Level] {
-        let size = (self.width, self.height);
-        self.levels
-            .get(|part, amount| painted(part, size, &self.paint, amount))
+        self.whole(Detail::Full)
     }
 
     fn sketch(&self) -> &[Level] {
-        let size = [self.width, self.height].map(|side| (side / SKETCH_FACTOR).max(1));
-        self.sketch
-            .get(|part, amount| painted(part, size.into(), &self.paint, amount))
+        self.whole(Detail::Sketch)
+    }
+
+    fn whole(&self, detail: Detail) -> &[Level] {
+        let (levels, size) = self.of(detail);
+        levels.get(|part, amount| painted(part, size, &self.paint, amount))
+    }
+
+    /// The levels in this detail, and the size of the largest.
+    fn of(&self, detail: Detail) -> (&Gradual<Painting, Vec<Level>>, (u32, u32)) {
+        let smaller = |side: u32| (side / SKETCH_FACTOR).max(1);
+        match detail {
+            Detail::Full => (&self.levels, (self.width, self.height)),
+            Detail::Sketch => (&self.sketch, (smaller(self.width), smaller(self.height))),
+        }
     }
 
     /// Bytes of all levels.
