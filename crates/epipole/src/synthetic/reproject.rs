@@ -191,7 +191,7 @@ struct Missing<'a> {
 impl Missing<'_> {
     fn push(&mut self, index: u32) {
         match self.runs.last_mut() {
-            Some(run) if run.end == index && index % self.width != 0 => run.end += 1,
+            Some(run) if run.end == index && !index.is_multiple_of(self.width) => run.end += 1,
             _ => self.runs.push(index..index + 1),
         }
     }
@@ -314,7 +314,7 @@ impl Photograph {
         }
         // It comes last, as if nothing stood in front of it.
         let carry = carry.moved(to, &moved.by);
-        for indices in carried.chunk_by(|a, b| a + 1 == *b && b % size.0 != 0) {
+        for indices in carried.chunk_by(|a, b| a + 1 == *b && !b.is_multiple_of(size.0)) {
             let (u, v) = (indices[0] % size.0, indices[0] / size.0);
             let run = Run {
                 places: u..u + indices.len() as u32,
