@@ -114,8 +114,10 @@ export function layoutWidth(room) {
 export async function ready(figure) {
   await figure.scrollIntoViewIfNeeded();
   await expect(figure).toHaveAttribute("data-ready", "");
-  // A figure whose poster shows its state draws when somebody takes an interest.
+  // A figure whose poster shows its state draws when somebody takes an interest, with the next frame; what it computes
+  // begins with that, too.
   await figure.dispatchEvent("pointerenter");
+  await figure.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
 /** Waits for what the figures compute. What they wait for shows with their next frame, so that is drawn. */
