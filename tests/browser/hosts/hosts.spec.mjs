@@ -324,12 +324,22 @@ test("JupyterLab", async ({ page, book, strangers }) => {
     await page.keyboard.press("Shift+Enter");
   };
   const state = () => race(page).evaluate((element) => (element.flush(), element.state));
+  const asPython = (now) => JSON.stringify(Object.fromEntries(Object.entries(now).sort())).replaceAll(":", ": ").replaceAll('","', '", "');
   const now = await state();
   await type("import json; print(json.dumps(race.state, sort_keys=True), len(race.readouts) > 3)");
-  const sorted = JSON.stringify(Object.fromEntries(Object.entries(now).sort())).replaceAll(":", ": ").replaceAll('","', '", "');
-  await expect(page.locator(".jp-OutputArea-output pre").last()).toHaveText(`${sorted} True\n`);
+  await expect(page.locator(".jp-OutputArea-output pre").last()).toHaveText(`${asPython(now)} True\n`);
   await type("race.state = {'outliers': 0.3, 'points': 40}; race.press('step')");
-  await expect.poll(state).toMatchObject({ outliers: "0.30", points: "40" });
+  await expect.poll(state).toMatchObject({ outliers: "0.30", points: "40", iterations: expect.any(String) });
+  const stepped = asPython(await state());
+  await expect
+    .poll(
+      async () => {
+        await type("print(json.dumps(race.state, sort_keys=True))");
+        return page.locator(".jp-OutputArea-output pre").last().textContent();
+      },
+      { timeout: 60_000, intervals: [1000] },
+    )
+    .toBe(`${stepped}\n`);
   // A new figure of the same state shows the same bits.
   await type("Figure('ransac-race', **race.state)");
   const both = page.locator('epipole-figure[name="ransac-race"]');
