@@ -89,8 +89,8 @@ fn commands_find_the_same_features() {
     let options = epipole::sfm::PhotoOptions::default();
     let features = files.each_ref().map(|file| {
         let photo = epipole::sfm::Photo {
-            name: String::new(),
             image: image::open(file).unwrap().to_rgb8(),
+            ..epipole::sfm::Photo::default()
         };
         epipole::sfm::photo_features(&photo, &options).unwrap()
     });

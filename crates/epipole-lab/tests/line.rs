@@ -54,6 +54,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
         photos.push(Photo {
             name: given.name.clone(),
             image,
+            ..Photo::default()
         });
         let focal_px = pixels.focal_px.unwrap();
         intrinsics.push(Intrinsics::centered(focal_px, pixels.width, pixels.height).unwrap());

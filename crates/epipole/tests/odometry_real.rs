@@ -48,7 +48,11 @@ fn kitti_turn_is_followed() {
             let image = decode_rgb(&bytes, &DecodeOptions::default())
                 .expect("an image")
                 .image;
-            Photo { name, image }
+            Photo {
+                name,
+                image,
+                ..Photo::default()
+            }
         })
         .collect();
     let begin = std::time::Instant::now();

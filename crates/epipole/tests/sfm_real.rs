@@ -60,6 +60,7 @@ fn load(name: &str) -> Option<DataSet> {
         set.photos.push(Photo {
             name: file.to_owned(),
             image,
+            ..Photo::default()
         });
         let k = numbers_after(view, "K");
         set.intrinsics = Intrinsics::new(k[0], k[4], k[2], k[5]).expect("intrinsics");

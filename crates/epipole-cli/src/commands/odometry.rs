@@ -140,6 +140,7 @@ impl Work<'_> {
             let photo = SfmPhoto {
                 name: name(path),
                 image: photo.color,
+                ..SfmPhoto::default()
             };
             features.push(photo_features(&photo, &self.options)?);
             let share = features.len() as f64 / paths.len() as f64;

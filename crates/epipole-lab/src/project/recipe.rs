@@ -214,7 +214,7 @@ impl Project {
              (None, Some(k)) => k,\n            \
              (None, None) => Intrinsics::centered(told_px, width, height)?,\n        }});\n        \
              let name = path.rsplit('/').next().unwrap_or(path).to_owned();\n        \
-             photos.push(Photo {{ name, image: photo.image }});\n    }}\n    \
+             photos.push(Photo {{ name, image: photo.image, ..Photo::default() }});\n    }}\n    \
              let mut how = PhotoOptions::default();\n    \
              how.features.kind = FeatureKind::{kind};\n    \
              how.features.max_features = {max_features};\n    \

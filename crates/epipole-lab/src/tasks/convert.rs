@@ -13,10 +13,10 @@ use epipole::calibration::CalibratedCamera;
 use epipole::calibration::{Board, Pattern};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 #[cfg(feature = "files")]
-use epipole::camera::{Lens, LensKind};
+use epipole::camera::{Distortion, Lens, LensKind};
 use epipole::sfm::SfmImage;
 #[cfg(feature = "files")]
-use epipole::sfm::{RadialDistortion, Reconstruction, ScenePoint, TrackElement};
+use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
 use image::RgbImage;
 #[cfg(feature = "files")]
 use nalgebra::Point3;
@@ -94,6 +94,7 @@ pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
             .map(|p| Point2::new(p[0], p[1]))
             .collect(),
         colors: image.colors.clone(),
+        ..SfmImage::default()
     };
     images.iter().map(plain).collect()
 }
@@ -130,13 +131,20 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
         error_px: point.error_px,
     };
     let [k1, k2] = component.distortion;
+    let distortion = Distortion {
+        k1,
+        k2,
+        ..Distortion::NONE
+    };
     Ok(Reconstruction {
         cameras: component
             .cameras
             .iter()
             .map(camera)
             .collect::<Result<_, _>>()?,
-        distortion: RadialDistortion { k1, k2 },
+        // One lens took them all.
+        distortions: vec![distortion; component.cameras.len()],
         points: component.points.iter().map(point).collect(),
+        is_placed: false,
     })
 }

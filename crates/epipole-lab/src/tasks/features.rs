@@ -17,8 +17,8 @@ pub(super) fn features(
     progress: Progress<'_>,
 ) -> Result<Features, String> {
     let photo = Photo {
-        name: String::new(),
         image: to_image(photograph)?,
+        ..Photo::default()
     };
     let mut how = PhotoOptions::default();
     how.features.max_features = options.max_features as usize;

@@ -107,11 +107,13 @@ fn component(found: &Reconstruction) -> Component {
         track: point.track.iter().map(|e| (e.image, e.keypoint)).collect(),
         error_px: point.error_px,
     };
+    // One lens took them all.
+    let distortion = found.distortion(0);
     Component {
         cameras: (found.cameras.iter())
             .map(|c| c.as_ref().map(camera))
             .collect(),
-        distortion: [found.distortion.k1, found.distortion.k2],
+        distortion: [distortion.k1, distortion.k2],
         points: found.points.iter().map(point).collect(),
     }
 }

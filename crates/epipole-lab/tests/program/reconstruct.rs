@@ -38,7 +38,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
             (None, None) => Intrinsics::centered(told_px, width, height)?,
         });
         let name = path.rsplit('/').next().unwrap_or(path).to_owned();
-        photos.push(Photo { name, image: photo.image });
+        photos.push(Photo { name, image: photo.image, ..Photo::default() });
     }
     let mut how = PhotoOptions::default();
     how.features.kind = FeatureKind::Sift;

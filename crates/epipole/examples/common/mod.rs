@@ -63,7 +63,11 @@ pub(crate) fn photos(paths: &[String]) -> Outcome<Vec<Photo>> {
     for path in paths {
         let image = decode_rgb(&std::fs::read(path)?, &DecodeOptions::default())?.image;
         let name = path.clone();
-        photos.push(Photo { name, image });
+        photos.push(Photo {
+            name,
+            image,
+            ..Photo::default()
+        });
     }
     if paths.is_empty() {
         for x in [0.0, -0.15, -0.3] {
@@ -71,7 +75,11 @@ pub(crate) fn photos(paths: &[String]) -> Outcome<Vec<Photo>> {
             let step = RigidTransform::new(Vector3::new(x, 0.0, 0.0), turn);
             let image = photograph(&step)?.1.image;
             let name = format!("{x}.png");
-            photos.push(Photo { name, image });
+            photos.push(Photo {
+                name,
+                image,
+                ..Photo::default()
+            });
         }
     }
     Ok(photos)

@@ -217,10 +217,11 @@ impl BundleProblem<6, SHARED> for Problem {
         for ((old, new), d) in from.views.iter().zip(&mut into.views).zip(&step.cameras) {
             *new = old.moved(*d);
         }
-        into.rig = from.rig.moved(core::array::from_fn(|i| step.shared[i]));
+        let shared = &step.shared[0];
+        into.rig = from.rig.moved(core::array::from_fn(|i| shared[i]));
         for (eye, camera) in into.cameras.iter_mut().enumerate() {
             for (i, number) in camera.iter_mut().enumerate() {
-                *number = from.cameras[eye][i] + step.shared[6 + eye * OF_CAMERA + i];
+                *number = from.cameras[eye][i] + shared[6 + eye * OF_CAMERA + i];
             }
         }
     }
@@ -295,13 +296,13 @@ mod tests {
                     let [up, down] = [h, -h].map(|d| {
                         let mut step = BundleStep {
                             cameras: vec![[0.0; 6]],
-                            shared: [0.0; SHARED],
+                            shared: vec![[0.0; SHARED]],
                             points: vec![],
                         };
                         if p < 6 {
                             step.cameras[0][p] = d;
                         } else {
-                            step.shared[p - 6] = d;
+                            step.shared[0][p - 6] = d;
                         }
                         let mut moved = state.clone();
                         problem.step(&state, &step, &mut moved);

@@ -39,6 +39,18 @@ impl PoseState {
         (by_pose, self.matrix.tr_mul(by_p).into())
     }
 
+    /// The camera's center `−Rᵀ t`, and the derivatives of its coordinates by the six of [`PoseState::moved`].
+    pub(crate) fn center(&self) -> (Point3<f64>, [[f64; 6]; 3]) {
+        let center = Point3::from(-self.matrix.tr_mul(&self.translation));
+        // −Rᵀ exp(−δ) (t + d): the axis e moves by −(R e) · d + δ · (t × R e).
+        let by_pose = core::array::from_fn(|axis| {
+            let r: Vector3<f64> = self.matrix.column(axis).into();
+            let turn = self.translation.cross(&r);
+            [turn.x, turn.y, turn.z, -r.x, -r.y, -r.z]
+        });
+        (center, by_pose)
+    }
+
     /// `exp(δ) R` and `t + d` for the step (δ, d); the very same bits for a step of 0, so that a
     /// held camera stays exactly.
     pub(crate) fn moved(&self, step: [f64; 6]) -> Self {

@@ -33,4 +33,4 @@ pub use levenberg_marquardt::{
     DampedStep, Iteration, Linearization, LmOptions, LmReport, System, Termination, minimize,
 };
 pub use loss::RobustLoss;
-pub use schur::{BundleProblem, BundleStep, ObservationTerms, SchurSystem};
+pub use schur::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, SchurSystem};

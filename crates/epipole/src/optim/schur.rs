@@ -9,32 +9,49 @@ use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
 use super::parallel::{for_each, sum};
 
-pub use problem::{BundleProblem, BundleStep, ObservationTerms};
+pub use problem::{BundleProblem, BundleStep, ObservationTerms, PriorTerms};
 
 #[derive(Clone)]
 struct CameraBlock<const C: usize, const S: usize> {
     /// Lower triangle of `Σ JcᵀJc`.
     hessian: [[f64; C]; C],
-    with_shared: [[f64; C]; S],
+    /// With every group.
+    with_shared: Vec<[[f64; C]; S]>,
     gradient: [f64; C],
     /// This camera's rows of the reduced system, up to and including its own block.
     rows: Vec<f64>,
-    reduced_with_shared: [[f64; C]; S],
+    reduced_with_shared: Vec<[[f64; C]; S]>,
     reduced_gradient: [f64; C],
+}
+
+/// A point and a group that sees it.
+#[derive(Clone)]
+struct GroupOfPoint<const S: usize> {
+    group: u32,
+    /// `JpᵀJs`.
+    with_point: [[f64; S]; 3],
+    /// `V⁻¹ JpᵀJs`.
+    solved: [[f64; S]; 3],
+    hessian: [[f64; S]; S],
+    gradient: [f64; S],
 }
 
 #[derive(Clone)]
 struct PointBlock<const S: usize> {
     hessian: [[f64; 3]; 3],
-    with_shared: [[f64; S]; 3],
     gradient: [f64; 3],
     inverse: [[f64; 3]; 3],
-    /// `V⁻¹` times `with_shared`.
-    solved_shared: [[f64; S]; 3],
     /// `V⁻¹` times the gradient.
     solved_gradient: [f64; 3],
-    shared_hessian: [[f64; S]; S],
-    shared_gradient: [f64; S],
+    /// Those that see the point, in the order in which they come.
+    groups: Vec<GroupOfPoint<S>>,
+}
+
+/// What all observations of a group say of what it shares.
+#[derive(Clone)]
+struct GroupBlock<const S: usize> {
+    hessian: [[f64; S]; S],
+    gradient: [f64; S],
 }
 
 /// An observation's blocks, √ρ' included.
@@ -42,6 +59,8 @@ struct PointBlock<const S: usize> {
 struct Coupling<const C: usize, const S: usize> {
     camera: u32,
     point: u32,
+    /// Which of the groups of its point, if there are any.
+    group_of_point: u32,
     terms: ObservationTerms<C, S>,
     /// `JpᵀJc`.
     cross: [[f64; C]; 3],
@@ -55,7 +74,8 @@ const LEAST_DAMPING: f64 = 1e-12;
 /// The [`System`] of a [`BundleProblem`].
 ///
 /// With the damped blocks U (cameras), V (points, 3×3 each) and W between them, the cameras'
-/// steps solve `(U − W V⁻¹ Wᵀ) δc = −(gc − W V⁻¹ gp)`; then `δp = −V⁻¹ (gp + Wᵀ δc)`.
+/// steps solve `(U − W V⁻¹ Wᵀ) δc = −(gc − W V⁻¹ gp)`; then `δp = −V⁻¹ (gp + Wᵀ δc)`. What groups
+/// share stands behind the cameras in this system.
 ///
 /// Cameras without observations and points without any stay where they are.
 ///
@@ -71,8 +91,7 @@ pub struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S
     camera_couplings: Vec<Vec<u32>>,
     cameras: Vec<CameraBlock<C, S>>,
     points: Vec<PointBlock<S>>,
-    shared_hessian: [[f64; S]; S],
-    shared_gradient: [f64; S],
+    groups: Vec<GroupBlock<S>>,
     reduced: Vec<f64>,
     right: Vec<f64>,
     delta: BundleStep<C, S>,
@@ -82,6 +101,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
     /// Sorts the observations and makes room for all blocks.
     pub fn new(problem: &'a B) -> Self {
         let (num_cameras, num_points) = (problem.num_cameras(), problem.num_points());
+        let num_groups = problem.num_groups();
         let observations = problem.observations();
         let mut order: Vec<u32> = (0..observations.len() as u32).collect();
         order.sort_by_key(|&o| (observations[o as usize].1, o));
@@ -93,15 +113,31 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
             point_starts[p + 1] += point_starts[p];
         }
         let mut camera_couplings = vec![Vec::new(); num_cameras];
+        let point = PointBlock {
+            hessian: [[0.0; 3]; 3],
+            gradient: [0.0; 3],
+            inverse: [[0.0; 3]; 3],
+            solved_gradient: [0.0; 3],
+            groups: Vec::new(),
+        };
+        let mut points: Vec<PointBlock<S>> = vec![point; num_points];
         let couplings = order
             .iter()
             .enumerate()
             .map(|(position, &o)| {
                 let (camera, point) = observations[o as usize];
                 camera_couplings[camera as usize].push(position as u32);
+                let group_of_point = match num_groups {
+                    0 => 0,
+                    _ => place_of(
+                        problem.group(o as usize) as u32,
+                        &mut points[point as usize].groups,
+                    ),
+                };
                 Coupling {
                     camera,
                     point,
+                    group_of_point: group_of_point as u32,
                     terms: ObservationTerms {
                         residual: [0.0; 2],
                         camera: [[0.0; C]; 2],
@@ -116,24 +152,14 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         let cameras = (0..num_cameras)
             .map(|camera| CameraBlock {
                 hessian: [[0.0; C]; C],
-                with_shared: [[0.0; C]; S],
+                with_shared: vec![[[0.0; C]; S]; num_groups],
                 gradient: [0.0; C],
                 rows: vec![0.0; C * C * (camera + 1)],
-                reduced_with_shared: [[0.0; C]; S],
+                reduced_with_shared: vec![[[0.0; C]; S]; num_groups],
                 reduced_gradient: [0.0; C],
             })
             .collect();
-        let point = PointBlock {
-            hessian: [[0.0; 3]; 3],
-            with_shared: [[0.0; S]; 3],
-            gradient: [0.0; 3],
-            inverse: [[0.0; 3]; 3],
-            solved_shared: [[0.0; S]; 3],
-            solved_gradient: [0.0; 3],
-            shared_hessian: [[0.0; S]; S],
-            shared_gradient: [0.0; S],
-        };
-        let size = num_cameras * C + S;
+        let size = num_cameras * C + num_groups * S;
         Self {
             problem,
             order,
@@ -141,14 +167,13 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
             point_starts,
             camera_couplings,
             cameras,
-            points: vec![point; num_points],
-            shared_hessian: [[0.0; S]; S],
-            shared_gradient: [0.0; S],
+            points,
+            groups: vec![GroupBlock::nothing(); num_groups],
             reduced: vec![0.0; size * size],
             right: vec![0.0; size],
             delta: BundleStep {
                 cameras: vec![[0.0; C]; num_cameras],
-                shared: [0.0; S],
+                shared: vec![[0.0; S]; num_groups],
                 points: vec![[0.0; 3]; num_points],
             },
         }
@@ -190,66 +215,72 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         let (couplings, starts) = (&self.couplings, &self.point_starts);
         for_each(&mut self.points, |p, block| {
             block.hessian = [[0.0; 3]; 3];
-            block.with_shared = [[0.0; S]; 3];
             block.gradient = [0.0; 3];
-            block.shared_hessian = [[0.0; S]; S];
-            block.shared_gradient = [0.0; S];
+            for group in &mut block.groups {
+                *group = GroupOfPoint::nothing(group.group);
+            }
             for coupling in &couplings[starts[p]..starts[p + 1]] {
                 let terms = &coupling.terms;
                 for row in 0..2 {
-                    let (point, shared) = (&terms.point[row], &terms.shared[row]);
+                    let point = &terms.point[row];
                     for i in 0..3 {
                         block.gradient[i] += point[i] * terms.residual[row];
                         for j in 0..3 {
                             block.hessian[i][j] += point[i] * point[j];
                         }
-                        for s in 0..S {
-                            block.with_shared[i][s] += point[i] * shared[s];
-                        }
                     }
-                    for s in 0..S {
-                        block.shared_gradient[s] += shared[s] * terms.residual[row];
-                        for q in 0..S {
-                            block.shared_hessian[s][q] += shared[s] * shared[q];
-                        }
+                    if let Some(group) = block.groups.get_mut(coupling.group_of_point as usize) {
+                        group.add(point, &terms.shared[row], terms.residual[row]);
                     }
                 }
             }
         });
-        self.shared_hessian = [[0.0; S]; S];
-        self.shared_gradient = [0.0; S];
-        for block in &self.points {
+        self.groups.fill(GroupBlock::nothing());
+        for group in self.points.iter().flat_map(|point| &point.groups) {
+            let block = &mut self.groups[group.group as usize];
             for s in 0..S {
-                self.shared_gradient[s] += block.shared_gradient[s];
+                block.gradient[s] += group.gradient[s];
                 for q in 0..S {
-                    self.shared_hessian[s][q] += block.shared_hessian[s][q];
+                    block.hessian[s][q] += group.hessian[s][q];
                 }
             }
         }
     }
 
-    fn sum_camera_blocks(&mut self) {
+    fn sum_camera_blocks(&mut self, parameters: &B::Parameters) {
         let (couplings, of_camera) = (&self.couplings, &self.camera_couplings);
+        let (points, problem) = (&self.points, self.problem);
         for_each(&mut self.cameras, |c, block| {
             block.hessian = [[0.0; C]; C];
-            block.with_shared = [[0.0; C]; S];
+            block.with_shared.fill([[0.0; C]; S]);
             block.gradient = [0.0; C];
             for &position in &of_camera[c] {
-                let terms = &couplings[position as usize].terms;
+                let coupling = &couplings[position as usize];
+                let terms = &coupling.terms;
+                let groups = &points[coupling.point as usize].groups;
                 for row in 0..2 {
-                    let camera = &terms.camera[row];
-                    for i in 0..C {
-                        block.gradient[i] += camera[i] * terms.residual[row];
-                        for j in 0..C {
-                            block.hessian[i][j] += camera[i] * camera[j];
-                        }
-                    }
-                    for s in 0..S {
-                        for i in 0..C {
-                            block.with_shared[s][i] += terms.shared[row][s] * camera[i];
+                    block.add(&terms.camera[row], terms.residual[row]);
+                    if let Some(group) = groups.get(coupling.group_of_point as usize) {
+                        let with_shared = &mut block.with_shared[group.group as usize];
+                        for s in 0..S {
+                            for i in 0..C {
+                                with_shared[s][i] += terms.shared[row][s] * terms.camera[row][i];
+                            }
                         }
                     }
                 }
+            }
+            let Some(prior) = problem.prior(parameters, c) else {
+                return;
+            };
+            let root = problem.prior_loss().weight(sum_sq(&prior.residual)).sqrt();
+            let held = problem.held_camera(c);
+            for row in 0..3 {
+                let camera = core::array::from_fn(|i| match held[i] {
+                    true => 0.0,
+                    false => prior.camera[row][i] * root,
+                });
+                block.add(&camera, prior.residual[row] * root);
             }
         });
     }
@@ -268,12 +299,10 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
                 add(delta[i], block.gradient[i], block.hessian[i][i]);
             }
         }
-        for s in 0..S {
-            add(
-                self.delta.shared[s],
-                self.shared_gradient[s],
-                self.shared_hessian[s][s],
-            );
+        for (delta, block) in self.delta.shared.iter().zip(&self.groups) {
+            for s in 0..S {
+                add(delta[s], block.gradient[s], block.hessian[s][s]);
+            }
         }
         for (delta, block) in self.delta.points.iter().zip(&self.points) {
             for i in 0..3 {
@@ -290,7 +319,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
     fn linearize(&mut self, parameters: &B::Parameters) -> Linearization {
         self.linearize_observations(parameters);
         self.sum_point_blocks();
-        self.sum_camera_blocks();
+        self.sum_camera_blocks(parameters);
         let mut gradient_max: f64 = 0.0;
         let mut finite = true;
         let mut look = |g: f64| {
@@ -300,7 +329,9 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
         for block in &self.cameras {
             block.gradient.iter().for_each(|&g| look(g));
         }
-        self.shared_gradient.iter().for_each(|&g| look(g));
+        for block in &self.groups {
+            block.gradient.iter().for_each(|&g| look(g));
+        }
         for block in &self.points {
             block.gradient.iter().for_each(|&g| look(g));
         }
@@ -335,9 +366,78 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
     fn cost(&mut self, parameters: &B::Parameters) -> f64 {
         let problem = self.problem;
         let loss = problem.loss();
-        0.5 * sum(problem.observations().len(), |o| {
+        let seen = sum(problem.observations().len(), |o| {
             let [u, v] = problem.residual(parameters, o);
             loss.rho(u * u + v * v)
-        })
+        });
+        let prior_loss = problem.prior_loss();
+        let known: f64 = (0..problem.num_cameras())
+            .filter_map(|camera| problem.prior(parameters, camera))
+            .map(|prior| prior_loss.rho(sum_sq(&prior.residual)))
+            .sum();
+        0.5 * (seen + known)
     }
+}
+
+impl<const C: usize, const S: usize> CameraBlock<C, S> {
+    /// Adds a row of a Jacobian with its residual.
+    #[inline]
+    fn add(&mut self, camera: &[f64; C], residual: f64) {
+        for i in 0..C {
+            self.gradient[i] += camera[i] * residual;
+            for j in 0..C {
+                self.hessian[i][j] += camera[i] * camera[j];
+            }
+        }
+    }
+}
+
+impl<const S: usize> GroupOfPoint<S> {
+    fn nothing(group: u32) -> Self {
+        Self {
+            group,
+            with_point: [[0.0; S]; 3],
+            solved: [[0.0; S]; 3],
+            hessian: [[0.0; S]; S],
+            gradient: [0.0; S],
+        }
+    }
+
+    /// Adds a row of both Jacobians with its residual.
+    #[inline]
+    fn add(&mut self, point: &[f64; 3], shared: &[f64; S], residual: f64) {
+        for i in 0..3 {
+            for s in 0..S {
+                self.with_point[i][s] += point[i] * shared[s];
+            }
+        }
+        for s in 0..S {
+            self.gradient[s] += shared[s] * residual;
+            for q in 0..S {
+                self.hessian[s][q] += shared[s] * shared[q];
+            }
+        }
+    }
+}
+
+impl<const S: usize> GroupBlock<S> {
+    fn nothing() -> Self {
+        Self {
+            hessian: [[0.0; S]; S],
+            gradient: [0.0; S],
+        }
+    }
+}
+
+/// Where a group stands among those of a point; it is added where it is new.
+fn place_of<const S: usize>(group: u32, groups: &mut Vec<GroupOfPoint<S>>) -> usize {
+    let place = groups.iter().position(|known| known.group == group);
+    place.unwrap_or_else(|| {
+        groups.push(GroupOfPoint::nothing(group));
+        groups.len() - 1
+    })
+}
+
+fn sum_sq(residual: &[f64; 3]) -> f64 {
+    residual.iter().map(|x| x * x).sum()
 }

@@ -1,7 +1,7 @@
 //! Reconstructions as files: COLMAP's text model and PLY point clouds.
 
 use super::reconstruction::{Reconstruction, SfmImage};
-use crate::camera::pixel_to_colmap;
+use crate::camera::{Distortion, pixel_to_colmap};
 use std::fmt::Write;
 
 /// The three files of COLMAP's text model.
@@ -18,8 +18,8 @@ pub struct ColmapModel {
 impl Reconstruction {
     /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
     ///
-    /// Cameras are `PINHOLE`, or `OPENCV` with k1 and k2 if there is distortion; images with equal
-    /// size and intrinsics share one. Principal points and keypoints are moved by half a pixel,
+    /// Cameras are `PINHOLE`, or `OPENCV` if there is distortion, `FULL_OPENCV` if it has a k3; images with equal
+    /// size, intrinsics and distortion share one. Principal points and keypoints are moved by half a pixel,
     /// from centers at integers to COLMAP's convention, as by [`pixel_to_colmap`]. Numbers of images, cameras and points
     /// start at 1; an image has the number of its place in the list plus 1. A name takes the rest of its line, so
     /// line breaks in it are written as `_`.
@@ -32,7 +32,8 @@ impl Reconstruction {
         let mut camera_of_image = vec![0; images.len()];
         for (index, (image, camera)) in images.iter().zip(&self.cameras).enumerate() {
             let Some(camera) = camera else { continue };
-            let kind = (image.width, image.height, camera.intrinsics);
+            let distortion = self.distortion(index);
+            let kind = (image.width, image.height, camera.intrinsics, distortion);
             let id = kinds
                 .iter()
                 .position(|other| *other == kind)
@@ -42,26 +43,21 @@ impl Reconstruction {
                 });
             camera_of_image[index] = id + 1;
         }
-        for (id, (width, height, intrinsics)) in kinds.iter().enumerate() {
+        for (id, (width, height, intrinsics, distortion)) in kinds.iter().enumerate() {
             let [fx, fy, cx, cy] = intrinsics.to_colmap();
-            let model = if self.distortion.is_none() {
-                "PINHOLE"
+            let Distortion { k1, k2, p1, p2, k3 } = distortion;
+            let (model, more) = if distortion.is_none() {
+                ("PINHOLE", String::new())
+            } else if *k3 == 0.0 {
+                ("OPENCV", format!(" {k1} {k2} {p1} {p2}"))
             } else {
-                "OPENCV"
+                ("FULL_OPENCV", format!(" {k1} {k2} {p1} {p2} {k3} 0 0 0"))
             };
-            let _ = write!(
+            let id = id + 1;
+            let _ = writeln!(
                 cameras,
-                "{} {model} {width} {height} {fx} {fy} {cx} {cy}",
-                id + 1
+                "{id} {model} {width} {height} {fx} {fy} {cx} {cy}{more}"
             );
-            if !self.distortion.is_none() {
-                let _ = write!(
-                    cameras,
-                    " {} {} 0 0",
-                    self.distortion.k1, self.distortion.k2
-                );
-            }
-            cameras.push('\n');
         }
 
         let mut point_of_keypoint: Vec<Vec<usize>> = images
@@ -163,7 +159,7 @@ impl Reconstruction {
 mod tests {
     use super::*;
     use crate::camera::{Camera, Intrinsics, RigidTransform};
-    use crate::sfm::{RadialDistortion, ScenePoint, TrackElement};
+    use crate::sfm::{ScenePoint, TrackElement};
     use nalgebra::{Point2, Point3};
 
     fn small() -> (Reconstruction, Vec<SfmImage>) {
@@ -173,6 +169,7 @@ mod tests {
             height: 480,
             keypoints: vec![Point2::new(1.0, 2.0), Point2::new(319.5, 239.5)],
             colors: vec![[1, 2, 3], [10, 20, 30]],
+            ..SfmImage::default()
         };
         let images = vec![image("a.png"), image("b.png"), image("c.png")];
         let camera = |x: f64| {
@@ -183,7 +180,6 @@ mod tests {
         };
         let mut reconstruction = Reconstruction {
             cameras: vec![camera(0.0), None, camera(-1.0)],
-            distortion: RadialDistortion::default(),
             points: vec![ScenePoint {
                 position: Point3::new(0.0, 0.0, 5.0),
                 color: [0; 3],
@@ -199,6 +195,7 @@ mod tests {
                 ],
                 error_px: 0.0,
             }],
+            ..Reconstruction::default()
         };
         reconstruction.finish_points(&images);
         (reconstruction, images)
@@ -227,11 +224,21 @@ mod tests {
     #[test]
     fn distortion_changes_the_camera_model() {
         let (mut reconstruction, images) = small();
-        reconstruction.distortion.k1 = -0.1;
+        let bent = Distortion {
+            k1: -0.1,
+            p2: 0.002,
+            ..Distortion::NONE
+        };
+        let far = Distortion { k3: 0.5, ..bent };
+        reconstruction.distortions = vec![bent, Distortion::NONE, far];
         let model = reconstruction.to_colmap(&images);
+        let lines: Vec<&str> = model.cameras.lines().skip(1).collect();
         assert_eq!(
-            model.cameras.lines().nth(1),
-            Some("1 OPENCV 640 480 700 700 320 240 -0.1 0 0 0")
+            lines,
+            [
+                "1 OPENCV 640 480 700 700 320 240 -0.1 0 0 0.002",
+                "2 FULL_OPENCV 640 480 700 700 320 240 -0.1 0 0 0.002 0.5 0 0 0",
+            ]
         );
     }
 

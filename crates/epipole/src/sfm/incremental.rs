@@ -1,12 +1,12 @@
 //! Incremental structure from motion: start from two photographs, add one after the other.
 
 use super::builder::{Builder, undistorted};
-use super::bundle::RadialDistortion;
+use super::bundle::PositionPrior;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::shares::{Begin, Shares};
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
-use crate::camera::Intrinsics;
+use crate::camera::{Distortion, Intrinsics};
 use crate::progress::Progress;
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
@@ -42,12 +42,18 @@ pub struct SfmOptions {
     /// Median angle that the two first images should have, degrees; halved, again and again, if
     /// no pair has it. 16.
     pub min_start_angle_deg: f64,
-    /// Refine one factor for all focal lengths. False.
+    /// Fewest images that must see a point which is kept in the end. 2.
+    pub min_track_length: usize,
+    /// Refine one factor for the focal lengths of each lens. False.
     pub refine_focal: bool,
-    /// Refine two radial terms that all images share. False.
+    /// Refine where the principal points are, one shift for each lens. False: turning a camera looks much the same.
+    pub refine_principal_point: bool,
+    /// Refine the radial terms k1 and k2 of each lens. False.
     pub refine_distortion: bool,
+    /// Refine the tangential terms p1 and p2 of each lens. False.
+    pub refine_tangential: bool,
     /// The distortion to start with, or to keep. None.
-    pub distortion: RadialDistortion,
+    pub distortion: Distortion,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
 }
@@ -61,9 +67,12 @@ impl Default for SfmOptions {
             min_num_inliers: 15,
             min_angle_deg: 1.5,
             min_start_angle_deg: 16.0,
+            min_track_length: 2,
             refine_focal: false,
+            refine_principal_point: false,
             refine_distortion: false,
-            distortion: RadialDistortion::default(),
+            refine_tangential: false,
+            distortion: Distortion::NONE,
             seed: 0,
         }
     }
@@ -212,11 +221,11 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
         }
     }
     pair_ransac(options).check()?;
-    if !(options.distortion.k1.is_finite() && options.distortion.k2.is_finite()) {
-        return Err(Error::NotFinite {
-            what: "the lens distortion",
-        });
-    }
+    let Distortion { k1, k2, p1, p2, k3 } = options.distortion;
+    Distortion::from_coefficients([k1, k2, p1, p2, k3])?;
+    (input.images.iter())
+        .filter_map(|image| image.position.as_ref())
+        .try_for_each(PositionPrior::check)?;
     Ok(if input.intrinsics.len() == 1 {
         vec![input.intrinsics[0]; count]
     } else {
@@ -231,6 +240,9 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
 /// its points, well spread, is registered by P3P and RANSAC, its tracks are triangulated, and all
 /// is refined by bundle adjustment; observations that fit badly are dropped, others picked up
 /// again. Images that cannot be added start further components.
+///
+/// Where [`SfmImage::position`] is known for three images of a component that are not on one line, it is moved there
+/// in the end, and refined once more with these positions; some may be wrong.
 ///
 /// * `observer`: hears of every step; answer [`ControlFlow::Break`] to stop with what is there
 ///
@@ -317,7 +329,7 @@ fn reconstruct_telling(
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     // Bad indices are found before the work begins.
     build_tracks(&counts, &input.pairs)?;
-    let pixels = undistorted(images, &intrinsics, options.distortion);
+    let pixels = undistorted(images, &intrinsics, &distortions(images, options));
     let verified = verify(input, options, &intrinsics, &pixels, &mut reporter);
     grow(images, &intrinsics, pixels, &verified, options, reporter)
 }
@@ -344,13 +356,18 @@ pub fn reconstruct_verified(
         pairs: Vec::new(),
     };
     let intrinsics = check(&input, options)?;
-    let pixels = undistorted(images, &intrinsics, options.distortion);
+    let pixels = undistorted(images, &intrinsics, &distortions(images, options));
     let reporter = Reporter {
         observer,
         watcher: None,
         canceled: false,
     };
     grow(images, &intrinsics, pixels, verified, options, reporter)
+}
+
+/// Of each image, as it is at the start.
+pub(super) fn distortions(images: &[SfmImage], options: &SfmOptions) -> Vec<Distortion> {
+    vec![options.distortion; images.len()]
 }
 
 fn grow(
@@ -378,13 +395,14 @@ fn grow(
             options,
             pixels: pixels.clone(),
             intrinsics: intrinsics.to_vec(),
-            distortion: options.distortion,
+            distortions: distortions(images, options),
             tracks: &tracks,
             track_of: &track_of,
             taken: taken.clone(),
             rig: None,
             cameras: vec![None; images.len()],
             points: vec![None; tracks.len()],
+            is_placed: false,
         };
         if !builder.start(verified, &mut reporter) {
             break;

@@ -1,8 +1,10 @@
 //! Visual odometry: where a camera went, frame after frame.
 
 use super::builder::{Builder, undistorted};
-use super::bundle::{RadialDistortion, Sensor};
-use super::incremental::{Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, verify};
+use super::bundle::Sensor;
+use super::incremental::{
+    Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, distortions, verify,
+};
 use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
@@ -146,6 +148,7 @@ pub fn stereo_odometry(
     let rig = Sensor {
         sensor_from_camera: *right_from_left,
         intrinsics: *right_intrinsics,
+        lens: right.first().map_or(0, |image| image.lens),
     };
     follow(&input, intrinsics, Some(rig), options, observer)
 }
@@ -170,8 +173,8 @@ fn follow(
         watcher: None,
         canceled: false,
     };
-    let distortion: RadialDistortion = options.sfm.distortion;
-    let pixels = undistorted(images, &intrinsics, distortion);
+    let distortions = distortions(images, &options.sfm);
+    let pixels = undistorted(images, &intrinsics, &distortions);
     let verified = verify(input, &options.sfm, &intrinsics, &pixels, &mut reporter);
     let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
     let tracks = build_tracks(&counts, &surviving)?;
@@ -186,13 +189,14 @@ fn follow(
         options: &options.sfm,
         pixels,
         intrinsics,
-        distortion,
+        distortions,
         tracks: &tracks,
         track_of: &track_of,
         taken: vec![false; images.len()],
         rig,
         cameras: vec![None; images.len()],
         points: vec![None; tracks.len()],
+        is_placed: false,
     };
     let started = if rig.is_some() {
         start_with_rig(&mut builder, num_frames)

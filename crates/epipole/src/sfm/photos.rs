@@ -1,5 +1,6 @@
 //! The whole way from photographs to a reconstruction.
 
+use super::bundle::PositionPrior;
 use super::incremental::{SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, reconstruct};
 use super::reconstruction::SfmImage;
 use super::shares::{Begin, Shares};
@@ -21,6 +22,10 @@ pub struct Photo {
     pub name: String,
     /// Its pixels.
     pub image: RgbImage,
+    /// As [`SfmImage::lens`].
+    pub lens: usize,
+    /// As [`SfmImage::position`].
+    pub position: Option<PositionPrior>,
 }
 
 /// How features are found and matched.
@@ -70,7 +75,7 @@ pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeat
 /// ```
 /// use epipole::sfm::{Photo, PhotoOptions, photo_features_with_progress};
 /// use std::ops::ControlFlow;
-/// let photo = Photo { name: String::new(), image: image::RgbImage::new(64, 48) };
+/// let photo = Photo { image: image::RgbImage::new(64, 48), ..Photo::default() };
 /// let stop = &mut |_| ControlFlow::Break(());
 /// let stopped = photo_features_with_progress(&photo, &PhotoOptions::default(), stop);
 /// assert_eq!(stopped.err(), Some(epipole::Error::Canceled));
@@ -93,6 +98,8 @@ pub fn photo_features_with_progress(
         height,
         colors: features.keypoints.iter().map(|k| color(k.u, k.v)).collect(),
         keypoints: features.keypoints.iter().map(|k| k.point()).collect(),
+        lens: photo.lens,
+        position: photo.position,
     };
     Ok(PhotoFeatures {
         image,

@@ -1,9 +1,9 @@
 //! What structure from motion finds: cameras, points, and which saw which.
 
-use super::bundle::{Bundle, Observation, RadialDistortion};
+use super::bundle::{Bundle, Observation, PositionPrior};
 use super::tracks::TrackElement;
-use crate::camera::Camera;
-use nalgebra::{Point2, Point3};
+use crate::camera::{Camera, Distortion, RigidTransform};
+use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
 /// A photograph, reduced to its keypoints.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,6 +18,10 @@ pub struct SfmImage {
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.
     pub colors: Vec<[u8; 3]>,
+    /// Its lens: photographs with the same number share what is refined of it. 0.
+    pub lens: usize,
+    /// Where it was taken, if that is known.
+    pub position: Option<PositionPrior>,
 }
 
 /// A point of the scene.
@@ -33,13 +37,16 @@ pub struct ScenePoint {
     pub error_px: f64,
 }
 
-/// Cameras and points that share one frame. Its scale and pose are arbitrary.
+/// Cameras and points that share one frame. Its scale and pose are arbitrary, unless positions of photographs are
+/// known: see [`is_placed`](Self::is_placed).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
     pub cameras: Vec<Option<Camera>>,
-    /// The lens distortion of all cameras.
-    pub distortion: RadialDistortion,
+    /// The lens distortion of each image; missing entries have none.
+    pub distortions: Vec<Distortion>,
+    /// Whether it stands where the known positions of its photographs are, in their unit of length.
+    pub is_placed: bool,
     /// The points.
     pub points: Vec<ScenePoint>,
 }
@@ -48,6 +55,32 @@ impl Reconstruction {
     /// The number of images with a camera.
     pub fn num_registered(&self) -> usize {
         self.cameras.iter().flatten().count()
+    }
+
+    /// The lens distortion of an image.
+    pub fn distortion(&self, image: usize) -> Distortion {
+        self.distortions.get(image).copied().unwrap_or_default()
+    }
+
+    /// The same in another world: places are where `to_from_world` moves them.
+    ///
+    /// ```
+    /// use epipole::sfm::{Reconstruction, ScenePoint};
+    /// use nalgebra::{Point3, Similarity3, Vector3};
+    /// let mut found = Reconstruction::default();
+    /// found.points.push(ScenePoint { position: Point3::new(1.0, 0.0, 0.0), color: [128; 3], track: vec![], error_px: 0.0 });
+    /// let twice = Similarity3::new(Vector3::new(0.0, 0.0, 5.0), Vector3::zeros(), 2.0);
+    /// assert_eq!(found.moved(&twice).points[0].position, Point3::new(2.0, 0.0, 5.0));
+    /// ```
+    pub fn moved(&self, to_from_world: &Similarity3<f64>) -> Self {
+        let mut moved = self.clone();
+        for point in &mut moved.points {
+            point.position = to_from_world * point.position;
+        }
+        for camera in moved.cameras.iter_mut().flatten() {
+            camera.cam_from_world = moved_pose(&camera.cam_from_world, to_from_world);
+        }
+        moved
     }
 
     /// The number of observations of all points.
@@ -63,7 +96,9 @@ impl Reconstruction {
         if p.z <= 0.0 {
             return None;
         }
-        let shown = self.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
+        let shown = self
+            .distortion(image)
+            .distort(&Point2::new(p.x / p.z, p.y / p.z));
         let center = camera.intrinsics.principal_point();
         let pixel = Point2::new(
             camera.intrinsics.fu_px() * shown.x + center.x,
@@ -91,15 +126,18 @@ impl Reconstruction {
     pub fn to_bundle(&self, images: &[SfmImage]) -> (Bundle, Vec<usize>) {
         let mut camera_of_image = vec![usize::MAX; self.cameras.len()];
         let mut image_of_camera = Vec::new();
-        let mut bundle = Bundle {
-            distortion: self.distortion,
-            ..Bundle::default()
-        };
+        let mut bundle = Bundle::default();
+        let mut lenses = Lenses::default();
         for (image, camera) in self.cameras.iter().enumerate() {
             if let Some(camera) = camera {
                 camera_of_image[image] = bundle.cameras.len();
                 image_of_camera.push(image);
                 bundle.cameras.push(*camera);
+                let lens = lenses.number_of(images[image].lens);
+                bundle.lens_of_camera.push(lens);
+                if lens == bundle.distortions.len() {
+                    bundle.distortions.push(self.distortion(image));
+                }
             }
         }
         for (index, point) in self.points.iter().enumerate() {
@@ -142,5 +180,34 @@ impl Reconstruction {
             };
         }
         self.points = points;
+    }
+}
+
+/// `cam_from_world` after the world was moved; the camera keeps its unit of length no more than the world does.
+pub(super) fn moved_pose(
+    cam_from_world: &RigidTransform,
+    to_from_world: &Similarity3<f64>,
+) -> RigidTransform {
+    let center = to_from_world * cam_from_world.inverse_transform_point(&Point3::origin());
+    let rotation = cam_from_world.rotation * to_from_world.isometry.rotation.inverse();
+    RigidTransform::from_parts(Translation3::from(-(rotation * center.coords)), rotation)
+}
+
+/// Numbers of lenses without gaps, in the order in which they come.
+#[derive(Default)]
+pub(super) struct Lenses(Vec<usize>);
+
+impl Lenses {
+    pub(super) fn number_of(&mut self, lens: usize) -> usize {
+        let place = self.0.iter().position(|known| *known == lens);
+        place.unwrap_or_else(|| {
+            self.0.push(lens);
+            self.0.len() - 1
+        })
+    }
+
+    /// What each number stands for.
+    pub(super) fn names(&self) -> &[usize] {
+        &self.0
     }
 }

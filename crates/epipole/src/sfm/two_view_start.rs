@@ -56,7 +56,7 @@ pub fn verify_matches(
     }
     let pixels = [0, 1].map(|n: usize| {
         let image = core::slice::from_ref(images[n]);
-        undistorted(image, &[*intrinsics[n]], options.distortion).swap_remove(0)
+        undistorted(image, &[*intrinsics[n]], &[options.distortion]).swap_remove(0)
     });
     Ok(verify_pair(
         pair,

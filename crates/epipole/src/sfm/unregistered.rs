@@ -1,7 +1,7 @@
 //! Why photographs are missing from a reconstruction.
 
 use super::builder::undistorted;
-use super::incremental::{SfmInput, SfmOptions, SfmResult, check};
+use super::incremental::{SfmInput, SfmOptions, SfmResult, check, distortions};
 use super::two_view_start::{pair_ransac, verify_pair};
 use crate::Result;
 
@@ -91,7 +91,11 @@ pub fn why_unregistered(
     result: &SfmResult,
 ) -> Result<Vec<WhyUnregistered>> {
     let intrinsics = check(input, options)?;
-    let pixels = undistorted(&input.images, &intrinsics, options.distortion);
+    let pixels = undistorted(
+        &input.images,
+        &intrinsics,
+        &distortions(&input.images, options),
+    );
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
     // Which keypoints of placed photographs belong to points.

@@ -1,8 +1,8 @@
 //! What is written can be read: COLMAP's text model and PLY, by readers that know nothing of ours.
 
 use super::config;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
-use epipole::sfm::{RadialDistortion, Reconstruction, ScenePoint, SfmImage, TrackElement};
+use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use epipole::sfm::{Reconstruction, ScenePoint, SfmImage, TrackElement};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
 use proptest::prelude::*;
@@ -38,7 +38,7 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                     width: *side,
                     height: side / 2 + 1,
                     keypoints: keypoints.iter().map(|&(u, v)| Point2::new(u, v)).collect(),
-                    colors: Vec::new(),
+                    ..SfmImage::default()
                 })
                 .collect();
             let camera = |told: &Option<(f64, f64, f64, f64)>| {
@@ -68,14 +68,15 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                     error_px: 0.5,
                 })
                 .collect();
-            let distortion = RadialDistortion {
+            let distortion = Distortion {
                 k1: if is_bent { k1 } else { 0.0 },
-                ..RadialDistortion::default()
+                ..Distortion::NONE
             };
             let reconstruction = Reconstruction {
+                distortions: vec![distortion; images.len()],
                 cameras,
-                distortion,
                 points,
+                ..Reconstruction::default()
             };
             (reconstruction, images)
         })
@@ -122,7 +123,7 @@ proptest! {
         let cameras = lines(&model.cameras);
         for (index, words) in cameras.iter().enumerate() {
             prop_assert_eq!(words[0], (index + 1).to_string());
-            let is_bent = !reconstruction.distortion.is_none();
+            let is_bent = !reconstruction.distortion(0).is_none();
             prop_assert_eq!(words.len(), if is_bent { 12 } else { 8 });
             words[2..].iter().for_each(|word| { number(word); });
         }

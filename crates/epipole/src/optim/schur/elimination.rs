@@ -16,11 +16,17 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
             block.inverse = invert_symmetric(&damped).unwrap_or([[0.0; 3]; 3]);
             for i in 0..3 {
                 block.solved_gradient[i] = 0.0;
-                block.solved_shared[i] = [0.0; S];
                 for k in 0..3 {
                     block.solved_gradient[i] += block.inverse[i][k] * block.gradient[k];
-                    for s in 0..S {
-                        block.solved_shared[i][s] += block.inverse[i][k] * block.with_shared[k][s];
+                }
+            }
+            for group in &mut block.groups {
+                for i in 0..3 {
+                    group.solved[i] = [0.0; S];
+                    for k in 0..3 {
+                        for s in 0..S {
+                            group.solved[i][s] += block.inverse[i][k] * group.with_point[k][s];
+                        }
                     }
                 }
             }
@@ -53,7 +59,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                 block.rows[i * width + c * C..(i + 1) * width].copy_from_slice(&block.hessian[i]);
                 block.rows[i * width + c * C + i] = damp(block.hessian[i][i], damping);
             }
-            block.reduced_with_shared = block.with_shared;
+            block.reduced_with_shared.clone_from(&block.with_shared);
             block.reduced_gradient = block.gradient;
             for &position in &of_camera[c] {
                 let coupling = &couplings[position as usize];
@@ -63,10 +69,12 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                     for i in 0..C {
                         block.reduced_gradient[i] -= coupling.solved[k][i] * point.gradient[k];
                     }
-                    for s in 0..S {
-                        for i in 0..C {
-                            block.reduced_with_shared[s][i] -=
-                                point.with_shared[k][s] * coupling.solved[k][i];
+                    for group in &point.groups {
+                        let reduced = &mut block.reduced_with_shared[group.group as usize];
+                        for s in 0..S {
+                            for i in 0..C {
+                                reduced[s][i] -= group.with_point[k][s] * coupling.solved[k][i];
+                            }
                         }
                     }
                 }
@@ -94,8 +102,8 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                 }
             }
         });
-        let num_cameras = self.cameras.len();
-        let size = num_cameras * C + S;
+        let groups_start = self.cameras.len() * C;
+        let size = self.right.len();
         for (c, block) in self.cameras.iter().enumerate() {
             let width = (c + 1) * C;
             for i in 0..C {
@@ -104,26 +112,53 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                     .copy_from_slice(&block.rows[i * width..(i + 1) * width]);
                 self.right[c * C + i] = -block.reduced_gradient[i];
             }
-            for s in 0..S {
-                let row = (num_cameras * C + s) * size + c * C;
-                self.reduced[row..row + C].copy_from_slice(&block.reduced_with_shared[s]);
+            for (g, with_shared) in block.reduced_with_shared.iter().enumerate() {
+                for s in 0..S {
+                    let row = (groups_start + g * S + s) * size + c * C;
+                    self.reduced[row..row + C].copy_from_slice(&with_shared[s]);
+                }
             }
         }
-        for s in 0..S {
-            let row = num_cameras * C + s;
-            let mut gradient = self.shared_gradient[s];
-            let mut hessian = self.shared_hessian[s];
-            hessian[s] = damp(hessian[s], damping);
-            for point in &self.points {
-                for k in 0..3 {
-                    gradient -= point.with_shared[k][s] * point.solved_gradient[k];
-                    for q in 0..S {
-                        hessian[q] -= point.with_shared[k][s] * point.solved_shared[k][q];
+        self.reduce_groups(damping, groups_start);
+    }
+
+    /// The rows of the groups, from `groups_start` on, without what they have with cameras.
+    fn reduce_groups(&mut self, damping: f64, groups_start: usize) {
+        let size = self.right.len();
+        for (g, block) in self.groups.iter().enumerate() {
+            for s in 0..S {
+                let place = groups_start + g * S + s;
+                let row = &mut self.reduced[place * size..(place + 1) * size];
+                row[groups_start..].fill(0.0);
+                row[groups_start + g * S..][..S].copy_from_slice(&block.hessian[s]);
+                row[place] = damp(block.hessian[s][s], damping);
+                self.right[place] = block.gradient[s];
+            }
+        }
+        for point in &self.points {
+            for a in &point.groups {
+                let first = groups_start + a.group as usize * S;
+                for s in 0..S {
+                    for k in 0..3 {
+                        self.right[first + s] -= a.with_point[k][s] * point.solved_gradient[k];
+                    }
+                }
+                // The lower triangle is all that is looked at.
+                for b in point.groups.iter().filter(|b| b.group <= a.group) {
+                    let column = groups_start + b.group as usize * S;
+                    for s in 0..S {
+                        let row = &mut self.reduced[(first + s) * size + column..][..S];
+                        for k in 0..3 {
+                            for q in 0..S {
+                                row[q] -= a.with_point[k][s] * b.solved[k][q];
+                            }
+                        }
                     }
                 }
             }
-            self.right[row] = -gradient;
-            self.reduced[row * size + num_cameras * C..(row + 1) * size].copy_from_slice(&hessian);
+        }
+        for right in &mut self.right[groups_start..] {
+            *right = -*right;
         }
     }
 
@@ -131,10 +166,10 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
         for (c, delta) in self.delta.cameras.iter_mut().enumerate() {
             delta.copy_from_slice(&self.right[c * C..(c + 1) * C]);
         }
-        let shared_start = self.cameras.len() * C;
-        self.delta
-            .shared
-            .copy_from_slice(&self.right[shared_start..]);
+        let groups_start = self.cameras.len() * C;
+        for (g, delta) in self.delta.shared.iter_mut().enumerate() {
+            delta.copy_from_slice(&self.right[groups_start + g * S..][..S]);
+        }
         let (couplings, points, starts) = (&self.couplings, &self.points, &self.point_starts);
         let (cameras, shared) = (&self.delta.cameras, &self.delta.shared);
         for_each(&mut self.delta.points, |p, delta| {
@@ -148,9 +183,12 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                     }
                 }
             }
-            for k in 0..3 {
-                for s in 0..S {
-                    right[k] += block.with_shared[k][s] * shared[s];
+            for group in &block.groups {
+                let shared = &shared[group.group as usize];
+                for k in 0..3 {
+                    for s in 0..S {
+                        right[k] += group.with_point[k][s] * shared[s];
+                    }
                 }
             }
             for i in 0..3 {

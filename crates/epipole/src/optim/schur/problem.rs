@@ -3,7 +3,7 @@
 use crate::optim::loss::RobustLoss;
 
 /// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
-/// freedom), what all cameras share (`S`), and its point.
+/// freedom), what the cameras of its group share (`S`), and its point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ObservationTerms<const C: usize, const S: usize> {
     /// Predicted minus observed.
@@ -21,15 +21,26 @@ pub struct ObservationTerms<const C: usize, const S: usize> {
 pub struct BundleStep<const C: usize, const S: usize> {
     /// One a camera.
     pub cameras: Vec<[f64; C]>,
-    /// What all cameras share.
-    pub shared: [f64; S],
+    /// What the cameras of a group share, one a group.
+    pub shared: Vec<[f64; S]>,
     /// One a point.
     pub points: Vec<[f64; 3]>,
 }
 
-/// A problem of cameras and points, where every residual has one of each.
+/// What is known of a camera besides what it saw, linearized: a residual and its Jacobian with respect to the
+/// camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PriorTerms<const C: usize> {
+    /// Estimated minus known, in standard deviations.
+    pub residual: [f64; 3],
+    /// ∂r/∂camera.
+    pub camera: [[f64; C]; 3],
+}
+
+/// A problem of cameras and points, where every residual of an observation has one of each. What several cameras
+/// share, as their lens, is a group; an observation belongs to one.
 pub trait BundleProblem<const C: usize, const S: usize>: Sync {
-    /// Cameras, shared quantities and points.
+    /// Cameras, groups and points.
     type Parameters: Clone + Sync;
 
     /// The number of cameras.
@@ -56,9 +67,25 @@ pub trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn held_camera(&self, _camera: usize) -> [bool; C] {
         [false; C]
     }
-    /// Which shared quantities are held fixed.
+    /// The number of groups. One by default, or none if nothing is shared.
+    fn num_groups(&self) -> usize {
+        usize::from(S > 0)
+    }
+    /// The group of an observation; it must be in range. The first by default.
+    fn group(&self, _observation: usize) -> usize {
+        0
+    }
+    /// Which shared quantities are held fixed, alike in all groups.
     fn held_shared(&self) -> [bool; S] {
         [false; S]
+    }
+    /// What is known of a camera besides what it saw. Nothing by default.
+    fn prior(&self, _parameters: &Self::Parameters, _camera: usize) -> Option<PriorTerms<C>> {
+        None
+    }
+    /// The loss of what is known of cameras.
+    fn prior_loss(&self) -> RobustLoss {
+        RobustLoss::Trivial
     }
     /// Whether a point is held fixed.
     fn held_point(&self, _point: usize) -> bool {

@@ -1,6 +1,7 @@
 //! Bundle adjustment in the large: published problems and their solution.
 
 mod problem;
+mod radial;
 mod text;
 
 use super::bundle::{Observation, observation_pairs};
@@ -225,7 +226,7 @@ mod tests {
             let residuals = |d: &DVector<f64>| {
                 let mut step = BundleStep {
                     cameras: vec![[0.0; 9]; 3],
-                    shared: [],
+                    shared: Vec::new(),
                     points: vec![[0.0; 3]; 4],
                 };
                 step.cameras[o.camera].copy_from_slice(&d.as_slice()[..9]);

@@ -1,8 +1,9 @@
 //! What the solver sees of a published problem: residuals, their derivatives, and steps.
 
 use super::BalProblem;
+use super::radial::radial_terms;
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, RobustLoss};
-use crate::sfm::bundle::{Observation, PoseState, move_points, radial_terms, sum_of_squares};
+use crate::sfm::bundle::{Observation, PoseState, move_points, sum_of_squares};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 #[derive(Clone)]

@@ -3,7 +3,8 @@
 use super::{Builder, undistorted};
 use crate::camera::Intrinsics;
 use crate::optim::{Iteration, LmOptions, RobustLoss};
-use crate::sfm::bundle::{Bundle, BundleOptions, Observation, adjust_bundle};
+use crate::sfm::bundle::{Bundle, BundleOptions, Observation, Sensor, adjust_bundle};
+use crate::sfm::reconstruction::Lenses;
 use std::ops::ControlFlow;
 
 impl Builder<'_> {
@@ -36,11 +37,8 @@ impl Builder<'_> {
         with_intrinsics: bool,
     ) -> Option<f64> {
         let is_free = |image: usize| free.is_none_or(|list| list.contains(&self.frame_of(image).0));
-        let mut bundle = Bundle {
-            distortion: self.distortion,
-            sensors: self.rig.into_iter().collect(),
-            ..Bundle::default()
-        };
+        let mut bundle = Bundle::default();
+        let mut lenses = Lenses::default();
         let mut camera_of = vec![usize::MAX; self.images.len()];
         let mut image_of = Vec::new();
         let mut track_of = Vec::new();
@@ -53,7 +51,11 @@ impl Builder<'_> {
             // A pixel and a half: beyond it matches are more often wrong than imprecise.
             loss: RobustLoss::Cauchy { width: 1.5 },
             refine_focal: with_intrinsics && self.options.refine_focal,
+            refine_principal_point: with_intrinsics && self.options.refine_principal_point,
             refine_distortion: with_intrinsics && self.options.refine_distortion,
+            refine_tangential: with_intrinsics && self.options.refine_tangential,
+            // Receivers are sure of themselves also where they are wrong.
+            position_loss: RobustLoss::Cauchy { width: 2.0 },
             ..BundleOptions::default()
         };
         for (track, point) in self.points.iter().enumerate() {
@@ -75,6 +77,11 @@ impl Builder<'_> {
                     bundle.cameras.push(camera);
                     image_of.push(image);
                     options.held_cameras.push(!is_free(image));
+                    let lens = self.lens_in(&mut bundle, &mut lenses, image);
+                    bundle.lens_of_camera.push(lens);
+                    if self.is_placed {
+                        (options.position_priors).push(self.images[image].position);
+                    }
                 }
                 bundle.observations.push(Observation {
                     camera: camera_of[image],
@@ -86,8 +93,15 @@ impl Builder<'_> {
             bundle.points.push(point.position);
             track_of.push(track);
         }
+        if let Some(rig) = self.rig {
+            let lens = self.lens_in(&mut bundle, &mut lenses, self.images.len() / 2);
+            bundle.sensors.push(Sensor { lens, ..rig });
+        }
         let mut go_on = |_: &Iteration| ControlFlow::Continue(());
         let report = adjust_bundle(&mut bundle, &options, &mut go_on).ok()?;
+        if options.refines_lens() {
+            self.share_intrinsics(&bundle, &image_of, &lenses);
+        }
         for (image, camera) in image_of.into_iter().zip(&bundle.cameras) {
             self.place(image, Some(*camera));
         }
@@ -96,26 +110,42 @@ impl Builder<'_> {
                 point.position = *position;
             }
         }
-        if options.refine_focal || options.refine_distortion {
-            self.share_intrinsics(&bundle);
-        }
         Some(report.final_cost)
     }
 
-    /// Gives refined intrinsics to the images that are still to come.
-    fn share_intrinsics(&mut self, bundle: &Bundle) {
-        let registered = (0..self.images.len()).find(|&image| self.cameras[image].is_some());
-        if let Some(camera) = registered.and_then(|image| self.cameras[image])
-            && let Some(image) = registered
-        {
-            let factor = camera.intrinsics.fu_px() / self.intrinsics[image].fu_px();
-            for k in &mut self.intrinsics {
-                let center = k.principal_point();
-                if let Ok(refined) =
+    /// The number that the lens of an image has in a bundle, into which it comes if it is new there.
+    fn lens_in(&self, bundle: &mut Bundle, lenses: &mut Lenses, image: usize) -> usize {
+        let lens = lenses.number_of(self.images[image].lens);
+        if lens == bundle.distortions.len() {
+            bundle.distortions.push(self.distortions[image]);
+        }
+        lens
+    }
+
+    /// Gives what was refined of a lens to all its images, those that are still to come, too.
+    fn share_intrinsics(&mut self, bundle: &Bundle, image_of: &[usize], lenses: &Lenses) {
+        if let (Some(rig), Some(sensor)) = (&mut self.rig, bundle.sensors.first()) {
+            rig.intrinsics = sensor.intrinsics;
+        }
+        for (lens, name) in lenses.names().iter().enumerate() {
+            let of_camera = bundle.lens_of_camera.iter().position(|of| *of == lens);
+            let (image, refined) = match (of_camera, self.rig) {
+                (Some(camera), _) => (image_of[camera], bundle.cameras[camera].intrinsics),
+                (None, Some(rig)) => (self.images.len() / 2, rig.intrinsics),
+                (None, None) => continue,
+            };
+            let old = self.intrinsics[image];
+            let factor = refined.fu_px() / old.fu_px();
+            let shift_px = refined.principal_point() - old.principal_point();
+            for other in (0..self.images.len()).filter(|&i| self.images[i].lens == *name) {
+                let k = self.intrinsics[other];
+                let center = k.principal_point() + shift_px;
+                if let Ok(k) =
                     Intrinsics::new(k.fu_px() * factor, k.fv_px() * factor, center.x, center.y)
                 {
-                    *k = refined;
+                    self.intrinsics[other] = k;
                 }
+                self.distortions[other] = bundle.distortions[lens];
             }
         }
         for (camera, intrinsics) in self.cameras.iter_mut().zip(&self.intrinsics) {
@@ -123,7 +153,6 @@ impl Builder<'_> {
                 camera.intrinsics = *intrinsics;
             }
         }
-        self.distortion = bundle.distortion;
-        self.pixels = undistorted(self.images, &self.intrinsics, self.distortion);
+        self.pixels = undistorted(self.images, &self.intrinsics, &self.distortions);
     }
 }

@@ -1,16 +1,17 @@
 //! The state of a growing reconstruction, and how it starts and takes in image after image.
 
 mod adjust;
+mod place;
 mod points;
 
-use super::bundle::{RadialDistortion, Sensor};
+use super::bundle::Sensor;
 use super::incremental::{Reporter, SfmOptions, SfmStep};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
 use super::two_view_start::{VerifiedPair, pair_ransac};
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Camera, Distortion, Intrinsics, RigidTransform};
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::{Point2, Point3};
 
@@ -27,7 +28,8 @@ pub(super) struct Builder<'a> {
     /// Distortion undone.
     pub(super) pixels: Vec<Vec<Point2<f64>>>,
     pub(super) intrinsics: Vec<Intrinsics>,
-    pub(super) distortion: RadialDistortion,
+    /// Of each image.
+    pub(super) distortions: Vec<Distortion>,
     pub(super) tracks: &'a [Vec<TrackElement>],
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: &'a [Vec<u32>],
@@ -37,18 +39,20 @@ pub(super) struct Builder<'a> {
     pub(super) rig: Option<Sensor>,
     pub(super) cameras: Vec<Option<Camera>>,
     pub(super) points: Vec<Option<TrackPoint>>,
+    /// Whether the world is that of the known positions.
+    pub(super) is_placed: bool,
 }
 
 /// All keypoints as a camera without distortion would show them.
 pub(super) fn undistorted(
     images: &[SfmImage],
     intrinsics: &[Intrinsics],
-    distortion: RadialDistortion,
+    distortions: &[Distortion],
 ) -> Vec<Vec<Point2<f64>>> {
     images
         .iter()
-        .zip(intrinsics)
-        .map(|(image, k)| {
+        .zip(intrinsics.iter().zip(distortions))
+        .map(|(image, (k, distortion))| {
             if distortion.is_none() {
                 return image.keypoints.clone();
             }
@@ -58,7 +62,9 @@ pub(super) fn undistorted(
                 .iter()
                 .map(|pixel| {
                     let ray = k.ray(pixel);
-                    let straight = distortion.undistort(&Point2::new(ray.x, ray.y));
+                    let bent = Point2::new(ray.x, ray.y);
+                    // Keypoints are finite, so there is always a nearest one.
+                    let straight = distortion.undistort_nearest(&bent).unwrap_or(bent);
                     Point2::new(
                         k.fu_px() * straight.x + center.x,
                         k.fv_px() * straight.y + center.y,
@@ -218,13 +224,22 @@ impl Builder<'_> {
         for _ in 0..2 {
             self.complete();
             self.triangulate();
+            self.drop_short_tracks();
             let cost = self.adjust(None, 50, true);
             self.filter();
+            self.drop_short_tracks();
             if let Some(cost) = cost
                 && !reporter.tell(&SfmStep::Adjusted { cost })
             {
                 return;
             }
+        }
+        if self.place_in_world()
+            && let Some(cost) = self.adjust(None, 50, true)
+        {
+            self.filter();
+            self.drop_short_tracks();
+            reporter.tell(&SfmStep::Adjusted { cost });
         }
     }
 
@@ -321,7 +336,8 @@ impl Builder<'_> {
     /// What there is.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
-            distortion: self.distortion,
+            distortions: self.distortions.clone(),
+            is_placed: self.is_placed,
             points: (self.points.iter().flatten())
                 .map(|point| ScenePoint {
                     position: point.position,

@@ -75,6 +75,16 @@ impl Builder<'_> {
         }
     }
 
+    /// Drops points that fewer images saw than the options ask for.
+    pub(in crate::sfm) fn drop_short_tracks(&mut self) {
+        for slot in &mut self.points {
+            if (slot.as_ref()).is_some_and(|point| point.seen.len() < self.options.min_track_length)
+            {
+                *slot = None;
+            }
+        }
+    }
+
     /// Drops observations that fit badly, points seen under too small an angle, and cameras that
     /// see too little.
     pub(in crate::sfm) fn filter(&mut self) {

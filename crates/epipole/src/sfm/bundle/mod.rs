@@ -1,13 +1,14 @@
 //! Bundle adjustment of pinhole cameras.
 
+mod gauge;
+mod options;
 mod problem;
-mod radial;
 #[cfg(test)]
 mod tests;
 
 use super::shares::iterations;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
+use crate::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use crate::optim::{Iteration, LmReport, SchurSystem, minimize};
 use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Translation3, Vector2};
@@ -15,8 +16,7 @@ use problem::{Problem, State};
 use std::ops::ControlFlow;
 
 pub(super) use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
-pub use radial::RadialDistortion;
-pub(super) use radial::radial_terms;
+pub use options::{BundleOptions, Gauge, PositionPrior};
 
 /// A camera saw a point at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,15 +37,22 @@ pub struct Sensor {
     pub sensor_from_camera: RigidTransform,
     /// How the sensor's rays become pixels.
     pub intrinsics: Intrinsics,
+    /// Its lens, as in [`Bundle::lens_of_camera`].
+    pub lens: usize,
 }
 
 /// Cameras, points and observations.
+///
+/// Cameras of one lens share what is refined of it: a factor for their focal lengths, a shift of their principal
+/// points, and the distortion. One lens for all is the default; as many lenses as cameras give each its own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<Camera>,
-    /// The lens distortion that all cameras share.
-    pub distortion: RadialDistortion,
+    /// How each lens distorts; missing entries do not.
+    pub distortions: Vec<Distortion>,
+    /// The lens of each camera; missing entries are 0.
+    pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// What was seen where.
@@ -58,15 +65,32 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// The intrinsics that an observation was made with, and its sensor if it is not the camera
-    /// itself.
-    fn lens(&self, observation: usize) -> (&Intrinsics, Option<&Sensor>) {
+    /// How an observation was made: by the camera itself, or by a sensor.
+    fn eye(&self, observation: usize) -> Eye<'_> {
         let sensor = match self.sensor_of_observation.get(observation) {
             Some(&k) if k > 0 => self.sensors.get(k - 1),
             _ => None,
         };
-        let camera = &self.cameras[self.observations[observation].camera];
-        (sensor.map_or(&camera.intrinsics, |s| &s.intrinsics), sensor)
+        let camera = self.observations[observation].camera;
+        match sensor {
+            Some(sensor) => Eye {
+                intrinsics: &sensor.intrinsics,
+                lens: sensor.lens,
+                sensor_from_camera: Some(&sensor.sensor_from_camera),
+            },
+            None => Eye {
+                intrinsics: &self.cameras[camera].intrinsics,
+                lens: self.lens_of_camera.get(camera).copied().unwrap_or(0),
+                sensor_from_camera: None,
+            },
+        }
+    }
+
+    /// The number of lenses, as far as cameras and sensors have them.
+    fn num_lenses(&self) -> usize {
+        let of_cameras = self.lens_of_camera.iter().take(self.cameras.len());
+        let used = of_cameras.chain(self.sensors.iter().map(|sensor| &sensor.lens));
+        used.max().map_or(1, |last| last.saturating_add(1))
     }
 
     /// Predicted minus observed pixel of an observation, given by its index; not finite if the
@@ -74,49 +98,27 @@ impl Bundle {
     /// center, as in [`adjust_bundle`].
     pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
         let o = &self.observations[observation];
-        let (intrinsics, sensor) = self.lens(observation);
+        let eye = self.eye(observation);
         let mut p = self.cameras[o.camera].cam_from_world * self.points[o.point];
-        if let Some(sensor) = sensor {
-            p = sensor.sensor_from_camera * p;
+        if let Some(sensor_from_camera) = eye.sensor_from_camera {
+            p = sensor_from_camera * p;
         }
-        let shown = self.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
-        let center = intrinsics.principal_point();
+        let distortion = self.distortions.get(eye.lens).copied().unwrap_or_default();
+        let shown = distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
+        let center = eye.intrinsics.principal_point();
         Vector2::new(
-            intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
-            intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
+            eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
+            eye.intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
         )
     }
 }
 
-/// What keeps the reconstruction from drifting: position, orientation and scale of the world are
-/// not observable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Gauge {
-    /// The first camera and one coordinate of another one's translation are held fixed: exactly
-    /// the seven free dimensions.
-    #[default]
-    TwoCameras,
-    /// Nothing is fixed; damping alone keeps the solution in place.
-    Free,
-}
-
-/// What to refine, and how.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct BundleOptions {
-    /// When to stop.
-    pub lm: LmOptions,
-    /// The loss of each reprojection error; its width is in pixels.
-    pub loss: RobustLoss,
-    /// Used only while fewer than two cameras are held.
-    pub gauge: Gauge,
-    /// Cameras that stay where they are, by index; missing entries are free.
-    pub held_cameras: Vec<bool>,
-    /// Points that stay where they are, by index; missing entries are free.
-    pub held_points: Vec<bool>,
-    /// Refine one factor for all focal lengths.
-    pub refine_focal: bool,
-    /// Refine the shared radial distortion.
-    pub refine_distortion: bool,
+/// What made an observation.
+struct Eye<'a> {
+    intrinsics: &'a Intrinsics,
+    lens: usize,
+    /// `None` for the camera itself.
+    sensor_from_camera: Option<&'a RigidTransform>,
 }
 
 /// Checks that observations refer to existing cameras and points and are finite.
@@ -156,48 +158,9 @@ pub(super) fn observation_pairs(
         .collect()
 }
 
-/// Which degrees of freedom of each camera are held.
-fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
-    let is_held = |i: usize| options.held_cameras.get(i).copied().unwrap_or(false);
-    let mut held: Vec<[bool; 6]> = (0..bundle.cameras.len()).map(|i| [is_held(i); 6]).collect();
-    let num_held = held.iter().filter(|h| h[0]).count();
-    let point_held = options.held_points.iter().any(|&h| h);
-    if options.gauge == Gauge::Free || num_held >= 2 || point_held {
-        return held;
-    }
-    let mut seen = vec![false; bundle.cameras.len()];
-    for o in &bundle.observations {
-        seen[o.camera] = true;
-    }
-    let Some(anchor) = (0..held.len())
-        .find(|&i| held[i][0])
-        .or_else(|| (0..held.len()).find(|&i| seen[i]))
-    else {
-        return held;
-    };
-    held[anchor] = [true; 6];
-    let origin = bundle.cameras[anchor].center_in_world();
-    let mut farthest = (0.0, None);
-    for (i, camera) in bundle.cameras.iter().enumerate() {
-        let distance = (camera.center_in_world() - origin).norm();
-        if i != anchor && seen[i] && distance > farthest.0 {
-            farthest = (distance, Some(i));
-        }
-    }
-    // A rig knows its own size, so only a single camera leaves the scale open.
-    if let Some(other) = farthest.1
-        && bundle.sensors.is_empty()
-    {
-        // A change of scale moves this camera's translation along R (C − C₀).
-        let camera = &bundle.cameras[other];
-        let slide = camera.cam_from_world.rotation * (camera.center_in_world() - origin);
-        held[other][3 + slide.iamax()] = true;
-    }
-    held
-}
-
-/// Refines cameras, points and, if wanted, a common focal length and lens distortion, in place:
-/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels.
+/// Refines cameras, points and, if wanted, what [`BundleOptions`] names of their lenses, in place:
+/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, and what is known of positions beside it, each
+/// difference in its standard deviations: a pixel weighs as much as one of them.
 ///
 /// * `observer`: called once before the first step and after every step; answer
 ///   [`ControlFlow::Break`] to cancel; the bundle is then the best found so far
@@ -206,23 +169,59 @@ fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
 ///
 /// # Errors
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, or for a loss that [`RobustLoss::check`] refuses,
-/// [`Error::NotFinite`] if a pixel or the cost at the start is not finite.
+/// camera or point that is not there, for a lens beyond the number of cameras and sensors, a standard deviation that is not positive, or
+/// for a loss that [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses,
+/// [`Error::NotFinite`] if a pixel, a known position or the cost at the start is not finite.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
 /// is its §9.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::sfm::{Bundle, BundleOptions, Observation, PositionPrior, adjust_bundle};
+/// use nalgebra::{Point3, Vector3};
+/// // Three cameras look along z; each has a lens of its own.
+/// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
+/// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+///     bundle.cameras.push(Camera {
+///         intrinsics: Intrinsics::centered(500.0, 640, 480)?,
+///         cam_from_world: RigidTransform::translation(-x, -y, 0.0),
+///     });
+/// }
+/// for n in 0..12 {
+///     let [x, y] = [f64::from(n % 4) - 1.5, f64::from(n / 4) - 1.0];
+///     bundle.points.push(Point3::new(x, y, 4.0 + 0.7 * f64::from(n % 3)));
+/// }
+/// for (point, place) in bundle.points.iter().enumerate() {
+///     for (camera, model) in bundle.cameras.iter().enumerate() {
+///         bundle.observations.push(Observation { camera, point, pixel: model.project(place)? });
+///     }
+/// }
+/// // A receiver says that all three stand 100 meters further along x.
+/// let known = |camera: &Camera| {
+///     let center_in_world = camera.center_in_world() + 100.0 * Vector3::x();
+///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })
+/// };
+/// let options = BundleOptions {
+///     position_priors: bundle.cameras.iter().map(known).collect(),
+///     ..BundleOptions::default()
+/// };
+/// adjust_bundle(&mut bundle, &options, &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// assert!((bundle.cameras[1].center_in_world() - Point3::new(101.0, 0.0, 0.0)).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
 pub fn adjust_bundle(
     bundle: &mut Bundle,
     options: &BundleOptions,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<LmReport> {
-    options.loss.check()?;
+    options.check()?;
     let pairs = observation_pairs(
         &bundle.observations,
         bundle.cameras.len(),
         bundle.points.len(),
     )?;
-    let mut state = State::new(bundle);
     if let Some(&sensor) = bundle
         .sensor_of_observation
         .iter()
@@ -234,35 +233,43 @@ pub fn adjust_bundle(
             value: sensor as f64,
         });
     }
+    let num_lenses = bundle.num_lenses();
+    if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
+        return Err(Error::OutOfRange {
+            what: "the number of a lens",
+            requirement: "less than the number of cameras and sensors",
+            value: (num_lenses - 1) as f64,
+        });
+    }
+    let mut state = State::new(bundle);
     let problem = Problem {
         bundle,
         pairs,
         options,
-        held_cameras: held_freedoms(bundle, options),
+        held_cameras: gauge::held_freedoms(bundle, options),
     };
     let mut system = SchurSystem::new(&problem);
     let report = minimize(&mut system, &mut state, &options.lm, observer)?;
-    let [focal, k1, k2] = state.shared;
+    // Either all of it is taken over, or nothing.
     let (mut cameras, mut sensors) = (bundle.cameras.clone(), bundle.sensors.clone());
-    let scaled = |k: &Intrinsics| {
-        let center = k.principal_point();
-        Intrinsics::new(k.fu_px() * focal, k.fv_px() * focal, center.x, center.y)
-    };
-    for (camera, new) in cameras.iter_mut().zip(&state.cameras) {
+    for (index, (camera, new)) in cameras.iter_mut().zip(&state.cameras).enumerate() {
         camera.cam_from_world =
             RigidTransform::from_parts(Translation3::from(new.translation), new.rotation);
-        if options.refine_focal {
-            camera.intrinsics = scaled(&camera.intrinsics)?;
-        }
+        let lens = bundle.lens_of_camera.get(index).copied().unwrap_or(0);
+        camera.intrinsics = state.lenses[lens].refined(&camera.intrinsics)?;
     }
-    if options.refine_focal {
-        for sensor in &mut sensors {
-            sensor.intrinsics = scaled(&sensor.intrinsics)?;
-        }
+    for sensor in &mut sensors {
+        sensor.intrinsics = state.lenses[sensor.lens].refined(&sensor.intrinsics)?;
     }
     (bundle.cameras, bundle.sensors) = (cameras, sensors);
     bundle.points = state.points;
-    bundle.distortion = RadialDistortion { k1, k2 };
+    if options.refines_lens() {
+        let num_known = bundle.distortions.len().max(num_lenses);
+        bundle.distortions.resize(num_known, Distortion::NONE);
+        for (distortion, lens) in bundle.distortions.iter_mut().zip(&state.lenses) {
+            *distortion = lens.distortion;
+        }
+    }
     Ok(report)
 }
 

@@ -1,16 +1,52 @@
 //! What the solver sees of a bundle: residuals, their derivatives, and steps.
 
-use super::radial::radial_terms;
 use super::{Bundle, BundleOptions};
+use crate::Result;
 use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
-use crate::optim::{BundleProblem, BundleStep, ObservationTerms, RobustLoss};
-use nalgebra::{Point3, Vector3};
+use crate::camera::{Distortion, Intrinsics};
+use crate::optim::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, RobustLoss};
+use nalgebra::{Point2, Point3, Vector2, Vector3};
+
+/// What is refined of a lens: a factor of the focal lengths, the principal point's shift, k1, k2, p1, p2.
+pub(super) const OF_LENS: usize = 7;
+
+/// A lens, as far as it is refined.
+#[derive(Clone)]
+pub(super) struct LensState {
+    focal: f64,
+    shift_px: Vector2<f64>,
+    pub(super) distortion: Distortion,
+}
+
+impl LensState {
+    /// The intrinsics that became of these.
+    pub(super) fn refined(&self, k: &Intrinsics) -> Result<Intrinsics> {
+        let center = k.principal_point() + self.shift_px;
+        Intrinsics::new(
+            k.fu_px() * self.focal,
+            k.fv_px() * self.focal,
+            center.x,
+            center.y,
+        )
+    }
+
+    fn moved(&self, step: &[f64; OF_LENS]) -> Self {
+        let [focal, u, v, k1, k2, p1, p2] = *step;
+        let mut moved = self.clone();
+        moved.focal += focal;
+        moved.shift_px += Vector2::new(u, v);
+        moved.distortion.k1 += k1;
+        moved.distortion.k2 += k2;
+        moved.distortion.p1 += p1;
+        moved.distortion.p2 += p2;
+        moved
+    }
+}
 
 #[derive(Clone)]
 pub(super) struct State {
     pub(super) cameras: Vec<PoseState>,
-    /// Factor of all focal lengths, k1, k2.
-    pub(super) shared: [f64; 3],
+    pub(super) lenses: Vec<LensState>,
     pub(super) points: Vec<Point3<f64>>,
 }
 
@@ -24,9 +60,14 @@ impl State {
                 PoseState::new(pose.rotation, pose.translation.vector)
             })
             .collect();
+        let lens = |index: usize| LensState {
+            focal: 1.0,
+            shift_px: Vector2::zeros(),
+            distortion: bundle.distortions.get(index).copied().unwrap_or_default(),
+        };
         Self {
             cameras,
-            shared: [1.0, bundle.distortion.k1, bundle.distortion.k2],
+            lenses: (0..bundle.num_lenses()).map(lens).collect(),
             points: bundle.points.clone(),
         }
     }
@@ -39,7 +80,7 @@ pub(super) struct Problem<'a> {
     pub(super) held_cameras: Vec<[bool; 6]>,
 }
 
-impl BundleProblem<6, 3> for Problem<'_> {
+impl BundleProblem<6, OF_LENS> for Problem<'_> {
     type Parameters = State;
 
     fn num_cameras(&self) -> usize {
@@ -57,9 +98,37 @@ impl BundleProblem<6, 3> for Problem<'_> {
     fn held_camera(&self, camera: usize) -> [bool; 6] {
         self.held_cameras[camera]
     }
-    fn held_shared(&self) -> [bool; 3] {
-        let (focal, distortion) = (self.options.refine_focal, self.options.refine_distortion);
-        [!focal, !distortion, !distortion]
+    fn num_groups(&self) -> usize {
+        match self.options.refines_lens() {
+            true => self.bundle.num_lenses(),
+            false => 0,
+        }
+    }
+    fn group(&self, observation: usize) -> usize {
+        self.bundle.eye(observation).lens
+    }
+    fn held_shared(&self) -> [bool; OF_LENS] {
+        let held = |refined: bool| !refined;
+        let focal = held(self.options.refine_focal);
+        let center = held(self.options.refine_principal_point);
+        let radial = held(self.options.refine_distortion);
+        let tangential = held(self.options.refine_tangential);
+        [
+            focal, center, center, radial, radial, tangential, tangential,
+        ]
+    }
+    fn prior(&self, state: &State, camera: usize) -> Option<PriorTerms<6>> {
+        let known = (self.options.position_priors.get(camera)?).as_ref()?;
+        let (center, by_pose) = state.cameras[camera].center();
+        let off = center - known.center_in_world;
+        let row = |i: usize| by_pose[i].map(|slope| slope / known.sigma[i]);
+        Some(PriorTerms {
+            residual: core::array::from_fn(|i| off[i] / known.sigma[i]),
+            camera: core::array::from_fn(row),
+        })
+    }
+    fn prior_loss(&self) -> RobustLoss {
+        self.options.position_loss
     }
     fn held_point(&self, point: usize) -> bool {
         self.options
@@ -72,64 +141,69 @@ impl BundleProblem<6, 3> for Problem<'_> {
     fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
         let o = &self.bundle.observations[observation];
         let camera = &state.cameras[o.camera];
-        let (intrinsics, sensor) = self.bundle.lens(observation);
+        let eye = self.bundle.eye(observation);
         let mut p = camera.rotated(&state.points[o.point]) + camera.translation;
-        if let Some(sensor) = sensor {
-            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
+        if let Some(sensor_from_camera) = eye.sensor_from_camera {
+            p = (sensor_from_camera * Point3::from(p)).coords;
         }
-        let (x, y) = (p.x / p.z, p.y / p.z);
-        let [focal, k1, k2] = state.shared;
-        let r_sq = x * x + y * y;
-        let factor = focal * (1.0 + r_sq * (k1 + r_sq * k2));
-        let center = intrinsics.principal_point();
+        let lens = &state.lenses[eye.lens];
+        let shown = lens.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
+        let center = eye.intrinsics.principal_point() + lens.shift_px;
         [
-            factor * intrinsics.fu_px() * x + center.x - o.pixel.x,
-            factor * intrinsics.fv_px() * y + center.y - o.pixel.y,
+            lens.focal * eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
+            lens.focal * eye.intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
         ]
     }
 
-    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, 3> {
+    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, OF_LENS> {
         let o = &self.bundle.observations[observation];
         let camera = &state.cameras[o.camera];
-        let (intrinsics, sensor) = self.bundle.lens(observation);
+        let eye = self.bundle.eye(observation);
         let rotated = camera.rotated(&state.points[o.point]);
         let mut p = rotated + camera.translation;
-        if let Some(sensor) = sensor {
-            p = (sensor.sensor_from_camera * Point3::from(p)).coords;
+        if let Some(sensor_from_camera) = eye.sensor_from_camera {
+            p = (sensor_from_camera * Point3::from(p)).coords;
         }
-        let normalized = [p.x / p.z, p.y / p.z];
-        let [x, y] = normalized;
-        let [focal, k1, k2] = state.shared;
-        let radial = radial_terms(normalized, k1, k2);
-        let center = intrinsics.principal_point();
-        let focals = [intrinsics.fu_px(), intrinsics.fv_px()];
-        let seen = [o.pixel.x - center.x, o.pixel.y - center.y];
+        let lens = &state.lenses[eye.lens];
+        let ray = Point2::new(p.x / p.z, p.y / p.z);
+        let shown = lens.distortion.distort(&ray);
+        let bend = lens.distortion.jacobian(&ray);
+        let (x, y) = (ray.x, ray.y);
+        let r_sq = x * x + y * y;
+        // What k1, k2, p1 and p2 move, before the focal length.
+        let by_distortion = [
+            [r_sq * x, r_sq * r_sq * x, 2.0 * x * y, r_sq + 2.0 * x * x],
+            [r_sq * y, r_sq * r_sq * y, r_sq + 2.0 * y * y, 2.0 * x * y],
+        ];
+        let center = eye.intrinsics.principal_point() + lens.shift_px;
+        let focals = [eye.intrinsics.fu_px(), eye.intrinsics.fv_px()];
         let mut terms = ObservationTerms {
             residual: [0.0; 2],
             camera: [[0.0; 6]; 2],
-            shared: [[0.0; 3]; 2],
+            shared: [[0.0; OF_LENS]; 2],
             point: [[0.0; 3]; 2],
         };
         for row in 0..2 {
-            let f = focals[row] * focal;
-            terms.residual[row] = f * radial.factor * normalized[row] - seen[row];
+            let f = focals[row] * lens.focal;
+            terms.residual[row] = f * shown[row] + center[row] - o.pixel[row];
             // ∂p/∂P = 1/z [1 0 −x; 0 1 −y], with x and y after the division.
-            let (a, b) = (f * radial.jacobian[row][0], f * radial.jacobian[row][1]);
+            let (a, b) = (f * bend[(row, 0)], f * bend[(row, 1)]);
             let mut by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
-            if let Some(sensor) = sensor {
-                by_p = sensor.sensor_from_camera.rotation.inverse() * by_p;
+            if let Some(sensor_from_camera) = eye.sensor_from_camera {
+                by_p = sensor_from_camera.rotation.inverse() * by_p;
             }
             (terms.camera[row], terms.point[row]) = camera.derivatives(&rotated, &by_p);
-            terms.shared[row] = [
-                focals[row] * radial.factor * normalized[row],
-                f * radial.r_sq * normalized[row],
-                f * radial.r_sq * radial.r_sq * normalized[row],
-            ];
+            let shared = &mut terms.shared[row];
+            shared[0] = focals[row] * shown[row];
+            shared[1 + row] = 1.0;
+            for (slope, by) in shared[3..].iter_mut().zip(by_distortion[row]) {
+                *slope = f * by;
+            }
         }
         terms
     }
 
-    fn step(&self, from: &State, step: &BundleStep<6, 3>, into: &mut State) {
+    fn step(&self, from: &State, step: &BundleStep<6, OF_LENS>, into: &mut State) {
         for ((old, new), d) in from
             .cameras
             .iter()
@@ -138,8 +212,9 @@ impl BundleProblem<6, 3> for Problem<'_> {
         {
             *new = old.moved(*d);
         }
-        for k in 0..3 {
-            into.shared[k] = from.shared[k] + step.shared[k];
+        // Empty where no lens is refined.
+        for ((old, new), d) in from.lenses.iter().zip(&mut into.lenses).zip(&step.shared) {
+            *new = old.moved(d);
         }
         move_points(&from.points, &step.points, &mut into.points);
     }

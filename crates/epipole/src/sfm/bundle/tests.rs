@@ -1,16 +1,17 @@
 //! Cameras around points, put right again after they were disturbed.
 
+use super::problem::OF_LENS;
 use super::*;
 use crate::camera::look_at;
 use crate::math::random::Random;
-use crate::optim::{BundleProblem, BundleStep, Termination, check_jacobian};
+use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, Termination, check_jacobian};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Cameras on an arc look at a ball of points.
-fn arc(num_cameras: usize, num_points: usize, distortion: RadialDistortion) -> Bundle {
+fn arc(num_cameras: usize, num_points: usize, distortion: Distortion) -> Bundle {
     let mut random = Random::new(21);
     let mut bundle = Bundle {
-        distortion,
+        distortions: vec![distortion],
         ..Bundle::default()
     };
     let up = Vector3::new(0.0, -1.0, 0.0);
@@ -66,23 +67,45 @@ fn exact() -> LmOptions {
     }
 }
 
+fn everything() -> BundleOptions {
+    BundleOptions {
+        lm: exact(),
+        refine_focal: true,
+        refine_principal_point: true,
+        refine_distortion: true,
+        refine_tangential: true,
+        ..BundleOptions::default()
+    }
+}
+
+fn bent(k1: f64, p1: f64) -> Distortion {
+    Distortion {
+        k1,
+        k2: -0.3 * k1,
+        p1,
+        p2: -0.5 * p1,
+        k3: 0.01,
+    }
+}
+
 #[test]
 fn jacobians_are_those_of_central_differences() {
-    let distortion = RadialDistortion { k1: -0.1, k2: 0.03 };
-    let mut bundle = arc(3, 5, distortion);
+    let mut bundle = arc(3, 5, bent(-0.1, 0.004));
     disturb(&mut bundle, 0.02);
     let options = BundleOptions {
-        refine_focal: true,
-        refine_distortion: true,
-        ..BundleOptions::default()
+        position_priors: vec![None, known(&bundle.cameras[1], 0.3)],
+        ..everything()
     };
-    // The second half is seen by a sensor that looks from the side.
+    // The second half is seen by a sensor that looks from the side, through a lens of its own.
     let turn = Vector3::new(0.05, -0.2, 0.1);
     bundle.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), turn),
         intrinsics: Intrinsics::new(700.0, 710.0, 300.0, 200.0).unwrap(),
+        lens: 2,
     });
     bundle.sensor_of_observation = (0..15).map(|o| usize::from(o >= 8)).collect();
+    bundle.lens_of_camera = vec![0, 1];
+    bundle.distortions.push(bent(0.05, 0.002));
     let problem = Problem {
         bundle: &bundle,
         pairs: observation_pairs(&bundle.observations, 3, 5).unwrap(),
@@ -90,9 +113,19 @@ fn jacobians_are_those_of_central_differences() {
         held_cameras: vec![[false; 6]; 3],
     };
     let state = State::new(&bundle);
+    let nothing = BundleStep {
+        cameras: vec![[0.0; 6]; 3],
+        shared: vec![[0.0; OF_LENS]; 3],
+        points: vec![[0.0; 3]; 5],
+    };
+    let moved = |step: &BundleStep<6, OF_LENS>| {
+        let mut moved = state.clone();
+        problem.step(&state, step, &mut moved);
+        moved
+    };
     for (index, o) in bundle.observations.iter().enumerate() {
         let terms = problem.linearize(&state, index);
-        let mut analytic = DMatrix::zeros(2, 12);
+        let mut analytic = DMatrix::zeros(2, 9 + OF_LENS);
         for row in 0..2 {
             for (column, value) in terms.camera[row]
                 .iter()
@@ -105,30 +138,173 @@ fn jacobians_are_those_of_central_differences() {
         }
         let residuals = |d: &DVector<f64>| {
             let d = d.as_slice();
-            let mut step = BundleStep {
-                cameras: vec![[0.0; 6]; 3],
-                shared: [d[6], d[7], d[8]],
-                points: vec![[0.0; 3]; 5],
-            };
+            let mut step = nothing.clone();
             step.cameras[o.camera].copy_from_slice(&d[..6]);
-            step.points[o.point].copy_from_slice(&d[9..]);
-            let mut moved = state.clone();
-            problem.step(&state, &step, &mut moved);
-            DVector::from_row_slice(&problem.residual(&moved, index))
+            step.shared[problem.group(index)].copy_from_slice(&d[6..6 + OF_LENS]);
+            step.points[o.point].copy_from_slice(&d[6 + OF_LENS..]);
+            DVector::from_row_slice(&problem.residual(&moved(&step), index))
         };
         assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
         let residual = bundle.residual_px(index);
         assert!((residual - Vector2::from(terms.residual)).norm() < 1e-9);
     }
+    // What is known of the second camera's position.
+    assert!(problem.prior(&state, 0).is_none() && problem.prior(&state, 2).is_none());
+    let prior = problem.prior(&state, 1).unwrap();
+    let analytic = DMatrix::from_fn(3, 6, |row, column| prior.camera[row][column]);
+    let residuals = |d: &DVector<f64>| {
+        let mut step = nothing.clone();
+        step.cameras[1].copy_from_slice(d.as_slice());
+        DVector::from_row_slice(&problem.prior(&moved(&step), 1).unwrap().residual)
+    };
+    assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
+}
+
+/// That a camera stands where it does, to within so much.
+fn known(camera: &Camera, sigma: f64) -> Option<PositionPrior> {
+    Some(PositionPrior {
+        center_in_world: camera.center_in_world(),
+        sigma: Vector3::new(sigma, 2.0 * sigma, 3.0 * sigma),
+    })
+}
+
+/// The pixels of a bundle as it says that they are.
+fn photograph(bundle: &mut Bundle) {
+    for index in 0..bundle.observations.len() {
+        let off = bundle.residual_px(index);
+        bundle.observations[index].pixel += off;
+    }
+}
+
+#[test]
+fn each_lens_is_refined_by_what_was_seen_through_it() {
+    let mut bundle = arc(9, 120, Distortion::NONE);
+    bundle.lens_of_camera = (0..9).map(|camera| camera % 3).collect();
+    bundle.distortions = vec![bent(-0.1, 0.003), bent(0.06, -0.002), bent(-0.02, 0.001)];
+    let k = [
+        Intrinsics::new(800.0, 800.0, 322.0, 236.0).unwrap(),
+        Intrinsics::new(900.0, 905.0, 315.0, 244.0).unwrap(),
+        Intrinsics::new(700.0, 690.0, 320.0, 240.0).unwrap(),
+    ];
+    for (index, camera) in bundle.cameras.iter_mut().enumerate() {
+        camera.intrinsics = k[index % 3];
+    }
+    photograph(&mut bundle);
+    let truth = bundle.clone();
+    disturb(&mut bundle, 0.01);
+    for (index, camera) in bundle.cameras.iter_mut().enumerate() {
+        // Of each lens another focal length, but the same ratio of its two.
+        let factor = [1.03, 0.98, 1.01][index % 3];
+        let k = k[index % 3];
+        camera.intrinsics =
+            Intrinsics::new(factor * k.fu_px(), factor * k.fv_px(), 320.0, 240.0).unwrap();
+    }
+    // The third terms are not refined.
+    let only_third = Distortion {
+        k3: 0.01,
+        ..Distortion::NONE
+    };
+    bundle.distortions = vec![only_third; 3];
+    let report = adjust_bundle(&mut bundle, &everything(), &mut go_on).unwrap();
+    assert!(report.final_cost < 1e-12, "{report:?}");
+    for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
+        let (got, want) = (got.intrinsics, want.intrinsics);
+        assert!(
+            (got.fu_px() - want.fu_px()).abs() < 1e-3,
+            "{got:?} {want:?}"
+        );
+        assert!(
+            (got.fv_px() - want.fv_px()).abs() < 1e-3,
+            "{got:?} {want:?}"
+        );
+        assert!((got.principal_point() - want.principal_point()).norm() < 1e-2);
+    }
+    for (got, want) in bundle.distortions.iter().zip(&truth.distortions) {
+        for (got, want) in [
+            (got.k1, want.k1),
+            (got.k2, want.k2),
+            (got.p1, want.p1),
+            (got.p2, want.p2),
+        ] {
+            assert!((got - want).abs() < 1e-4, "{got} {want}");
+        }
+        assert_eq!(got.k3, 0.01);
+    }
+    // What all share is not what three lenses need.
+    let mut shared = truth.clone();
+    shared.lens_of_camera = Vec::new();
+    shared.distortions = vec![only_third];
+    let report = adjust_bundle(&mut shared, &everything(), &mut go_on).unwrap();
+    assert!(report.final_cost > 1.0, "{report:?}");
+}
+
+#[test]
+fn what_is_not_to_be_refined_stays_the_same_bits() {
+    let mut bundle = arc(5, 40, bent(-0.1, 0.003));
+    disturb(&mut bundle, 0.01);
+    let before = bundle.clone();
+    for (refine_tangential, refine_distortion) in [(true, false), (false, true), (false, false)] {
+        let options = BundleOptions {
+            refine_tangential,
+            refine_distortion,
+            ..BundleOptions::default()
+        };
+        let mut bundle = before.clone();
+        adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+        let (new, old) = (bundle.distortions[0], before.distortions[0]);
+        assert_eq!((new.p1, new.p2) == (old.p1, old.p2), !refine_tangential);
+        assert_eq!((new.k1, new.k2) == (old.k1, old.k2), !refine_distortion);
+        for (new, old) in bundle.cameras.iter().zip(&before.cameras) {
+            assert_eq!(new.intrinsics, old.intrinsics);
+        }
+    }
+}
+
+#[test]
+fn known_positions_move_the_world_there_and_wrong_ones_do_not() {
+    let mut bundle = arc(8, 60, Distortion::NONE);
+    let truth = bundle.clone();
+    let mut priors: Vec<_> = truth.cameras.iter().map(|c| known(c, 0.05)).collect();
+    // One receiver is wrong by far, one camera has none.
+    priors[3].as_mut().unwrap().center_in_world.x += 40.0;
+    priors[5] = None;
+    // All is turned, larger and elsewhere, as a reconstruction is.
+    let elsewhere = nalgebra::Similarity3::new(
+        Vector3::new(0.3, -0.2, 0.1),
+        Vector3::new(0.02, 0.05, 0.01),
+        1.1,
+    );
+    for camera in &mut bundle.cameras {
+        camera.cam_from_world =
+            crate::sfm::reconstruction::moved_pose(&camera.cam_from_world, &elsewhere);
+    }
+    for point in &mut bundle.points {
+        *point = elsewhere * *point;
+    }
+    let options = BundleOptions {
+        lm: exact(),
+        position_priors: priors,
+        position_loss: RobustLoss::Cauchy { width: 2.0 },
+        ..BundleOptions::default()
+    };
+    adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
+        let off = (got.center_in_world() - want.center_in_world()).norm();
+        assert!(off < 0.01, "{off}");
+    }
+    for (got, want) in bundle.points.iter().zip(&truth.points) {
+        assert!((got - want).norm() < 0.01);
+    }
 }
 
 #[test]
 fn a_rig_knows_its_size() {
-    let mut bundle = arc(4, 30, RadialDistortion::default());
+    let mut bundle = arc(4, 30, Distortion::NONE);
     let truth = bundle.clone();
     bundle.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::translation(-0.4, 0.0, 0.0),
         intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
+        lens: 0,
     });
     bundle.sensor_of_observation = vec![0; bundle.observations.len()];
     for index in 0..bundle.observations.len() {
@@ -158,7 +334,7 @@ fn a_rig_knows_its_size() {
 
 #[test]
 fn two_cameras_fix_the_gauge_and_the_truth_is_found() {
-    let mut bundle = arc(5, 50, RadialDistortion::default());
+    let mut bundle = arc(5, 50, Distortion::NONE);
     let truth = bundle.clone();
     disturb(&mut bundle, 0.02);
     // Give the far camera back the coordinate that holds the scale.
@@ -181,12 +357,13 @@ fn two_cameras_fix_the_gauge_and_the_truth_is_found() {
 
 #[test]
 fn a_shared_focal_length_and_distortion_are_refined() {
-    let distortion = RadialDistortion {
+    let distortion = Distortion {
         k1: -0.08,
         k2: 0.02,
+        ..Distortion::NONE
     };
     let mut bundle = arc(6, 80, distortion);
-    bundle.distortion = RadialDistortion::default();
+    bundle.distortions.clear();
     for camera in &mut bundle.cameras {
         camera.intrinsics = Intrinsics::centered(830.0, 640, 480).unwrap();
     }
@@ -200,13 +377,13 @@ fn a_shared_focal_length_and_distortion_are_refined() {
     let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     assert!((bundle.cameras[3].intrinsics.fu_px() - 800.0).abs() < 1e-4);
-    assert!((bundle.distortion.k1 + 0.08).abs() < 1e-6);
-    assert!((bundle.distortion.k2 - 0.02).abs() < 1e-5);
+    assert!((bundle.distortions[0].k1 + 0.08).abs() < 1e-6);
+    assert!((bundle.distortions[0].k2 - 0.02).abs() < 1e-5);
 }
 
 #[test]
 fn held_cameras_and_points_stay() {
-    let mut bundle = arc(4, 20, RadialDistortion::default());
+    let mut bundle = arc(4, 20, Distortion::NONE);
     disturb(&mut bundle, 0.01);
     let before = bundle.clone();
     let options = BundleOptions {
@@ -224,7 +401,7 @@ fn held_cameras_and_points_stay() {
 
 #[test]
 fn canceling_leaves_the_best_so_far() {
-    let mut bundle = arc(4, 20, RadialDistortion::default());
+    let mut bundle = arc(4, 20, Distortion::NONE);
     disturb(&mut bundle, 0.02);
     let mut stop = |i: &Iteration| {
         if i.index == 1 {
@@ -244,7 +421,7 @@ fn canceling_leaves_the_best_so_far() {
 
 #[test]
 fn bad_observations_are_refused() {
-    let good = arc(2, 8, RadialDistortion::default());
+    let good = arc(2, 8, Distortion::NONE);
     let options = BundleOptions::default();
     let mut none = good.clone();
     none.observations.clear();
@@ -264,4 +441,24 @@ fn bad_observations_are_refused() {
         adjust_bundle(&mut nan, &options, &mut go_on),
         Err(Error::NotFinite { .. })
     ));
+    let mut many = good.clone();
+    many.lens_of_camera = vec![0, 2];
+    assert!(matches!(
+        adjust_bundle(&mut many, &options, &mut go_on),
+        Err(Error::OutOfRange { value: 2.0, .. })
+    ));
+    for (sigma, x) in [
+        (0.0, 0.0),
+        (-1.0, 0.0),
+        (f64::NAN, 0.0),
+        (1.0, f64::INFINITY),
+    ] {
+        let mut prior = known(&good.cameras[0], sigma).unwrap();
+        prior.center_in_world.x += x;
+        let options = BundleOptions {
+            position_priors: vec![Some(prior)],
+            ..BundleOptions::default()
+        };
+        assert!(adjust_bundle(&mut good.clone(), &options, &mut go_on).is_err());
+    }
 }

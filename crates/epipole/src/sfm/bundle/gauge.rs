@@ -1,0 +1,45 @@
+//! Which freedoms of the cameras are held, so that the world stays where it is.
+
+use super::{Bundle, BundleOptions, Gauge};
+
+/// Which degrees of freedom of each camera are held.
+pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
+    let is_held = |i: usize| options.held_cameras.get(i).copied().unwrap_or(false);
+    let mut held: Vec<[bool; 6]> = (0..bundle.cameras.len()).map(|i| [is_held(i); 6]).collect();
+    let num_held = held.iter().filter(|h| h[0]).count();
+    let point_held = options.held_points.iter().any(|&h| h);
+    // Known positions say where the world is, and damping keeps what they leave open.
+    let known = options.position_priors.iter().any(Option::is_some);
+    if options.gauge == Gauge::Free || num_held >= 2 || point_held || known {
+        return held;
+    }
+    let mut seen = vec![false; bundle.cameras.len()];
+    for o in &bundle.observations {
+        seen[o.camera] = true;
+    }
+    let Some(anchor) = (0..held.len())
+        .find(|&i| held[i][0])
+        .or_else(|| (0..held.len()).find(|&i| seen[i]))
+    else {
+        return held;
+    };
+    held[anchor] = [true; 6];
+    let origin = bundle.cameras[anchor].center_in_world();
+    let mut farthest = (0.0, None);
+    for (i, camera) in bundle.cameras.iter().enumerate() {
+        let distance = (camera.center_in_world() - origin).norm();
+        if i != anchor && seen[i] && distance > farthest.0 {
+            farthest = (distance, Some(i));
+        }
+    }
+    // A rig knows its own size, so only a single camera leaves the scale open.
+    if let Some(other) = farthest.1
+        && bundle.sensors.is_empty()
+    {
+        // A change of scale moves this camera's translation along R (C − C₀).
+        let camera = &bundle.cameras[other];
+        let slide = camera.cam_from_world.rotation * (camera.center_in_world() - origin);
+        held[other][3 + slide.iamax()] = true;
+    }
+    held
+}

@@ -1,0 +1,94 @@
+//! What a bundle adjustment refines, and what it is told besides.
+
+use crate::optim::{LmOptions, RobustLoss};
+use crate::{Error, Result};
+use nalgebra::{Point3, Vector3};
+
+/// What keeps the reconstruction from drifting: position, orientation and scale of the world are
+/// not observable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Gauge {
+    /// The first camera and one coordinate of another one's translation are held fixed: exactly
+    /// the seven free dimensions.
+    #[default]
+    TwoCameras,
+    /// Nothing is fixed; damping alone keeps the solution in place.
+    Free,
+}
+
+/// What to refine, and how.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BundleOptions {
+    /// When to stop.
+    pub lm: LmOptions,
+    /// The loss of each reprojection error; its width is in pixels.
+    pub loss: RobustLoss,
+    /// Used only while fewer than two cameras are held.
+    pub gauge: Gauge,
+    /// Cameras that stay where they are, by index; missing entries are free.
+    pub held_cameras: Vec<bool>,
+    /// Points that stay where they are, by index; missing entries are free.
+    pub held_points: Vec<bool>,
+    /// Refine one factor for the focal lengths of each lens.
+    pub refine_focal: bool,
+    /// Refine where the principal points are: one shift for each lens, pixels.
+    pub refine_principal_point: bool,
+    /// Refine the radial terms k1 and k2 of each lens.
+    pub refine_distortion: bool,
+    /// Refine the tangential terms p1 and p2 of each lens.
+    pub refine_tangential: bool,
+    /// What is known of where cameras are, by index; missing entries are unknown. Where there is any, no camera is
+    /// held by the gauge.
+    pub position_priors: Vec<Option<PositionPrior>>,
+    /// The loss of what is known of positions; its width is in standard deviations.
+    pub position_loss: RobustLoss,
+}
+
+impl BundleOptions {
+    /// Whether anything of the lenses is refined.
+    pub(in crate::sfm) fn refines_lens(&self) -> bool {
+        self.refine_focal
+            || self.refine_principal_point
+            || self.refine_distortion
+            || self.refine_tangential
+    }
+
+    /// Refuses losses and priors that make no sense.
+    pub(super) fn check(&self) -> Result<()> {
+        self.loss.check()?;
+        self.position_loss.check()?;
+        self.position_priors
+            .iter()
+            .flatten()
+            .try_for_each(PositionPrior::check)
+    }
+}
+
+/// Where a camera is, as something else has measured it, such as a receiver of satellite navigation: see
+/// [`local_from_geodetic`](crate::sfm::local_from_geodetic) for its degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionPrior {
+    /// The camera's center in the world.
+    pub center_in_world: Point3<f64>,
+    /// Standard deviation along each axis of the world, in its unit.
+    pub sigma: Vector3<f64>,
+}
+
+impl PositionPrior {
+    /// Refuses what is not finite or of no width.
+    pub(in crate::sfm) fn check(&self) -> Result<()> {
+        if !self.center_in_world.iter().all(|x| x.is_finite()) {
+            return Err(Error::NotFinite {
+                what: "the known position of a camera",
+            });
+        }
+        match self.sigma.iter().find(|s| !(**s > 0.0 && s.is_finite())) {
+            Some(&value) => Err(Error::OutOfRange {
+                what: "the standard deviation of a known position",
+                requirement: "greater than 0 and finite",
+                value,
+            }),
+            None => Ok(()),
+        }
+    }
+}
