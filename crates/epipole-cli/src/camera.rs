@@ -195,6 +195,7 @@ mod tests {
         Photo {
             color: RgbImage::new(width, height),
             focal_px,
+            place: None,
             k: None,
             full_size: (width, height),
             sensor_size: (width, height),

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::matrices::positive;
 use clap::Args;
 use epipole::calibration::{PrepareOptions, Undistortion, prepare_photo};
-use epipole::camera::Intrinsics;
+use epipole::camera::{Geodetic, Intrinsics};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use image::{GrayImage, RgbImage};
@@ -33,6 +33,8 @@ pub(crate) struct Photo {
     pub(crate) color: RgbImage,
     /// First guess of the focal length from EXIF, pixels.
     pub(crate) focal_px: Option<f64>,
+    /// Where it was taken, from EXIF.
+    pub(crate) place: Option<Geodetic>,
     /// K, if the distortion of a known lens was removed.
     pub(crate) k: Option<Intrinsics>,
     /// Width and height before it was reduced.
@@ -68,6 +70,7 @@ impl Photo {
         Ok(Self {
             color: photo.image,
             focal_px: photo.focal_px,
+            place: photo.place,
             k: photo.intrinsics,
             full_size: photo.full_size,
             sensor_size: photo.sensor_size,

@@ -2,7 +2,7 @@
 
 use super::Undistortion;
 use crate::Result;
-use crate::camera::Intrinsics;
+use crate::camera::{Geodetic, Intrinsics};
 use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
 use image::metadata::Orientation;
 use image::{DynamicImage, RgbImage};
@@ -34,6 +34,8 @@ pub struct PreparedPhoto {
     pub image: RgbImage,
     /// A first guess of the focal length from the EXIF data, pixels of `image`.
     pub focal_px: Option<f64>,
+    /// Where it was taken, from the EXIF data.
+    pub place: Option<Geodetic>,
     /// K, pixels of `image`, if the distortion of a known lens was removed.
     pub intrinsics: Option<Intrinsics>,
     /// Width and height before it was reduced, upright.
@@ -98,6 +100,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     let mut photo = PreparedPhoto {
         image,
         focal_px: None,
+        place: decoded.place,
         intrinsics: intrinsics.map(|k| k.resized(full_size, size)).transpose()?,
         full_size,
         sensor_size,

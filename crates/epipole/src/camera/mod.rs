@@ -5,6 +5,7 @@
 
 mod distortion;
 mod fisheye;
+mod geodetic;
 mod intrinsics;
 mod lens;
 pub(crate) mod moving_pose;
@@ -16,6 +17,7 @@ mod view;
 
 pub use distortion::Distortion;
 pub use fisheye::Fisheye;
+pub use geodetic::{Geodetic, local_from_geodetic};
 pub use intrinsics::Intrinsics;
 pub(crate) use lens::MAX_COEFFICIENTS;
 pub use lens::{Lens, LensKind};

@@ -1,7 +1,8 @@
 //! Photographs from the bytes of a PNG, JPEG or WebP file.
 
-use super::exif::focal_length_px;
+use super::exif::Facts;
 use super::gray::{GrayImage32, from_vec, rgb_to_gray};
+use crate::camera::Geodetic;
 use crate::{Error, Result};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
@@ -34,6 +35,8 @@ pub struct Decoded<I> {
     /// A first guess of the focal length from the EXIF data, pixels of this image; `None` where
     /// the file says nothing. With the principal point in the middle it makes a first guess of K.
     pub focal_px: Option<f64>,
+    /// Where the camera was, if it had a receiver of satellite navigation and said so.
+    pub place: Option<Geodetic>,
     /// How the file wants to be turned to stand upright, whether or not it was.
     pub orientation: Orientation,
 }
@@ -52,20 +55,16 @@ pub struct Decoded<I> {
 /// assert!(decode_gray(b"not an image", &DecodeOptions::default()).is_err());
 /// ```
 pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<GrayImage32>> {
-    let (image, focal_px, orientation) = decode(bytes, options)?;
-    let (width, height) = (image.width(), image.height());
-    let values = match &image {
+    let decoded = decode(bytes, options)?;
+    let (width, height) = (decoded.image.width(), decoded.image.height());
+    let values = match &decoded.image {
         DynamicImage::ImageLuma16(gray) => scaled(gray.as_raw(), 1),
         DynamicImage::ImageLumaA16(gray) => scaled(gray.as_raw(), 2),
         DynamicImage::ImageLuma8(gray) => bytes_to_unit(gray.as_raw(), 1),
         DynamicImage::ImageLumaA8(gray) => bytes_to_unit(gray.as_raw(), 2),
         color => bytes_to_unit(rgb_to_gray(&color.to_rgb8()).as_raw(), 1),
     };
-    Ok(Decoded {
-        image: from_vec(width, height, values),
-        focal_px,
-        orientation,
-    })
+    Ok(decoded.with(|_| from_vec(width, height, values)))
 }
 
 /// The color image of a PNG, JPEG or WebP file; gray files give three equal channels.
@@ -78,12 +77,19 @@ pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<Gray
 /// assert!(decode_rgb(&[], &DecodeOptions::default()).is_err());
 /// ```
 pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbImage>> {
-    let (image, focal_px, orientation) = decode(bytes, options)?;
-    Ok(Decoded {
-        image: image.into_rgb8(),
-        focal_px,
-        orientation,
-    })
+    Ok(decode(bytes, options)?.with(DynamicImage::into_rgb8))
+}
+
+impl<I> Decoded<I> {
+    /// The same facts about another form of the image.
+    fn with<J>(self, change: impl FnOnce(I) -> J) -> Decoded<J> {
+        Decoded {
+            image: change(self.image),
+            focal_px: self.focal_px,
+            place: self.place,
+            orientation: self.orientation,
+        }
+    }
 }
 
 fn bytes_to_unit(raw: &[u8], stride: usize) -> Vec<f32> {
@@ -102,10 +108,7 @@ fn bad(error: &image::ImageError) -> Error {
     }
 }
 
-fn decode(
-    bytes: &[u8],
-    options: &DecodeOptions,
-) -> Result<(DynamicImage, Option<f64>, Orientation)> {
+fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>> {
     let reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| Error::BadImage {
@@ -137,11 +140,16 @@ fn decode(
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let exif = decoder.exif_metadata().unwrap_or(None);
     let mut image = DynamicImage::from_decoder(decoder).map_err(|error| bad(&error))?;
-    let focal_px = exif.and_then(|data| focal_length_px(&data, width, height));
+    let facts = exif.and_then(|data| Facts::read(&data));
     if options.apply_orientation {
         image.apply_orientation(orientation);
     }
-    Ok((image, focal_px, orientation))
+    Ok(Decoded {
+        image,
+        focal_px: (facts.as_ref()).and_then(|facts| facts.focal_length_px(width, height)),
+        place: facts.and_then(|facts| facts.place()),
+        orientation,
+    })
 }
 
 /// Whether a JPEG file reaches its end-of-image marker; the decoder alone would fill what is

@@ -1,51 +1,100 @@
-//! A first guess of the focal length from what the camera wrote into the file.
+//! What the camera wrote into the file: a first guess of the focal length, and where it was.
 
-use exif::{In, Reader, Tag, Value};
+use crate::camera::Geodetic;
+use exif::{Exif, In, Reader, Tag, Value};
 
 /// Diagonal of a 36 mm × 24 mm frame, squared, mm².
 const FULL_FRAME_DIAGONAL_SQ: f64 = 36.0 * 36.0 + 24.0 * 24.0;
 
-/// Focal length in pixels of a `width × height` image, from its EXIF block.
-///
-/// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without it,
-/// the focal length in millimeters times the resolution of the focal plane. `None` if neither is
-/// there or they make no sense.
-///
-/// Source: CIPA DC-008 (EXIF 2.32), §4.6.5; CIPA DCG-001 for the equivalence of diagonals.
-pub(crate) fn focal_length_px(data: &[u8], width: u32, height: u32) -> Option<f64> {
-    let data = data.strip_prefix(b"Exif\0\0").unwrap_or(data);
-    let exif = Reader::new().read_raw(data.to_vec()).ok()?;
-    let number = |tag| match &exif.get_field(tag, In::PRIMARY)?.value {
-        Value::Rational(list) => list.first().map(|r| r.to_f64()),
-        value => value.get_uint(0).map(f64::from),
-    };
-    let (w, h) = (f64::from(width), f64::from(height));
-    let equivalent = || {
-        let f_35mm = number(Tag::FocalLengthIn35mmFilm)?;
-        Some(f_35mm * ((w * w + h * h) / FULL_FRAME_DIAGONAL_SQ).sqrt())
-    };
-    let measured = || {
-        let mm_per_unit = match number(Tag::FocalPlaneResolutionUnit).unwrap_or(2.0) as u32 {
-            2 => 25.4,
-            3 => 10.0,
-            4 => 1.0,
-            5 => 0.001,
-            _ => return None,
+/// What is in an EXIF block.
+pub(crate) struct Facts(Exif);
+
+impl Facts {
+    /// `None` if the block cannot be read.
+    pub(crate) fn read(data: &[u8]) -> Option<Self> {
+        let data = data.strip_prefix(b"Exif\0\0").unwrap_or(data);
+        Reader::new().read_raw(data.to_vec()).ok().map(Self)
+    }
+
+    /// Up to three numbers of a field.
+    fn numbers(&self, tag: Tag) -> Option<[f64; 3]> {
+        let value = &self.0.get_field(tag, In::PRIMARY)?.value;
+        let number = |index: usize| match value {
+            Value::Rational(list) => list.get(index).map(|r| r.to_f64()),
+            value => value.get_uint(index).map(f64::from),
         };
-        // The resolution is that of the sensor; a picture scaled down later says so by its width.
-        let scale = number(Tag::PixelXDimension)
-            .filter(|&x| x > 0.0)
-            .map_or(1.0, |x| w / x);
-        let resolution = number(Tag::FocalPlaneXResolution)?;
-        Some(number(Tag::FocalLength)? * resolution / mm_per_unit * scale)
-    };
-    let plausible = |focal_px: &f64| {
-        let ratio = focal_px / w.max(h);
-        ratio > 0.1 && ratio < 100.0
-    };
-    equivalent()
-        .filter(plausible)
-        .or_else(|| measured().filter(plausible))
+        Some([
+            number(0)?,
+            number(1).unwrap_or(0.0),
+            number(2).unwrap_or(0.0),
+        ])
+    }
+
+    fn number(&self, tag: Tag) -> Option<f64> {
+        self.numbers(tag).map(|[first, ..]| first)
+    }
+
+    /// Focal length in pixels of a `width × height` image.
+    ///
+    /// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without it,
+    /// the focal length in millimeters times the resolution of the focal plane. `None` if neither is
+    /// there or they make no sense.
+    ///
+    /// Source: CIPA DC-008 (EXIF 2.32), §4.6.5; CIPA DCG-001 for the equivalence of diagonals.
+    pub(crate) fn focal_length_px(&self, width: u32, height: u32) -> Option<f64> {
+        let (w, h) = (f64::from(width), f64::from(height));
+        let equivalent = || {
+            let f_35mm = self.number(Tag::FocalLengthIn35mmFilm)?;
+            Some(f_35mm * ((w * w + h * h) / FULL_FRAME_DIAGONAL_SQ).sqrt())
+        };
+        let measured = || {
+            let mm_per_unit = match self.number(Tag::FocalPlaneResolutionUnit).unwrap_or(2.0) as u32
+            {
+                2 => 25.4,
+                3 => 10.0,
+                4 => 1.0,
+                5 => 0.001,
+                _ => return None,
+            };
+            // The resolution is that of the sensor; a picture scaled down later says so by its width.
+            let scale = self
+                .number(Tag::PixelXDimension)
+                .filter(|&x| x > 0.0)
+                .map_or(1.0, |x| w / x);
+            let resolution = self.number(Tag::FocalPlaneXResolution)?;
+            Some(self.number(Tag::FocalLength)? * resolution / mm_per_unit * scale)
+        };
+        let plausible = |focal_px: &f64| {
+            let ratio = focal_px / w.max(h);
+            ratio > 0.1 && ratio < 100.0
+        };
+        equivalent()
+            .filter(plausible)
+            .or_else(|| measured().filter(plausible))
+    }
+
+    /// Where a receiver of satellite navigation was; at sea level if it says no height. `None` without latitude and
+    /// longitude, or if they make no sense.
+    ///
+    /// Source: CIPA DC-008 (EXIF 2.32), §4.6.6.
+    pub(crate) fn place(&self) -> Option<Geodetic> {
+        let degrees = |tag, of_sign, minus: u8| {
+            let [degrees, minutes, seconds] = self.numbers(tag)?;
+            let sign = match &self.0.get_field(of_sign, In::PRIMARY)?.value {
+                Value::Ascii(words) if words.first()?.first()? == &minus => -1.0,
+                _ => 1.0,
+            };
+            Some(sign * (degrees + minutes / 60.0 + seconds / 3600.0))
+        };
+        let below = self.number(Tag::GPSAltitudeRef) == Some(1.0);
+        let height_m = self.number(Tag::GPSAltitude).filter(|h| h.is_finite());
+        let place = Geodetic {
+            latitude_deg: degrees(Tag::GPSLatitude, Tag::GPSLatitudeRef, b'S')?,
+            longitude_deg: degrees(Tag::GPSLongitude, Tag::GPSLongitudeRef, b'W')?,
+            height_m: height_m.map_or(0.0, |h| if below { -h } else { h }),
+        };
+        place.check().is_ok().then_some(place)
+    }
 }
 
 #[cfg(test)]
@@ -74,6 +123,70 @@ mod tests {
             data.extend(d.to_le_bytes());
         }
         data
+    }
+
+    fn focal_length_px(data: &[u8], width: u32, height: u32) -> Option<f64> {
+        Facts::read(data)?.focal_length_px(width, height)
+    }
+
+    /// A directory with a place: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a height of 20.5 m.
+    fn block_of_place(letters: [u8; 2], below: u8, degrees: u32) -> Vec<u8> {
+        let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
+        data.extend(1u16.to_le_bytes());
+        let entry = |data: &mut Vec<u8>, tag: u16, kind: u16, count: u32, value: u32| {
+            data.extend(tag.to_le_bytes());
+            data.extend(kind.to_le_bytes());
+            data.extend(count.to_le_bytes());
+            data.extend(value.to_le_bytes());
+        };
+        entry(&mut data, 0x8825, 4, 1, 26);
+        data.extend(0u32.to_le_bytes());
+        data.extend(6u16.to_le_bytes());
+        let first = 26 + 2 + 6 * 12 + 4;
+        entry(&mut data, 1, 2, 2, u32::from(letters[0]));
+        entry(&mut data, 2, 5, 3, first);
+        entry(&mut data, 3, 2, 2, u32::from(letters[1]));
+        entry(&mut data, 4, 5, 3, first + 24);
+        entry(&mut data, 5, 1, 1, u32::from(below));
+        entry(&mut data, 6, 5, 1, first + 48);
+        data.extend(0u32.to_le_bytes());
+        assert_eq!(data.len(), first as usize);
+        for (n, d) in [
+            (degrees, 1u32),
+            (51, 1),
+            (36, 1),
+            (151, 1),
+            (126, 10),
+            (0, 1),
+            (41, 2),
+        ] {
+            data.extend(n.to_le_bytes());
+            data.extend(d.to_le_bytes());
+        }
+        data
+    }
+
+    #[test]
+    fn a_place_has_signs_and_a_height() {
+        let place = Facts::read(&block_of_place(*b"SE", 0, 33))
+            .unwrap()
+            .place()
+            .unwrap();
+        assert!((place.latitude_deg + 33.86).abs() < 1e-12, "{place:?}");
+        assert!((place.longitude_deg - 151.21).abs() < 1e-12, "{place:?}");
+        assert_eq!(place.height_m, 20.5);
+        let place = Facts::read(&block_of_place(*b"NW", 1, 33))
+            .unwrap()
+            .place()
+            .unwrap();
+        assert!(place.latitude_deg > 0.0 && place.longitude_deg < 0.0);
+        assert_eq!(place.height_m, -20.5);
+        // No place has 99 degrees of latitude, and many photographs have none at all.
+        assert_eq!(
+            Facts::read(&block_of_place(*b"NW", 1, 99)).unwrap().place(),
+            None
+        );
+        assert_eq!(Facts::read(&block(3, 50)).unwrap().place(), None);
     }
 
     #[test]

@@ -40,14 +40,27 @@ impl Written<3> for Isometry2<f64> {
     }
 }
 
+/// The rotation of a quaternion of any length but 0.
+fn rotation(
+    w: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+) -> std::result::Result<UnitQuaternion<f64>, &'static str> {
+    let mut quaternion = Quaternion::new(w, x, y, z);
+    if !quaternion.norm().is_finite() {
+        // Each number is finite, and their squares are not.
+        quaternion /= quaternion.coords.amax();
+    }
+    UnitQuaternion::try_new(quaternion, 1e-6).ok_or("the quaternion is zero, so it is no rotation")
+}
+
 impl Written<6> for Isometry3<f64> {
     const VERTEX: &'static str = "VERTEX_SE3:QUAT";
     const EDGE: &'static str = "EDGE_SE3:QUAT";
     const NUMBERS: usize = 7;
     fn read(n: &[f64]) -> std::result::Result<Self, &'static str> {
-        let quaternion = Quaternion::new(n[6], n[3], n[4], n[5]);
-        let rotation = UnitQuaternion::try_new(quaternion, 1e-6)
-            .ok_or("the quaternion is zero, so it is no rotation")?;
+        let rotation = rotation(n[6], n[3], n[4], n[5])?;
         Ok(Isometry3::from_parts(
             Translation3::new(n[0], n[1], n[2]),
             rotation,
@@ -344,6 +357,18 @@ mod tests {
             panic!("a spatial graph");
         };
         assert!(graph.chi2() < 1e-15);
+    }
+
+    #[test]
+    fn quaternions_may_be_as_long_as_numbers_are() {
+        let text = "VERTEX_SE3:QUAT 0 0 0 0 0 0 1.5e300 -1.5e300\n";
+        let PoseGraph::Se3(graph) = PoseGraph::parse_g2o(text).unwrap() else {
+            panic!("a spatial graph");
+        };
+        let turn = graph.vertices[0].rotation;
+        assert!((turn.angle() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        let text = PoseGraph::Se3(graph).to_g2o();
+        assert!(PoseGraph::parse_g2o(&text).is_ok(), "{text}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Structure from motion: from many photographs to cameras and points.
 //!
 //! * [`adjust_bundle`] refines cameras, their lenses and points together, with known positions such as those of satellite
-//!   navigation ([`local_from_geodetic`]) if there are any; [`BalProblem`] is the published text
+//!   navigation ([`local_from_geodetic`](crate::camera::local_from_geodetic)) if there are any; [`BalProblem`] is the published text
 //!   format for such problems, and [`adjust_bal`] solves it.
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
@@ -20,7 +20,6 @@ mod builder;
 mod bundle;
 mod export;
 mod g2o;
-mod geodetic;
 mod incremental;
 mod keyframes;
 mod loop_closure;
@@ -47,7 +46,6 @@ pub use bundle::{
     adjust_bundle_with_progress,
 };
 pub use export::ColmapModel;
-pub use geodetic::{Geodetic, local_from_geodetic};
 pub use incremental::{
     SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, SfmWatcher, reconstruct,
     reconstruct_verified, reconstruct_watched, reconstruct_with_progress,

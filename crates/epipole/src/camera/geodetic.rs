@@ -20,7 +20,7 @@ const SEMI_MAJOR_M: f64 = 6_378_137.0;
 const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// East, north and up of a place in a frame of meters whose origin is another one, such as that of the first
-/// photograph. Right for [`PositionPrior`](super::PositionPrior), which wants meters.
+/// photograph. This is how [`PositionPrior`](crate::sfm::PositionPrior) wants it, in meters.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a latitude or longitude that is none, [`Error::NotFinite`] for NaN and infinities, both of
@@ -31,7 +31,7 @@ const FLATTENING: f64 = 1.0 / 298.257_223_563;
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::sfm::{Geodetic, local_from_geodetic};
+/// use epipole::camera::{Geodetic, local_from_geodetic};
 /// let tower = Geodetic { latitude_deg: 48.8583, longitude_deg: 2.2945, height_m: 80.0 };
 /// let north = Geodetic { latitude_deg: 48.8593, ..tower };
 /// let there = local_from_geodetic(&north, &tower)?;
@@ -56,7 +56,7 @@ pub fn local_from_geodetic(place: &Geodetic, origin: &Geodetic) -> Result<Point3
 }
 
 impl Geodetic {
-    fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         for (what, value, most, requirement) in [
             (
                 "a latitude",
