@@ -26,9 +26,9 @@ const SAME: f64 = 1e-3;
 /// standard deviations, if errors of one dimension are Gaussian.
 const SHARP_MEDIANS: f64 = 3.0;
 
-/// The width of the last loss, in the same medians: nearly three standard deviations of errors of one dimension. Chosen
-/// on classes of real pairs, of which every one but one gains where it is left out of the choice.
-const WIDTH_MEDIANS: f64 = 4.0;
+/// The width of the last loss, in the same medians, for errors of one dimension, of which it is three standard
+/// deviations, and of two. Chosen on classes of pairs, of which nearly every one gains where it is left out of the choice.
+const WIDTH_MEDIANS: [f64; 2] = [4.5, 4.0];
 
 /// The width of the last loss, in thresholds, at most: errors that fill the threshold go on behind it.
 const WIDTH_THRESHOLDS: f64 = 2.0;
@@ -216,6 +216,7 @@ impl<E: Estimator> Ransac<E> {
         let mut model = candidate.model.clone();
         let mut weights = Vec::new();
         let mut width_px = 0.0;
+        let medians = WIDTH_MEDIANS[self.estimator.codimension().clamp(1, 2) - 1];
         for round in 0..REWEIGHTINGS {
             if round < REWEIGHTINGS_OF_WIDTH {
                 self.estimator
@@ -224,7 +225,7 @@ impl<E: Estimator> Ransac<E> {
                     break;
                 }
                 let most_px = WIDTH_THRESHOLDS * max_error_px;
-                width_px = self.medians_of_errors_px(&model, WIDTH_MEDIANS, most_px);
+                width_px = self.medians_of_errors_px(&model, medians, most_px);
             }
             let reach_px = max_error_px.max(2.0 * width_px);
             self.estimator.inliers(&model, reach_px, &mut self.inliers);
