@@ -39,7 +39,7 @@ const REWEIGHTINGS: usize = 8;
 
 /// In so many of these the width is that of the errors that are left, not of those at the start: from there the path
 /// of the search would show in the result. Then it stays, or weights and width would narrow each other.
-const REWEIGHTINGS_OF_WIDTH: usize = 3;
+const REWEIGHTINGS_OF_WIDTH: usize = 5;
 
 impl<E: Estimator> Ransac<E> {
     /// As [`finish`](Ransac::finish), once.
