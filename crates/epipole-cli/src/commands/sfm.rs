@@ -2,10 +2,12 @@
 
 mod growth;
 mod input;
+mod positions;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;
 pub(crate) use self::input::{name, photos};
+use self::positions::{PositionArguments, rms_m};
 use crate::camera::{sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
@@ -17,6 +19,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
+use epipole::camera::Distortion;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
     PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
@@ -38,8 +41,9 @@ use std::path::{Path, PathBuf};
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
     begin, and one factor for all focal lengths is refined.\n\n\
     JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px and\n\
-    cam_from_world with rotation and translation), all of the largest component; focal_refined (whether\n\
-    the focal lengths were), unregistered (name and reason of each photograph that is not in the largest\n\
+    distortion with k1, k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\
+    component; focal_refined (whether the focal lengths were), with --positions placed (whether it stands where they\n\
+    say, in meters), position_rms_m, origin (where zero is, if positions are degrees), unregistered (name and reason of each photograph that is not in the largest\n\
     component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
@@ -56,6 +60,8 @@ pub(crate) struct Arguments {
     robust: RobustArguments,
     #[command(flatten)]
     growth: GrowthArguments,
+    #[command(flatten)]
+    positions: PositionArguments,
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT", help_heading = "Options")]
     output: PathBuf,
@@ -63,10 +69,13 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let input::Input {
-        photos,
+        mut photos,
         intrinsics,
+        places,
         guesses,
     } = arguments.input.read(context)?;
+    let positions = arguments.positions.give(&mut photos, &places)?;
+    (arguments.growth).give_lenses(&mut photos, &intrinsics);
     let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
@@ -111,13 +120,15 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .sum();
     let mean_px = errors / largest.num_observations().max(1) as f64;
     let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
-        let images = input.images.iter().zip(&component.cameras);
+        let images = input.images.iter().zip(&component.cameras).enumerate();
         images
-            .filter_map(|(image, camera)| {
+            .filter_map(|(index, (image, camera))| {
                 let camera = camera.as_ref()?;
+                let Distortion { k1, k2, p1, p2, k3 } = component.distortion(index);
                 Some(json!({
                     "name": image.name,
                     "focal_px": camera.intrinsics.fu_px(),
+                    "distortion": [k1, k2, p1, p2, k3],
                     "cam_from_world": Motion::from(&camera.cam_from_world),
                 }))
             })
@@ -133,8 +144,26 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .filter_map(|(k, camera)| Some((k.fu_px(), camera.as_ref()?.intrinsics.fu_px())))
         .collect();
     let mut report = Report::default();
+    if positions.num_known > 0 && !largest.is_placed {
+        context.warn(&format!(
+            "the positions of {} photographs do not say where the result stands: of those that could be placed, three \
+             that are not on one line are needed",
+            positions.num_known
+        ));
+    }
+    if let Some(rms_m) = rms_m(largest, &photos) {
+        report = report.row(
+            "off known positions",
+            format!("{rms_m:.3} m (root mean square)"),
+        );
+    }
+    if positions.num_known > 0 {
+        for (name, value) in positions.fields(largest, &photos) {
+            report = report.field(name, value);
+        }
+    }
     if let (true, Some((from, to))) = (refine_focal, focals.first()) {
-        // One factor for all.
+        // One factor for all of this lens.
         report = report.row(
             "focal length",
             format!(

@@ -42,7 +42,7 @@ const FLATTENING: f64 = 1.0 / 298.257_223_563;
 pub fn local_from_geodetic(place: &Geodetic, origin: &Geodetic) -> Result<Point3<f64>> {
     place.check()?;
     origin.check()?;
-    let offset = place.from_center_of_earth() - origin.from_center_of_earth();
+    let offset = place.in_earth_frame() - origin.in_earth_frame();
     let (sin_lat, cos_lat) = libm::sincos(origin.latitude_deg.to_radians());
     let (sin_lon, cos_lon) = libm::sincos(origin.longitude_deg.to_radians());
     let east = Vector3::new(-sin_lon, cos_lon, 0.0);
@@ -87,7 +87,7 @@ impl Geodetic {
     }
 
     /// In the frame that turns with the earth, meters: x through Greenwich's meridian on the equator, z through the pole.
-    fn from_center_of_earth(&self) -> Vector3<f64> {
+    fn in_earth_frame(&self) -> Vector3<f64> {
         let (sin_lat, cos_lat) = libm::sincos(self.latitude_deg.to_radians());
         let (sin_lon, cos_lon) = libm::sincos(self.longitude_deg.to_radians());
         let eccentricity_sq = FLATTENING * (2.0 - FLATTENING);
@@ -131,7 +131,7 @@ mod tests {
                 [-11168.945058603298, -97.46990688867993, 6356730.067128353],
             ),
         ] {
-            let got = place.from_center_of_earth();
+            let got = place.in_earth_frame();
             assert!((got - Vector3::from(want)).norm() < 1e-7, "{got}");
         }
     }
@@ -143,7 +143,7 @@ mod tests {
         assert!((above - Point3::new(0.0, 0.0, 100.0)).norm() < 1e-8);
         let beside = place(-33.859, 151.212, 30.0);
         let there = local_from_geodetic(&beside, &origin).unwrap();
-        let apart = beside.from_center_of_earth() - origin.from_center_of_earth();
+        let apart = beside.in_earth_frame() - origin.in_earth_frame();
         assert!((there.coords.norm() - apart.norm()).abs() < 1e-8);
         assert!(there.x > 100.0 && there.y > 100.0);
     }

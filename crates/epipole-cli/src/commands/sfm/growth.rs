@@ -3,22 +3,44 @@
 use crate::context::Context;
 use crate::matrices::positive;
 use crate::robust::RobustArguments;
-use clap::Args;
-use epipole::sfm::SfmOptions;
+use clap::{Args, ValueEnum};
+use epipole::camera::Intrinsics;
+use epipole::sfm::{Photo, SfmOptions};
+
+/// Which photographs share a lens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Lenses {
+    One,
+    Alike,
+    Each,
+}
 
 /// What is refined, and what a photograph or a point must have to be accepted.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
-    /// Refine one factor for the focal lengths of all photographs, also where they are known.
+    /// Which photographs share a lens, and with it what is refined: all ("one"), those of equal size and focal length
+    /// ("alike"), or none ("each").
+    #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
+    lenses: Lenses,
+    /// Refine one factor for the focal lengths of each lens, also where they are known.
     #[arg(long)]
     refine_focal: bool,
     /// Keep the focal lengths, also where they are but a guess.
     #[arg(long, conflicts_with = "refine_focal")]
     keep_focal: bool,
-    /// Refine two terms of radial distortion that all photographs share.
+    /// Refine where the principal points are, one shift for each lens.
+    #[arg(long)]
+    refine_principal_point: bool,
+    /// Refine two terms of radial distortion for each lens.
     #[arg(long)]
     refine_distortion: bool,
+    /// Refine two terms of tangential distortion for each lens.
+    #[arg(long)]
+    refine_tangential: bool,
+    /// Fewest photographs that must see a point which is kept.
+    #[arg(long, default_value_t = SfmOptions::default().min_track_length, value_name = "N")]
+    min_track_length: usize,
     /// Fewest matches that connect two photographs, and fewest points that place one.
     #[arg(long, default_value_t = SfmOptions::default().min_num_inliers, value_name = "N")]
     min_inliers: usize,
@@ -37,6 +59,27 @@ pub(super) struct GrowthArguments {
 }
 
 impl GrowthArguments {
+    /// Tells photographs which lens took them.
+    ///
+    /// * `intrinsics`: of each photograph
+    pub(super) fn give_lenses(&self, photos: &mut [Photo], intrinsics: &[Intrinsics]) {
+        let mut kinds = Vec::new();
+        for (index, (photo, k)) in photos.iter_mut().zip(intrinsics).enumerate() {
+            photo.lens = match self.lenses {
+                Lenses::One => 0,
+                Lenses::Each => index,
+                Lenses::Alike => {
+                    let kind = (photo.image.dimensions(), *k);
+                    let place = kinds.iter().position(|known| *known == kind);
+                    place.unwrap_or_else(|| {
+                        kinds.push(kind);
+                        kinds.len() - 1
+                    })
+                }
+            };
+        }
+    }
+
     /// The same for the core.
     ///
     /// * `some_unknown`: whether the focal length of some photograph is but a guess
@@ -54,7 +97,10 @@ impl GrowthArguments {
             min_angle_deg: self.min_angle_deg,
             min_start_angle_deg: self.min_start_angle_deg,
             refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
+            min_track_length: self.min_track_length,
+            refine_principal_point: self.refine_principal_point,
             refine_distortion: self.refine_distortion,
+            refine_tangential: self.refine_tangential,
             seed: context.seed,
             ..SfmOptions::default()
         }

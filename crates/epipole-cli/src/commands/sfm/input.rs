@@ -7,7 +7,7 @@ use crate::lens;
 use crate::photo::{Photo, SizeArguments};
 use clap::Args;
 use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
-use epipole::camera::Intrinsics;
+use epipole::camera::{Geodetic, Intrinsics};
 use epipole::sfm::Photo as SfmPhoto;
 use std::path::{Path, PathBuf};
 
@@ -46,6 +46,8 @@ fn focal(text: &str) -> Result<Focal, String> {
 pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
     pub(super) intrinsics: Vec<Intrinsics>,
+    /// Where the files of the photographs say that they were taken.
+    pub(super) places: Vec<Option<Geodetic>>,
     /// Of the focal lengths that nobody gave.
     pub(super) guesses: Vec<Guess>,
 }
@@ -73,6 +75,7 @@ impl InputArguments {
         let mut input = Input {
             photos: Vec::new(),
             intrinsics: Vec::new(),
+            places: Vec::new(),
             guesses: Vec::new(),
         };
         let (mut sizes, mut others) = (Vec::new(), Vec::new());
@@ -88,9 +91,11 @@ impl InputArguments {
             sizes.push(photo.full_size);
             input.guesses.extend(guess);
             input.intrinsics.push(k);
+            input.places.push(photo.place);
             input.photos.push(SfmPhoto {
                 name: name(path),
                 image: photo.color,
+                ..SfmPhoto::default()
             });
         }
         if let Some(camera) = &camera {

@@ -1,0 +1,219 @@
+//! Where photographs were taken, if that is known.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::matrices::positive;
+use clap::Args;
+use epipole::camera::{Geodetic, local_from_geodetic};
+use epipole::sfm::{Photo, PositionPrior, Reconstruction};
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Known positions of photographs.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Positions")]
+pub(super) struct PositionArguments {
+    /// Where photographs were taken: a file of lines NAME X Y Z in meters, with a standard deviation behind if it is
+    /// another than --position-sigma-m; or "exif" for what the photographs say. Three that are not on one line give the
+    /// result their frame and meters; some may be wrong.
+    #[arg(long, value_name = "FILE|exif")]
+    positions: Option<String>,
+    /// The file has NAME LATITUDE LONGITUDE HEIGHT, in degrees and meters (WGS 84). Results are in meters to the east, to
+    /// the north and up from the first photograph whose place is known.
+    #[arg(long, requires = "positions")]
+    geodetic: bool,
+    /// Standard deviation of positions that do not say it, meters.
+    #[arg(long, default_value_t = 5.0, value_name = "M", value_parser = positive)]
+    position_sigma_m: f64,
+}
+
+/// What a line of the file says of a photograph.
+struct Line {
+    numbers: [f64; 3],
+    sigma_m: f64,
+}
+
+/// What is known of all.
+#[derive(Debug, Default)]
+pub(super) struct Positions {
+    /// Of meters, if the positions were degrees.
+    pub(super) origin: Option<Geodetic>,
+    /// How many photographs have one.
+    pub(super) num_known: usize,
+}
+
+impl PositionArguments {
+    /// Whether the photographs are asked themselves.
+    fn is_exif(&self) -> bool {
+        self.positions.as_deref() == Some("exif")
+    }
+
+    /// Gives the photographs their positions.
+    ///
+    /// * `places`: what the files of the photographs say, in their order
+    ///
+    /// # Errors
+    /// A sentence, for a file that cannot be read or says what no place is, and where no photograph has a position.
+    pub(super) fn give(
+        &self,
+        photos: &mut [Photo],
+        places: &[Option<Geodetic>],
+    ) -> Result<Positions, Failure> {
+        let Some(file) = &self.positions else {
+            return Ok(Positions::default());
+        };
+        let path = Path::new(file);
+        let told: Vec<Option<Line>> = if self.is_exif() {
+            let line = |place: &Geodetic| Line {
+                numbers: [place.latitude_deg, place.longitude_deg, place.height_m],
+                sigma_m: self.position_sigma_m,
+            };
+            places
+                .iter()
+                .map(|place| place.as_ref().map(line))
+                .collect()
+        } else {
+            let mut lines = self.lines(&files::read_text(path)?, path)?;
+            photos
+                .iter()
+                .map(|photo| lines.remove(&photo.name))
+                .collect()
+        };
+        let num_known = told.iter().flatten().count();
+        if num_known == 0 {
+            return Err(match self.is_exif() {
+                true => Failure::new("malformed", "no photograph says where it was taken"),
+                false => Failure::new("malformed", "it has a line for none of the photographs")
+                    .about(path),
+            });
+        }
+        let mut origin = None;
+        for (photo, line) in photos.iter_mut().zip(&told) {
+            let Some(line) = line else { continue };
+            let [x, y, z] = line.numbers;
+            let center_in_world = if self.geodetic || self.is_exif() {
+                let place = Geodetic {
+                    latitude_deg: x,
+                    longitude_deg: y,
+                    height_m: z,
+                };
+                let named = |error: epipole::Error| {
+                    Failure::new("malformed", format!("{}: {error}", photo.name)).about(path)
+                };
+                local_from_geodetic(&place, origin.get_or_insert(place)).map_err(named)?
+            } else {
+                Point3::new(x, y, z)
+            };
+            photo.position = Some(PositionPrior {
+                center_in_world,
+                sigma: Vector3::repeat(line.sigma_m),
+            });
+        }
+        self.check(photos)?;
+        Ok(Positions { origin, num_known })
+    }
+
+    /// The lines of the file by the names of their photographs.
+    fn lines(&self, text: &str, path: &Path) -> Result<BTreeMap<String, Line>, Failure> {
+        let mut lines = BTreeMap::new();
+        for (index, line) in text.lines().enumerate() {
+            let line = line.trim();
+            if line.is_empty() || line.starts_with('#') {
+                continue;
+            }
+            let malformed = |why: &str| {
+                let message = format!("line {}: {why}", index + 1);
+                Failure::new("malformed", message).about(path)
+            };
+            // A name may have spaces; the numbers behind it have none.
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let is_number = |word: &&&str| word.parse::<f64>().is_ok_and(f64::is_finite);
+            let num_numbers = words.iter().rev().take_while(is_number).count().min(4);
+            // Of a name that is a number itself, too.
+            let num_numbers = num_numbers.min(words.len() - 1);
+            if num_numbers < 3 {
+                return Err(malformed("it is not a name and three numbers"));
+            }
+            let numbers: Vec<f64> = (words[words.len() - num_numbers..].iter())
+                .filter_map(|word| word.parse().ok())
+                .collect();
+            let sigma_m = numbers.get(3).copied().unwrap_or(self.position_sigma_m);
+            if sigma_m <= 0.0 {
+                return Err(malformed("a standard deviation must be greater than 0"));
+            }
+            let name = words[..words.len() - num_numbers].join(" ");
+            let line = Line {
+                numbers: [numbers[0], numbers[1], numbers[2]],
+                sigma_m,
+            };
+            if lines.insert(name, line).is_some() {
+                return Err(malformed("this photograph had a line before"));
+            }
+        }
+        Ok(lines)
+    }
+
+    /// Positions that lie nearer to each other than they are known say nothing; degrees taken for meters do so.
+    fn check(&self, photos: &[Photo]) -> Result<(), Failure> {
+        let known: Vec<&PositionPrior> =
+            photos.iter().filter_map(|p| p.position.as_ref()).collect();
+        let sigma_m = known
+            .iter()
+            .map(|p| p.sigma.x)
+            .fold(f64::INFINITY, f64::min);
+        let mut apart_m: f64 = 0.0;
+        for other in &known {
+            apart_m = apart_m.max((other.center_in_world - known[0].center_in_world).norm());
+        }
+        if known.len() < 3 || apart_m > sigma_m {
+            return Ok(());
+        }
+        let degrees = match self.geodetic || self.is_exif() {
+            true => "",
+            false => "; if they are degrees, say so by --geodetic",
+        };
+        Err(Failure::new(
+            "degenerate",
+            format!(
+                "all positions lie within {apart_m:.3} m, and their standard deviation is {sigma_m} m, so they say \
+                 nothing: --position-sigma-m may be smaller{degrees}"
+            ),
+        ))
+    }
+}
+
+impl Positions {
+    /// `placed`, `position_rms_m` and `origin` of a result.
+    pub(super) fn fields(
+        &self,
+        found: &Reconstruction,
+        photos: &[Photo],
+    ) -> [(&'static str, Value); 3] {
+        let origin = self.origin.filter(|_| found.is_placed).map(|origin| {
+            json!({
+                "latitude_deg": origin.latitude_deg,
+                "longitude_deg": origin.longitude_deg,
+                "height_m": origin.height_m,
+            })
+        });
+        [
+            ("placed", json!(found.is_placed)),
+            ("position_rms_m", json!(rms_m(found, photos))),
+            ("origin", json!(origin)),
+        ]
+    }
+}
+
+/// How far photographs stand from where they are said to, root of the mean square, if they stand there at all.
+pub(super) fn rms_m(found: &Reconstruction, photos: &[Photo]) -> Option<f64> {
+    let off_sq: Vec<f64> = (found.cameras.iter().zip(photos))
+        .filter_map(|(camera, photo)| {
+            let known = photo.position.as_ref()?.center_in_world;
+            Some((camera.as_ref()?.center_in_world() - known).norm_squared())
+        })
+        .collect();
+    (found.is_placed && !off_sq.is_empty())
+        .then(|| (off_sq.iter().sum::<f64>() / off_sq.len() as f64).sqrt())
+}
