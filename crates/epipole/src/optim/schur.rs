@@ -92,6 +92,8 @@ pub struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S
     cameras: Vec<CameraBlock<C, S>>,
     points: Vec<PointBlock<S>>,
     groups: Vec<GroupBlock<S>>,
+    /// So many of the `S` that a group shares are looked at: those behind are held.
+    width: usize,
     reduced: Vec<f64>,
     right: Vec<f64>,
     delta: BundleStep<C, S>,
@@ -159,7 +161,9 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
                 reduced_gradient: [0.0; C],
             })
             .collect();
-        let size = num_cameras * C + num_groups * S;
+        let held_shared = problem.held_shared();
+        let width = S - held_shared.iter().rev().take_while(|held| **held).count();
+        let size = num_cameras * C + num_groups * width;
         Self {
             problem,
             order,
@@ -169,6 +173,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
             cameras,
             points,
             groups: vec![GroupBlock::nothing(); num_groups],
+            width,
             reduced: vec![0.0; size * size],
             right: vec![0.0; size],
             delta: BundleStep {
@@ -212,7 +217,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
     }
 
     fn sum_point_blocks(&mut self) {
-        let (couplings, starts) = (&self.couplings, &self.point_starts);
+        let (couplings, starts, width) = (&self.couplings, &self.point_starts, self.width);
         for_each(&mut self.points, |p, block| {
             block.hessian = [[0.0; 3]; 3];
             block.gradient = [0.0; 3];
@@ -230,7 +235,8 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
                         }
                     }
                     if let Some(group) = block.groups.get_mut(coupling.group_of_point as usize) {
-                        group.add(point, &terms.shared[row], terms.residual[row]);
+                        let shared = &terms.shared[row][..width];
+                        group.add(point, shared, terms.residual[row]);
                     }
                 }
             }
@@ -238,9 +244,9 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         self.groups.fill(GroupBlock::nothing());
         for group in self.points.iter().flat_map(|point| &point.groups) {
             let block = &mut self.groups[group.group as usize];
-            for s in 0..S {
+            for s in 0..width {
                 block.gradient[s] += group.gradient[s];
-                for q in 0..S {
+                for q in 0..width {
                     block.hessian[s][q] += group.hessian[s][q];
                 }
             }
@@ -249,7 +255,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
 
     fn sum_camera_blocks(&mut self, parameters: &B::Parameters) {
         let (couplings, of_camera) = (&self.couplings, &self.camera_couplings);
-        let (points, problem) = (&self.points, self.problem);
+        let (points, problem, width) = (&self.points, self.problem, self.width);
         for_each(&mut self.cameras, |c, block| {
             block.hessian = [[0.0; C]; C];
             block.with_shared.fill([[0.0; C]; S]);
@@ -262,7 +268,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
                     block.add(&terms.camera[row], terms.residual[row]);
                     if let Some(group) = groups.get(coupling.group_of_point as usize) {
                         let with_shared = &mut block.with_shared[group.group as usize];
-                        for s in 0..S {
+                        for s in 0..width {
                             for i in 0..C {
                                 with_shared[s][i] += terms.shared[row][s] * terms.camera[row][i];
                             }
@@ -300,7 +306,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
             }
         }
         for (delta, block) in self.delta.shared.iter().zip(&self.groups) {
-            for s in 0..S {
+            for s in 0..self.width {
                 add(delta[s], block.gradient[s], block.hessian[s][s]);
             }
         }
@@ -405,16 +411,16 @@ impl<const S: usize> GroupOfPoint<S> {
 
     /// Adds a row of both Jacobians with its residual.
     #[inline]
-    fn add(&mut self, point: &[f64; 3], shared: &[f64; S], residual: f64) {
+    fn add(&mut self, point: &[f64; 3], shared: &[f64], residual: f64) {
         for i in 0..3 {
-            for s in 0..S {
-                self.with_point[i][s] += point[i] * shared[s];
+            for (sum, by) in self.with_point[i].iter_mut().zip(shared) {
+                *sum += point[i] * by;
             }
         }
-        for s in 0..S {
-            self.gradient[s] += shared[s] * residual;
-            for q in 0..S {
-                self.hessian[s][q] += shared[s] * shared[q];
+        for (s, by) in shared.iter().enumerate() {
+            self.gradient[s] += by * residual;
+            for (sum, other) in self.hessian[s].iter_mut().zip(shared) {
+                *sum += by * other;
             }
         }
     }

@@ -7,6 +7,7 @@ use crate::optim::parallel::for_each;
 impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, S, B> {
     /// `V⁻¹` of every point, and what is multiplied by it.
     pub(super) fn invert_point_blocks(&mut self, damping: f64) {
+        let width = self.width;
         for_each(&mut self.points, |_, block| {
             let mut damped = block.hessian;
             for i in 0..3 {
@@ -24,7 +25,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                 for i in 0..3 {
                     group.solved[i] = [0.0; S];
                     for k in 0..3 {
-                        for s in 0..S {
+                        for s in 0..width {
                             group.solved[i][s] += block.inverse[i][k] * group.with_point[k][s];
                         }
                     }
@@ -52,6 +53,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
             &self.point_starts,
             &self.camera_couplings,
         );
+        let of_group = self.width;
         for_each(&mut self.cameras, |c, block| {
             let width = (c + 1) * C;
             block.rows.fill(0.0);
@@ -71,7 +73,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                     }
                     for group in &point.groups {
                         let reduced = &mut block.reduced_with_shared[group.group as usize];
-                        for s in 0..S {
+                        for s in 0..of_group {
                             for i in 0..C {
                                 reduced[s][i] -= group.with_point[k][s] * coupling.solved[k][i];
                             }
@@ -113,8 +115,8 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                 self.right[c * C + i] = -block.reduced_gradient[i];
             }
             for (g, with_shared) in block.reduced_with_shared.iter().enumerate() {
-                for s in 0..S {
-                    let row = (groups_start + g * S + s) * size + c * C;
+                for s in 0..of_group {
+                    let row = (groups_start + g * of_group + s) * size + c * C;
                     self.reduced[row..row + C].copy_from_slice(&with_shared[s]);
                 }
             }
@@ -124,32 +126,33 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
 
     /// The rows of the groups, from `groups_start` on, without what they have with cameras.
     fn reduce_groups(&mut self, damping: f64, groups_start: usize) {
-        let size = self.right.len();
+        let (size, width) = (self.right.len(), self.width);
         for (g, block) in self.groups.iter().enumerate() {
-            for s in 0..S {
-                let place = groups_start + g * S + s;
+            for s in 0..width {
+                let place = groups_start + g * width + s;
                 let row = &mut self.reduced[place * size..(place + 1) * size];
                 row[groups_start..].fill(0.0);
-                row[groups_start + g * S..][..S].copy_from_slice(&block.hessian[s]);
+                row[groups_start + g * width..][..width]
+                    .copy_from_slice(&block.hessian[s][..width]);
                 row[place] = damp(block.hessian[s][s], damping);
                 self.right[place] = block.gradient[s];
             }
         }
         for point in &self.points {
             for a in &point.groups {
-                let first = groups_start + a.group as usize * S;
-                for s in 0..S {
+                let first = groups_start + a.group as usize * width;
+                for s in 0..width {
                     for k in 0..3 {
                         self.right[first + s] -= a.with_point[k][s] * point.solved_gradient[k];
                     }
                 }
                 // The lower triangle is all that is looked at.
                 for b in point.groups.iter().filter(|b| b.group <= a.group) {
-                    let column = groups_start + b.group as usize * S;
-                    for s in 0..S {
-                        let row = &mut self.reduced[(first + s) * size + column..][..S];
+                    let column = groups_start + b.group as usize * width;
+                    for s in 0..width {
+                        let row = &mut self.reduced[(first + s) * size + column..][..width];
                         for k in 0..3 {
-                            for q in 0..S {
+                            for q in 0..width {
                                 row[q] -= a.with_point[k][s] * b.solved[k][q];
                             }
                         }
@@ -168,10 +171,12 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
         }
         let groups_start = self.cameras.len() * C;
         for (g, delta) in self.delta.shared.iter_mut().enumerate() {
-            delta.copy_from_slice(&self.right[groups_start + g * S..][..S]);
+            let width = self.width;
+            delta[..width].copy_from_slice(&self.right[groups_start + g * width..][..width]);
         }
         let (couplings, points, starts) = (&self.couplings, &self.points, &self.point_starts);
         let (cameras, shared) = (&self.delta.cameras, &self.delta.shared);
+        let of_group = self.width;
         for_each(&mut self.delta.points, |p, delta| {
             let block = &points[p];
             let mut right = block.gradient;
@@ -186,7 +191,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
             for group in &block.groups {
                 let shared = &shared[group.group as usize];
                 for k in 0..3 {
-                    for s in 0..S {
+                    for s in 0..of_group {
                         right[k] += group.with_point[k][s] * shared[s];
                     }
                 }

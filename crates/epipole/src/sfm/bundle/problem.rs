@@ -7,7 +7,8 @@ use crate::camera::{Distortion, Intrinsics};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, RobustLoss};
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
-/// What is refined of a lens: a factor of the focal lengths, the principal point's shift, k1, k2, p1, p2.
+/// What is refined of a lens: a factor of the focal lengths, k1, k2, p1, p2, the principal point's shift. What is
+/// refined more often comes first: what is behind it costs nothing.
 pub(super) const OF_LENS: usize = 7;
 
 /// A lens, as far as it is refined.
@@ -31,7 +32,7 @@ impl LensState {
     }
 
     fn moved(&self, step: &[f64; OF_LENS]) -> Self {
-        let [focal, u, v, k1, k2, p1, p2] = *step;
+        let [focal, k1, k2, p1, p2, u, v] = *step;
         let mut moved = self.clone();
         moved.focal += focal;
         moved.shift_px += Vector2::new(u, v);
@@ -114,7 +115,7 @@ impl BundleProblem<6, OF_LENS> for Problem<'_> {
         let radial = held(self.options.refine_distortion);
         let tangential = held(self.options.refine_tangential);
         [
-            focal, center, center, radial, radial, tangential, tangential,
+            focal, radial, radial, tangential, tangential, center, center,
         ]
     }
     fn prior(&self, state: &State, camera: usize) -> Option<PriorTerms<6>> {
@@ -195,8 +196,8 @@ impl BundleProblem<6, OF_LENS> for Problem<'_> {
             (terms.camera[row], terms.point[row]) = camera.derivatives(&rotated, &by_p);
             let shared = &mut terms.shared[row];
             shared[0] = focals[row] * shown[row];
-            shared[1 + row] = 1.0;
-            for (slope, by) in shared[3..].iter_mut().zip(by_distortion[row]) {
+            shared[5 + row] = 1.0;
+            for (slope, by) in shared[1..5].iter_mut().zip(by_distortion[row]) {
                 *slope = f * by;
             }
         }
