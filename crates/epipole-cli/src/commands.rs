@@ -11,7 +11,7 @@ mod matching;
 mod odometry;
 mod posegraph;
 mod rectify;
-mod sfm;
+pub(crate) mod sfm;
 mod stereo;
 mod two_view;
 mod undistort;

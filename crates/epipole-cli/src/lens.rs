@@ -59,9 +59,16 @@ pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
 /// # Errors
 /// A sentence that names the file and what is wrong in it.
 pub(crate) fn read(path: &Path, is_right: bool) -> Result<CalibratedCamera, Failure> {
-    let text = files::read_text(path)?;
+    parse(&files::read_text(path)?, path, is_right)
+}
+
+/// As [`read`], from the text of the file.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<CalibratedCamera, Failure> {
     let malformed = |why: String| Failure::new("malformed", why).about(path);
-    let whole: Value = serde_json::from_str(&text)
+    let whole: Value = serde_json::from_str(text)
         .map_err(|error| malformed(format!("this is not JSON: {error}")))?;
     let camera = if is_right { &whole["right"] } else { &whole };
     if camera.is_null() {

@@ -10,6 +10,8 @@ mod context;
 mod failure;
 mod features;
 mod files;
+#[cfg(test)]
+mod fuzz;
 mod interrupt;
 mod lens;
 mod matrices;
@@ -18,6 +20,7 @@ mod picture;
 mod progress;
 mod report;
 mod robust;
+mod rows;
 mod turn;
 
 use clap::Parser;

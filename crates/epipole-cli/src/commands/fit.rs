@@ -6,6 +6,7 @@ use crate::files;
 use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
+use crate::rows;
 use crate::turn::{self, find_turn, left_open};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
@@ -95,7 +96,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         ));
     }
     let columns = if arguments.model == Model::Line { 2 } else { 4 };
-    let rows = read(arguments, columns)?;
+    let text = files::read_text(&arguments.matches)?;
+    let rows = rows::parse(&text, &arguments.matches, columns)?;
     let at = |row: &Vec<f64>, column: usize| Point2::new(row[column], row[column + 1]);
     let pixels1: Vec<Point2<f64>> = rows.iter().map(|row| at(row, 0)).collect();
     let pixels2: Vec<Point2<f64>> = match columns {
@@ -273,28 +275,4 @@ fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -
         cam2_from_cam1: None,
         could_be_turn: None,
     }
-}
-
-fn read(arguments: &Arguments, columns: usize) -> Result<Vec<Vec<f64>>, Failure> {
-    let text = files::read_text(&arguments.matches)?;
-    let mut rows = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or("").trim();
-        if line.is_empty() {
-            continue;
-        }
-        let numbers: Vec<f64> = line
-            .split(|c: char| c.is_whitespace() || c == ',')
-            .filter(|word| !word.is_empty())
-            .take(columns)
-            .map_while(|word| word.parse().ok())
-            .collect();
-        if numbers.len() < columns || !numbers.iter().all(|number| number.is_finite()) {
-            let place = format!("{}:{}", arguments.matches.display(), index + 1);
-            let message = format!("{place}: here should be {columns} numbers, not \"{line}\"");
-            return Err(Failure::new("malformed", message));
-        }
-        rows.push(numbers);
-    }
-    Ok(rows)
 }

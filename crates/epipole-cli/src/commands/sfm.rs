@@ -2,7 +2,7 @@
 
 mod growth;
 mod input;
-mod positions;
+pub(crate) mod positions;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;

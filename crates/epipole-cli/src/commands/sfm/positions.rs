@@ -30,9 +30,10 @@ pub(super) struct PositionArguments {
 }
 
 /// What a line of the file says of a photograph.
-struct Line {
-    numbers: [f64; 3],
-    sigma_m: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) numbers: [f64; 3],
+    pub(crate) sigma_m: f64,
 }
 
 /// What is known of all.
@@ -75,7 +76,7 @@ impl PositionArguments {
                 .map(|place| place.as_ref().map(line))
                 .collect()
         } else {
-            let mut lines = self.lines(&files::read_text(path)?, path)?;
+            let mut lines = lines(&files::read_text(path)?, path, self.position_sigma_m)?;
             photos
                 .iter()
                 .map(|photo| lines.remove(&photo.name))
@@ -115,46 +116,6 @@ impl PositionArguments {
         Ok(Positions { origin, num_known })
     }
 
-    /// The lines of the file by the names of their photographs.
-    fn lines(&self, text: &str, path: &Path) -> Result<BTreeMap<String, Line>, Failure> {
-        let mut lines = BTreeMap::new();
-        for (index, line) in text.lines().enumerate() {
-            let line = line.trim();
-            if line.is_empty() || line.starts_with('#') {
-                continue;
-            }
-            let malformed = |why: &str| {
-                let message = format!("line {}: {why}", index + 1);
-                Failure::new("malformed", message).about(path)
-            };
-            // A name may have spaces; the numbers behind it have none.
-            let words: Vec<&str> = line.split_whitespace().collect();
-            let is_number = |word: &&&str| word.parse::<f64>().is_ok_and(f64::is_finite);
-            let num_numbers = words.iter().rev().take_while(is_number).count().min(4);
-            // Of a name that is a number itself, too.
-            let num_numbers = num_numbers.min(words.len() - 1);
-            if num_numbers < 3 {
-                return Err(malformed("it is not a name and three numbers"));
-            }
-            let numbers: Vec<f64> = (words[words.len() - num_numbers..].iter())
-                .filter_map(|word| word.parse().ok())
-                .collect();
-            let sigma_m = numbers.get(3).copied().unwrap_or(self.position_sigma_m);
-            if sigma_m <= 0.0 {
-                return Err(malformed("a standard deviation must be greater than 0"));
-            }
-            let name = words[..words.len() - num_numbers].join(" ");
-            let line = Line {
-                numbers: [numbers[0], numbers[1], numbers[2]],
-                sigma_m,
-            };
-            if lines.insert(name, line).is_some() {
-                return Err(malformed("this photograph had a line before"));
-            }
-        }
-        Ok(lines)
-    }
-
     /// Positions that lie nearer to each other than they are known say nothing; degrees taken for meters do so.
     fn check(&self, photos: &[Photo]) -> Result<(), Failure> {
         let known: Vec<&PositionPrior> =
@@ -182,6 +143,55 @@ impl PositionArguments {
             ),
         ))
     }
+}
+
+/// The lines of a file by the names of their photographs.
+///
+/// * `sigma_m`: the standard deviation where a line has none
+///
+/// # Errors
+/// A sentence that names the line.
+pub(crate) fn lines(
+    text: &str,
+    path: &Path,
+    sigma_m: f64,
+) -> Result<BTreeMap<String, Line>, Failure> {
+    let mut lines = BTreeMap::new();
+    for (index, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let malformed = |why: &str| {
+            let message = format!("line {}: {why}", index + 1);
+            Failure::new("malformed", message).about(path)
+        };
+        // A name may have spaces; the numbers behind it have none.
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let is_number = |word: &&&str| word.parse::<f64>().is_ok_and(f64::is_finite);
+        let num_numbers = words.iter().rev().take_while(is_number).count().min(4);
+        // Of a name that is a number itself, too.
+        let num_numbers = num_numbers.min(words.len() - 1);
+        if num_numbers < 3 {
+            return Err(malformed("it is not a name and three numbers"));
+        }
+        let numbers: Vec<f64> = (words[words.len() - num_numbers..].iter())
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        let sigma_m = numbers.get(3).copied().unwrap_or(sigma_m);
+        if sigma_m <= 0.0 {
+            return Err(malformed("a standard deviation must be greater than 0"));
+        }
+        let name = words[..words.len() - num_numbers].join(" ");
+        let line = Line {
+            numbers: [numbers[0], numbers[1], numbers[2]],
+            sigma_m,
+        };
+        if lines.insert(name, line).is_some() {
+            return Err(malformed("this photograph had a line before"));
+        }
+    }
+    Ok(lines)
 }
 
 impl Positions {
