@@ -38,14 +38,19 @@ impl<E: Estimator> Ransac<E> {
 
     /// Alternates between finding the inliers and fitting to them while that helps.
     ///
-    /// A model straight from a sample is rough: the first fit looks twice as far, and counts only
-    /// together with a second one at the right distance.
+    /// A model straight from a sample is rough: the first fit looks further, and counts only
+    /// together with those that lead back to the right distance.
     pub(super) fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
         let max_error_px = self.judge_px;
-        let wide = self
-            .fitted(&candidate.model.clone(), 2.0 * max_error_px)
-            .and_then(|model| self.fitted(&model, max_error_px));
-        let mut changed = wide.is_some_and(|model| self.replace_if_better(candidate, model));
+        let rough = candidate.model.clone();
+        let mut changed = false;
+        for &reaches in self.first_reaches() {
+            let mut model = Some(rough.clone());
+            for reach in reaches {
+                model = model.and_then(|model| self.fitted(&model, reach * max_error_px));
+            }
+            changed |= model.is_some_and(|model| self.replace_if_better(candidate, model));
+        }
         for _ in 1..self.options.inner_iterations {
             let Some(model) = self.fitted(&candidate.model.clone(), max_error_px) else {
                 break;
@@ -61,6 +66,15 @@ impl<E: Estimator> Ransac<E> {
             }
         }
         changed
+    }
+
+    /// How far the first fits look, in thresholds, way by way. Errors of two dimensions are small by chance so
+    /// seldom that nearly all within four thresholds belong to a model that is right in a part of the picture.
+    fn first_reaches(&self) -> &'static [&'static [f64]] {
+        match self.estimator.codimension() {
+            2 => &[&[2.0, 1.0], &[4.0, 2.0, 1.0]],
+            _ => &[&[2.0, 1.0]],
+        }
     }
 
     /// A model refined from its inliers, if there are enough.
