@@ -17,6 +17,8 @@ pub(crate) enum Model {
     Rational,
     /// Four numbers (Kannala and Brandt), for views of 120° and more.
     Fisheye,
+    /// One number (Fitzgibbon's division model), for lenses that bend much and few boards.
+    Division,
 }
 
 impl From<Model> for LensKind {
@@ -25,6 +27,7 @@ impl From<Model> for LensKind {
             Model::Brown => Self::Brown,
             Model::Rational => Self::Rational,
             Model::Fisheye => Self::Fisheye,
+            Model::Division => Self::Division,
         }
     }
 }
@@ -34,6 +37,7 @@ fn word(kind: LensKind) -> &'static str {
         LensKind::Brown => "brown",
         LensKind::Rational => "rational",
         LensKind::Fisheye => "fisheye",
+        LensKind::Division => "division",
     }
 }
 
@@ -91,11 +95,18 @@ pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<Calibrate
         return Err(malformed("k is not [fx, fy, cx, cy]".to_owned()));
     };
     let model = camera["distortion"]["model"].as_str().unwrap_or_default();
-    let kind = [LensKind::Brown, LensKind::Rational, LensKind::Fisheye]
-        .into_iter()
+    let kinds = [
+        LensKind::Brown,
+        LensKind::Rational,
+        LensKind::Fisheye,
+        LensKind::Division,
+    ];
+    let kind = (kinds.into_iter())
         .find(|kind| word(*kind) == model)
         .ok_or_else(|| {
-            malformed("distortion.model is none of brown, rational and fisheye".to_owned())
+            malformed(
+                "distortion.model is none of brown, rational, fisheye and division".to_owned(),
+            )
         })?;
     let coefficients = numbers(
         &camera["distortion"]["coefficients"],

@@ -109,6 +109,7 @@ mod tests {
             LensKind::Brown => &[-0.27, 0.05, 0.001, -0.0005, 0.02],
             LensKind::Rational => &[0.5, 0.05, 0.001, 0.0, 0.0, 0.8, 0.15, 0.01],
             LensKind::Fisheye => &[-0.02, 0.004, -0.001, 0.0002],
+            LensKind::Division => &[-0.2],
         };
         CalibratedCamera {
             intrinsics: Intrinsics::new(400.0, 405.0, 320.0, 240.0).unwrap(),
@@ -121,7 +122,12 @@ mod tests {
     #[test]
     fn poses_are_found_through_any_lens() {
         let pose = RigidTransform::new(Vector3::new(0.2, -0.1, 4.0), Vector3::new(0.1, 0.3, -0.2));
-        for kind in [LensKind::Brown, LensKind::Rational, LensKind::Fisheye] {
+        for kind in [
+            LensKind::Brown,
+            LensKind::Rational,
+            LensKind::Fisheye,
+            LensKind::Division,
+        ] {
             let (camera, mut random) = (camera(kind), Random::new(4));
             let (points, straight): (Vec<_>, Vec<_>) = (0..40)
                 .map(|_| {

@@ -263,7 +263,12 @@ mod tests {
     #[test]
     fn derivatives_are_differences() {
         let mut random = Random::new(5);
-        for kind in [LensKind::Brown, LensKind::Rational, LensKind::Fisheye] {
+        for kind in [
+            LensKind::Brown,
+            LensKind::Rational,
+            LensKind::Fisheye,
+            LensKind::Division,
+        ] {
             let marks: Vec<_> = (0..6)
                 .map(|i| Point3::new(f64::from(i % 3) * 0.1, f64::from(i / 3) * 0.1, 0.0))
                 .collect();

@@ -167,7 +167,7 @@ mod tests {
         }
     }
 
-    fn lenses() -> [CalibratedCamera; 3] {
+    fn lenses() -> [CalibratedCamera; 4] {
         [
             camera(LensKind::Brown, &[-0.2834, 0.074, 0.0002, 1.8e-5, 0.0]),
             camera(
@@ -175,6 +175,7 @@ mod tests {
                 &[0.3, 0.02, 0.0, 0.001, 0.0, 0.6, 0.1, 0.0],
             ),
             camera(LensKind::Fisheye, &[-0.02, 0.008, -0.004, 6e-4]),
+            camera(LensKind::Division, &[-0.25]),
         ]
     }
 

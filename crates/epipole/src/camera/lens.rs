@@ -1,6 +1,6 @@
 //! One lens, whichever model describes it.
 
-use super::{Distortion, Fisheye, RationalDistortion};
+use super::{Distortion, Division, Fisheye, RationalDistortion};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Vector3};
 
@@ -14,6 +14,8 @@ pub enum LensKind {
     Rational,
     /// Four numbers, for views of 120° and more: [`Fisheye`].
     Fisheye,
+    /// One number, where there is little to see of a lens that bends much: [`Division`].
+    Division,
 }
 
 impl LensKind {
@@ -23,6 +25,7 @@ impl LensKind {
             Self::Brown => 5,
             Self::Rational => 8,
             Self::Fisheye => 4,
+            Self::Division => 1,
         }
     }
 }
@@ -36,6 +39,8 @@ pub enum Lens {
     Rational(RationalDistortion),
     /// Four numbers, for views of 120° and more.
     Fisheye(Fisheye),
+    /// One number.
+    Division(Division),
 }
 
 /// As many coefficients as any model has.
@@ -43,7 +48,7 @@ pub(crate) const MAX_COEFFICIENTS: usize = 8;
 
 impl Lens {
     /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6 (rational); k1 to
-    /// k4 (fisheye).
+    /// k4 (fisheye). The division model, which OpenCV does not have, has k alone.
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for another number of coefficients, [`Error::NotFinite`] for NaN and infinities.
@@ -91,6 +96,7 @@ impl Lens {
             LensKind::Fisheye => Self::Fisheye(Fisheye {
                 coefficients: [k[0], k[1], k[2], k[3]],
             }),
+            LensKind::Division => Self::Division(Division { k: k[0] }),
         }
     }
 
@@ -100,6 +106,7 @@ impl Lens {
             Self::Brown(_) => LensKind::Brown,
             Self::Rational(_) => LensKind::Rational,
             Self::Fisheye(_) => LensKind::Fisheye,
+            Self::Division(_) => LensKind::Division,
         }
     }
 
@@ -110,6 +117,7 @@ impl Lens {
             Self::Brown(d) => brown(d),
             Self::Rational(r) => [brown(&r.numerator), r.denominator.to_vec()].concat(),
             Self::Fisheye(f) => f.coefficients.to_vec(),
+            Self::Division(d) => vec![d.k],
         }
     }
 
@@ -129,6 +137,7 @@ impl Lens {
             Self::Brown(d) => d.distort(&flat()?),
             Self::Rational(r) => r.distort(&flat()?),
             Self::Fisheye(f) => f.project(x_in_cam)?,
+            Self::Division(d) => d.distort(&flat()?),
         };
         (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
     }
@@ -143,6 +152,7 @@ impl Lens {
             Self::Brown(d) => d.undistort(seen).map(at_one),
             Self::Rational(r) => r.undistort(seen).map(at_one),
             Self::Fisheye(f) => f.ray(seen),
+            Self::Division(d) => d.undistort(seen).map(at_one),
         }
     }
 
@@ -153,6 +163,7 @@ impl Lens {
             Self::Brown(d) => x_in_cam.z > 0.0 && d.is_seen(&flat),
             Self::Rational(r) => x_in_cam.z > 0.0 && flat.coords.norm_squared() < r.fold_sq(),
             Self::Fisheye(f) => f.sees(x_in_cam),
+            Self::Division(d) => x_in_cam.z > 0.0 && d.is_seen(&flat),
         }
     }
 
@@ -162,6 +173,9 @@ impl Lens {
         &self,
         x_in_cam: &Vector3<f64>,
     ) -> (Matrix2x3<f64>, [[f64; MAX_COEFFICIENTS]; 2]) {
+        let z = x_in_cam.z;
+        let flat = Point2::from(x_in_cam.xy() / z);
+        let flatten = Matrix2x3::new(1.0, 0.0, -flat.x, 0.0, 1.0, -flat.y) / z;
         let rational = match self {
             Self::Brown(numerator) => RationalDistortion {
                 numerator: *numerator,
@@ -176,11 +190,16 @@ impl Lens {
                 }
                 return (by_point, by_all);
             }
+            Self::Division(division) => {
+                let by_k = division.by_k(&flat);
+                let mut by_all = [[0.0; MAX_COEFFICIENTS]; 2];
+                for (all, k) in by_all.iter_mut().zip(by_k) {
+                    all[0] = k;
+                }
+                return (division.jacobian(&flat) * flatten, by_all);
+            }
         };
-        let z = x_in_cam.z;
-        let flat = Point2::from(x_in_cam.xy() / z);
         let bend = rational.jacobian(&flat);
-        let flatten = Matrix2x3::new(1.0, 0.0, -flat.x, 0.0, 1.0, -flat.y) / z;
         let mut by_coefficients = rational.by_coefficients(&flat);
         if self.kind() == LensKind::Brown {
             for row in &mut by_coefficients {
@@ -196,7 +215,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    fn lenses() -> [Lens; 3] {
+    fn lenses() -> [Lens; 4] {
         [
             Lens::of(
                 LensKind::Brown,
@@ -209,6 +228,10 @@ mod tests {
             Lens::of(
                 LensKind::Fisheye,
                 [-0.02, 0.008, -0.004, 6e-4, 0.0, 0.0, 0.0, 0.0],
+            ),
+            Lens::of(
+                LensKind::Division,
+                [-0.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             ),
         ]
     }

@@ -4,6 +4,7 @@
 //! Camera frame: x right, y down, z forward.
 
 mod distortion;
+mod division;
 mod fisheye;
 mod geodetic;
 mod intrinsics;
@@ -16,6 +17,7 @@ mod unbend;
 mod view;
 
 pub use distortion::Distortion;
+pub use division::Division;
 pub use fisheye::Fisheye;
 pub use geodetic::{Geodetic, local_from_geodetic};
 pub use intrinsics::Intrinsics;

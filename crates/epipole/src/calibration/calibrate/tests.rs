@@ -16,6 +16,7 @@ fn truth(kind: LensKind) -> CalibratedCamera {
         LensKind::Brown => (540.0, &[-0.27, 0.05, 0.001, -0.0005, 0.02]),
         LensKind::Rational => (400.0, &[0.5, 0.05, 0.001, 0.0, 0.0, 0.8, 0.15, 0.01]),
         LensKind::Fisheye => (260.0, &[-0.02, 0.004, -0.001, 0.0002]),
+        LensKind::Division => (380.0, &[-0.35]),
     };
     CalibratedCamera {
         intrinsics: Intrinsics::new(focal, focal + 3.0, 342.0, 235.0).unwrap(),
@@ -43,7 +44,12 @@ fn views(
 
 #[test]
 fn exact_views_give_the_exact_camera() {
-    for kind in [LensKind::Brown, LensKind::Rational, LensKind::Fisheye] {
+    for kind in [
+        LensKind::Brown,
+        LensKind::Rational,
+        LensKind::Fisheye,
+        LensKind::Division,
+    ] {
         let camera = truth(kind);
         let distance = camera.intrinsics.fu_px() / 35.0;
         let views = views(&camera, &poses(&board(), 12, distance, 5), 0.0);
