@@ -4,9 +4,10 @@ use crate::failure::Failure;
 use crate::matrices::positive;
 use clap::Args;
 use epipole::calibration::{PrepareOptions, Undistortion, prepare_photo};
-use epipole::camera::{Geodetic, Intrinsics};
+use epipole::camera::Intrinsics;
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
+use epipole::math::Geodetic;
 use image::{GrayImage, RgbImage};
 use std::path::Path;
 

@@ -5,7 +5,8 @@
 mod common;
 
 use common::{Folder, fails, json, motion, moved, path};
-use epipole::camera::{Camera, Geodetic, RigidTransform, local_from_geodetic};
+use epipole::camera::{Camera, RigidTransform};
+use epipole::math::{Geodetic, local_from_geodetic};
 use image::ImageEncoder;
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;

@@ -2,8 +2,9 @@
 
 use super::Undistortion;
 use crate::Result;
-use crate::camera::{Geodetic, Intrinsics};
+use crate::camera::Intrinsics;
 use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
+use crate::math::Geodetic;
 use image::metadata::Orientation;
 use image::{DynamicImage, RgbImage};
 

@@ -6,7 +6,6 @@
 mod distortion;
 mod division;
 mod fisheye;
-mod geodetic;
 mod intrinsics;
 mod lens;
 pub(crate) mod moving_pose;
@@ -19,7 +18,6 @@ mod view;
 pub use distortion::Distortion;
 pub use division::Division;
 pub use fisheye::Fisheye;
-pub use geodetic::{Geodetic, local_from_geodetic};
 pub use intrinsics::Intrinsics;
 pub(crate) use lens::MAX_COEFFICIENTS;
 pub use lens::{Lens, LensKind};

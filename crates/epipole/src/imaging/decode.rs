@@ -2,7 +2,7 @@
 
 use super::exif::Facts;
 use super::gray::{GrayImage32, from_vec, rgb_to_gray};
-use crate::camera::Geodetic;
+use crate::math::Geodetic;
 use crate::{Error, Result};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};

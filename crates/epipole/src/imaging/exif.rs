@@ -1,6 +1,6 @@
 //! What the camera wrote into the file: a first guess of the focal length, and where it was.
 
-use crate::camera::Geodetic;
+use crate::math::Geodetic;
 use exif::{Exif, In, Reader, Tag, Value};
 
 /// Diagonal of a 36 mm × 24 mm frame, squared, mm².

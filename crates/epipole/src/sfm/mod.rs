@@ -1,7 +1,7 @@
 //! Structure from motion: from many photographs to cameras and points.
 //!
 //! * [`adjust_bundle`] refines cameras, their lenses and points together, with known positions such as those of satellite
-//!   navigation ([`local_from_geodetic`](crate::camera::local_from_geodetic)) if there are any; [`BalProblem`] is the published text
+//!   navigation ([`local_from_geodetic`](crate::math::local_from_geodetic)) if there are any; [`BalProblem`] is the published text
 //!   format for such problems, and [`adjust_bal`] solves it.
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.

@@ -7,7 +7,8 @@ use crate::lens;
 use crate::photo::{Photo, SizeArguments};
 use clap::Args;
 use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
-use epipole::camera::{Geodetic, Intrinsics};
+use epipole::camera::Intrinsics;
+use epipole::math::Geodetic;
 use epipole::sfm::Photo as SfmPhoto;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::positive;
 use clap::Args;
-use epipole::camera::{Geodetic, local_from_geodetic};
+use epipole::math::{Geodetic, local_from_geodetic};
 use epipole::sfm::{Photo, PositionPrior, Reconstruction};
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};

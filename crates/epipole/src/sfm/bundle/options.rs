@@ -65,7 +65,7 @@ impl BundleOptions {
 }
 
 /// Where a camera is, as something else has measured it, such as a receiver of satellite navigation: see
-/// [`local_from_geodetic`](crate::camera::local_from_geodetic) for its degrees.
+/// [`local_from_geodetic`](crate::math::local_from_geodetic) for its degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PositionPrior {
     /// The camera's center in the world.

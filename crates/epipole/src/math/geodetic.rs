@@ -31,7 +31,7 @@ const FLATTENING: f64 = 1.0 / 298.257_223_563;
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Geodetic, local_from_geodetic};
+/// use epipole::math::{Geodetic, local_from_geodetic};
 /// let tower = Geodetic { latitude_deg: 48.8583, longitude_deg: 2.2945, height_m: 80.0 };
 /// let north = Geodetic { latitude_deg: 48.8593, ..tower };
 /// let there = local_from_geodetic(&north, &tower)?;
