@@ -17,7 +17,7 @@ const BASELINE: Slider = Slider::new("baseline", "Step right")
     .at(0.2)
     .digits(2)
     .unit("m");
-const FORWARD: Slider = Slider::new("forward", "Step forward")
+const FORWARD: Slider = Slider::new("forward", "Step ahead")
     .range(-0.6, 0.7, 0.02)
     .at(0.2)
     .digits(2)
