@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn what_may_have_been_clicked_before_is_known() {
-        let text = "{{#figure dot | A}}\n\n{{#do dot a=1 | w}} {{#do dot a=2 b=1 | w}}\n\n{{#do dot b=3 | w}}\n\n\
+        let text = "{{#figure dot | A}}\n\n{{#do dot a=1 | w}} {{#do dot a=2 b=1 | w}}\n\n{{#do dot#fig-dot b=3 | w}}\n\n\
                     {{#figure dot id=x | B}}\n\n{{#do dot#x a=4 | w}}\n";
         let source = Source::new(text, Place::new("a.md", 1));
         let all = instances(&source);
