@@ -199,6 +199,25 @@ test("a photograph of one's own is taken, made smaller, and goes nowhere", async
   await expect(figure.locator(".notice")).toContainText("letter.txt is not a photograph");
 });
 
+test("a photograph that is too narrow is told by its name, as it is and as it would be", async ({ page, open }) => {
+  const figure = await open(page, [own]);
+  const before = await told(figure);
+  const url = await page.evaluate(() => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [64, 3000];
+    canvas.getContext("2d").fillRect(0, 0, 20, 20);
+    return canvas.toDataURL("image/png");
+  });
+  await figure.locator("input[type=file]").first().setInputFiles({
+    name: "strip.png",
+    mimeType: "image/png",
+    buffer: Buffer.from(url.split(",")[1], "base64"),
+  });
+  const notice = figure.locator(".notice");
+  await expect(notice).toHaveText(/^strip\.png has 64 × 3000 pixels, made smaller \d+ × \d+\. This figure takes photographs of at least \d+ pixels on each side\.$/);
+  expect(await told(figure)).toEqual(before);
+});
+
 test("a photograph can be dropped on the figure, and taken where there is a camera", async ({ page, open }) => {
   const figure = await open(page, [own]);
   const before = await told(figure);

@@ -1,6 +1,6 @@
 // What a page does to figures while they live: it chooses, glides, renames, moves and interrupts.
 
-import { expect, figures, gripOf, hear, heard, ready, settled, test, told } from "./fixtures.mjs";
+import { expect, expectAccessible, figures, gripOf, hear, heard, ready, settled, test, told } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
@@ -43,8 +43,25 @@ test.describe("choosing", () => {
     expect((await shown(figure, "control")).length).toBeGreaterThan(3);
     await expect(figure.locator(".challenges")).toBeVisible();
     await figure.evaluate((element) => element.setAttribute("goals", "all"));
-    await expect(figure.locator("[data-challenge]").first()).toBeVisible();
+    await expect(figure.locator("[data-challenge]").last()).toBeVisible();
     await expect(figure.locator(".notice")).toBeHidden();
+  });
+
+  test("all goals are there once: one at hand, the others below it to choose from", async ({ page, open }) => {
+    const figure = await open(page, ["ransac-race goals=all"]);
+    const goals = JSON.parse(new Figure("ransac-race").snapshot(720)).challenges.map(({ goal }) => goal);
+    const texts = () =>
+      figure.evaluate((element) => {
+        const all = [...element.shadowRoot.querySelectorAll(".goal-line .goal, [data-challenge]")];
+        return all.filter((part) => part.checkVisibility()).map((part) => part.textContent);
+      });
+    expect(await texts()).toEqual(goals);
+    await figure.getByRole("button", { name: goals[2] }).click();
+    expect(await texts()).toEqual([goals[2], goals[0], goals[1], goals[3]]);
+    await expect(figure.locator(".goal-line")).toBeFocused();
+    await page.keyboard.press("Tab");
+    await expect(figure.getByRole("button", { name: "Hint" })).toBeFocused();
+    await expectAccessible(page);
   });
 
   test("unknown names are told, in the figure and on the console, and the known ones shown", async ({ page, open }) => {

@@ -5,6 +5,7 @@ import { startOperating } from "./operate";
 import { startPlaying } from "./play";
 import { makeScrollersReachable } from "./scrollers";
 import { settleSections } from "./sections";
+import { startSmall } from "./small";
 import { startSymbols } from "./symbols";
 import { startTheme } from "./theme";
 
@@ -16,6 +17,7 @@ followSections();
 makeScrollersReachable();
 startOperating();
 startPlaying();
+startSmall();
 startListings();
 startSymbols();
 

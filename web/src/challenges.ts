@@ -16,7 +16,7 @@ const CHECK = "M4.5 10.5l3.5 3.5 7.5-8.5";
 
 export class Challenges {
   readonly element = make("div", { class: "challenges", role: "group", "aria-label": "Goals" });
-  readonly #line = make("div", { class: "goal-line" });
+  readonly #line = make("div", { class: "goal-line", tabindex: -1 });
   readonly #mark = make("span", { class: "mark" });
   readonly #goal = make("span");
   /** The hint, or why what the reader did was the answer. */
@@ -99,7 +99,11 @@ export class Challenges {
     this.#rows = challenges.map(({ id, goal }, index) => {
       const mark = make("span", { class: "mark" });
       const button = make("button", { type: "button" }, make("span", {}, mark, goal));
-      button.addEventListener("click", () => this.#go(index));
+      button.addEventListener("click", () => {
+        this.#go(index);
+        // The row leaves the list, and the reader goes where it went.
+        this.#line.focus();
+      });
       const box = make("span", { class: "box" }, icon(CHECK));
       return { row: make("li", { "data-challenge": id }, box, button), mark };
     });
@@ -125,12 +129,13 @@ export class Challenges {
     setText(this.#count, `${this.#at + 1} of ${total}`);
     setAttribute(this.#count, "aria-label", `Goal ${this.#at + 1} of ${total}, ${done} solved: all goals`);
     setAttribute(this.#count, "aria-expanded", String(open));
-    this.#list.hidden = !open;
+    this.#list.hidden = !open || total < 2;
     this.#known.forEach(({ id }, index) => {
       const { row, mark } = this.#rows[index] ?? {};
       if (!row || !mark) return;
       setAttribute(row, "data-solved", this.#solved.has(id));
-      setAttribute(row, "aria-current", index === this.#at ? "true" : undefined);
+      // The goal at hand stands above the others.
+      row.hidden = index === this.#at;
       setText(mark, this.#solved.has(id) ? "Solved: " : "");
     });
   }

@@ -4,7 +4,7 @@
  */
 
 import type { PhotoSlot } from "./contract.js";
-import { capitalize, make } from "./dom.js";
+import { make } from "./dom.js";
 import { focalOf, HEAD_BYTES } from "./exif.js";
 
 export interface Photo {
@@ -122,8 +122,10 @@ export class Photos {
     const [whole, now] = [`${width} × ${height}`, `${photo.width} × ${photo.height}`];
     const refused = this.#hooks.take(slot.id, photo);
     if (refused !== undefined) {
-      // The reader knows the photograph by its own size.
-      this.#hooks.warn(`${capitalize(refused.replace(now, whole))}.`);
+      // The reader knows the photograph by its name and its own size. What is wanted stands behind the colon.
+      const wanted = refused.split(": it ").at(-1) ?? refused;
+      const size = whole === now ? `${now} pixels` : `${whole} pixels, made smaller ${now}`;
+      this.#hooks.warn(`${file.name} has ${size}. This figure ${wanted}.`);
       return;
     }
     const words = whole === now ? `${now} pixels.` : `Made smaller, from ${whole} to ${now} pixels.`;

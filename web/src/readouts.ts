@@ -4,7 +4,7 @@ import type { Readout } from "./contract.js";
 import { fold, make, setText } from "./dom.js";
 
 /** Longer texts take the room of two, in smaller letters. */
-const LONG = 13;
+const LONG = 11;
 /** Still longer ones take a second line. */
 const TWO_LINES = 34;
 

@@ -53,7 +53,7 @@ pub(crate) fn draw(shared: &Shared) -> Result<Vec<Frame>> {
             path: path(name),
             ..Page::default()
         };
-        let renderer = Renderer::new(shared, page, Vec::new());
+        let renderer = Renderer::new(shared, page, None);
         let rooms = Room::all_for(facts.aspect());
         let drawn = posters::draw(figure.as_ref(), rooms, name, &settings, &renderer, folder)?;
         let column = drawn

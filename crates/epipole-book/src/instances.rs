@@ -18,8 +18,8 @@ pub(crate) struct Instance {
 }
 
 /// What a figure's tag says to the builder and to the page; everything else is the figure's state.
-const WORDS_OF_THE_PAGE: [&str; 7] = [
-    "id", "controls", "readouts", "goals", "claim", "page", "play",
+const WORDS_OF_THE_PAGE: [&str; 8] = [
+    "id", "controls", "readouts", "goals", "claim", "page", "play", "moves",
 ];
 
 /// The settings of a directive that are the figure's own.
@@ -56,6 +56,63 @@ pub(crate) fn instances(source: &Source) -> Vec<Instance> {
         });
     }
     found
+}
+
+/// Words of a page that set one of its figures.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Act {
+    place: Place,
+    /// The anchor of the figure.
+    figure: String,
+    pub(crate) wishes: Vec<(String, String)>,
+}
+
+/// All words of a chapter that set figures, in their order; `all` are its figures.
+pub(crate) fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
+    let act = |piece| {
+        let Piece::Directive(directive) = piece else {
+            return None;
+        };
+        let ("do", [wanted]) = (&directive.name[..], &directive.words[..]) else {
+            return None;
+        };
+        let place = source.place(directive.span.start);
+        let figure = nearest(wanted, &place, all).ok()?.id.clone();
+        let wishes = own_settings(&directive);
+        Some(Act {
+            place,
+            figure,
+            wishes,
+        })
+    };
+    split(source).into_iter().filter_map(act).collect()
+}
+
+/// What a reader may have clicked for `figure` before the words at `place`: everything above them from the top
+/// down, and everything below them from the bottom up.
+pub(crate) fn clicked_before<'a>(
+    figure: &Instance,
+    (place, wishes): (&Place, &[(String, String)]),
+    all: &'a [Act],
+) -> [Vec<&'a Act>; 2] {
+    let of_figure: Vec<&Act> = all.iter().filter(|act| act.figure == figure.id).collect();
+    let here = |act: &&Act| act.place == *place && act.wishes == wishes;
+    let Some(at) = of_figure.iter().position(here) else {
+        return [Vec::new(), Vec::new()];
+    };
+    let above = of_figure[..at].to_vec();
+    let below = of_figure[at + 1..].iter().rev().copied().collect();
+    [above, below]
+}
+
+/// Settings with wishes put on top of them.
+pub(crate) fn with_wishes(
+    mut settings: Vec<(String, String)>,
+    wishes: &[(String, String)],
+) -> Vec<(String, String)> {
+    settings.retain(|(key, _)| wishes.iter().all(|(wish, _)| wish != key));
+    settings.extend_from_slice(wishes);
+    settings
 }
 
 /// A setting of a directive.
@@ -139,5 +196,26 @@ mod tests {
             "{sentence}"
         );
         assert_eq!(all[1].settings, [("size".to_owned(), "2".to_owned())]);
+    }
+
+    #[test]
+    fn what_may_have_been_clicked_before_is_known() {
+        let text = "{{#figure dot | A}}\n\n{{#do dot a=1 | w}} {{#do dot a=2 b=1 | w}}\n\n{{#do dot#fig-dot b=3 | w}}\n\n\
+                    {{#figure dot id=x | B}}\n\n{{#do dot#x a=4 | w}}\n";
+        let source = Source::new(text, Place::new("a.md", 1));
+        let all = instances(&source);
+        let acts = acts(&source, &all);
+        assert_eq!(acts.len(), 4);
+        let wish = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let middle = [wish("a", "2"), wish("b", "1")];
+        let place = Place::new("a.md", 3);
+        let [above, below] = clicked_before(&all[0], (&place, &middle), &acts);
+        assert_eq!(above, [&acts[0]]);
+        assert_eq!(below, [&acts[2]]);
+        let last = [wish("a", "4")];
+        let [above, below] = clicked_before(&all[1], (&Place::new("a.md", 9), &last), &acts);
+        assert!(above.is_empty() && below.is_empty());
+        let settings = with_wishes(vec![wish("a", "0"), wish("c", "5")], &middle);
+        assert_eq!(settings, [wish("c", "5"), wish("a", "2"), wish("b", "1")]);
     }
 }

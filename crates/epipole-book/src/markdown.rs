@@ -6,7 +6,7 @@ use crate::directives::{Directive, Piece, markdown_options, split};
 use crate::events::{Located, end_of, section_starts, take_footnotes};
 use crate::expand::Insert;
 use crate::html::{escape, forbidden_inline, slug};
-use crate::instances::Instance;
+use crate::instances::{Act, Instance, acts, instances};
 use crate::links;
 use crate::listing::{info, listing};
 use crate::math::{Layout, mathml};
@@ -24,6 +24,8 @@ pub(crate) struct Renderer<'a> {
     pub(crate) page: Page,
     /// The figures of the page, also those still to come.
     pub(crate) instances: Vec<Instance>,
+    /// The words that set them.
+    pub(crate) acts: Vec<Act>,
     notes: usize,
 }
 
@@ -37,10 +39,14 @@ struct Text<'a> {
 }
 
 impl<'a> Renderer<'a> {
-    pub(crate) fn new(shared: &'a Shared<'a>, page: Page, instances: Vec<Instance>) -> Self {
+    /// For a page of a source with figures, or of none.
+    pub(crate) fn new(shared: &'a Shared<'a>, page: Page, source: Option<&Source>) -> Self {
+        let instances = source.map(instances).unwrap_or_default();
+        let acts = source.map(|source| acts(source, &instances));
         Renderer {
             shared,
             page,
+            acts: acts.unwrap_or_default(),
             instances,
             notes: 0,
         }

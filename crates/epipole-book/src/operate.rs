@@ -6,7 +6,7 @@ use crate::directives::Directive;
 use crate::expand::Insert;
 use crate::facts::Facts;
 use crate::html::escape;
-use crate::instances::{Instance, nearest, own_settings, setting};
+use crate::instances::{Instance, clicked_before, nearest, own_settings, setting, with_wishes};
 use crate::markdown::Renderer;
 use crate::problems::Place;
 use crate::source::Source;
@@ -31,6 +31,18 @@ pub(crate) fn set(
     let facts = after(renderer, &figure, &wishes)?;
     if let Some(claim) = setting(directive, "claim") {
         claims::check(claim, &facts)?;
+        // What the words say holds for whoever has clicked other words before.
+        for clicked in clicked_before(&figure, (place, &wishes), &renderer.acts) {
+            let settings = clicked
+                .iter()
+                .fold(figure.settings.clone(), |settings, act| {
+                    with_wishes(settings, &act.wishes)
+                });
+            let settings = with_wishes(settings, &wishes);
+            let facts = renderer.shared.facts(&figure.name, &settings)?;
+            claims::check(claim, &facts)
+                .map_err(|error| format!("once other words have set the figure, {error}"))?;
+        }
     }
     let html = renderer.inline(&body);
     let parameters =
@@ -97,8 +109,6 @@ fn after(
     figure: &Instance,
     wishes: &[(String, String)],
 ) -> Result<Arc<Facts>, String> {
-    let mut settings = figure.settings.clone();
-    settings.retain(|(key, _)| wishes.iter().all(|(wish, _)| wish != key));
-    settings.extend_from_slice(wishes);
+    let settings = with_wishes(figure.settings.clone(), wishes);
     renderer.shared.facts(&figure.name, &settings)
 }

@@ -6,7 +6,6 @@ use crate::figures::Gallery;
 use crate::frames;
 use crate::html::{escape, forbidden_inline, path_to_root};
 use crate::include::include;
-use crate::instances::instances;
 use crate::links;
 use crate::markdown::Renderer;
 use crate::notebook;
@@ -245,7 +244,7 @@ impl Site<'_> {
             symbols: symbols::wanted(&source),
             ..Page::default()
         };
-        let mut renderer = Renderer::new(self.shared, page, instances(&source));
+        let mut renderer = Renderer::new(self.shared, page, Some(&source));
         let html = renderer.block(&source);
         let mut page = renderer.page;
         page.html = html + &self.notebook(&page);

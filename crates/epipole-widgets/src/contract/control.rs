@@ -1,7 +1,7 @@
 //! Controls: what a reader sets beside the picture. Each becomes a native input of the page.
 
 use super::decimal::parse_decimal;
-use super::readout::format_number;
+use super::readout::{format_number, with_unit};
 use serde::Serialize;
 
 /// Where a page shows a control.
@@ -240,15 +240,10 @@ impl Slider {
     }
 
     pub(super) fn with_value(&'static self, value: f64) -> Control {
-        let number = format_number(value, self.digits);
         Control {
             id: self.id,
             label: self.label,
-            value_text: if self.unit.is_empty() {
-                number
-            } else {
-                format!("{number} {}", self.unit)
-            },
+            value_text: with_unit(&format_number(value, self.digits), self.unit),
             kind: ControlKind::Slider {
                 unit: self.unit,
                 min: self.min,

@@ -42,11 +42,7 @@ impl Readout {
             return Self::words(id, label, "no value");
         }
         let number = format_number(value, digits);
-        let text = if unit.is_empty() {
-            number
-        } else {
-            format!("{number} {unit}")
-        };
+        let text = with_unit(&number, unit);
         Self {
             id,
             label,
@@ -82,6 +78,14 @@ impl Readout {
     pub fn main(self) -> Self {
         let main = true;
         Self { main, ..self }
+    }
+}
+
+/// A number with its unit: a degree sign stands close to the number, other units after a space.
+pub(super) fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" | "°" => format!("{number}{unit}"),
+        _ => format!("{number} {unit}"),
     }
 }
 

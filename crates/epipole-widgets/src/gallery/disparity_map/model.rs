@@ -26,7 +26,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .at(0.08)
     .digits(2)
     .unit("m");
-const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain answers").on();
+const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain").on();
 const KNOBS: &[Knob] = &[
     Knob::Choice(&METHOD),
     Knob::Slider(&WINDOW),

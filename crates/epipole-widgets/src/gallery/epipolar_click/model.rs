@@ -12,12 +12,12 @@ use epipole::epipolar::Epipole;
 use nalgebra::Point2;
 
 const MAX_POINTS: usize = 6;
-const BASELINE: Slider = Slider::new("baseline", "Camera 2 right")
+const BASELINE: Slider = Slider::new("baseline", "Step right")
     .range(0.0, 0.8, 0.02)
     .at(0.2)
     .digits(2)
     .unit("m");
-const FORWARD: Slider = Slider::new("forward", "Camera 2 forward")
+const FORWARD: Slider = Slider::new("forward", "Step ahead")
     .range(-0.6, 0.7, 0.02)
     .at(0.2)
     .digits(2)

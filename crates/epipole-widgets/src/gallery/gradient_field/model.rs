@@ -30,7 +30,7 @@ const ANGLE: Slider = Slider::new("angle", "Edge angle")
 const NOISE: Slider = Slider::new("noise", "Noise σ")
     .range(0.0, 30.0, 1.0)
     .at(4.0)
-    .unit("gray levels");
+    .unit("levels");
 const SMOOTH: Toggle = Toggle::new("smooth", "Smoothing");
 pub(super) const SIGMA: Slider = Slider::new("sigma", "Smoothing σ")
     .range(0.5, 5.0, 0.1)

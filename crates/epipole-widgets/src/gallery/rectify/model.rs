@@ -20,7 +20,7 @@ const TURN: Slider = Slider::new("turn", "Camera 2 turned")
     .range(0.0, 16.0, 1.0)
     .at(10.0)
     .unit("°");
-const FORWARD: Slider = Slider::new("forward", "Camera 2 forward")
+const FORWARD: Slider = Slider::new("forward", "Step ahead")
     .range(-0.1, 0.1, 0.01)
     .at(-0.05)
     .digits(2)

@@ -19,7 +19,7 @@ const HOUSE: Slider = Slider::new("house", "House size")
     .at(2.0)
     .digits(2)
     .unit("×");
-const BASELINE: Slider = Slider::new("baseline", "Baseline length")
+const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .range(0.5, 4.0, 0.25)
     .at(2.0)
     .digits(2)

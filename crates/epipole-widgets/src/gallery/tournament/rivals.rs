@@ -191,14 +191,15 @@ mod tests {
     #[test]
     fn with_six_of_ten_points_wrong_voting_still_finds_the_line() {
         let mut wins = [0; NUM_RIVALS];
-        for seed in 0..40 {
+        for seed in 0..1000 {
             let successes = fit_lines(seed, 0.6, 2.5);
             for (count, success) in wins.iter_mut().zip(successes) {
                 *count += usize::from(success);
             }
         }
-        // Least squares is lost, the vote is not.
-        assert!(wins[0] < 10 && wins[5] >= 37, "{wins:?}");
+        // Least squares is lost; every vote finds it in at least 95 % of the runs.
+        assert!(wins[0] < 50, "{wins:?}");
+        assert!(wins[3..].iter().all(|&count| count >= 950), "{wins:?}");
     }
 
     /// Successes in NumPy's own runs, by `tests/peers/tournament.py`, which knows nothing of the code here: shares

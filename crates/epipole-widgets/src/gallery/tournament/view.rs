@@ -13,8 +13,6 @@ use crate::theme::Role;
 
 /// Height of the plot with its numbers, CSS pixels.
 const HEIGHT: f64 = 380.0;
-/// Room between the plot and the legend.
-const MARGIN: f64 = 4.0;
 
 /// Draws [`Tournament`].
 #[derive(Default)]
@@ -51,11 +49,12 @@ impl View for TournamentView {
 
     fn layout(&self, _: &Tournament, width: f64) -> Layout {
         let mut grid = Grid::new(width);
+        // Above the plot: below it the progress of the runs would cover it, while the curves grow.
+        grid.strip(legend::height(&entries(), width, plot::LEFT));
         let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
         let [x, y] = rulers();
         let mut plot = plot::panel("plot", cell, &x, &y);
         plot.clickable = true;
-        grid.strip(MARGIN + legend::height(&entries(), width, plot::LEFT));
         grid.layout(vec![plot])
     }
 
@@ -78,8 +77,7 @@ impl View for TournamentView {
                 canvas.marker(plot.canvas_from_world(place), 4.0, shape, role, true);
             }
         }
-        let top = layout.height - 1.0 - legend::height(&entries(), layout.width, plot::LEFT);
-        legend::draw(canvas, &entries(), layout.width, plot::LEFT, top);
+        legend::draw(canvas, &entries(), layout.width, plot::LEFT, 0.0);
         if let Some(problem) = model.problem() {
             grid::notice(canvas, plot.rect, problem);
         }

@@ -98,10 +98,28 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     if let (true, Meeting::Ahead(found) | Meeting::Behind(found)) =
         (model.is_wrong(), model.meeting())
     {
-        canvas.marker(at(found), 7.0, Shape::Cross, PHANTOM, true);
+        let (shown, text) = phantom(found, panel);
+        let shape = [Shape::Cross, Shape::Triangle][usize::from(shown != found)];
+        canvas.marker(at(shown), 7.0, shape, PHANTOM, true);
         let style = TextStyle::new(PHANTOM, TEXT).cased();
-        labels.draw(canvas, &Labels::around(at(found), 10.0), "phantom", style);
+        labels.draw(canvas, &Labels::around(at(shown), 10.0), &text, style);
     }
+}
+
+/// Where the phantom is marked, and what is written there: one that is off the plan, on the left ray at the plan's
+/// edge, with its distance.
+fn phantom(found: Point2<f64>, panel: &Panel) -> (Point2<f64>, String) {
+    let room = 12.0 / panel.scale_x();
+    let (nearest, farthest) = (panel.y_axis.end + room, panel.y_axis.start - room);
+    let depth = found.y.clamp(nearest, farthest);
+    if depth == found.y {
+        return (found, "phantom".to_owned());
+    }
+    let way = format_number(found.y.abs(), 1);
+    let side = if found.y < 0.0 { " behind" } else { "" };
+    let text = format!("phantom, {way} m{side}");
+    // The left camera stands at the origin.
+    (found * (depth / found.y), text)
 }
 
 /// Both balls, the column that is taken for P's and, on the right, how far it is from the left one.
@@ -156,5 +174,35 @@ fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mu
         let place = (places[0].max(places[1]) + 9.0, bottom - 12.0);
         let style = TextStyle::new(Role::Ink, TEXT).cased();
         labels.draw(canvas, &[(place, Align::Start)], &text, style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Rect;
+
+    #[test]
+    fn a_phantom_off_the_plan_is_told_at_its_edge() {
+        let rect = Rect {
+            x: 0.0,
+            y: 0.0,
+            width: 400.0,
+            height: 400.0,
+        };
+        let plan = plan::panel("top", rect, (0.2, 1.35), 2.0);
+        let near = Point2::new(0.1, 2.0);
+        assert_eq!(phantom(near, &plan), (near, "phantom".to_owned()));
+        for (found, text) in [
+            (Point2::new(0.6, 4.0), "phantom, 4.0 m"),
+            (Point2::new(-0.24, -1.6), "phantom, 1.6 m behind"),
+        ] {
+            let (shown, told) = phantom(found, &plan);
+            assert_eq!(told, text);
+            let (x, y) = plan.canvas_from_world((shown.x, shown.y));
+            assert!((1.0..399.0).contains(&x) && (1.0..399.0).contains(&y));
+            // Still on the ray from the left camera.
+            assert!((shown.x / shown.y - found.x / found.y).abs() < 1e-12);
+        }
     }
 }

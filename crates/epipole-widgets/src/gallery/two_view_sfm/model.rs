@@ -51,7 +51,7 @@ const THRESHOLD: Slider = Slider::new("threshold", "Threshold ε")
     .digits(1)
     .unit("px")
     .more();
-const FOCAL: Slider = Slider::new("focal", "Focal length")
+const FOCAL: Slider = Slider::new("focal", "Focal f")
     .range(0.4, 3.0, 0.05)
     .at(1.25)
     .digits(2);
@@ -242,7 +242,7 @@ impl TwoViewSfm {
 /// A focal length in units of the longer side, and the lens that a full-frame camera would have.
 pub(super) fn focal_text(value: f64) -> String {
     let mm = format_number(36.0 * value, 0);
-    format!("{} (as {mm} mm)", format_number(value, 2))
+    format!("{} ({mm} mm)", format_number(value, 2))
 }
 
 impl Declared for TwoViewSfm {

@@ -14,10 +14,17 @@ fn degrees(value: f64) -> String {
 pub(super) fn failure(answer: &Answer) -> Option<String> {
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     Some(match answer.verdict {
-        Verdict::TooFew => format!(
-            "Only {matches} features match, and fewer than {MIN_NUM_MATCHES} tell nothing. Do both \
-             photographs show the same thing?"
-        ),
+        Verdict::TooFew => {
+            let found = match matches {
+                0 => "No features match".to_owned(),
+                1 => "Only 1 feature matches".to_owned(),
+                _ => format!("Only {matches} features match"),
+            };
+            format!(
+                "{found}, and fewer than {MIN_NUM_MATCHES} tell nothing. Do both photographs show the \
+                 same thing?"
+            )
+        }
         Verdict::NoConsensus => format!(
             "{matches} features match, but no motion of the camera explains {MIN_NUM_MATCHES} of \
              them. The photographs hardly overlap, or nearly all matches are wrong."
@@ -194,7 +201,15 @@ fn knocks(knock_deg: f64) -> (String, String) {
 /// Why not every pixel has a depth, where the cameras are known.
 pub(super) fn no_surface(answer: &Answer) -> Option<String> {
     let motion = answer.motion.as_ref()?;
-    let why = motion.surface.as_ref().err()?;
+    let error = motion.surface.as_ref().err()?;
+    let [first, second] = answer.pictures.each_ref().map(|picture| picture.size());
+    let why = match first == second {
+        true => error.to_string(),
+        false => format!(
+            "that takes two photographs of the same size, but these have {} × {} and {} × {} pixels",
+            first.0, first.1, second.0, second.1
+        ),
+    };
     Some(format!(
         "There is no depth for every pixel: {why}. The {} points of the matches are all there is.",
         motion.points.len()

@@ -15,8 +15,8 @@ const WINDOW: Slider = Slider::new("window", "Window")
 const NOISE: Slider = Slider::new("noise", "Noise σ")
     .range(0.0, 30.0, 1.0)
     .at(2.0)
-    .unit("gray levels");
-const THRESHOLD: Slider = Slider::new("threshold", "Large eigenvalue: above")
+    .unit("levels");
+const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .range(20.0, 600.0, 20.0)
     .at(100.0);
 const KNOBS: &[Knob] = &[
