@@ -170,7 +170,7 @@ mod tests {
         for (turn, eye_is_behind) in [(20.0, true), (200.0, false)] {
             let orbit = Orbit::new(turn, 25.0);
             let size = (300.0, 200.0);
-            let lens = Lens::new(size, (1.0, 1.0), (150.0, 100.0), (&orbit, 1.0), &subject);
+            let lens = Lens::new(size, (1.0, 1.0), (150.0, 100.0), &orbit, &subject);
             let lens = lens.unwrap();
             let standing = Standing::new(&lens, &camera, &image, 0.8).unwrap();
             for (u, v) in [(3.0, 4.0), (39.5, -0.5), (20.0, 29.0)] {
@@ -201,7 +201,7 @@ mod tests {
             (300.0, 200.0),
             (1.0, 1.0),
             (150.0, 100.0),
-            (&Orbit::new(90.0, 0.0), 1.0),
+            &Orbit::new(90.0, 0.0),
             &Subject {
                 middle: Point3::new(0.0, 0.0, 0.8),
                 radius: 1.0,

@@ -6,8 +6,8 @@
 use super::estimate::{Estimate, line2};
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Symbol, Toggle,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Symbol, Toggle,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
@@ -177,12 +177,8 @@ impl Model for EightPoint {
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

@@ -69,8 +69,7 @@ impl View for GradientFieldView {
     fn draw(&mut self, model: &GradientField, layout: &Layout, canvas: &mut Canvas) {
         let (image, beside) = (&layout.panels[0], &layout.panels[1]);
         let narrow = grid::is_narrow(layout.width);
-        grid::title(canvas, image.rect, "Image and gradient");
-        canvas.panel(image.rect);
+        grid::open(canvas, image, &["Image and gradient"]);
         let entries = entries();
         let top = layout.height - legend::height(&entries, layout.width, 0.0);
         legend::draw(canvas, &entries, layout.width, 0.0, top);
@@ -90,8 +89,7 @@ impl View for GradientFieldView {
                     "The same as a surface: bright is high, drag to turn",
                     "As a surface",
                 ];
-                grid::fitting_title(canvas, beside.rect, &wordings[usize::from(narrow)..]);
-                canvas.panel(beside.rect);
+                grid::open(canvas, beside, &wordings[usize::from(narrow)..]);
                 if let Ok(field) = field {
                     draw_surface(model, field, beside, canvas);
                 }
@@ -203,7 +201,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
         middle: Point3::new(0.0, 3.0, 0.0),
         radius: 0.29 * f64::from(columns + rows),
     };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     let corner = |u: u32, v: u32| point(f64::from(u), f64::from(v), field.level((u, v)));
@@ -265,7 +263,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
             );
         }
     });
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
 }
 
 /// Slope and noise over the smoothing, and where the image is now.

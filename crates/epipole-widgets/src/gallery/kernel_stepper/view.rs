@@ -70,7 +70,7 @@ impl View for KernelStepperView {
     }
 
     fn draw(&mut self, model: &KernelStepper, layout: &Layout, canvas: &mut Canvas) {
-        let [pixels, sum, answer] = ["pixels", "sum", "answer"].map(|id| layout.panel(id));
+        let [pixels, sum, answer] = layout.panels_named(["pixels", "sum", "answer"]);
         let narrow = grid::is_narrow(layout.width);
         grid::fitting_title(
             canvas,

@@ -2,8 +2,8 @@
 
 use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob, Model, Problem,
-    Settings, Value,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, Problem, Settings,
+    Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -40,14 +40,10 @@ static KNOBS: [Knob; NUM_ROUNDS] = [
 /// The model of `patch-match`.
 pub(crate) struct PatchMatch {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 impl PatchMatch {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     /// The option that the reader has picked in a round.
     pub(super) fn picked(&self, round: usize) -> Option<usize> {
         self.settings.chosen(&PICKS[round]).checked_sub(1)
@@ -119,12 +115,8 @@ impl Model for PatchMatch {
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

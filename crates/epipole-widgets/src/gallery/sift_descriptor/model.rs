@@ -1,11 +1,11 @@
 //! A keypoint, a change of the photograph, and what three fingerprints make of it.
 
-use super::comparison::{Asking, Comparison};
+use super::comparison::{Comparison, Subject};
 use super::prints::Change;
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Toggle,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -97,7 +97,7 @@ impl SiftDescriptor {
     }
 
     fn ask(&mut self) {
-        self.comparison.ask(Question::Comparison(Asking {
+        self.comparison.ask(Question::Comparison(Subject {
             place: self.place(),
             change: self.change(),
             turns: self.settings.flag(&DIRECTION),
@@ -148,15 +148,11 @@ impl Model for SiftDescriptor {
     }
 
     /// The photograph first: it is there long before its other features are.
-    fn job(&self) -> Option<&dyn Job> {
-        self.photograph.job().or_else(|| self.comparison.job())
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        match self.photograph.is_waiting() {
-            true => self.photograph.take(result),
-            false => self.comparison.take(result),
-        };
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(match self.photograph.is_waiting() {
+            true => &mut self.photograph,
+            false => &mut self.comparison,
+        })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob,
-    Model, Problem, Settings, Slider, Value,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
+    Problem, Settings, Slider, Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -144,14 +144,11 @@ impl Model for Tournament {
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        if !self.asked.take(result) {
-            return;
-        }
+    fn answered(&mut self) {
         if let Some(wins) = self.asked.answer() {
             self.wins.add(wins);
             self.num_batches += 1;

@@ -68,7 +68,7 @@ pub(super) fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &SUBJECT) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &SUBJECT) else {
         return;
     };
     let lit = model.lit();
@@ -125,7 +125,7 @@ pub(super) fn draw_space(
     }
     space.label(&scenery.point, "P", LIT);
     space.draw(canvas, panel);
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
     let handles = model.handles();
     let things = handles
         .iter()
