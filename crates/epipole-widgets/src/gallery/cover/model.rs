@@ -109,16 +109,15 @@ impl Model for Cover {
         if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == STEP.id {
-                    self.is_playing = false;
-                    self.tell(self.step() as f64 + 1.0)?;
-                } else if changed && id == TIME.id {
-                    self.tell(self.settings.number(&TIME))?;
-                }
+        match self.settings.update(event)? {
+            Some(id) if id == STEP.id => {
+                self.is_playing = false;
+                self.tell(self.step() as f64 + 1.0)?;
             }
+            Some(id) if id == TIME.id => self.tell(self.settings.number(&TIME))?,
+            _ => {}
+        }
+        match event {
             Event::Press { id } if id == PLAY.id && self.answer().is_some() => {
                 self.is_playing = !self.is_playing;
                 if self.is_playing && self.settings.number(&TIME) >= NUM_STEPS as f64 {

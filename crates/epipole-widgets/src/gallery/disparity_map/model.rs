@@ -128,9 +128,7 @@ impl Model for DisparityMap {
         if self.probe.update(event, SIZE) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
+        if self.settings.update(event)?.is_some() {
             self.ask();
         }
         Ok(())

@@ -165,12 +165,9 @@ impl Model for EightPoint {
         if self.probe.update(event, PHOTO_SIZE) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event {
-            let has_changed = self.settings.set(id, value)? == Some(true);
-            if has_changed {
-                self.estimate.take();
-            }
-            if has_changed && id == SEED.id {
+        if let Some(id) = self.settings.update(event)? {
+            self.estimate.take();
+            if id == SEED.id {
                 self.matches.take();
             }
         }

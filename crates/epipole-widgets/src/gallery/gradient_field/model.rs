@@ -248,13 +248,10 @@ impl Model for GradientField {
         if self.orbit.update(event)? || self.probe.update(event, self.size()) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
-            match &**id {
-                id if id == SOURCE.id => self.begin(),
-                _ => self.look(),
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.begin(),
+            Some(_) => self.look(),
+            None => {}
         }
         Ok(())
     }

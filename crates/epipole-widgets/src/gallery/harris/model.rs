@@ -189,13 +189,10 @@ impl Model for Harris {
         if self.probe.update(event, self.size()) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event {
-            let changed = self.settings.set(id, value)? == Some(true);
-            match &**id {
-                id if changed && id == SOURCE.id => self.begin(),
-                id if changed && id != THRESHOLD.id => self.ask(),
-                _ => {}
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.begin(),
+            Some(id) if id != THRESHOLD.id => self.ask(),
+            _ => {}
         }
         Ok(())
     }

@@ -100,17 +100,14 @@ impl Model for PatchMatch {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => drop(self.settings.set(id, value)?),
-            Event::Clicked { panel, .. } => {
-                for (round, names) in OPTIONS.iter().enumerate() {
-                    if let Some(option) = names.iter().position(|name| name == panel) {
-                        let letter = Value::from(LETTERS[option + 1].0);
-                        self.settings.set(PICKS[round].id, &letter)?;
-                    }
+        self.settings.update(event)?;
+        if let Event::Clicked { panel, .. } = event {
+            for (round, names) in OPTIONS.iter().enumerate() {
+                if let Some(option) = names.iter().position(|name| name == panel) {
+                    let letter = Value::from(LETTERS[option + 1].0);
+                    self.settings.set(PICKS[round].id, &letter)?;
                 }
             }
-            _ => {}
         }
         Ok(())
     }

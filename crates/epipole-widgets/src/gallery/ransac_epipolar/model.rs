@@ -283,14 +283,10 @@ impl Model for RansacEpipolar {
         if let Some(count) = self.running.update(event, drawn, is_finished) {
             return self.draw_to(count);
         }
-        if let Event::Set { id, value } = event {
-            let has_changed = self.settings.set(id, value)? == Some(true);
-            match &**id {
-                _ if !has_changed => {}
-                id if id == SOURCE.id => self.ask(),
-                id if id == SHOW.id || id == ITERATIONS.id => {}
-                _ => self.ask_for_votes(),
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.ask(),
+            Some(id) if id != SHOW.id && id != ITERATIONS.id => self.ask_for_votes(),
+            _ => {}
         }
         Ok(())
     }

@@ -116,11 +116,8 @@ impl Model for RatioTest {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
         self.probe.update(event, SIZE);
-        Ok(())
+        self.settings.update(event).map(|_| ())
     }
 
     fn asking(&mut self) -> Option<&mut dyn Asking> {

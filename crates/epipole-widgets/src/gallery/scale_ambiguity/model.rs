@@ -121,13 +121,8 @@ impl Model for ScaleAmbiguity {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event)? {
-            return Ok(());
-        }
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
-        Ok(())
+        self.orbit.update(event)?;
+        self.settings.update(event).map(|_| ())
     }
 }
 

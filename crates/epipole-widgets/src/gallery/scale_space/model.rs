@@ -118,11 +118,8 @@ impl Model for ScaleSpace {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
         self.probe.update(event, SIZE);
-        Ok(())
+        self.settings.update(event).map(|_| ())
     }
 
     fn asking(&mut self) -> Option<&mut dyn Asking> {

@@ -137,11 +137,7 @@ impl Model for SiftDescriptor {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        let mut has_changed = self.probe.update(event, SIZE);
-        if let Event::Set { id, value } = event {
-            has_changed |= self.settings.set(id, value)? == Some(true);
-        }
-        if has_changed {
+        if self.probe.update(event, SIZE) || self.settings.update(event)?.is_some() {
             self.ask();
         }
         Ok(())

@@ -127,13 +127,14 @@ impl Model for Tournament {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if self
+            .settings
+            .update(event)?
+            .is_some_and(|id| id != RATIO.id)
+        {
+            self.start();
+        }
         match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id != RATIO.id {
-                    self.start();
-                }
-            }
             Event::Press { id } if id == AGAIN.id => self.start(),
             Event::Clicked { x, .. } => {
                 let ratio = Value::Number(x.clamp(RATIO.min, RATIO.max));

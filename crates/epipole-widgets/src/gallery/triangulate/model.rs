@@ -143,19 +143,13 @@ impl Model for Triangulate {
         if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-            }
-            Event::Press { id } if id == AGAIN.id => {
-                let seed = self.settings.number(&SEED);
-                let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
-                self.settings.set(SEED.id, &Value::Number(next))?;
-            }
-            _ => {
-                let _ = self.point.update(event) || self.second.update(event);
-            }
+        self.settings.update(event)?;
+        if *event == Event::press(AGAIN.id) {
+            let seed = self.settings.number(&SEED);
+            let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
+            self.settings.set(SEED.id, &Value::Number(next))?;
         }
+        let _ = self.point.update(event) || self.second.update(event);
         self.compute();
         Ok(())
     }

@@ -279,23 +279,18 @@ impl Model for TwoViewSfm {
         if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == FOCAL.id {
-                    self.focal_from = FocalFrom::Reader;
-                }
-                match &**id {
-                    id if changed && id == PAIR.id => self.begin(),
-                    id if changed && id != STAGE.id => self.ask(),
-                    _ => {}
-                }
-            }
-            Event::Press { id } if id == NEXT.id && !self.is_last_stage() => {
-                let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
-                self.settings.set(STAGE.id, &Value::from(next))?;
-            }
+        let changed = self.settings.update(event)?;
+        if changed == Some(FOCAL.id) {
+            self.focal_from = FocalFrom::Reader;
+        }
+        match changed {
+            Some(id) if id == PAIR.id => self.begin(),
+            Some(id) if id != STAGE.id => self.ask(),
             _ => {}
+        }
+        if *event == Event::press(NEXT.id) && !self.is_last_stage() {
+            let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
+            self.settings.set(STAGE.id, &Value::from(next))?;
         }
         Ok(())
     }
