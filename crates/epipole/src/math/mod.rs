@@ -1,5 +1,6 @@
 //! Small mathematics that every room needs.
 
+mod length;
 mod line;
 pub(crate) mod null_space;
 pub(crate) mod polynomial;
@@ -9,5 +10,6 @@ pub(crate) mod scaling;
 pub(crate) mod simd;
 pub(crate) mod svd3;
 
+pub(crate) use length::length;
 pub use line::Line2;
 pub use svd3::{Svd3, svd3};

@@ -15,7 +15,7 @@ use crate::theme::{Role, mix};
 use nalgebra::Point3;
 
 /// Height of image and surface where there is room; of each on a phone, CSS pixels.
-const TALLEST: f64 = 404.0;
+const TALLEST: f64 = 328.0;
 const PHONE: [f64; 2] = [168.0, 122.0];
 /// Slopes with an arrow as long as a cell: on the edge, and in a photograph.
 const FULL: [f64; 2] = [22.0, 60.0];

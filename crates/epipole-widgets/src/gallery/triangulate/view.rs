@@ -44,7 +44,7 @@ impl View for TriangulateView {
         } else {
             grid.shares(
                 [1.0, 1.25, 0.85],
-                if grid::is_broad(width) { 400.0 } else { 300.0 },
+                if grid::is_broad(width) { 336.0 } else { 300.0 },
             )
         };
         grid.strip(legend_height(width));
