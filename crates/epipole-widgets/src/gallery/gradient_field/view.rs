@@ -53,7 +53,9 @@ impl View for GradientFieldView {
             [image] = grid.row([aspect], PHONE[0]);
             [beside] = grid.shares([1.0], PHONE[1]);
         } else {
-            [image, beside] = grid.row([aspect, 0.75], TALLEST);
+            // On a broad page both are as low as leaves room for a caption, and fill the width.
+            let of_beside = if grid::is_broad(width) { 0.515 } else { 0.75 };
+            [image, beside] = grid.row([aspect, of_beside], TALLEST);
         }
         grid.strip(legend::height(&entries(), width, 0.0) + 4.0);
         let mut image = Panel::photograph("image", image, columns, rows);
