@@ -72,17 +72,18 @@ impl Reprojected {
             let (above, below, down) = between(runs[0].start / width, height, draft_height);
             let (first, last) = (runs[0].start - start, runs[runs.len() - 1].end - 1 - start);
             let (down, last) = (down as i32, columns[last as usize].1);
-            let mix = |at: usize| {
-                let (a, b) = (draft[above][at], draft[below][at]);
-                [0, 1, 2].map(|i| i32::from(a[i]) * (256 - down) + i32::from(b[i]) * down)
-            };
-            let mut here = mix(columns[first as usize].0);
+            let rows = [draft[above], draft[below]];
+            let mut here = mixture(rows, columns[first as usize].0, down);
             for at in columns[first as usize].0..=last {
-                let next = if at < last { mix(at + 1) } else { here };
-                mixed[at] = [
-                    here.map(|channel| channel * 256 + 32_768),
-                    [0, 1, 2].map(|i| next[i] - here[i]),
-                ];
+                let next = if at < last {
+                    mixture(rows, at + 1, down)
+                } else {
+                    here
+                };
+                for i in 0..3 {
+                    mixed[at][0][i] = here[i] * 256 + 32_768;
+                    mixed[at][1][i] = next[i] - here[i];
+                }
                 here = next;
             }
             let pixels = self.image.as_chunks_mut::<3>().0;
@@ -130,12 +131,18 @@ impl Reprojected {
         for (index, (four, target)) in fours.iter().zip(target_fours).enumerate() {
             // Whatever has come is opaque; most of a picture has.
             if (four[0] & four[1] & four[2] & four[3]) >> 24 != 0 {
-                for (pixel, target) in four.iter().zip(target.iter_mut()) {
-                    *target = rgb(*pixel);
+                for i in 0..4 {
+                    target[i] = rgb(four[i]);
                 }
+            } else if is_amid_nothing(&self.pixels, width, 4 * index) {
+                *target = [[0; 3]; 4];
+                missing.push(4 * index..4 * index + 4);
             } else {
-                for (offset, target) in target.iter_mut().enumerate() {
-                    *target = closed(&self.pixels, width, 4 * index + offset, &mut missing);
+                for i in 0..4 {
+                    target[i] = match four[i] {
+                        0 => closed(&self.pixels, width, 4 * index + i, &mut missing),
+                        pixel => rgb(pixel),
+                    };
                 }
             }
         }
@@ -144,6 +151,14 @@ impl Reprojected {
             *target = closed(&self.pixels, width, start + offset, &mut missing);
         }
     }
+}
+
+/// A color between two rows, 256 times as bright; `down` is 256 times the way to the second of them.
+#[inline(always)]
+fn mixture(rows: [&[[u8; 3]]; 2], at: usize, down: i32) -> [i32; 3] {
+    let [a, b] = [rows[0][at], rows[1][at]];
+    let mix = |i: usize| i32::from(a[i]) * (256 - down) + i32::from(b[i]) * down;
+    [mix(0), mix(1), mix(2)]
 }
 
 /// Runs that are in order, row by row.
@@ -158,10 +173,12 @@ struct Missing<'a> {
 }
 
 impl Missing<'_> {
-    fn push(&mut self, index: u32) {
+    /// Places of one row, behind all that have come before.
+    fn push(&mut self, places: Range<usize>) {
+        let [start, end] = [places.start, places.end].map(|place| place as u32);
         match self.runs.last_mut() {
-            Some(run) if run.end == index && !index.is_multiple_of(self.width) => run.end += 1,
-            _ => self.runs.push(index..index + 1),
+            Some(run) if run.end == start && !start.is_multiple_of(self.width) => run.end = end,
+            _ => self.runs.push(start..end),
         }
     }
 }
@@ -172,7 +189,14 @@ fn rgb(pixel: u32) -> [u8; 3] {
     [r, g, b]
 }
 
+/// Whether no pixel has come to four of one row, nor above them: then none of them is a gap that is closed.
+fn is_amid_nothing(pixels: &[u32], width: usize, start: usize) -> bool {
+    let is_empty = |start: usize| pixels[start..start + 4] == [0; 4];
+    start % width + 4 <= width && is_empty(start) && (start < width || is_empty(start - width))
+}
+
 /// The color of a pixel, or of its neighbor if it is a gap one pixel wide; black if it is missing.
+#[inline]
 fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
     let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
     let mut pixel = at(index);
@@ -183,7 +207,7 @@ fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>)
             (true, _) => left,
             (false, true) => above,
             (false, false) => {
-                missing.push(index as u32);
+                missing.push(index..index + 1);
                 0
             }
         };
