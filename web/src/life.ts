@@ -2,26 +2,29 @@
  * What goes on behind an element: its tree, the figure that runs in it, the page around both, and how one comes to
  * the other. `element.ts` is what a page sees of it.
  *
- * Longer than most files: opening, drawing, renaming and leaving change the same few facts, and nobody else does.
+ * Longer than most files: opening, drawing, renaming and leaving change the same few facts, and nobody else does. How
+ * large the picture is made is found in `extent.ts`, and who hears of what in `telling.ts`.
  */
 
 import { actsOn } from "./acts.js";
 import { changedParameters } from "./attributes.js";
 import { choiceOf } from "./choice.js";
 import { whyMissing } from "./compile.js";
-import type { Challenge, Parameters, Refused, Snapshot } from "./contract.js";
+import type { Parameters, Refused, Snapshot } from "./contract.js";
 import { capitalize, setAttribute } from "./dom.js";
+import { Extent } from "./extent.js";
 import { Engine, hurryModule, loadModule, panicMessage } from "./module.js";
 import { Motion } from "./motion.js";
 import { openState } from "./opening.js";
 import { parametersIn } from "./permalink.js";
 import type { Host } from "./properties.js";
-import { layoutWidth, WIDTHS } from "./room.js";
+import { layoutWidth } from "./room.js";
 import { saveFile, savePicture } from "./saving.js";
 import { Session } from "./session.js";
 import { sheet } from "./sheet.js";
 import { Shell } from "./shell.js";
 import { StandIn } from "./stand_in.js";
+import { Teller } from "./telling.js";
 import { askTheme, watchDensity, watchTheme, type Theme } from "./theme.js";
 import { bringIntoView, myTurn, pageIsCalm, watchVisibility } from "./visibility.js";
 
@@ -54,7 +57,6 @@ export class Life {
   });
   #session: Session | undefined;
   #snapshot: Snapshot | undefined;
-  #state: Parameters = [];
   #theme: Theme = "light";
   #ready = false;
   /** The names of readouts that the page asks for have been compared with those that there are. */
@@ -64,17 +66,13 @@ export class Life {
   #touched = false;
   #near = false;
   #inSight = false;
-  /** Room for the picture, and how much of it the picture takes, CSS pixels. */
-  #room = 0;
-  #shown = 0;
-  /** The width that the picture of a compact figure is laid out for. */
-  #fitted: number | undefined;
   /** Somebody has pointed at the figure or gone into it. */
   #interested = false;
   #opening = 0;
   /** The goal whose solution is being played. */
   #playing: string | undefined;
-  #resized: ResizeObserver | undefined;
+  readonly #extent: Extent;
+  readonly #teller: Teller;
   #stop: (() => void)[] = [];
 
   constructor(owner: Owner) {
@@ -82,6 +80,12 @@ export class Life {
     this.#shadow = owner.shadowRoot ?? owner.attachShadow({ mode: "open" });
     this.#shadow.adoptedStyleSheets = [sheet()];
     this.#shell = this.#makeShell();
+    this.#teller = new Teller(owner);
+    this.#extent = new Extent(owner, () => ({
+      shell: this.#shell,
+      session: this.#session,
+      standing: this.#standIn?.picture ?? undefined,
+    }));
     this.#standIn = StandIn.in(this.#shadow);
     if (this.#standIn) this.#standIn.lend(this.#shell);
     else this.#shadow.append(this.#shell.root);
@@ -120,7 +124,7 @@ export class Life {
 
   /** What differs from the figure's defaults. */
   get state(): Parameters {
-    return this.#state;
+    return this.#teller.state;
   }
 
   /** Resolves once the figure can be operated and asked. */
@@ -132,9 +136,7 @@ export class Life {
   connect(): void {
     const owner = this.#owner;
     this.#shell.role = this.#role;
-    // What observers tell is remembered: to ask would make the browser lay the page out at once.
-    this.#resized = new ResizeObserver((entries) => this.#onResize(entries));
-    this.#observeRoom();
+    this.#extent.start();
     const attributes = new MutationObserver((records) => this.#onAttributes(records));
     attributes.observe(owner, { attributes: true });
     const recolor = () => this.recolor();
@@ -142,7 +144,7 @@ export class Life {
     addEventListener("beforeprint", before);
     addEventListener("afterprint", after);
     this.#stop = [
-      () => this.#resized?.disconnect(),
+      () => this.#extent.stop(),
       () => attributes.disconnect(),
       () => removeEventListener("beforeprint", before),
       () => removeEventListener("afterprint", after),
@@ -183,7 +185,7 @@ export class Life {
     this.#session?.end();
     this.#session = undefined;
     this.#snapshot = undefined;
-    this.#state = [];
+    this.#teller.forget();
     if (this.#ready) this.#awaited = gate();
     this.#ready = false;
     setAttribute(this.#owner, "data-ready", false);
@@ -191,9 +193,8 @@ export class Life {
     this.#shell = this.#makeShell();
     this.#shell.role = this.#role;
     this.#shell.theme = this.#theme;
-    this.#fitted = undefined;
     this.#shadow.replaceChildren(this.#shell.root);
-    this.#observeRoom();
+    this.#extent.forget();
     if (wanted && this.#owner.isConnected) void this.open(false);
   }
 
@@ -202,7 +203,7 @@ export class Life {
     this.#shell.choose(choiceOf((name) => this.#owner.getAttribute(name)));
     if (!this.#session || !this.#snapshot) return;
     this.#shell.update(this.#snapshot);
-    this.#fit();
+    this.#extent.fit();
     this.#shell.speaker.warn([]);
     this.#shell.speaker.complain(this.#shell.misnamed(this.#snapshot));
   }
@@ -210,8 +211,8 @@ export class Life {
   /** Compact, or no longer. */
   squeeze(): void {
     this.#shell.compact = this.#owner.compact;
-    this.#observeRoom();
-    this.#fit();
+    this.#extent.observe();
+    this.#extent.fit();
   }
 
   /** Finds out what colors the figure takes, and takes them. */
@@ -338,41 +339,6 @@ export class Life {
     return shell;
   }
 
-  /** Finds the width to lay out a compact figure for. */
-  #fit(): void {
-    const { compact, clientHeight } = this.#owner;
-    const look = (width: number) => this.#session?.ask((engine) => engine.snapshot(width).layout);
-    const sizes = compact ? WIDTHS.map(look).filter((size) => size !== undefined) : [];
-    this.#fitted = sizes.length > 0 && clientHeight > 0 ? this.#shell.arrange(sizes) : undefined;
-    this.#session?.resize(this.#room, this.#shown, this.#fitted);
-  }
-
-  #observeRoom(): void {
-    this.#resized?.disconnect();
-    if (this.#owner.compact) this.#resized?.observe(this.#owner);
-    const standing = this.#standIn?.picture;
-    if (standing) this.#resized?.observe(standing);
-    else {
-      this.#resized?.observe(this.#shell.picture.element);
-      const { sheet } = this.#shell.picture;
-      try {
-        // Tells of another density as well.
-        this.#resized?.observe(sheet, { box: "device-pixel-content-box" });
-      } catch {
-        this.#resized?.observe(sheet);
-      }
-    }
-  }
-
-  #onResize(entries: ResizeObserverEntry[]): void {
-    for (const { target, contentRect } of entries) {
-      if (target === this.#owner) this.#fit();
-      else if (target === this.#shell.picture.sheet) this.#shown = contentRect.width;
-      else this.#room = contentRect.width;
-    }
-    this.#session?.resize(this.#room, this.#shown, this.#fitted);
-  }
-
   #onAttributes(records: MutationRecord[]): void {
     const parameters = changedParameters(this.#owner, records, this.#snapshot);
     if (!this.#session || Object.keys(parameters).length === 0) return;
@@ -394,7 +360,7 @@ export class Life {
   #start(engine: Engine, withAddress: boolean): void {
     const owner = this.#owner;
     this.#ready = false;
-    const { first, problems, linked } = openState(engine, owner, layoutWidth(this.#room), withAddress);
+    const { first, problems, linked } = openState(engine, owner, layoutWidth(this.#extent.room), withAddress);
     this.#shell.introduce(engine.title, engine.help);
     if (first.waiting !== null && !this.#touched) this.#standIn?.lendNumbers(this.#shell);
     this.#session = new Session(engine, this.#shell.picture.canvas, {
@@ -412,8 +378,8 @@ export class Life {
     if (owner.compact) {
       // How much room the bar takes shows once its buttons and numbers are there.
       this.#shell.update(first, this.#touched);
-      this.#fit();
-    } else this.#session.resize(this.#room, this.#shown);
+      this.#extent.fit();
+    } else this.#extent.resize();
     this.#session.setInSight(this.#inSight);
   }
 
@@ -427,7 +393,10 @@ export class Life {
         this.#judged = true;
         this.#shell.speaker.complain(this.#shell.misnamed(snapshot));
       }
-      if (this.#ready) this.#tell(before, snapshot, solved);
+      if (this.#ready) {
+        const state = this.#askState();
+        this.#teller.changed(this.#shell, { before, now: snapshot, solved, state, touched: this.#touched });
+      }
       if (this.#interested) this.#showLive();
     }
     if (!this.#ready) this.#becomeReady(linked);
@@ -445,36 +414,18 @@ export class Life {
     if (this.#standIn) {
       this.#standIn.yield(this.#shell);
       this.#standIn = undefined;
-      this.#observeRoom();
+      this.#extent.observe();
     }
-    this.#state = this.#session?.ask((engine) => engine.state()) ?? [];
+    this.#teller.begin(this.#askState());
     setAttribute(owner, "data-ready", true);
     // In a frame the address is the figure's alone, and the page around it would be moved.
     if (linked && !location.hash && parent === window) owner.scrollIntoView({ block: "start" });
     this.#awaited.pass();
-    const { state, readouts } = owner;
-    this.#emit("epipole-ready", { name: owner.getAttribute("name"), state, readouts });
+    this.#teller.ready();
   }
 
-  #tell(before: Snapshot | undefined, now: Snapshot, solved: Challenge[]): void {
-    const { speaker } = this.#shell;
-    speaker.moveOn();
-    if (this.#touched && before?.description !== now.description) speaker.describe(now.description);
-    const state = this.#session?.ask((engine) => engine.state()) ?? [];
-    if (JSON.stringify(state) !== JSON.stringify(this.#state)) {
-      this.#state = state;
-      this.#emit("epipole-change", this.#owner.state);
-    }
-    const text = (snapshot?: Snapshot) => snapshot?.readouts.map((readout) => readout.text).join("|");
-    if (text(before) !== text(now)) this.#emit("epipole-readout", this.#owner.readouts);
-    for (const { id, goal } of solved) {
-      speaker.say(`Solved: ${goal}`);
-      this.#emit("epipole-challenge", { id, goal });
-    }
-  }
-
-  #emit(type: string, detail: unknown): void {
-    this.#owner.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+  #askState(): Parameters {
+    return this.#session?.ask((engine) => engine.state()) ?? [];
   }
 
   /** Waits for the figure to be there, whether anybody sees it or not; not for one that never comes. */
@@ -522,7 +473,7 @@ export class Life {
     this.#session = undefined;
     this.#shell.jobs.end();
     this.#fail("This figure has stopped: a mistake of ours. Reset starts it again.", !this.#ready);
-    this.#emit("epipole-error", { message });
+    this.#teller.emit("epipole-error", { message });
   }
 
   async #save(): Promise<void> {

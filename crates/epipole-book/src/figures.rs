@@ -150,7 +150,7 @@ impl Figure for Widget {
         let mut figure = open(&self.name, &self.settings)?;
         ANSWERS.finish(&mut figure);
         let width = f64::from(Room::Column.width());
-        serde_json::to_string(&Snapshot::of(&figure, width)).map_err(|error| error.to_string())
+        serde_json::to_string(&Snapshot::of(&mut figure, width)).map_err(|error| error.to_string())
     }
 
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String> {

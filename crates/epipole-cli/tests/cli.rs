@@ -23,6 +23,19 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 #[test]
+fn a_figure_is_described_with_what_it_computes() {
+    let folder = Folder::new("described");
+    let png = folder.file("harris.png");
+    let described = json(&["figure", "harris", "--describe"]);
+    let drawn = json(&["figure", "harris", "--size", "100", "-o", path(&png)]);
+    for field in ["description", "readouts"] {
+        assert_eq!(described[field], drawn[field]);
+    }
+    let words = described["description"].as_str().unwrap();
+    assert!(words.contains("strongest response"), "{words}");
+}
+
+#[test]
 fn a_figure_is_drawn_and_described() {
     let folder = Folder::new("figure");
     let png = folder.file("race.png");

@@ -160,8 +160,8 @@ impl Figure {
     }
 
     /// Everything to show beside the picture, JSON.
-    pub fn snapshot(&self, width: f64) -> String {
-        json(&Snapshot::of(&self.figure, width))
+    pub fn snapshot(&mut self, width: f64) -> String {
+        json(&Snapshot::of(&mut self.figure, width))
     }
 
     /// The handle that a press at a place takes.
@@ -227,12 +227,12 @@ impl Figure {
     }
 
     /// The long computation that the figure waits for: a name that tells it from others.
-    pub fn job_key(&self) -> Option<String> {
+    pub fn job_key(&mut self) -> Option<String> {
         self.figure.job().map(|job| format!("{:016x}", job.key()))
     }
 
     /// What that computation needs: the second argument of `compute`.
-    pub fn job_request(&self) -> Vec<u8> {
+    pub fn job_request(&mut self) -> Vec<u8> {
         self.figure.job().map_or_else(Vec::new, |job| job.request())
     }
 
@@ -342,7 +342,7 @@ mod tests {
         Figure::new("ransac-race").unwrap()
     }
 
-    fn snapshot(figure: &Figure) -> Json {
+    fn snapshot(figure: &mut Figure) -> Json {
         serde_json::from_str(&figure.snapshot(760.0)).unwrap()
     }
 
@@ -374,7 +374,7 @@ mod tests {
     #[test]
     fn a_handle_is_where_the_snapshot_says_and_goes_where_it_is_dragged() {
         let mut figure = race();
-        let before = snapshot(&figure);
+        let before = snapshot(&mut figure);
         let handle = &before["handles"][0];
         let place = |handle: &Json| {
             let at = |index: usize| handle["place"][index].as_f64().unwrap();
@@ -384,7 +384,7 @@ mod tests {
         let id = handle["id"].as_str().unwrap();
         assert!(figure.handle_at(760.0, x, y).is_some());
         assert_eq!(figure.drag(id, 760.0, x + 20.0, y - 10.0), None);
-        let (moved_x, moved_y) = place(&snapshot(&figure)["handles"][0]);
+        let (moved_x, moved_y) = place(&snapshot(&mut figure)["handles"][0]);
         // The handle's place has two digits, which is a fraction of a pixel.
         assert!((moved_x - x - 20.0).abs() < 0.5 && (moved_y - y + 10.0).abs() < 0.5);
         assert_eq!(figure.nudge("no such handle", 760.0, "left", 1.0), None);

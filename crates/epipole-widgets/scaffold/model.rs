@@ -64,9 +64,7 @@ impl Model for NewFigure {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
+        self.settings.update(event)?;
         self.point.update(event);
         Ok(())
     }

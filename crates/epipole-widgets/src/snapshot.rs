@@ -14,7 +14,7 @@ pub struct Snapshot {
     aspect: Aspect,
     controls: Vec<Control>,
     handles: Vec<PlacedHandle>,
-    spaces: &'static [Space],
+    spaces: Vec<Space>,
     symbols: Vec<PlacedSymbol>,
     readouts: Vec<Readout>,
     challenges: Vec<ChallengeStatus>,
@@ -37,7 +37,7 @@ struct PlacedHandle {
 
 impl Snapshot {
     /// The present state of a figure whose picture is `width` CSS pixels wide.
-    pub fn of(figure: &Figure, width: f64) -> Self {
+    pub fn of(figure: &mut Figure, width: f64) -> Self {
         let layout = figure.layout(width);
         let place = |handle: Handle| PlacedHandle {
             place: pointing::place_of(&handle, &layout),

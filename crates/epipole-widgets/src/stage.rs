@@ -1,7 +1,9 @@
 //! A model together with its view, with the types erased, so that figures can stand in one list.
 
 use crate::canvas::Canvas;
-use crate::contract::{Aspect, Challenge, Declared, Event, Layout, Model, PhotoSlot, View, Words};
+use crate::contract::{
+    Aspect, Challenge, Declared, Event, Layout, Model, PhotoSlot, Space, View, Words,
+};
 use crate::figure::ChallengeStatus;
 
 /// What [`Figure`](crate::Figure) needs of any model and view.
@@ -11,6 +13,7 @@ pub(crate) trait Stage {
     fn words(&self) -> &dyn Words;
     fn challenges(&self) -> Vec<ChallengeStatus>;
     fn solution(&self, challenge: &str) -> Option<Vec<Event>>;
+    fn spaces(&self) -> &'static [Space];
     fn photo_slots(&self) -> &'static [PhotoSlot];
     fn aspect(&self) -> Aspect;
     fn layout(&self, width: f64) -> Layout;
@@ -59,6 +62,10 @@ impl<V: View> Stage for Pair<V> {
         let mut known = V::Model::CHALLENGES.iter();
         let found = known.find(|known| known.id == challenge);
         found.map(|known| (known.solution)())
+    }
+
+    fn spaces(&self) -> &'static [Space] {
+        V::Model::SPACES
     }
 
     fn photo_slots(&self) -> &'static [PhotoSlot] {

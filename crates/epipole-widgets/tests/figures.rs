@@ -86,39 +86,14 @@ fn defaults_are_on_the_grid_of_their_sliders() {
     }
 }
 
-/// The figures of the cover and of the chapters 2, 4 to 6 and 8 to 10.
-const SHORT_OF_WORDS: [&str; 21] = [
-    "bundle-adjustment",
-    "column-sizes",
-    "cover",
-    "disparity-map",
-    "eight-point",
-    "epipolar-click",
-    "epipolar-plane",
-    "four-poses",
-    "harris",
-    "outlier-drag",
-    "ransac-budget",
-    "ransac-epipolar",
-    "ransac-line",
-    "ransac-race",
-    "rectify",
-    "scale-drift",
-    "schur",
-    "stereo-slider",
-    "tournament",
-    "two-view-sfm",
-    "window-shift",
-];
-
 #[test]
 fn labels_have_three_words_at_most_and_readouts_two() {
     // Symbols are not words: R, t, σ₃.
     let is_word = |token: &&str| token.chars().filter(|c| c.is_alphabetic()).count() >= 2;
     let words = |label: &str| label.split_whitespace().filter(is_word).count();
     let mut long = Vec::new();
-    for name in SHORT_OF_WORDS {
-        let figure = finished(name, &[]);
+    for entry in FIGURES {
+        let figure = finished(entry.name, &[]);
         let controls = figure.controls();
         let mut labels: Vec<String> = controls.iter().map(|c| c.label.to_string()).collect();
         labels.extend(figure.handles().iter().map(|handle| handle.label.clone()));

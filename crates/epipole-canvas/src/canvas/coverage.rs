@@ -108,14 +108,15 @@ const BYTES: usize = 4 * AT_ONCE;
 
 /// A color to be blended into pixels of red, green, blue and an alpha of 255.
 pub(super) struct Ink {
-    /// Red and blue, and green and alpha, each in the low half of its sixteen bits.
-    color: [u32; 2],
+    /// The bytes of [`AT_ONCE`] pixels of the color.
+    color: [u16; BYTES],
 }
 
 impl Ink {
     pub(super) fn new([r, g, b]: Rgb) -> Self {
+        let bytes = [r, g, b, 255].map(u16::from);
         Self {
-            color: halves(u32::from_le_bytes([r, g, b, 255])),
+            color: std::array::from_fn(|byte| bytes[byte % 4]),
         }
     }
 
@@ -141,31 +142,23 @@ impl Ink {
         }
     }
 
-    /// Made for vector instructions: two bytes of a pixel are mixed at once in their halves of a number, and nothing
-    /// branches.
+    /// Made for vector instructions, eight bytes of pixels at once in sixteen bits each, into which a mixture fits;
+    /// nothing branches.
     #[inline(always)]
     fn mix(&self, pixels: &mut [u8; BYTES], alphas: &[u8; AT_ONCE]) {
-        for (pixel, &alpha) in pixels.as_chunks_mut::<4>().0.iter_mut().zip(alphas) {
-            let alpha = u32::from(alpha);
-            let paper = halves(u32::from_le_bytes(*pixel));
-            let [red_blue, green_alpha] =
-                [0, 1].map(|i| nearest_255ths(self.color[i] * alpha + paper[i] * (255 - alpha)));
-            *pixel = (red_blue | green_alpha << 8).to_le_bytes();
+        let shares: [u16; BYTES] = std::array::from_fn(|byte| u16::from(alphas[byte / 4]));
+        for byte in 0..BYTES {
+            let paper = u16::from(pixels[byte]) * (255 - shares[byte]);
+            pixels[byte] = nearest_255th(self.color[byte] * shares[byte] + paper);
         }
     }
 }
 
-const LOW_HALVES: u32 = 0x00ff_00ff;
-
-fn halves(pixel: u32) -> [u32; 2] {
-    [pixel & LOW_HALVES, (pixel >> 8) & LOW_HALVES]
-}
-
-/// The nearest whole numbers to 255ths of two numbers of sixteen bits.
+/// The nearest whole number to a 255th of a number up to 255².
 #[inline]
-fn nearest_255ths(sums: u32) -> u32 {
-    let sums = sums + 0x0080_0080;
-    ((sums + ((sums >> 8) & LOW_HALVES)) >> 8) & LOW_HALVES
+fn nearest_255th(sum: u16) -> u8 {
+    let sum = sum + 128;
+    ((sum + (sum >> 8)) >> 8) as u8
 }
 
 // Unlike `f32::min` and `f32::max`, these are one instruction, also of a vector, and no call: for what is a number.

@@ -76,6 +76,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if let Some(problem) = figure.apply(&arguments.set).into_iter().next() {
         return Err(problem.into());
     }
+    // What it says and shows is what it has computed.
+    figure.finish_job();
     if let Some(path) = &arguments.output {
         if path
             .extension()

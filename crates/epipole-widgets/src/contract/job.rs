@@ -19,6 +19,16 @@ pub trait Job {
     fn request(&self) -> Vec<u8>;
 }
 
+/// What a model asks of whoever computes.
+pub trait Asking {
+    /// The computation that is outstanding; `None` if nothing is asked, or once its result is there.
+    fn job(&self) -> Option<&dyn Job>;
+
+    /// Takes the result of that computation, and says whether it is an answer. Why it is none is then kept as a
+    /// sentence.
+    fn take(&mut self, result: JobResult) -> bool;
+}
+
 /// Told the share that is done, 0 to 1; answers whether to go on.
 pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 

@@ -97,6 +97,11 @@ impl Layout {
             .expect("the view lays out this panel")
     }
 
+    /// The panels of these names, as [`Layout::panel`].
+    pub fn panels_named<const N: usize>(&self, ids: [&str; N]) -> [&Panel; N] {
+        ids.map(|id| self.panel(id))
+    }
+
     /// The panel under a place on the page.
     pub fn panel_at(&self, place: (f64, f64)) -> Option<&Panel> {
         self.panels.iter().find(|panel| panel.rect.contains(place))

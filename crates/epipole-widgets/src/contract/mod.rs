@@ -26,7 +26,7 @@ pub use epipole_canvas::Rect;
 pub use event::{Event, Value};
 pub use file::FileOffer;
 pub use handle::Handle;
-pub use job::{Compute, Job, JobResult, PhotoSlot, Progress};
+pub use job::{Asking, Compute, Job, JobResult, PhotoSlot, Progress};
 pub use layout::{Axis, Layout, Panel, WIDTHS};
 pub use model::{Declared, Model};
 pub use problem::Problem;

@@ -1,8 +1,8 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Challenge, Compute, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem,
-    Space, Symbol, Words,
+    Asking, Challenge, Compute, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot,
+    Problem, Space, Symbol, Words,
 };
 use image::RgbImage;
 
@@ -16,11 +16,6 @@ pub trait Model {
     /// The draggable points. A handle's id must not be a control's.
     fn handles(&self) -> Vec<Handle> {
         Vec::new()
-    }
-
-    /// The panels that show things in three dimensions.
-    fn spaces(&self) -> &'static [Space] {
-        &[]
     }
 
     /// What of the book's letters the picture shows: a letter of the prose lights it up.
@@ -57,13 +52,25 @@ pub trait Model {
         false
     }
 
-    /// The computation that the present state waits for; `None` once its result is there.
-    fn job(&self) -> Option<&dyn Job> {
+    /// What the model asks of whoever computes; of several questions, the one that is next.
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
         None
     }
 
+    /// An answer has come to what was asked.
+    fn answered(&mut self) {}
+
+    /// The computation that the present state waits for; `None` once its result is there.
+    fn job(&mut self) -> Option<&dyn Job> {
+        self.asking()?.job()
+    }
+
     /// Takes the result of the job that the model waits for; never that of an older one.
-    fn job_done(&mut self, _result: JobResult) {}
+    fn job_done(&mut self, result: JobResult) {
+        if self.asking().is_some_and(|asking| asking.take(result)) {
+            self.answered();
+        }
+    }
 
     /// Takes the reader's own photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of the permalink.
     ///
@@ -91,6 +98,8 @@ pub trait Declared: Model + Words + Sized + 'static {
     const COMPUTE: Compute = |_, _| Ok(Vec::new());
     /// Goals for the reader.
     const CHALLENGES: &'static [Challenge<Self>] = &[];
+    /// The panels that show things in three dimensions; each is there while its handles are.
+    const SPACES: &'static [Space] = &[];
     /// Places for photographs of the reader's own.
     const PHOTO_SLOTS: &'static [PhotoSlot] = &[];
 

@@ -1,7 +1,7 @@
 //! The present values of a model's sliders, toggles and choices.
 
 use super::control::{Choice, Control, Slider, Toggle};
-use super::event::Value;
+use super::event::{Event, Value};
 use super::problem::Problem;
 
 /// One entry of a model's list of settings.
@@ -152,6 +152,19 @@ impl Settings {
         Ok(Some(changed))
     }
 
+    /// Takes an event: the name of the knob that it changed, if it changed one.
+    ///
+    /// # Errors
+    /// As [`Settings::set`].
+    pub fn update(&mut self, event: &Event) -> Result<Option<&'static str>, Problem> {
+        let Event::Set { id, value } = event else {
+            return Ok(None);
+        };
+        let changed = self.set(id, value)? == Some(true);
+        let knob = self.knobs.iter().find(|knob| changed && knob.id() == id);
+        Ok(knob.map(|knob| knob.id()))
+    }
+
     /// Chooses one of the options, by its index.
     pub fn choose(&mut self, choice: &'static Choice, option: usize) {
         let index = self.knobs.iter().position(|knob| knob.id() == choice.id);
@@ -190,6 +203,11 @@ mod tests {
         assert_eq!(settings.count(&COUNT), 7);
         assert!(!settings.flag(&NOISE));
         assert_eq!(settings.chosen(&METHOD), 0);
+        let more = Event::set(&COUNT, 9.0);
+        assert_eq!(settings.update(&more), Ok(Some("count")));
+        assert_eq!(settings.update(&more), Ok(None));
+        assert_eq!(settings.update(&Event::press("count")), Ok(None));
+        assert!(settings.update(&Event::set(&COUNT, 99.0)).is_err());
     }
 
     #[test]

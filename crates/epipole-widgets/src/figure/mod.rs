@@ -96,9 +96,12 @@ impl Figure {
         self.stage.model().handles()
     }
 
-    /// The panels that show things in three dimensions.
-    pub fn spaces(&self) -> &'static [Space] {
-        self.stage.model().spaces()
+    /// The panels that show things in three dimensions now.
+    pub fn spaces(&self) -> Vec<Space> {
+        let handles = self.handles();
+        let is_shown = |space: &&Space| handles.iter().any(|handle| handle.id == space.orbit);
+        let spaces = self.stage.spaces().iter();
+        spaces.filter(is_shown).copied().collect()
     }
 
     /// What of the book's letters the picture shows.
@@ -142,8 +145,8 @@ impl Figure {
     }
 
     /// The computation that the figure waits for, if any.
-    pub fn job(&self) -> Option<&dyn Job> {
-        self.stage.model().job()
+    pub fn job(&mut self) -> Option<&dyn Job> {
+        self.stage.model_mut().job()
     }
 
     /// Hands the result of the job with this [`key`](Job::key) to the figure. An answer that the

@@ -170,6 +170,12 @@ pub(crate) fn fitting_title(canvas: &mut Canvas, rect: Rect, wordings: &[&str]) 
     title(canvas, rect, fitting(rect.width, wordings));
 }
 
+/// A panel's title, in the first of these wordings that fits, and the line around it.
+pub(crate) fn open(canvas: &mut Canvas, panel: &Panel, wordings: &[&str]) {
+    fitting_title(canvas, panel.rect, wordings);
+    canvas.panel(panel.rect);
+}
+
 /// The first of these wordings that is no wider, or else the last.
 fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
     let fits = |text: &&&str| text_width(text, TEXT) <= width;

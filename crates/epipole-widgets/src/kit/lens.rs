@@ -41,10 +41,10 @@ impl Lens {
         (width, height): (f64, f64),
         units: (f64, f64),
         middle: (f64, f64),
-        (orbit, zoom): (&Orbit, f64),
+        orbit: &Orbit,
         subject: &Subject,
     ) -> Option<Self> {
-        let distance = DISTANCE * subject.radius / zoom;
+        let distance = DISTANCE * subject.radius / orbit.zoom();
         let (turn, rise) = (orbit.turn_deg().to_radians(), orbit.rise_deg().to_radians());
         let level = libm::cos(rise);
         let towards_eye = Vector3::new(
@@ -67,14 +67,9 @@ impl Lens {
     }
 
     /// In degrees of the panel of [`Orbit::panel`], which is so many times as tall as broad.
-    pub(crate) fn of_panel(
-        aspect: f64,
-        orbit: &Orbit,
-        zoom: f64,
-        subject: &Subject,
-    ) -> Option<Self> {
+    pub(crate) fn of_panel(aspect: f64, orbit: &Orbit, subject: &Subject) -> Option<Self> {
         let units = (2.0 * HALF_TURN_DEG, 2.0 * HALF_RISE_DEG / aspect);
-        Self::new((1.0, aspect), units, orbit.middle(), (orbit, zoom), subject)
+        Self::new((1.0, aspect), units, orbit.middle(), orbit, subject)
     }
 
     /// Where a point of the eye's own frame is seen, and how far away it is; `None` behind the eye.
@@ -140,11 +135,11 @@ mod tests {
 
     #[test]
     fn a_model_sees_things_where_the_panel_shows_them() {
-        let orbit = Orbit::new(-40.0, 25.0);
+        let orbit = Orbit::new(-40.0, 25.0).zoomed(1.4);
         let rect = Rect::new(10.0, 24.0, 600.0, 330.0);
         let panel = Orbit::panel(rect);
-        let space = Space::new(&panel, &orbit, 1.4, &SUBJECT).unwrap();
-        let lens = Lens::of_panel(330.0 / 600.0, &orbit, 1.4, &SUBJECT).unwrap();
+        let space = Space::new(&panel, &orbit, &SUBJECT).unwrap();
+        let lens = Lens::of_panel(330.0 / 600.0, &orbit, &SUBJECT).unwrap();
         for point in [Point3::new(0.0, 0.3, 0.5), Point3::new(-0.6, -0.4, 1.7)] {
             let (shown, _) = space.place(&point).unwrap();
             let (u, v) = panel.canvas_from_world(lens.place(&point).unwrap());
@@ -154,7 +149,7 @@ mod tests {
 
     #[test]
     fn what_is_seen_at_a_place_is_found_again() {
-        let lens = Lens::of_panel(0.6, &Orbit::new(30.0, 35.0), 1.0, &SUBJECT).unwrap();
+        let lens = Lens::of_panel(0.6, &Orbit::new(30.0, 35.0), &SUBJECT).unwrap();
         let point = Point3::new(0.4, -0.25, 1.3);
         let found = lens.on_level(lens.place(&point).unwrap(), -0.25).unwrap();
         assert!((found - point).norm() < 1e-9);
@@ -162,7 +157,7 @@ mod tests {
         let place = lens.place(&(from + towards * 1.25)).unwrap();
         assert!((lens.along(place, &from, &towards).unwrap() - 1.25).abs() < 1e-9);
         // Level with the plane it is seen edge-on.
-        let level = Lens::of_panel(0.6, &Orbit::new(0.0, 0.0), 1.0, &SUBJECT).unwrap();
+        let level = Lens::of_panel(0.6, &Orbit::new(0.0, 0.0), &SUBJECT).unwrap();
         assert!(level.on_level((10.0, 0.0), SUBJECT.middle.y).is_none());
     }
 }

@@ -1,13 +1,12 @@
 //! Where the reader looks at a thing in three dimensions from: state, handles and words.
 //!
-//! A model holds an [`Orbit`] and lists [`ZOOM`] and [`RECENTER`] among its controls. A panel of
-//! [`SPACE`] has degrees as its world: across, how far the scene is turned about its vertical
+//! A model holds an [`Orbit`], whose controls and handles stand behind its own. A panel of [`SPACE`] has degrees as its world: across, how far the scene is turned about its vertical
 //! axis; down, how far above it the reader is. So a drag to the right turns what is in front to
 //! the right, and one downwards turns it down.
 
 use crate::contract::{
-    Axis, Button, ButtonRole, Event, Handle, Panel, Problem, Rect, Settings, Slider, Space, Value,
-    format_number,
+    Axis, Button, ButtonRole, Control, Event, Handle, Knob, Panel, Problem, Rect, Settings, Slider,
+    Space, format_number,
 };
 
 /// The panel with its handles and its slider.
@@ -19,7 +18,7 @@ pub(crate) const SPACE: Space = Space {
 };
 
 /// How near the reader is.
-pub(crate) const ZOOM: Slider = Slider::new(SPACE.zoom, "Zoom")
+const ZOOM: Slider = Slider::new(SPACE.zoom, "Zoom")
     .range(0.5, 6.0, 0.1)
     .at(1.0)
     .digits(1)
@@ -27,8 +26,7 @@ pub(crate) const ZOOM: Slider = Slider::new(SPACE.zoom, "Zoom")
     .more();
 
 /// Back to where the reader was at first.
-pub(crate) const RECENTER: Button =
-    Button::new("recenter", "Reset viewpoint", ButtonRole::Action).more();
+const RECENTER: Button = Button::new("recenter", "Reset viewpoint", ButtonRole::Action).more();
 
 /// Half of the panel's width, degrees.
 pub(crate) const HALF_TURN_DEG: f64 = 180.0;
@@ -37,12 +35,13 @@ pub(crate) const HALF_RISE_DEG: f64 = 90.0;
 /// Beyond this the scene's vertical axis points at the reader.
 const HIGHEST_DEG: f64 = 85.0;
 
-/// A direction to look from, and where in the panel the middle of the scene is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A direction to look from, how near, and where in the panel the middle of the scene is.
+#[derive(Debug, Clone)]
 pub(crate) struct Orbit {
     home: (f64, f64),
     turned: (f64, f64),
     panned: (f64, f64),
+    settings: Settings,
 }
 
 impl Orbit {
@@ -53,7 +52,15 @@ impl Orbit {
             home,
             turned: home,
             panned: (0.0, 0.0),
+            settings: Settings::new(&[Knob::Slider(&ZOOM)]),
         }
+    }
+
+    /// The same, with things shown so many times as large.
+    #[cfg(test)]
+    pub(crate) fn zoomed(mut self, zoom: f64) -> Self {
+        self.update(&Event::set(&ZOOM, zoom)).unwrap();
+        self
     }
 
     /// How far the scene is turned, degrees; positive moves what is in front to the right.
@@ -64,6 +71,11 @@ impl Orbit {
     /// How far above the scene the reader is, degrees.
     pub(crate) fn rise_deg(&self) -> f64 {
         self.turned.1
+    }
+
+    /// How many times as large as at first things are.
+    pub(crate) fn zoom(&self) -> f64 {
+        self.settings.number(&ZOOM)
     }
 
     /// Where the middle of the scene is shown, in the panel's world.
@@ -84,6 +96,13 @@ impl Orbit {
             y_axis: axis(HALF_RISE_DEG),
             clickable: false,
         }
+    }
+
+    /// The slider that enlarges, and the button that goes back to the start.
+    pub(crate) fn controls(&self) -> Vec<Control> {
+        let mut controls = self.settings.controls();
+        controls.push(RECENTER.control(true, false));
+        controls
     }
 
     /// The two handles: one turns the scene, one moves it across the panel.
@@ -145,23 +164,23 @@ impl Orbit {
         )
     }
 
-    /// Takes an event of the space; whether it was one. `settings` hold [`ZOOM`].
+    /// Where from and how near, such as "35° to the left, 20° above, 1.0 ×".
+    pub(crate) fn seen_from(&self) -> String {
+        format!("{}, {} ×", self.words(), format_number(self.zoom(), 1))
+    }
+
+    /// Takes an event of the space; whether it was one.
     ///
     /// # Errors
     /// A value that the zoom does not take.
-    pub(crate) fn update(
-        &mut self,
-        event: &Event,
-        settings: &mut Settings,
-    ) -> Result<bool, Problem> {
+    pub(crate) fn update(&mut self, event: &Event) -> Result<bool, Problem> {
         match event {
             Event::HandleMoved { id, x, y } if id == SPACE.orbit => self.turned = (*x, *y),
             Event::HandleMoved { id, x, y } if id == SPACE.pan => self.panned = (*x, *y),
             Event::Set { id, value } if id == ZOOM.id => {
-                settings.set(id, value)?;
+                self.settings.set(id, value)?;
             }
             Event::Press { id } if id == RECENTER.id => {
-                settings.set(ZOOM.id, &Value::Number(ZOOM.default))?;
                 *self = Self::new(self.home.0, self.home.1);
             }
             _ => return Ok(false),
@@ -173,43 +192,20 @@ impl Orbit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::Knob;
 
     #[test]
     fn events_turn_move_enlarge_and_return() {
-        let mut settings = Settings::new(&[Knob::Slider(&ZOOM)]);
         let mut orbit = Orbit::new(-35.0, 20.0);
-        let fresh = orbit;
-        let moved = |id: &str, x, y| Event::HandleMoved {
-            id: id.to_owned(),
-            x,
-            y,
-        };
-        assert_eq!(
-            orbit.update(&moved("orbit", 90.0, 0.0), &mut settings),
-            Ok(true)
-        );
+        let fresh = orbit.seen_from();
+        assert_eq!(orbit.update(&Event::moved("orbit", 90.0, 0.0)), Ok(true));
         assert_eq!(orbit.words(), "90° to the left, level");
-        assert_eq!(
-            orbit.update(&moved("pan", 18.0, -9.0), &mut settings),
-            Ok(true)
-        );
+        assert_eq!(orbit.update(&Event::moved("pan", 18.0, -9.0)), Ok(true));
         assert_eq!(orbit.handles()[1].value_text, "55 % across, 45 % down");
-        assert_eq!(
-            orbit.update(&moved("probe", 1.0, 1.0), &mut settings),
-            Ok(false)
-        );
-        let zoom = |value| Event::Set {
-            id: "zoom".to_owned(),
-            value: Value::Number(value),
-        };
-        assert_eq!(orbit.update(&zoom(3.0), &mut settings), Ok(true));
-        assert!(orbit.update(&zoom(100.0), &mut settings).is_err());
-        assert_eq!(settings.number(&ZOOM), 3.0);
-        let press = Event::Press {
-            id: RECENTER.id.to_owned(),
-        };
-        assert_eq!(orbit.update(&press, &mut settings), Ok(true));
-        assert_eq!((orbit, settings.number(&ZOOM)), (fresh, 1.0));
+        assert_eq!(orbit.update(&Event::moved("probe", 1.0, 1.0)), Ok(false));
+        assert_eq!(orbit.update(&Event::set(&ZOOM, 3.0)), Ok(true));
+        assert!(orbit.update(&Event::set(&ZOOM, 100.0)).is_err());
+        assert_eq!(orbit.seen_from(), "90° to the left, level, 3.0 ×");
+        assert_eq!(orbit.update(&Event::press(RECENTER.id)), Ok(true));
+        assert_eq!((orbit.seen_from(), orbit.middle()), (fresh, (0.0, 0.0)));
     }
 }

@@ -81,6 +81,15 @@ pub(crate) mod floats {
     }
 }
 
+/// The slot of one photograph of the reader's own.
+pub(crate) const fn slot(max_side_px: u32) -> PhotoSlot {
+    PhotoSlot {
+        id: "photo",
+        label: "Your photograph",
+        max_side_px,
+    }
+}
+
 /// The slots of two photographs of one scene.
 pub(crate) const fn pair_slots(max_side_px: u32) -> [PhotoSlot; 2] {
     [

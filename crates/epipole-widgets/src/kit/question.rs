@@ -1,12 +1,12 @@
 //! A question that takes long: what is asked, what is answered, and what a model keeps of both.
 //!
-//! A figure's `question.rs` says what is asked ([`Question`]); its model holds an [`Asked`] and lets it
-//! speak for it in [`Model::job`](crate::contract::Model::job) and `job_done`. Whatever a worker sends
-//! back is checked before it is believed.
+//! A figure's `question.rs` says what is asked ([`Question`]); its model holds an [`Asked`] and names it in
+//! [`Model::asking`](crate::contract::Model::asking). Whatever a worker sends back is checked before it is
+//! believed.
 
+use crate::contract::{Asking, Job, JobResult, Problem, Progress};
 #[cfg(test)]
 use crate::contract::{Declared, Event};
-use crate::contract::{Job, JobResult, Problem, Progress};
 use epipole::Error;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -118,27 +118,6 @@ impl<Q: Question> Asked<Q> {
         self.version += 1;
     }
 
-    /// Takes the result of the question that is out; says whether it is an answer.
-    pub(crate) fn take(&mut self, result: JobResult) -> bool {
-        let Some(Out { question, .. }) = self.out.take() else {
-            return false;
-        };
-        let read = |bytes: Vec<u8>| -> Option<Q::Answer> {
-            let answer = postcard::from_bytes(&bytes).ok()?;
-            question.fits(&answer).then_some(answer)
-        };
-        match result.map(read) {
-            Ok(Some(answer)) => {
-                self.known = Some((question, answer));
-                self.version += 1;
-                return true;
-            }
-            Ok(None) => self.problem = Some(format!("{}: the answer cannot be read.", Q::FAILED)),
-            Err(problem) => self.problem = Some(format!("{}: {problem}.", Q::FAILED)),
-        }
-        false
-    }
-
     /// What is known, perhaps of the last question before the one that is out.
     pub(crate) fn answer(&self) -> Option<&Q::Answer> {
         self.known.as_ref().map(|(_, answer)| answer)
@@ -165,10 +144,31 @@ impl<Q: Question> Asked<Q> {
     pub(crate) fn version(&self) -> u64 {
         self.version
     }
+}
 
-    /// The question that is out, for [`Model::job`](crate::contract::Model::job).
-    pub(crate) fn job(&self) -> Option<&dyn Job> {
+impl<Q: Question> Asking for Asked<Q> {
+    fn job(&self) -> Option<&dyn Job> {
         self.out.as_ref().map(|out| out as &dyn Job)
+    }
+
+    fn take(&mut self, result: JobResult) -> bool {
+        let Some(Out { question, .. }) = self.out.take() else {
+            return false;
+        };
+        let read = |bytes: Vec<u8>| -> Option<Q::Answer> {
+            let answer = postcard::from_bytes(&bytes).ok()?;
+            question.fits(&answer).then_some(answer)
+        };
+        match result.map(read) {
+            Ok(Some(answer)) => {
+                self.known = Some((question, answer));
+                self.version += 1;
+                return true;
+            }
+            Ok(None) => self.problem = Some(format!("{}: the answer cannot be read.", Q::FAILED)),
+            Err(problem) => self.problem = Some(format!("{}: {problem}.", Q::FAILED)),
+        }
+        false
     }
 }
 

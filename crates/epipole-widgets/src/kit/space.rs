@@ -44,11 +44,11 @@ pub(crate) struct Space<'a> {
 impl<'a> Space<'a> {
     /// An empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the subject
     /// is nowhere.
-    pub(crate) fn new(panel: &Panel, orbit: &Orbit, zoom: f64, subject: &Subject) -> Option<Self> {
+    pub(crate) fn new(panel: &Panel, orbit: &Orbit, subject: &Subject) -> Option<Self> {
         let size = (panel.rect.width, panel.rect.height);
         let middle = panel.canvas_from_world(orbit.middle());
         Some(Self {
-            lens: Lens::new(size, (1.0, 1.0), middle, (orbit, zoom), subject)?,
+            lens: Lens::new(size, (1.0, 1.0), middle, orbit, subject)?,
             ground: Vec::new(),
             photographs: Vec::new(),
             marks: Vec::new(),
@@ -372,13 +372,13 @@ mod tests {
     use super::*;
     use crate::contract::Rect;
 
-    fn space(orbit: &Orbit, zoom: f64) -> Space<'static> {
+    fn space(orbit: Orbit) -> Space<'static> {
         let panel = Orbit::panel(Rect::new(0.0, 0.0, 400.0, 300.0));
         let subject = Subject {
             middle: Point3::new(0.0, 0.0, 5.0),
             radius: 2.0,
         };
-        Space::new(&panel, orbit, zoom, &subject).unwrap()
+        Space::new(&panel, &orbit, &subject).unwrap()
     }
 
     #[test]
@@ -386,24 +386,30 @@ mod tests {
         let middle = Point3::new(0.0, 0.0, 5.0);
         let front = Point3::new(0.0, 0.0, 4.0);
         for (turn, rise) in [(0.0, 0.0), (40.0, 0.0), (0.0, 30.0), (-170.0, -80.0)] {
-            let seen = space(&Orbit::new(turn, rise), 1.0);
+            let seen = space(Orbit::new(turn, rise));
             let (place, depth) = seen.place(&middle).unwrap();
             assert!((place.0 - 200.0).abs() < 1e-9 && (place.1 - 150.0).abs() < 1e-9);
             assert!((depth - seen.lens.distance).abs() < 1e-9);
         }
-        let (place, _) = space(&Orbit::new(30.0, 0.0), 1.0).place(&front).unwrap();
+        let (place, _) = space(Orbit::new(30.0, 0.0)).place(&front).unwrap();
         assert!(place.0 > 210.0);
-        let (place, _) = space(&Orbit::new(0.0, 30.0), 1.0).place(&front).unwrap();
+        let (place, _) = space(Orbit::new(0.0, 30.0)).place(&front).unwrap();
         assert!(place.1 > 160.0);
         // y is down, and a larger zoom shows things larger.
         let low = Point3::new(0.0, 1.0, 5.0);
-        let at = |zoom| space(&Orbit::new(0.0, 0.0), zoom).place(&low).unwrap().0.1;
+        let at = |zoom| {
+            space(Orbit::new(0.0, 0.0).zoomed(zoom))
+                .place(&low)
+                .unwrap()
+                .0
+                .1
+        };
         assert!(at(1.0) > 160.0 && at(2.0) > at(1.0) + 20.0);
     }
 
     #[test]
     fn lines_are_cut_where_the_reader_stands() {
-        let seen = space(&Orbit::new(0.0, 0.0), 6.0);
+        let seen = space(Orbit::new(0.0, 0.0).zoomed(6.0));
         let (behind, ahead) = (Point3::new(0.5, 0.2, -50.0), Point3::new(0.5, 0.2, 6.0));
         assert!(seen.place(&behind).is_none());
         let ends = seen.segment(&behind, &ahead).unwrap();

@@ -15,6 +15,7 @@ const EDGE_ON: f64 = 0.01;
 pub(crate) struct Standing<'a> {
     pub(crate) image: &'a RgbImage,
     pub(crate) corners: [Place; 4],
+    sides: [Side; 4],
     /// From CSS pixels of the page to pixels of the photograph.
     pub(crate) photo_from_page: Matrix3<f64>,
     plane: Plane,
@@ -70,9 +71,11 @@ impl<'a> Standing<'a> {
             return None;
         }
         let cam_from_eye = camera.cam_from_world * lens.eye.cam_from_world.inverse();
+        let corners = [a.0, b.0, c.0, d.0];
         Some(Self {
             image,
-            corners: [a.0, b.0, c.0, d.0],
+            corners,
+            sides: std::array::from_fn(|index| Side::of(&corners, index)),
             photo_from_page: homography_from_motion(
                 &cam_from_eye,
                 &plane.normal,
@@ -92,8 +95,10 @@ impl<'a> Standing<'a> {
     /// * `places`: its corners on the page, in turn; it is convex
     pub(crate) fn hides(&self, in_eye: &Point3<f64>, places: &[Place]) -> bool {
         self.plane.side(in_eye) < -1e-9 * self.depth
-            && !are_apart(&self.corners, places)
-            && !are_apart(places, &self.corners)
+            && !self.sides.iter().any(|side| side.has_beyond(places))
+            // A point has no sides.
+            && (places.len() < 2
+                || !(0..places.len()).any(|index| Side::of(places, index).has_beyond(&self.corners)))
     }
 
     /// Where a segment crosses the plane, as a share of the way.
@@ -109,23 +114,41 @@ impl<'a> Standing<'a> {
     }
 }
 
-/// Whether a side of the first convex polygon has the second one beyond it.
-fn are_apart(one: &[Place], other: &[Place]) -> bool {
-    let turn = |(x, y): Place, (u, v): Place| x * v - y * u;
-    let minus = |a: Place, b: Place| (a.0 - b.0, a.1 - b.1);
-    let edges = one.iter().zip(one.iter().cycle().skip(1));
-    let mut edges = edges.map(|(&from, &to)| (from, minus(to, from)));
-    edges.any(|(from, along)| {
-        let side = |place: &Place| turn(along, minus(*place, from));
-        let own = one.iter().map(side).fold(
-            0.0,
-            |most: f64, side| {
-                if side.abs() > most.abs() { side } else { most }
-            },
-        );
-        let beyond = |place: &Place| side(place) * own < -1e-9 * own * own;
+/// A side of a convex polygon on the page.
+struct Side {
+    from: Place,
+    along: Place,
+    /// How far the polygon reaches from it, times its length; negative on one of its two hands.
+    reach: f64,
+}
+
+impl Side {
+    /// The side from a corner to the next one.
+    fn of(polygon: &[Place], index: usize) -> Self {
+        let (from, to) = (polygon[index], polygon[(index + 1) % polygon.len()]);
+        let mut side = Self {
+            from,
+            along: (to.0 - from.0, to.1 - from.1),
+            reach: 0.0,
+        };
+        for corner in polygon {
+            let reach = side.off(corner);
+            if reach.abs() > side.reach.abs() {
+                side.reach = reach;
+            }
+        }
+        side
+    }
+
+    fn off(&self, (x, y): &Place) -> f64 {
+        self.along.0 * (y - self.from.1) - self.along.1 * (x - self.from.0)
+    }
+
+    /// Whether another convex polygon is altogether on the other hand.
+    fn has_beyond(&self, other: &[Place]) -> bool {
+        let beyond = |place: &Place| self.off(place) * self.reach < -1e-9 * self.reach * self.reach;
         !other.is_empty() && other.iter().all(beyond)
-    })
+    }
 }
 
 /// The part of a convex polygon where `side` is not negative; a function that is linear in space.
@@ -170,7 +193,7 @@ mod tests {
         for (turn, eye_is_behind) in [(20.0, true), (200.0, false)] {
             let orbit = Orbit::new(turn, 25.0);
             let size = (300.0, 200.0);
-            let lens = Lens::new(size, (1.0, 1.0), (150.0, 100.0), (&orbit, 1.0), &subject);
+            let lens = Lens::new(size, (1.0, 1.0), (150.0, 100.0), &orbit, &subject);
             let lens = lens.unwrap();
             let standing = Standing::new(&lens, &camera, &image, 0.8).unwrap();
             for (u, v) in [(3.0, 4.0), (39.5, -0.5), (20.0, 29.0)] {
@@ -201,7 +224,7 @@ mod tests {
             (300.0, 200.0),
             (1.0, 1.0),
             (150.0, 100.0),
-            (&Orbit::new(90.0, 0.0), 1.0),
+            &Orbit::new(90.0, 0.0),
             &Subject {
                 middle: Point3::new(0.0, 0.0, 0.8),
                 radius: 1.0,

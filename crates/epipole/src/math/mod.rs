@@ -1,6 +1,7 @@
 //! Small mathematics that every room needs.
 
 mod geodetic;
+mod length;
 mod line;
 pub(crate) mod null_space;
 pub(crate) mod polynomial;
@@ -11,5 +12,6 @@ pub(crate) mod simd;
 pub(crate) mod svd3;
 
 pub use geodetic::{Geodetic, local_from_geodetic};
+pub(crate) use length::length;
 pub use line::Line2;
 pub use svd3::{Svd3, svd3};

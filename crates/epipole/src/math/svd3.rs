@@ -1,5 +1,6 @@
 //! The singular value decomposition of a 3×3 matrix.
 
+use super::length;
 use nalgebra::{Matrix3, Vector3};
 
 /// `A = U diag(singular_values) Vᵀ`.
@@ -56,7 +57,7 @@ pub fn svd3(matrix: &Matrix3<f64>) -> Svd3 {
             break;
         }
     }
-    let norms = [0, 1, 2].map(|i| a.column(i).norm());
+    let norms = [0, 1, 2].map(|i| length(&a.column(i).into_owned()));
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| norms[j].total_cmp(&norms[i]));
     let singular_values = Vector3::from_iterator(order.map(|i| norms[i]));
@@ -69,8 +70,8 @@ pub fn svd3(matrix: &Matrix3<f64>) -> Svd3 {
         .try_normalize(f64::MIN_POSITIVE)
         .unwrap_or_else(Vector3::x);
     let raw2 = columns[1] - u1 * u1.dot(&columns[1]);
-    let u2 = if singular_values[1] > noise && raw2.norm() > 0.5 * singular_values[1] {
-        raw2.normalize()
+    let u2 = if singular_values[1] > noise && length(&raw2) > 0.5 * singular_values[1] {
+        raw2 / length(&raw2)
     } else {
         perpendicular(&u1)
     };

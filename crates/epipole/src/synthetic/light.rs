@@ -10,6 +10,7 @@ mod proxy;
 use super::body::{Body, Placement};
 use super::shading::single;
 use super::shape::Ray;
+use crate::math::length;
 use nalgebra::Vector3;
 
 pub(crate) use baking::{Baking, Detail, Shading};
@@ -168,7 +169,7 @@ impl<'a> Shade<'a> {
         let origin = p + n * LIFT_M;
         let to_center = self.lighting.center - origin;
         let distance_sq = to_center.norm_squared();
-        let spread = (self.lighting.half_u + self.lighting.half_v).norm();
+        let spread = length(&(self.lighting.half_u + self.lighting.half_v));
         let mut near: Vec<&Body> = Vec::new();
         for (index, caster, center, radius) in &self.casters {
             if *index == own && !body.hollow {
@@ -182,7 +183,7 @@ impl<'a> Shade<'a> {
             }
             // Does the cone from the point to the window touch the caster's sphere?
             let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
-            let off = (center - (origin + to_center * along)).norm();
+            let off = length(&(center - (origin + to_center * along)));
             if off < radius + spread * along.max(0.02) {
                 near.push(caster);
             }
@@ -191,7 +192,7 @@ impl<'a> Shade<'a> {
         let (mut lit, mut seen) = (0.0, 0.0);
         for place in &self.places {
             let direction = place - origin;
-            let cosine = n.dot(&direction) / direction.norm();
+            let cosine = n.dot(&direction) / length(&direction);
             if cosine <= 0.0 {
                 continue;
             }

@@ -6,11 +6,11 @@
 
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Job, JobResult,
-    Knob, Model, Problem, Settings, Slider, Space, Value, format_number, round_to_digits,
+    Asking, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Knob, Model,
+    Problem, Settings, Slider, Space, Value, format_number, round_to_digits,
 };
 use crate::kit::house::{House, SIZE};
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 
@@ -48,7 +48,6 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&STEPS),
     Knob::Slider(&NOISE),
     Knob::Slider(&SEED),
-    Knob::Slider(&ZOOM),
 ];
 
 const STEPS_PER_SECOND: f64 = 1.5;
@@ -60,29 +59,17 @@ const MARK: &str = "mark";
 /// The model of `bundle-adjustment`.
 pub(crate) struct BundleAdjustment {
     settings: Settings,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     house: Option<House>,
     /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
     mark: (f64, f64),
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     running: Running,
 }
 
 impl BundleAdjustment {
     pub(super) fn house(&self) -> Option<&House> {
         self.house.as_ref()
-    }
-
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     pub(super) fn mark(&self) -> (f64, f64) {
@@ -155,6 +142,7 @@ impl Declared for BundleAdjustment {
         moves; with Ctrl and the wheel, or + and −, it becomes larger.";
     const COMPUTE: Compute = carry_out::<Question>;
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
         // The house is one of constants, which a test builds.
@@ -195,7 +183,7 @@ impl Model for BundleAdjustment {
         }
         let (can_run, taken) = (self.asked.answer().is_some(), self.num_taken());
         controls.extend(self.running.controls(can_run, taken, self.is_finished()));
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -223,12 +211,8 @@ impl Model for BundleAdjustment {
         handles
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
+        if self.orbit.update(event)? {
             return Ok(());
         }
         match event {
@@ -268,12 +252,11 @@ impl Model for BundleAdjustment {
         self.running.is_running()
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn answered(&mut self) {
         self.running.stop_if(self.is_finished());
     }
 }

@@ -64,10 +64,8 @@ fn legend_entries() -> [Entry; 6] {
 }
 
 fn rulers(model: &BundleAdjustment) -> [Ruler; 3] {
-    let num_steps = model
-        .asked()
-        .answer()
-        .map_or(FEWEST, |answer| answer.num_steps());
+    let answer = model.asked.answer();
+    let num_steps = answer.map_or(FEWEST, |answer| answer.num_steps());
     let [cost, damping] = [COST, DAMPING].map(|[low, high]| Ruler::decades(low, high));
     [
         Ruler::linear(-0.6, num_steps.max(FEWEST) as f64 + 0.6),
@@ -113,19 +111,18 @@ impl View for BundleAdjustmentView {
     }
 
     fn draw(&mut self, model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
-        let [space, photo] = ["space", "photo"].map(|id| layout.panel(id));
+        let [space, photo] = layout.panels_named(["space", "photo"]);
         for (panel, titles) in [
             (space, ["A house and four cameras", "In space"]),
             (photo, ["What camera 3 sees", "Camera 3"]),
         ] {
-            canvas.panel(panel.rect);
-            grid::fitting_title(canvas, panel.rect, &titles);
+            grid::open(canvas, panel, &titles);
         }
         if let Some(house) = model.house() {
             draw_space(model, house, space, canvas);
             draw_photo(model, house, photo, canvas);
         }
-        draw_handles(canvas, space, model.orbit());
+        draw_handles(canvas, space, &model.orbit);
         let is_broad = grid::is_broad(layout.width);
         let left = if is_broad { photo.rect.x } else { 0.0 };
         let right = if is_broad {
@@ -137,7 +134,7 @@ impl View for BundleAdjustmentView {
         // As much margin on the right as on the left.
         legend::draw(canvas, &legend_entries(), right + left, left, top);
         draw_plots(model, layout, canvas);
-        if let Some(problem) = model.asked().problem() {
+        if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, space.rect, problem);
         }
     }
@@ -150,7 +147,7 @@ fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
         radius: SUBJECT.radius * narrowness.max(1.0),
         ..SUBJECT
     };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     space.ground(&SUBJECT.middle, GROUND, 0.6, 6);
@@ -198,7 +195,7 @@ fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
     let on_page = |pixel: &Point2<f64>| panel.canvas_from_world((pixel.x, pixel.y));
     let mark = panel.canvas_from_world(model.mark());
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
-        if let (Some([start, now]), Some(answer)) = (model.states(), model.asked().answer()) {
+        if let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) {
             let places = |state: &State| -> Vec<Option<Place>> {
                 let camera = house.camera(SHOWN, state.poses[SHOWN]);
                 let shown = state.points.iter().map(|point| camera.project(point).ok());
@@ -276,7 +273,7 @@ fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
         let shift = left.min(plot::LEFT);
         let above = Rect::new(left - shift, panel.rect.y, width + shift, TITLE);
         grid::fitting_title(canvas, above, &titles[index]);
-        let Some(answer) = model.asked().answer() else {
+        let Some(answer) = model.asked.answer() else {
             continue;
         };
         plot::draw_now(canvas, panel, model.num_taken() as f64);

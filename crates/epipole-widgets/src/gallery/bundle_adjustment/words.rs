@@ -14,7 +14,7 @@ fn percent(share: f64) -> String {
 
 fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
     // Before the answer the rows are there already, so that nothing jumps when it comes.
-    let unknown = if model.asked().problem().is_some() {
+    let unknown = if model.asked.problem().is_some() {
         "–"
     } else {
         "…"
@@ -30,8 +30,7 @@ fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
         }
     };
     let mut readouts: Vec<Readout> = rows.map(row).collect();
-    let zoom = format_number(model.zoom(), 1);
-    let from = format!("{}, {zoom} ×", model.orbit().words());
+    let from = model.orbit.seen_from();
     readouts.push(Readout::words("viewpoint", "Seen from", from));
     readouts
 }
@@ -50,7 +49,7 @@ const ROWS: [(&str, &str); 8] = [
 ];
 
 fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
-    let ([start, now], answer) = (model.states()?, model.asked().answer()?);
+    let ([start, now], answer) = (model.states()?, model.asked.answer()?);
     let num_unknowns = 6 * NUM_CAMERAS + 3 * answer.features.len();
     let pixels = |value: f64| format!("{} px", magnitude(value, 1e3));
     let width = |share: f64| format!("{} %", percent(share));
@@ -71,10 +70,10 @@ fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
 }
 
 fn describe(model: &BundleAdjustment) -> String {
-    if let Some(problem) = model.asked().problem() {
+    if let Some(problem) = model.asked.problem() {
         return problem.to_owned();
     }
-    let (Some([start, now]), Some(answer)) = (model.states(), model.asked().answer()) else {
+    let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) else {
         return format!("{}.", Question::LABEL);
     };
     let pixels = |value: f64| magnitude(value, 1e3);

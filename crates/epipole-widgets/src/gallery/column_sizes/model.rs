@@ -132,9 +132,7 @@ impl Model for ColumnSizes {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
+        if let Some(id) = self.settings.update(event)? {
             if id == SEED.id {
                 self.matches = Matches::draw(self.settings.count(&SEED) as u64);
             }

@@ -1,11 +1,11 @@
 //! How far the story has come, and where it is seen from.
 
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Job,
-    JobResult, Knob, Model, Problem, Settings, Slider, Space, Value,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob,
+    Model, Problem, Settings, Slider, Space, Value,
 };
 use crate::gallery::two_view_sfm::question::{Answer, Question, Source};
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::question::{Asked, carry_out};
 
 const STEP: Choice = Choice::new(
@@ -27,11 +27,7 @@ const TIME: Slider = Slider::new("time", "Steps told")
     .digits(2)
     .hidden();
 const PLAY: Button = Button::new("play", "Play", ButtonRole::Run);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&STEP),
-    Knob::Slider(&TIME),
-    Knob::Slider(&ZOOM),
-];
+const KNOBS: &[Knob] = &[Knob::Choice(&STEP), Knob::Slider(&TIME)];
 
 pub(super) const NUM_STEPS: usize = 5;
 const STEPS_PER_SECOND: f64 = 0.5;
@@ -39,26 +35,14 @@ const STEPS_PER_SECOND: f64 = 0.5;
 /// The model of `cover`.
 pub(crate) struct Cover {
     settings: Settings,
-    orbit: Orbit,
-    asked: Asked<Question>,
+    pub(super) orbit: Orbit,
+    pub(super) asked: Asked<Question>,
     is_playing: bool,
 }
 
 impl Cover {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     pub(super) fn answer(&self) -> Option<&Answer> {
         self.asked.answer()
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     /// The step that is told, from 0.
@@ -91,6 +75,7 @@ impl Declared for Cover {
         the wheel, or + and −, it becomes larger. On a touchscreen drag the handle, or use two fingers.";
     const COMPUTE: Compute = carry_out::<Question>;
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
         Self {
@@ -112,7 +97,7 @@ impl Model for Cover {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         controls.push(PLAY.control(self.answer().is_some(), self.is_playing));
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -120,24 +105,19 @@ impl Model for Cover {
         self.orbit.handles().into()
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
+        if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == STEP.id {
-                    self.is_playing = false;
-                    self.tell(self.step() as f64 + 1.0)?;
-                } else if changed && id == TIME.id {
-                    self.tell(self.settings.number(&TIME))?;
-                }
+        match self.settings.update(event)? {
+            Some(id) if id == STEP.id => {
+                self.is_playing = false;
+                self.tell(self.step() as f64 + 1.0)?;
             }
+            Some(id) if id == TIME.id => self.tell(self.settings.number(&TIME))?,
+            _ => {}
+        }
+        match event {
             Event::Press { id } if id == PLAY.id && self.answer().is_some() => {
                 self.is_playing = !self.is_playing;
                 if self.is_playing && self.settings.number(&TIME) >= NUM_STEPS as f64 {
@@ -156,12 +136,8 @@ impl Model for Cover {
         self.is_playing
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

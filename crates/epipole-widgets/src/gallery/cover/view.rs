@@ -55,12 +55,12 @@ impl View for CoverView {
         let panel = layout.panel("space");
         canvas.panel(panel.rect);
         grid::title(canvas, panel.rect, title(model.step()));
-        if let Some((question, answer)) = model.asked().answered() {
+        if let Some((question, answer)) = model.asked.answered() {
             draw_space(model, question, answer, panel, canvas);
         }
-        draw_handles(canvas, panel, model.orbit());
-        let waiting = model.asked().is_waiting().then_some(Question::LABEL);
-        if let Some(words) = model.asked().problem().or(waiting) {
+        draw_handles(canvas, panel, &model.orbit);
+        let waiting = model.asked.is_waiting().then_some(Question::LABEL);
+        if let Some(words) = model.asked.problem().or(waiting) {
             grid::notice(canvas, panel.rect, words);
         }
     }
@@ -91,7 +91,7 @@ fn draw_space(
     let breadth = panel.rect.width / panel.rect.height.max(1.0);
     let radius = SUBJECT.radius * (2.0 / breadth).clamp(1.0, 1.35);
     let subject = Subject { radius, ..SUBJECT };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     let gone = (model.share(0) - LEAVES) / (ARRIVES - LEAVES);

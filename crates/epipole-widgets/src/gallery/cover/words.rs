@@ -38,16 +38,16 @@ impl Words for Cover {
 
     fn describe(&self) -> String {
         let Some(answer) = self.answer() else {
-            return match self.asked().problem() {
+            return match self.asked.problem() {
                 Some(problem) => problem.to_owned(),
                 None => "Two photographs are being taken.".to_owned(),
             };
         };
-        let near = match (self.zoom() - 1.0).abs() < 1e-9 {
+        let near = match (self.orbit.zoom() - 1.0).abs() < 1e-9 {
             true => String::new(),
-            false => format!(", {}× as large", format_number(self.zoom(), 1)),
+            false => format!(", {}× as large", format_number(self.orbit.zoom(), 1)),
         };
-        let place = format!("{}{near}", self.orbit().words());
+        let place = format!("{}{near}", self.orbit.words());
         let words = match self.step() {
             0 => "One camera photographs the still life, takes a step aside, and photographs it again.".to_owned(),
             1 => format!(

@@ -2,8 +2,8 @@
 
 use super::question::{Answer, Method, Question, SIZE};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    Problem, Settings, Slider, Toggle,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
+    Settings, Slider, Toggle,
 };
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
@@ -42,7 +42,7 @@ const PROBE: (f64, f64) = (228.0, 165.0);
 pub(crate) struct DisparityMap {
     settings: Settings,
     probe: Probe,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 /// What is found and what is true at the probe.
@@ -54,10 +54,6 @@ pub(super) struct Probed {
 }
 
 impl DisparityMap {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     /// Column and row of the probe, pixels.
     pub(super) fn probe_place(&self) -> (f64, f64) {
         self.probe.place(SIZE)
@@ -132,20 +128,14 @@ impl Model for DisparityMap {
         if self.probe.update(event, SIZE) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
+        if self.settings.update(event)?.is_some() {
             self.ask();
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

@@ -75,11 +75,9 @@ impl View for DisparityMapView {
 
     fn draw(&mut self, model: &DisparityMap, layout: &Layout, canvas: &mut Canvas) {
         for (id, name, short) in NAMES {
-            let rect = layout.panel(id).rect;
-            grid::fitting_title(canvas, rect, &[name, short]);
-            canvas.panel(rect);
+            grid::open(canvas, layout.panel(id), &[name, short]);
         }
-        let asked = model.asked();
+        let asked = &model.asked;
         let found = layout.panel("found").rect;
         let Some(answer) = asked.answer() else {
             let words = asked.problem().unwrap_or(Question::LABEL);

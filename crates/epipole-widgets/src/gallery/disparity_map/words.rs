@@ -7,10 +7,10 @@ use crate::kit::question::Question as _;
 
 impl Words for DisparityMap {
     fn readouts(&self) -> Vec<Readout> {
-        let answered = self.asked().answered();
+        let answered = self.asked.answered();
         let scores = answered.map(|(_, answer)| answer.scores);
         let probed = answered.and_then(|(_, answer)| self.probed(answer));
-        let waiting = if self.asked().is_waiting() {
+        let waiting = if self.asked.is_waiting() {
             "…"
         } else {
             "none"
@@ -58,10 +58,10 @@ impl Words for DisparityMap {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked().problem() {
+        if let Some(problem) = self.asked.problem() {
             return problem.to_owned();
         }
-        let answered = self.asked().answered();
+        let answered = self.asked.answered();
         let probed = answered.and_then(|(_, answer)| self.probed(answer));
         let (Some((question, answer)), Some(probed)) = (answered, probed) else {
             return format!("{}.", Question::LABEL);

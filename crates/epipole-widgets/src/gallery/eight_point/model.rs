@@ -6,8 +6,8 @@
 use super::estimate::{Estimate, line2};
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Symbol, Toggle,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Symbol, Toggle,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
@@ -165,24 +165,17 @@ impl Model for EightPoint {
         if self.probe.update(event, PHOTO_SIZE) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event {
-            let has_changed = self.settings.set(id, value)? == Some(true);
-            if has_changed {
-                self.estimate.take();
-            }
-            if has_changed && id == SEED.id {
+        if let Some(id) = self.settings.update(event)? {
+            self.estimate.take();
+            if id == SEED.id {
                 self.matches.take();
             }
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

@@ -64,30 +64,25 @@ impl View for EightPointView {
 
     fn draw(&mut self, model: &EightPoint, layout: &Layout, canvas: &mut Canvas) {
         let [first, second, meeting, values] =
-            ["first", "second", "meeting", "values"].map(|id| layout.panel(id));
-        let titles: [(&Panel, &[&str]); 4] = [
-            (first, &["Photograph 1: drag the probe", "Photograph 1"]),
-            (
-                second,
-                &["Photograph 2: lines by the F found", "Photograph 2"],
-            ),
-            (
-                meeting,
-                &[
-                    "Where the lines meet, enlarged",
-                    "Where lines meet",
-                    "Meeting",
-                ],
-            ),
-            (
-                values,
-                &["Singular values of the rows", "Singular values", "Values"],
-            ),
+            layout.panels_named(["first", "second", "meeting", "values"]);
+        grid::open(
+            canvas,
+            first,
+            &["Photograph 1: drag the probe", "Photograph 1"],
+        );
+        grid::open(
+            canvas,
+            second,
+            &["Photograph 2: lines by the F found", "Photograph 2"],
+        );
+        let titles = [
+            "Where the lines meet, enlarged",
+            "Where lines meet",
+            "Meeting",
         ];
-        for (panel, wordings) in titles {
-            grid::fitting_title(canvas, panel.rect, wordings);
-            canvas.panel(panel.rect);
-        }
+        grid::open(canvas, meeting, &titles);
+        let titles = ["Singular values of the rows", "Singular values", "Values"];
+        grid::open(canvas, values, &titles);
         let [x, y] = rulers();
         plot::draw_axes(canvas, values, &x, &y);
         let problem = match model.photographs() {

@@ -8,7 +8,7 @@ use crate::contract::{
 };
 use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
@@ -84,7 +84,6 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&Z1),
     Knob::Slider(&X2),
     Knob::Slider(&Z2),
-    Knob::Slider(&ZOOM),
     Knob::Slider(&PX),
     Knob::Slider(&PY),
     Knob::Slider(&PZ),
@@ -107,7 +106,7 @@ const DIGITS: usize = 1;
 /// The model of `epipolar-plane`.
 pub(crate) struct EpipolarPlane {
     settings: Settings,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     /// Where P is at the start.
     start: Point3<f64>,
     scenery: Option<Scenery>,
@@ -121,14 +120,6 @@ impl EpipolarPlane {
 
     pub(super) fn lit(&self) -> Lit {
         ALL[self.settings.chosen(&SHOW).min(ALL.len() - 1)]
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     /// How far the plane is tilted about the baseline, degrees.
@@ -193,7 +184,7 @@ impl EpipolarPlane {
     }
 
     fn lens(&self) -> Option<Lens> {
-        Lens::of_panel(SPACE_ASPECT, &self.orbit, self.zoom(), &SUBJECT)
+        Lens::of_panel(SPACE_ASPECT, &self.orbit, &SUBJECT)
     }
 
     /// A thing of the space takes the place under the pointer, as far as it can.
@@ -271,6 +262,7 @@ impl Declared for EpipolarPlane {
         turns about the baseline. Drag P along its ray, or a camera, in the space; drag elsewhere in it to \
         look from another side.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
         let mut model = Self {
@@ -290,7 +282,7 @@ impl Declared for EpipolarPlane {
 impl Model for EpipolarPlane {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -316,10 +308,6 @@ impl Model for EpipolarPlane {
         handles
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn symbols(&self) -> Vec<Symbol> {
         let Some(scenery) = &self.scenery else {
             return Vec::new();
@@ -331,7 +319,7 @@ impl Model for EpipolarPlane {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
+        if self.orbit.update(event)? {
             return Ok(());
         }
         match event {

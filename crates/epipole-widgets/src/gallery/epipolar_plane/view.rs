@@ -64,7 +64,7 @@ impl View for EpipolarPlaneView {
     }
 
     fn draw(&mut self, model: &EpipolarPlane, layout: &Layout, canvas: &mut Canvas) {
-        let [space, first, second] = ["space", "first", "second"].map(|id| layout.panel(id));
+        let [space, first, second] = layout.panels_named(["space", "first", "second"]);
         let titles: [(&Panel, &[&str]); 3] = [
             (
                 space,

@@ -36,11 +36,7 @@ impl Words for EpipolarPlane {
                 .map(|geometry| epipole(&[geometry.epipole1, geometry.epipole2][index]));
             Readout::words(id, label, text.unwrap_or_else(|| "none".to_owned()))
         };
-        let from = format!(
-            "{}, {} ×",
-            self.orbit().words(),
-            format_number(self.zoom(), 1)
-        );
+        let from = self.orbit.seen_from();
         vec![
             number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
             pixel("p2", "Image p′", 1).main(),

@@ -108,12 +108,9 @@ impl Model for FourPoses {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-            }
-            Event::HandleMoved { x, y, .. } => self.place = (*x, *y),
-            _ => return Ok(()),
+        self.settings.update(event)?;
+        if let Event::HandleMoved { x, y, .. } = event {
+            self.place = (*x, *y);
         }
         self.refresh();
         Ok(())

@@ -56,8 +56,7 @@ impl View for FourPosesView {
     fn draw(&mut self, model: &FourPoses, layout: &Layout, canvas: &mut Canvas) {
         for (index, (id, name)) in PANELS.into_iter().enumerate() {
             let panel = layout.panel(id);
-            canvas.panel(panel.rect);
-            grid::title(canvas, panel.rect, name);
+            grid::open(canvas, panel, &[name]);
             if index == 0 {
                 draw_room(panel, canvas);
             }

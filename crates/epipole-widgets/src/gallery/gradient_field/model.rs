@@ -4,11 +4,11 @@
 use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    PhotoSlot, Problem, Settings, Slider, Space, Toggle,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
+    Problem, Settings, Slider, Space, Toggle,
 };
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
-use crate::kit::picture::{Own, Picture};
+use crate::kit::orbit::{Orbit, SPACE};
+use crate::kit::picture::{Own, Picture, slot};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use image::RgbImage;
@@ -51,15 +51,10 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&SIGMA),
     Knob::Choice(&BESIDE),
     Knob::Slider(&SEED),
-    Knob::Slider(&ZOOM),
 ];
 /// What only the edge has.
 const OF_EDGE: [&str; 4] = [ANGLE.id, NOISE.id, SEED.id, BESIDE.id];
-const SLOTS: &[PhotoSlot] = &[PhotoSlot {
-    id: "photo",
-    label: "Your photograph",
-    max_side_px: 480,
-}];
+const SLOTS: &[PhotoSlot] = &[slot(480)];
 /// A photograph must be as large as what is shown of it as a surface.
 const MIN_SIDE_PX: u32 = GRID.0;
 
@@ -82,7 +77,7 @@ pub(crate) struct GradientField {
     settings: Settings,
     own: Own<1>,
     probe: Probe,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     edge: Result<Field, String>,
     /// The still life, once it has been rendered.
     taken: Option<Picture>,
@@ -128,14 +123,6 @@ impl GradientField {
             true => Beside::Curve,
             false => Beside::Surface,
         }
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     pub(super) fn sigma_px(&self) -> f64 {
@@ -220,6 +207,7 @@ impl Declared for GradientField {
         gradient under it. Drag the surface to turn it.";
     const COMPUTE: Compute = carry_out::<Question>;
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
     const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
@@ -240,7 +228,7 @@ impl Declared for GradientField {
 impl Model for GradientField {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         let is_edge = self.edge().is_some();
         for control in &mut controls {
             control.enabled = is_edge || !OF_EDGE.contains(&control.id);
@@ -256,34 +244,24 @@ impl Model for GradientField {
         handles
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        match self.beside() {
-            Beside::Surface => &[SPACE],
-            Beside::Curve => &[],
-        }
-    }
-
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? || self.probe.update(event, self.size()) {
+        if self.orbit.update(event)? || self.probe.update(event, self.size()) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
-            match &**id {
-                id if id == SOURCE.id => self.begin(),
-                _ => self.look(),
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.begin(),
+            Some(_) => self.look(),
+            None => {}
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        if self.asked.take(result) && self.settings.chosen(&SOURCE) == 1 {
+    fn answered(&mut self) {
+        if self.settings.chosen(&SOURCE) == 1 {
             self.taken = self.asked.answer().map(|answer| answer.picture.clone());
         }
     }

@@ -15,7 +15,7 @@ use crate::theme::{Role, mix};
 use nalgebra::Point3;
 
 /// Height of image and surface where there is room; of each on a phone, CSS pixels.
-const TALLEST: f64 = 404.0;
+const TALLEST: f64 = 328.0;
 const PHONE: [f64; 2] = [168.0, 122.0];
 /// Slopes with an arrow as long as a cell: on the edge, and in a photograph.
 const FULL: [f64; 2] = [22.0, 60.0];
@@ -53,7 +53,9 @@ impl View for GradientFieldView {
             [image] = grid.row([aspect], PHONE[0]);
             [beside] = grid.shares([1.0], PHONE[1]);
         } else {
-            [image, beside] = grid.row([aspect, 0.75], TALLEST);
+            // On a broad page both are as low as leaves room for a caption, and fill the width.
+            let of_beside = if grid::is_broad(width) { 0.515 } else { 0.75 };
+            [image, beside] = grid.row([aspect, of_beside], TALLEST);
         }
         grid.strip(legend::height(&entries(), width, 0.0) + 4.0);
         let mut image = Panel::photograph("image", image, columns, rows);
@@ -69,8 +71,7 @@ impl View for GradientFieldView {
     fn draw(&mut self, model: &GradientField, layout: &Layout, canvas: &mut Canvas) {
         let (image, beside) = (&layout.panels[0], &layout.panels[1]);
         let narrow = grid::is_narrow(layout.width);
-        grid::title(canvas, image.rect, "Image and gradient");
-        canvas.panel(image.rect);
+        grid::open(canvas, image, &["Image and gradient"]);
         let entries = entries();
         let top = layout.height - legend::height(&entries, layout.width, 0.0);
         legend::draw(canvas, &entries, layout.width, 0.0, top);
@@ -90,8 +91,7 @@ impl View for GradientFieldView {
                     "The same as a surface: bright is high, drag to turn",
                     "As a surface",
                 ];
-                grid::fitting_title(canvas, beside.rect, &wordings[usize::from(narrow)..]);
-                canvas.panel(beside.rect);
+                grid::open(canvas, beside, &wordings[usize::from(narrow)..]);
                 if let Ok(field) = field {
                     draw_surface(model, field, beside, canvas);
                 }
@@ -203,7 +203,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
         middle: Point3::new(0.0, 3.0, 0.0),
         radius: 0.29 * f64::from(columns + rows),
     };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     let corner = |u: u32, v: u32| point(f64::from(u), f64::from(v), field.level((u, v)));
@@ -265,7 +265,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
             );
         }
     });
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
 }
 
 /// Slope and noise over the smoothing, and where the image is now.

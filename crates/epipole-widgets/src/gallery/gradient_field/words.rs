@@ -6,11 +6,7 @@ use crate::contract::{Readout, Words, format_number};
 impl GradientField {
     fn shown_beside(&self) -> String {
         match self.beside() {
-            Beside::Surface => format!(
-                "surface, {}, {} ×",
-                self.orbit().words(),
-                format_number(self.zoom(), 1)
-            ),
+            Beside::Surface => format!("surface, {}", self.orbit.seen_from()),
             Beside::Curve => "noise and slope over smoothing".to_owned(),
         }
     }

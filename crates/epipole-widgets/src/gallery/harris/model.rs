@@ -2,10 +2,10 @@
 
 use super::question::{Answer, Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    PhotoSlot, Problem, Settings, Slider,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
+    Problem, Settings, Slider,
 };
-use crate::kit::picture::Own;
+use crate::kit::picture::{Own, slot};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::scenes::SQUARE_SIZE;
@@ -41,11 +41,7 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&WINDOW),
 ];
 
-const SLOTS: &[PhotoSlot] = &[PhotoSlot {
-    id: "photo",
-    label: "Your photograph",
-    max_side_px: 640,
-}];
+const SLOTS: &[PhotoSlot] = &[slot(640)];
 /// Smaller pictures have no room for a window.
 const MIN_SIDE_PX: u32 = 16;
 /// Places whose larger eigenvalue is smaller hardly change in any direction, gray levels squared.
@@ -73,14 +69,10 @@ pub struct Harris {
     settings: Settings,
     own: Own<1>,
     probe: Probe,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 impl Harris {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     /// The picture's width and height, pixels, also before it is there.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
@@ -197,23 +189,16 @@ impl Model for Harris {
         if self.probe.update(event, self.size()) {
             return Ok(());
         }
-        if let Event::Set { id, value } = event {
-            let changed = self.settings.set(id, value)? == Some(true);
-            match &**id {
-                id if changed && id == SOURCE.id => self.begin(),
-                id if changed && id != THRESHOLD.id => self.ask(),
-                _ => {}
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.begin(),
+            Some(id) if id != THRESHOLD.id => self.ask(),
+            _ => {}
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {

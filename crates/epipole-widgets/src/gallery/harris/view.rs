@@ -36,13 +36,11 @@ impl View for HarrisView {
     }
 
     fn draw(&mut self, model: &Harris, layout: &Layout, canvas: &mut Canvas) {
-        let [picture, response] = ["picture", "response"].map(|id| layout.panel(id));
-        for (panel, text) in [(picture, "Image"), (response, "Response R")] {
-            grid::title(canvas, panel.rect, text);
-            canvas.panel(panel.rect);
-        }
+        let [picture, response] = layout.panels_named(["picture", "response"]);
+        grid::open(canvas, picture, &["Image"]);
+        grid::open(canvas, response, &["Response R"]);
         draw_legend(canvas, layout.width, response.rect);
-        let asked = model.asked();
+        let asked = &model.asked;
         let Some((question, answer)) = asked.answered() else {
             let waiting = super::question::Question::LABEL;
             grid::notice(canvas, picture.rect, asked.problem().unwrap_or(waiting));

@@ -35,7 +35,7 @@ impl Words for Harris {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked().problem() {
+        if let Some(problem) = self.asked.problem() {
             return problem.to_owned();
         }
         let Some(probe) = self.probe() else {

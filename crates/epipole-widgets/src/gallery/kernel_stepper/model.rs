@@ -215,13 +215,13 @@ impl Model for KernelStepper {
         if self.window.update(event, SIZE) {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } if self.settings.set(id, value)? == Some(true) => {
-                if id == PIXELS.id {
-                    self.image = pixels::image(self.settings.chosen(&PIXELS) == 1);
-                }
-                self.filter();
+        if let Some(id) = self.settings.update(event)? {
+            if id == PIXELS.id {
+                self.image = pixels::image(self.settings.chosen(&PIXELS) == 1);
             }
+            self.filter();
+        }
+        match event {
             Event::Press { id } if id == NEXT.id => {
                 let (u, v) = self.pixel();
                 let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);

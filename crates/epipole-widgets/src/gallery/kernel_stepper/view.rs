@@ -9,7 +9,7 @@ use crate::kit::grid::{self, Grid, TEXT};
 use crate::theme::{Rgb, Role, Theme, mix};
 
 /// Height of the pixels where there is room; of both rows on a phone, CSS pixels.
-const TALLEST: f64 = 372.0;
+const TALLEST: f64 = 332.0;
 const PHONE: [f64; 2] = [204.0, 100.0];
 /// Height of the line with the sum.
 const SUM: f64 = 26.0;
@@ -70,7 +70,7 @@ impl View for KernelStepperView {
     }
 
     fn draw(&mut self, model: &KernelStepper, layout: &Layout, canvas: &mut Canvas) {
-        let [pixels, sum, answer] = ["pixels", "sum", "answer"].map(|id| layout.panel(id));
+        let [pixels, sum, answer] = layout.panels_named(["pixels", "sum", "answer"]);
         let narrow = grid::is_narrow(layout.width);
         grid::fitting_title(
             canvas,

@@ -164,17 +164,13 @@ impl Model for OutlierDrag {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                if self.settings.set(id, value)? != Some(true) {
-                    return Ok(());
-                }
-                if id == SEED.id {
-                    self.matches = Matches::draw(self.settings.count(&SEED) as u64);
-                    self.put = None;
-                }
+        match (self.settings.update(event)?, event) {
+            (Some(id), _) if id == SEED.id => {
+                self.matches = Matches::draw(self.settings.count(&SEED) as u64);
+                self.put = None;
             }
-            Event::HandleMoved { id, x, y } if id == WRONG => self.put = Some(Point2::new(*x, *y)),
+            (Some(_), _) => {}
+            (None, Event::HandleMoved { x, y, .. }) => self.put = Some(Point2::new(*x, *y)),
             _ => return Ok(()),
         }
         self.compute();

@@ -61,30 +61,31 @@ impl View for OutlierDragView {
 
     fn draw(&mut self, model: &OutlierDrag, layout: &Layout, canvas: &mut Canvas) {
         let [first, second, led, values] =
-            ["first", "second", "led", "values"].map(|id| layout.panel(id));
-        let titles: [(&Panel, &[&str]); 4] = [
-            (first, &["Photograph 1: the matches", "Photograph 1"]),
-            (
-                second,
-                &[
-                    "Photograph 2: drag the wrong match",
-                    "2: drag the wrong one",
-                ],
-            ),
-            (
-                led,
-                &[
-                    "True matches to their lines, px, as it moves away",
-                    "Off their lines, px",
-                    "Off, px",
-                ],
-            ),
-            (values, &["Singular values of the rows", "Singular values"]),
+            layout.panels_named(["first", "second", "led", "values"]);
+        grid::open(
+            canvas,
+            first,
+            &["Photograph 1: the matches", "Photograph 1"],
+        );
+        grid::open(
+            canvas,
+            second,
+            &[
+                "Photograph 2: drag the wrong match",
+                "2: drag the wrong one",
+            ],
+        );
+        let titles = [
+            "True matches to their lines, px, as it moves away",
+            "Off their lines, px",
+            "Off, px",
         ];
-        for (panel, wordings) in titles {
-            grid::fitting_title(canvas, panel.rect, wordings);
-            canvas.panel(panel.rect);
-        }
+        grid::open(canvas, led, &titles);
+        grid::open(
+            canvas,
+            values,
+            &["Singular values of the rows", "Singular values"],
+        );
         let scene = still_life();
         for ((photo, camera), panel) in self.photos.iter_mut().zip(cameras()).zip([first, second]) {
             match photo.picture(&scene, &camera, [0.0; 3], PHOTO_SIZE) {

@@ -2,8 +2,8 @@
 
 use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob, Model, Problem,
-    Settings, Value,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, Problem, Settings,
+    Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -40,14 +40,10 @@ static KNOBS: [Knob; NUM_ROUNDS] = [
 /// The model of `patch-match`.
 pub(crate) struct PatchMatch {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 impl PatchMatch {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     /// The option that the reader has picked in a round.
     pub(super) fn picked(&self, round: usize) -> Option<usize> {
         self.settings.chosen(&PICKS[round]).checked_sub(1)
@@ -104,27 +100,20 @@ impl Model for PatchMatch {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => drop(self.settings.set(id, value)?),
-            Event::Clicked { panel, .. } => {
-                for (round, names) in OPTIONS.iter().enumerate() {
-                    if let Some(option) = names.iter().position(|name| name == panel) {
-                        let letter = Value::from(LETTERS[option + 1].0);
-                        self.settings.set(PICKS[round].id, &letter)?;
-                    }
+        self.settings.update(event)?;
+        if let Event::Clicked { panel, .. } = event {
+            for (round, names) in OPTIONS.iter().enumerate() {
+                if let Some(option) = names.iter().position(|name| name == panel) {
+                    let letter = Value::from(LETTERS[option + 1].0);
+                    self.settings.set(PICKS[round].id, &letter)?;
                 }
             }
-            _ => {}
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

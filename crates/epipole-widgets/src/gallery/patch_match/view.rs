@@ -60,13 +60,13 @@ impl View for PatchMatchView {
             ..others
         };
         grid::fitting_title(canvas, all, &wordings);
-        let Some(answer) = model.asked().answer() else {
-            let notice = model.asked().problem().unwrap_or(Question::LABEL);
+        let Some(answer) = model.asked.answer() else {
+            let notice = model.asked.problem().unwrap_or(Question::LABEL);
             let whole = Rect::new(0.0, first.y, layout.width, layout.height - first.y);
             canvas.panel(whole);
             return grid::notice(canvas, whole, notice);
         };
-        let version = 2 * model.asked().version();
+        let version = 2 * model.asked.version();
         let [photograph1, photograph2] = &answer.photographs;
         for (k, round) in answer.rounds.iter().enumerate() {
             let rect = layout.panel(FEATURES[k]).rect;

@@ -7,7 +7,7 @@ use crate::kit::question::Question as _;
 
 impl Words for PatchMatch {
     fn readouts(&self) -> Vec<Readout> {
-        let machine = match self.is_finished() && self.asked().answer().is_some() {
+        let machine = match self.is_finished() && self.asked.answer().is_some() {
             true => format!("{} of {NUM_ROUNDS}", self.machine_score()),
             false => "after you".to_owned(),
         };
@@ -19,10 +19,10 @@ impl Words for PatchMatch {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked().problem() {
+        if let Some(problem) = self.asked.problem() {
             return problem.to_owned();
         }
-        if self.asked().answer().is_none() {
+        if self.asked.answer().is_none() {
             return format!("{}.", Question::LABEL);
         }
         let (picked, score) = (self.num_picked(), self.score());

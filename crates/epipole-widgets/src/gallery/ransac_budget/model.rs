@@ -86,16 +86,11 @@ impl Model for RansacBudget {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-            }
-            Event::Clicked { x, .. } | Event::HandleMoved { x, .. } => {
-                if let Some((ratio, _)) = self.handle().admit(*x, 0.0) {
-                    self.inlier_ratio = ratio;
-                }
-            }
-            _ => {}
+        self.settings.update(event)?;
+        if let Event::Clicked { x, .. } | Event::HandleMoved { x, .. } = event
+            && let Some((ratio, _)) = self.handle().admit(*x, 0.0)
+        {
+            self.inlier_ratio = ratio;
         }
         Ok(())
     }

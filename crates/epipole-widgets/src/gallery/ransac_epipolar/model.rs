@@ -6,8 +6,8 @@
 use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
 use super::votes::{Best, Moment, Voters, Votes};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    PhotoSlot, Problem, Settings, Slider, Symbol, Toggle, Value,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
+    Problem, Settings, Slider, Symbol, Toggle, Value,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
@@ -283,14 +283,10 @@ impl Model for RansacEpipolar {
         if let Some(count) = self.running.update(event, drawn, is_finished) {
             return self.draw_to(count);
         }
-        if let Event::Set { id, value } = event {
-            let has_changed = self.settings.set(id, value)? == Some(true);
-            match &**id {
-                _ if !has_changed => {}
-                id if id == SOURCE.id => self.ask(),
-                id if id == SHOW.id || id == ITERATIONS.id => {}
-                _ => self.ask_for_votes(),
-            }
+        match self.settings.update(event)? {
+            Some(id) if id == SOURCE.id => self.ask(),
+            Some(id) if id != SHOW.id && id != ITERATIONS.id => self.ask_for_votes(),
+            _ => {}
         }
         Ok(())
     }
@@ -299,17 +295,18 @@ impl Model for RansacEpipolar {
         self.running.is_running()
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.matched.job().or_else(|| self.votes.job())
+    /// The matches first: they are who votes.
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(match self.matched.is_waiting() {
+            true => &mut self.matched,
+            false => &mut self.votes,
+        })
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        if !self.matched.is_waiting() {
-            self.votes.take(result);
-            self.running
-                .stop_if(self.votes().is_none() || self.is_finished());
-        } else if self.matched.take(result) {
-            self.ask_for_votes();
+    fn answered(&mut self) {
+        match self.votes() {
+            None => self.ask_for_votes(),
+            Some(_) => self.running.stop_if(self.is_finished()),
         }
     }
 

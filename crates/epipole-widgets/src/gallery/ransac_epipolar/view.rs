@@ -73,7 +73,7 @@ impl View for RansacEpipolarView {
     }
 
     fn draw(&mut self, model: &RansacEpipolar, layout: &Layout, canvas: &mut Canvas) {
-        let panels = [layout.panel("first"), layout.panel("second")];
+        let panels = layout.panels_named(["first", "second"]);
         for (index, panel) in panels.iter().enumerate() {
             canvas.panel(panel.rect);
             if let Some(found) = model.matched() {

@@ -3,8 +3,8 @@
 use super::question::{MAX_SAMPLES, Question, Runs, kind};
 use super::tally::Tally;
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Job, JobResult, Knob, Model, Problem, Settings,
-    Slider, Toggle, Value,
+    Asking, Challenge, Compute, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
+    Toggle, Value,
 };
 use crate::kit::line_points::{Scatter, angle_between_deg, scatter};
 use crate::kit::question::{Asked, carry_out};
@@ -223,12 +223,8 @@ impl Model for RansacLine {
         self.running.is_running() || self.phase() < 1.0
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

@@ -103,29 +103,19 @@ impl View for RansacLineView {
     }
 
     fn draw(&mut self, model: &RansacLine, layout: &Layout, canvas: &mut Canvas) {
-        let [plane, tally, runs] = ["plane", "tally", "runs"].map(|id| layout.panel(id));
-        let titles: [(&Panel, &[&str]); 3] = [
-            (
-                plane,
-                &[
-                    "Two points, the band around their line, and who is in it",
-                    "Two points, a band, votes",
-                ],
-            ),
-            (tally, &["Votes for each sample", "Votes"]),
-            (
-                runs,
-                &[
-                    "100 runs each: degrees off, and how many within 1°",
-                    "100 runs each: degrees off",
-                    "100 runs: ° off",
-                ],
-            ),
+        let [plane, tally, runs] = layout.panels_named(["plane", "tally", "runs"]);
+        let titles = [
+            "Two points, the band around their line, and who is in it",
+            "Two points, a band, votes",
         ];
-        for (panel, wordings) in titles {
-            grid::fitting_title(canvas, panel.rect, wordings);
-        }
-        canvas.panel(plane.rect);
+        grid::open(canvas, plane, &titles);
+        grid::fitting_title(canvas, tally.rect, &["Votes for each sample", "Votes"]);
+        let titles = [
+            "100 runs each: degrees off, and how many within 1°",
+            "100 runs each: degrees off",
+            "100 runs: ° off",
+        ];
+        grid::fitting_title(canvas, runs.rect, &titles);
         let ([x, y], [error, kinds]) = (tally_rulers(model), run_rulers());
         plot::draw_axes(canvas, tally, &x, &y);
         plot::draw_axes(canvas, runs, &error, &kinds);

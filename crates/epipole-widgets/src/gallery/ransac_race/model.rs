@@ -183,17 +183,14 @@ impl Model for RansacRace {
         if let Some(count) = self.running.update(event, drawn, is_finished) {
             return self.run_to(count);
         }
-        match event {
-            Event::Set { id, value } => {
-                let has_changed = self.settings.set(id, value)? == Some(true);
-                if has_changed && [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
-                    // What the reader had moved or added is gone.
-                    (self.truth, self.points) = scatter_as(&self.settings);
-                }
-                if has_changed {
-                    self.run_to(self.settings.count(&ITERATIONS))?;
-                }
+        if let Some(id) = self.settings.update(event)? {
+            if [OUTLIERS.id, COUNT.id, SEED.id].contains(&id) {
+                // What the reader had moved or added is gone.
+                (self.truth, self.points) = scatter_as(&self.settings);
             }
+            self.run_to(self.settings.count(&ITERATIONS))?;
+        }
+        match event {
             Event::HandleMoved { id, x, y } => {
                 let number = number_of(id);
                 if let Some(point) = self.points.iter_mut().find(|d| Some(d.number) == number) {

@@ -3,8 +3,8 @@
 use super::question::{Answer, Candidate, Question};
 use super::tally::{Rules, Tally};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Toggle,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -24,17 +24,13 @@ const PROBE: (f64, f64) = (217.0, 324.0);
 /// The model of `ratio-test`.
 pub(crate) struct RatioTest {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     probe: Probe,
     /// Precision against recall for every τ, without and with the mutual check.
     curves: [Vec<Tally>; 2],
 }
 
 impl RatioTest {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     pub(super) fn rules(&self) -> Rules {
         Rules {
             max_ratio: self.settings.number(&RATIO) as f32,
@@ -120,21 +116,16 @@ impl Model for RatioTest {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
         self.probe.update(event, SIZE);
-        Ok(())
+        self.settings.update(event).map(|_| ())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        if self.asked.take(result)
-            && let Some(answer) = self.asked.answer()
-        {
+    fn answered(&mut self) {
+        if let Some(answer) = self.asked.answer() {
             self.curves = [false, true].map(|is_mutual| curve(answer, is_mutual));
         }
     }

@@ -100,23 +100,29 @@ impl View for RatioTestView {
     }
 
     fn draw(&mut self, model: &RatioTest, layout: &Layout, canvas: &mut Canvas) {
-        let photographs = [layout.panel("first"), layout.panel("second")];
-        let curve = layout.panel("curve");
-        for (panel, wordings) in photographs.into_iter().zip([
+        let [first, second, curve] = layout.panels_named(["first", "second", "curve"]);
+        let photographs = [first, second];
+        grid::open(
+            canvas,
+            first,
             &["Photograph 1: click a feature", "Photograph 1"],
+        );
+        grid::open(
+            canvas,
+            second,
             &["Photograph 2: its two nearest", "Photograph 2"],
-        ]) {
-            grid::fitting_title(canvas, panel.rect, wordings);
-            canvas.panel(panel.rect);
-        }
-        let wordings = ["Precision against recall", "Precision"];
-        grid::fitting_title(canvas, curve.rect, &wordings);
+        );
+        grid::fitting_title(
+            canvas,
+            curve.rect,
+            &["Precision against recall", "Precision"],
+        );
         let [x, y] = rulers();
         plot::draw_axes(canvas, curve, &x, &y);
         let bottom = layout.height - 1.0 - legend::height(&legend_entries(), layout.width, 0.0);
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, bottom);
-        let Some(answer) = model.asked().answer() else {
-            let notice = model.asked().problem().unwrap_or(Question::LABEL);
+        let Some(answer) = model.asked.answer() else {
+            let notice = model.asked.problem().unwrap_or(Question::LABEL);
             grid::notice(canvas, photographs[0].rect, notice);
             return;
         };
@@ -231,7 +237,7 @@ impl RatioTestView {
             return;
         };
         let [near, far] = found.nearest.map(|index| answer.spots[1][index as usize]);
-        let version = 2 * model.asked().version();
+        let version = 2 * model.asked.version();
         let three = [
             (answer.spots[0][index1], 0, "first", "feature"),
             (near, 1, "second", "nearest"),

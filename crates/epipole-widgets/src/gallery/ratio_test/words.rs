@@ -17,7 +17,7 @@ impl Words for RatioTest {
             ("recall", "Recall"),
         ];
         let (Some(answer), Some(tally), Some((index, found))) =
-            (self.asked().answer(), self.tally(), self.probed())
+            (self.asked.answer(), self.tally(), self.probed())
         else {
             let waiting = |(id, label)| Readout::words(id, label, WAITING).main();
             return names.map(waiting).into();
@@ -53,7 +53,7 @@ impl Words for RatioTest {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked().problem() {
+        if let Some(problem) = self.asked.problem() {
             return problem.to_owned();
         }
         let (Some(tally), Some((_, found))) = (self.tally(), self.probed()) else {

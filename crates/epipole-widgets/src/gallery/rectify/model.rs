@@ -205,20 +205,18 @@ impl Model for Rectify {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id != MATCH.id {
-                    self.compute();
-                }
-            }
-            Event::Clicked { panel, x, y } => {
-                if let Some(index) = self.nearest(panel, Point2::new(*x, *y)) {
-                    let number = Value::Number(index as f64 + 1.0);
-                    self.settings.set(MATCH.id, &number)?;
-                }
-            }
-            _ => {}
+        if self
+            .settings
+            .update(event)?
+            .is_some_and(|id| id != MATCH.id)
+        {
+            self.compute();
+        }
+        if let Event::Clicked { panel, x, y } = event
+            && let Some(index) = self.nearest(panel, Point2::new(*x, *y))
+        {
+            let number = Value::Number(index as f64 + 1.0);
+            self.settings.set(MATCH.id, &number)?;
         }
         Ok(())
     }

@@ -58,16 +58,11 @@ impl View for RectifyView {
     }
 
     fn draw(&mut self, model: &Rectify, layout: &Layout, canvas: &mut Canvas) {
-        let panels = [layout.panel("first"), layout.panel("second")];
-        let top = layout.panel("top");
-        grid::fitting_title(
-            canvas,
-            panels[0].rect,
-            &["Image 1: click a match", "Image 1"],
-        );
-        grid::title(canvas, panels[1].rect, "Image 2");
-        grid::fitting_title(canvas, top.rect, &["The cameras from above", "From above"]);
-        canvas.panel(top.rect);
+        let [first, second, top] = layout.panels_named(["first", "second", "top"]);
+        let panels = [first, second];
+        grid::fitting_title(canvas, first.rect, &["Image 1: click a match", "Image 1"]);
+        grid::title(canvas, second.rect, "Image 2");
+        grid::open(canvas, top, &["The cameras from above", "From above"]);
         for panel in panels {
             canvas.fill_rect(panel.rect, Role::Edge, 1.0);
         }

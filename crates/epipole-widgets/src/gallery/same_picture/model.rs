@@ -151,17 +151,14 @@ impl Model for SamePicture {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => self.settings.set(id, value).map(|_| ()),
-            Event::HandleMoved { id, x, y } if id == "mug" => {
-                // The nearest place on the ray, to a centimeter.
-                let along = (RIGHT * x + y) / (RIGHT * RIGHT + 1.0);
-                let along = along.clamp(RANGE_M[0], RANGE_M[1]);
-                self.distance_m = (along * 100.0).round() / 100.0;
-                Ok(())
-            }
-            _ => Ok(()),
+        self.settings.update(event)?;
+        if let Event::HandleMoved { x, y, .. } = event {
+            // The nearest place on the ray, to a centimeter.
+            let along = (RIGHT * x + y) / (RIGHT * RIGHT + 1.0);
+            let along = along.clamp(RANGE_M[0], RANGE_M[1]);
+            self.distance_m = (along * 100.0).round() / 100.0;
         }
+        Ok(())
     }
 }
 

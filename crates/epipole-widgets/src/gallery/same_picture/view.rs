@@ -55,15 +55,14 @@ impl View for SamePictureView {
     }
 
     fn draw(&mut self, model: &SamePicture, layout: &Layout, canvas: &mut Canvas) {
-        let [top, first, second] = ["top", "first", "second"].map(|id| layout.panel(id));
+        let [top, first, second] = layout.panels_named(["top", "first", "second"]);
         let titles = [
             (top, "From above"),
             (first, "Photograph 1"),
             (second, "Photograph 2"),
         ];
         for (panel, title) in titles {
-            grid::title(canvas, panel.rect, title);
-            canvas.panel(panel.rect);
+            grid::open(canvas, panel, &[title]);
         }
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
         if let Err(sentence) = self.draw_photographs(model, [first, second], canvas) {

@@ -11,7 +11,7 @@ impl Words for SamePicture {
             Readout::number("picture", "Pixel height", picture_px, 0, "px").main(),
             Readout::number("height", "Height H", self.height_m(), 2, "m").main(),
             Readout::number("distance", "Distance Z", self.distance_m(), 2, "m").main(),
-            Readout::number("column2", "Column in photograph 2", column2_px, 0, "px"),
+            Readout::number("column2", "Photo 2 column", column2_px, 0, "px"),
         ]
     }
 

@@ -5,7 +5,7 @@ use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Space,
 };
 use crate::kit::house::House;
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, SPACE};
 use epipole::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3, Translation3};
 
@@ -24,11 +24,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .at(2.0)
     .digits(2)
     .unit("×");
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&HOUSE),
-    Knob::Slider(&BASELINE),
-    Knob::Slider(&ZOOM),
-];
+const KNOBS: &[Knob] = &[Knob::Slider(&HOUSE), Knob::Slider(&BASELINE)];
 
 /// The house of some size, and the cameras before it.
 pub(super) struct World {
@@ -41,21 +37,13 @@ pub(super) struct World {
 /// The model of `scale-ambiguity`.
 pub(crate) struct ScaleAmbiguity {
     settings: Settings,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     house: Option<House>,
 }
 
 impl ScaleAmbiguity {
     pub(super) fn house(&self) -> Option<&House> {
         self.house.as_ref()
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     /// How many times as large the house is, and as long the baseline.
@@ -109,6 +97,7 @@ impl Declared for ScaleAmbiguity {
     const HELP: &'static str = "Change the size of the house and the length of the baseline, and watch the \
         two photographs. Drag in the space to turn it.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
         Self {
@@ -123,7 +112,7 @@ impl Declared for ScaleAmbiguity {
 impl Model for ScaleAmbiguity {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -131,18 +120,9 @@ impl Model for ScaleAmbiguity {
         self.orbit.handles().into()
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
-            return Ok(());
-        }
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
-        Ok(())
+        self.orbit.update(event)?;
+        self.settings.update(event).map(|_| ())
     }
 }
 

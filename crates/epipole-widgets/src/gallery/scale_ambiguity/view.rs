@@ -66,12 +66,9 @@ impl View for ScaleAmbiguityView {
 
     fn draw(&mut self, model: &ScaleAmbiguity, layout: &Layout, canvas: &mut Canvas) {
         let space = layout.panel("space");
-        grid::title(canvas, space.rect, "House and cameras");
-        canvas.panel(space.rect);
+        grid::open(canvas, space, &["House and cameras"]);
         for (id, title) in PHOTOS.into_iter().zip(["Photograph 1", "Photograph 2"]) {
-            let rect = layout.panel(id).rect;
-            grid::title(canvas, rect, title);
-            canvas.panel(rect);
+            grid::open(canvas, layout.panel(id), &[title]);
         }
         let top = layout.height - legend_height(layout.width);
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
@@ -107,7 +104,7 @@ fn draw_space(
         middle: Point3::new(0.7, -0.5, 1.2),
         radius: 3.4,
     };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     space.ground(&subject.middle, 0.4, 1.0, 8);
@@ -140,7 +137,7 @@ fn draw_space(
         }
     }
     space.draw(canvas, panel);
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
 }
 
 fn draw_photograph(

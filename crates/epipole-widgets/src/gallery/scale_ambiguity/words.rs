@@ -10,11 +10,7 @@ impl Words for ScaleAmbiguity {
             Some(changes) => Readout::number(id, label, changes[index], 1, "px"),
             None => Readout::words(id, label, "not seen"),
         };
-        let from = format!(
-            "{}, {} ×",
-            self.orbit().words(),
-            format_number(self.zoom(), 1)
-        );
+        let from = self.orbit.seen_from();
         vec![
             change("first", "Photo 1 change", 0).main(),
             change("second", "Photo 2 change", 1).main(),

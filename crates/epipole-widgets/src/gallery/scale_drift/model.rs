@@ -3,8 +3,8 @@
 use super::drive::{self, Drive, Errors};
 use super::question::{Answer, Judged, Kind, Question};
 use crate::contract::{
-    Challenge, Choice, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model,
-    Problem, Settings, Slider, Toggle,
+    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
+    Settings, Slider, Toggle,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -60,7 +60,7 @@ pub(crate) struct ScaleDrift {
     drive: Drive,
     /// What odometry believes, as far as the camera has come.
     before: Judged,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 impl ScaleDrift {
@@ -84,10 +84,6 @@ impl ScaleDrift {
     pub(super) fn seen(&self) -> Option<f64> {
         let answer = self.asked.answer().filter(|_| self.is_home());
         answer.and_then(|answer| answer.seen)
-    }
-
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
     }
 
     /// Drives anew, and asks for the path to be judged and its loop to be closed.
@@ -227,12 +223,11 @@ impl Model for ScaleDrift {
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn answered(&mut self) {
         self.before.error = self.asked.answer().and_then(|answer| answer.error);
     }
 }

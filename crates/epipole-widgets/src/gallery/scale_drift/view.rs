@@ -94,7 +94,7 @@ impl View for ScaleDriftView {
     }
 
     fn draw(&mut self, model: &ScaleDrift, layout: &Layout, canvas: &mut Canvas) {
-        let [map, plot, track] = ["map", "plot", "track"].map(|id| layout.panel(id));
+        let [map, plot, track] = layout.panels_named(["map", "plot", "track"]);
         canvas.panel(map.rect);
         grid::fitting_title(
             canvas,
@@ -105,7 +105,7 @@ impl View for ScaleDriftView {
         draw_plot(model, [plot, track], canvas);
         let top = map.rect.bottom() + LEGEND_GAP;
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
-        if let Some(problem) = model.asked().problem() {
+        if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, map.rect, problem);
         }
     }

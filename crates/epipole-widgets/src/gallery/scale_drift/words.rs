@@ -24,7 +24,7 @@ fn percent(share: f64) -> String {
 fn error(model: &ScaleDrift, judged: &Judged) -> String {
     match judged.error {
         Some(error) => steps(error),
-        None if model.asked().is_waiting() => "…".to_owned(),
+        None if model.asked.is_waiting() => "…".to_owned(),
         None => "none yet on a straight line".to_owned(),
     }
 }
@@ -32,7 +32,7 @@ fn error(model: &ScaleDrift, judged: &Judged) -> String {
 fn readouts(model: &ScaleDrift) -> Vec<Readout> {
     let before = model.before();
     // What there is no value of keeps its place.
-    let missing = if model.asked().is_waiting() {
+    let missing = if model.asked.is_waiting() {
         "…"
     } else {
         "–"
@@ -103,9 +103,9 @@ fn describe(model: &ScaleDrift) -> String {
         false => format!("{size}, and the path misses the start by {gap}"),
     };
     let ending = match (model.after(), model.kind()) {
-        _ if model.asked().is_waiting() => format!("{}.", Question::LABEL),
-        _ if model.asked().problem().is_some() => {
-            model.asked().problem().unwrap_or_default().to_owned()
+        _ if model.asked.is_waiting() => format!("{}.", Question::LABEL),
+        _ if model.asked.problem().is_some() => {
+            model.asked.problem().unwrap_or_default().to_owned()
         }
         (Some(after), Some(kind)) => {
             let means = match kind {

@@ -2,8 +2,8 @@
 
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -29,15 +29,11 @@ pub(super) struct Extremum {
 /// The model of `scale-space`.
 pub(crate) struct ScaleSpace {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     probe: Probe,
 }
 
 impl ScaleSpace {
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     pub(super) fn sigma_px(&self) -> f64 {
         self.settings.number(&SIGMA)
     }
@@ -122,19 +118,12 @@ impl Model for ScaleSpace {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
         self.probe.update(event, SIZE);
-        Ok(())
+        self.settings.update(event).map(|_| ())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 }
 

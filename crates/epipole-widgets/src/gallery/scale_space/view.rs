@@ -72,41 +72,38 @@ impl View for ScaleSpaceView {
 
     fn draw(&mut self, model: &ScaleSpace, layout: &Layout, canvas: &mut Canvas) {
         let [photograph, difference, curve, layers] =
-            ["photograph", "difference", "curve", "layers"].map(|id| layout.panel(id));
+            layout.panels_named(["photograph", "difference", "curve", "layers"]);
         let sigma = format_number(model.sigma_px(), 1);
         let title = format!("Difference of Gaussians, σ = {sigma} px");
         let short = format!("Difference, σ = {sigma}");
-        let (wide, narrow) = (
-            ["Photograph: drag the probe", "Photograph"],
-            [&*title, &*short],
+        grid::open(
+            canvas,
+            photograph,
+            &["Photograph: drag the probe", "Photograph"],
         );
-        grid::fitting_title(canvas, photograph.rect, &wide);
-        grid::fitting_title(canvas, difference.rect, &narrow);
-        let wordings = [
+        grid::open(canvas, difference, &[&*title, &*short]);
+        let titles = [
             "Difference at the probe, gray levels",
             "Difference, gray levels",
         ];
-        grid::fitting_title(canvas, curve.rect, &wordings);
-        let wordings = [
+        grid::fitting_title(canvas, curve.rect, &titles);
+        let titles = [
             "Four octaves of three layers, each octave half as wide",
             "Four octaves",
         ];
-        grid::fitting_title(canvas, layers.rect, &wordings);
-        for panel in [photograph, difference] {
-            canvas.panel(panel.rect);
-        }
+        grid::fitting_title(canvas, layers.rect, &titles);
         let answers = model.answers();
         let [x, y] = rulers(&answers);
         plot::draw_axes(canvas, curve, &x, &y);
         draw_legend(canvas, layout);
-        let Some(answer) = model.asked().answer() else {
-            let notice = model.asked().problem().unwrap_or(Question::LABEL);
+        let Some(answer) = model.asked.answer() else {
+            let notice = model.asked.problem().unwrap_or(Question::LABEL);
             grid::notice(canvas, photograph.rect, notice);
             return;
         };
         canvas.photograph(photograph.rect, answer.photograph.image());
         let theme = canvas.theme();
-        let (version, shown) = (model.asked().version(), model.layer(answer));
+        let (version, shown) = (model.asked.version(), model.layer(answer));
         let color = || [colored(&answer.layers[shown], theme, 1)];
         let [map] = (self.large).maps(version * COUNT as u64 + shown as u64, theme, color);
         canvas.photograph(difference.rect, map);

@@ -67,9 +67,7 @@ impl Model for Schur {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event
-            && self.settings.set(id, value)? == Some(true)
-        {
+        if self.settings.update(event)?.is_some() {
             self.blocks = blocks(&self.settings);
         }
         Ok(())

@@ -23,7 +23,7 @@ const SIDE_PX: u32 = 2 * SHOWN_PX + 1;
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Asking {
+pub(super) struct Subject {
     /// Where the keypoint is, pixels.
     pub(super) place: (f64, f64),
     pub(super) change: Change,
@@ -127,19 +127,19 @@ impl Comparison {
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.
-    pub(super) fn of(asking: &Asking, progress: Progress<'_>) -> Result<Self, Problem> {
+    pub(super) fn of(subject: &Subject, progress: Progress<'_>) -> Result<Self, Problem> {
         let known = Known::find(&mut |share| progress(0.9 * share))?;
-        let scale_px = match asking.scales {
-            true => SIGMA_PX * asking.change.zoom,
+        let scale_px = match subject.scales {
+            true => SIGMA_PX * subject.change.zoom,
             false => SIGMA_PX,
         };
         let look = |change: Change, scale_px: f64| -> Result<(Look, Prints), Error> {
-            let piece = change.piece(&known.gray, asking.place)?;
-            let prints = Prints::of(&piece, &[(MIDDLE, MIDDLE)], scale_px, asking.turns)?;
+            let piece = change.piece(&known.gray, subject.place)?;
+            let prints = Prints::of(&piece, &[(MIDDLE, MIDDLE)], scale_px, subject.turns)?;
             Ok((Look::new(&piece, &prints), prints))
         };
         let (before, prints_before) = look(Change::NONE, SIGMA_PX)?;
-        let (after, prints_after) = look(asking.change, scale_px)?;
+        let (after, prints_after) = look(subject.change, scale_px)?;
         let mut distances = [Distance {
             original: 0.0,
             other: 0.0,
@@ -151,7 +151,7 @@ impl Comparison {
             let ranked = nearest_few(&query, others, others.len())?;
             let is_other = |(index, _): &&(usize, f32)| {
                 let (u, v) = known.places[*index];
-                libm::hypot(u - asking.place.0, v - asking.place.1) > OTHERS_BEYOND_PX
+                libm::hypot(u - subject.place.0, v - subject.place.1) > OTHERS_BEYOND_PX
             };
             let in_units = |found: Option<&(usize, f32)>| {
                 Prints::in_units(way, found.map_or(0.0, |(_, far)| f64::from(*far)))

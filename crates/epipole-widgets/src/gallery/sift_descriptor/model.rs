@@ -1,11 +1,11 @@
 //! A keypoint, a change of the photograph, and what three fingerprints make of it.
 
-use super::comparison::{Asking, Comparison};
+use super::comparison::{Comparison, Subject};
 use super::prints::Change;
 use super::question::{Answer, Question};
 use crate::contract::{
-    Challenge, Compute, Control, Declared, Event, Handle, Job, JobResult, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Toggle,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -97,7 +97,7 @@ impl SiftDescriptor {
     }
 
     fn ask(&mut self) {
-        self.comparison.ask(Question::Comparison(Asking {
+        self.comparison.ask(Question::Comparison(Subject {
             place: self.place(),
             change: self.change(),
             turns: self.settings.flag(&DIRECTION),
@@ -137,26 +137,18 @@ impl Model for SiftDescriptor {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        let mut has_changed = self.probe.update(event, SIZE);
-        if let Event::Set { id, value } = event {
-            has_changed |= self.settings.set(id, value)? == Some(true);
-        }
-        if has_changed {
+        if self.probe.update(event, SIZE) || self.settings.update(event)?.is_some() {
             self.ask();
         }
         Ok(())
     }
 
     /// The photograph first: it is there long before its other features are.
-    fn job(&self) -> Option<&dyn Job> {
-        self.photograph.job().or_else(|| self.comparison.job())
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        match self.photograph.is_waiting() {
-            true => self.photograph.take(result),
-            false => self.comparison.take(result),
-        };
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(match self.photograph.is_waiting() {
+            true => &mut self.photograph,
+            false => &mut self.comparison,
+        })
     }
 }
 

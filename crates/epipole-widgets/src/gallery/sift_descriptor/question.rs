@@ -1,6 +1,6 @@
 //! The photograph, and what a change of it does to the fingerprints of a keypoint.
 
-use super::comparison::{Asking, Comparison};
+use super::comparison::{Comparison, Subject};
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{Pair, SIZE};
 use crate::kit::picture::Picture;
@@ -13,7 +13,7 @@ pub(super) enum Question {
     /// The photograph itself.
     Photograph,
     /// Its fingerprints before and after a change.
-    Comparison(Asking),
+    Comparison(Subject),
 }
 
 /// What the computation finds.

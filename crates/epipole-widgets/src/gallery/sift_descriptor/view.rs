@@ -79,8 +79,7 @@ impl View for SiftDescriptorView {
             "Drag the keypoint",
             "Photograph",
         ];
-        grid::fitting_title(canvas, photograph.rect, &wordings);
-        canvas.panel(photograph.rect);
+        grid::open(canvas, photograph, &wordings);
         match model.photograph() {
             Ok(picture) => canvas.photograph(photograph.rect, picture),
             Err(notice) => return grid::notice(canvas, photograph.rect, notice),
@@ -107,10 +106,9 @@ impl View for SiftDescriptorView {
         let pieces = self.pieces.maps(model.version(), canvas.theme(), color);
         let ids = [["before", "before-sift"], ["after", "after-sift"]];
         for (k, look) in compared.looks.iter().enumerate() {
-            let [piece, histogram] = ids[k].map(|id| layout.panel(id));
+            let [piece, histogram] = layout.panels_named(ids[k]);
             for (panel, wordings) in [piece, histogram].into_iter().zip(TITLES[k]) {
-                grid::fitting_title(canvas, panel.rect, wordings);
-                canvas.panel(panel.rect);
+                grid::open(canvas, panel, wordings);
             }
             canvas.photograph(piece.rect, &pieces[k]);
             draw_cells(canvas, piece, &look.spot());

@@ -113,10 +113,8 @@ impl Model for StereoSlider {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        self.settings.update(event)?;
         match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-            }
             Event::HandleMoved { x, y, .. } => (self.x_m, self.z_m) = (*x, *y),
             Event::Clicked { panel, x, y } => match panel.as_str() {
                 "left" => self.move_to_column(0.0, *x),

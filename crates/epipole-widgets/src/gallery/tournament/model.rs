@@ -2,8 +2,8 @@
 
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Job, JobResult, Knob,
-    Model, Problem, Settings, Slider, Value,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
+    Problem, Settings, Slider, Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -127,13 +127,14 @@ impl Model for Tournament {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        if self
+            .settings
+            .update(event)?
+            .is_some_and(|id| id != RATIO.id)
+        {
+            self.start();
+        }
         match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id != RATIO.id {
-                    self.start();
-                }
-            }
             Event::Press { id } if id == AGAIN.id => self.start(),
             Event::Clicked { x, .. } => {
                 let ratio = Value::Number(x.clamp(RATIO.min, RATIO.max));
@@ -144,14 +145,11 @@ impl Model for Tournament {
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
-    fn job_done(&mut self, result: JobResult) {
-        if !self.asked.take(result) {
-            return;
-        }
+    fn answered(&mut self) {
         if let Some(wins) = self.asked.answer() {
             self.wins.add(wins);
             self.num_batches += 1;

@@ -5,7 +5,7 @@ use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Space, Symbol, Value,
 };
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
+use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::pin::Pin;
 use epipole::camera::{Camera, Intrinsics, look_at};
 use nalgebra::{Point3, Vector3};
@@ -34,7 +34,6 @@ const KNOBS: &[Knob] = &[
     Knob::Choice(&SHOW),
     Knob::Slider(&NOISE),
     Knob::Slider(&SEED),
-    Knob::Slider(&ZOOM),
 ];
 const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
 
@@ -52,7 +51,7 @@ pub(super) enum Show {
 /// The model of `triangulate`.
 pub(crate) struct Triangulate {
     settings: Settings,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     point: Pin,
     second: Pin,
     estimates: Result<Estimates, String>,
@@ -61,14 +60,6 @@ pub(crate) struct Triangulate {
 impl Triangulate {
     pub(super) fn estimates(&self) -> &Result<Estimates, String> {
         &self.estimates
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     pub(super) fn show(&self) -> Show {
@@ -108,6 +99,7 @@ impl Declared for Triangulate {
     const HELP: &'static str = "Drag the point or the second camera, from above; both cameras look at the \
         point. Photograph again for other noise. Drag in the enlarged picture to turn it.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
         let mut model = Self {
@@ -132,7 +124,7 @@ impl Model for Triangulate {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         controls.push(AGAIN.control(true, false));
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -142,32 +134,22 @@ impl Model for Triangulate {
         handles
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn symbols(&self) -> Vec<Symbol> {
         let (x, z) = self.point.place();
         vec![Symbol::point("X", "top", x, z)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
+        if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-            }
-            Event::Press { id } if id == AGAIN.id => {
-                let seed = self.settings.number(&SEED);
-                let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
-                self.settings.set(SEED.id, &Value::Number(next))?;
-            }
-            _ => {
-                let _ = self.point.update(event) || self.second.update(event);
-            }
+        self.settings.update(event)?;
+        if *event == Event::press(AGAIN.id) {
+            let seed = self.settings.number(&SEED);
+            let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
+            self.settings.set(SEED.id, &Value::Number(next))?;
         }
+        let _ = self.point.update(event) || self.second.update(event);
         self.compute();
         Ok(())
     }

@@ -44,7 +44,7 @@ impl View for TriangulateView {
         } else {
             grid.shares(
                 [1.0, 1.25, 0.85],
-                if grid::is_broad(width) { 400.0 } else { 300.0 },
+                if grid::is_broad(width) { 336.0 } else { 300.0 },
             )
         };
         grid.strip(legend_height(width));
@@ -57,19 +57,14 @@ impl View for TriangulateView {
     }
 
     fn draw(&mut self, model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
-        let [top, space] = ["top", "space"].map(|id| layout.panel(id));
-        grid::title(canvas, top.rect, "From above");
-        grid::fitting_title(
-            canvas,
-            space.rect,
-            &[
-                "Around P, enlarged: drag to turn",
-                "Around P, enlarged",
-                "Around P",
-            ],
-        );
-        canvas.panel(top.rect);
-        canvas.panel(space.rect);
+        let [top, space] = layout.panels_named(["top", "space"]);
+        grid::open(canvas, top, &["From above"]);
+        let titles = [
+            "Around P, enlarged: drag to turn",
+            "Around P, enlarged",
+            "Around P",
+        ];
+        grid::open(canvas, space, &titles);
         beside::draw(model, layout, canvas);
         let top_of_legend = layout.height - legend_height(layout.width);
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, top_of_legend);

@@ -65,11 +65,7 @@ impl Words for Triangulate {
             let is_main = matches!(id, "midpoint" | "optimal");
             readouts.push(if is_main { readout.main() } else { readout });
         }
-        let from = format!(
-            "{}, {} ×",
-            self.orbit().words(),
-            format_number(self.zoom(), 1)
-        );
+        let from = self.orbit.seen_from();
         readouts.push(Readout::words("view", "Seen from", from));
         readouts
     }

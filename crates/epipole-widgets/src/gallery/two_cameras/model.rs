@@ -139,9 +139,7 @@ impl Model for TwoCameras {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Event::Set { id, value } = event {
-            self.settings.set(id, value)?;
-        }
+        self.settings.update(event)?;
         let _ = self.balls.iter_mut().any(|ball| ball.update(event));
         Ok(())
     }

@@ -44,8 +44,7 @@ impl View for TwoCamerasView {
             ("right", "Right camera"),
         ] {
             let panel = layout.panel(id);
-            grid::title(canvas, panel.rect, title);
-            canvas.panel(panel.rect);
+            grid::open(canvas, panel, &[title]);
             canvas.clipped(panel.rect.inset(1.0), |canvas| match id {
                 "top" => draw_top(model, panel, canvas),
                 _ => draw_photograph(model, usize::from(id == "right"), panel, canvas),

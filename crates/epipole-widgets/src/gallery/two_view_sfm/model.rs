@@ -2,13 +2,13 @@
 
 use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
-    FileOffer, Handle, Job, JobResult, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space,
-    Symbol, Value, format_number,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
+    FileOffer, Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, Value,
+    format_number,
 };
 use crate::kit::geometry::symbols_of_one;
-use crate::kit::orbit::{Orbit, RECENTER, SPACE, ZOOM};
-use crate::kit::picture::{Own, Picture};
+use crate::kit::orbit::{Orbit, SPACE};
+use crate::kit::picture::{Own, Picture, pair_slots};
 use crate::kit::question::{Asked, carry_out};
 use epipole::stereo::PointCloud;
 use image::RgbImage;
@@ -69,21 +69,9 @@ const KNOBS: &[Knob] = &[
     Knob::Slider(&THRESHOLD),
     Knob::Slider(&KNOCK),
     Knob::Slider(&FOCAL),
-    Knob::Slider(&ZOOM),
 ];
 
-const SLOTS: &[PhotoSlot] = &[
-    PhotoSlot {
-        id: "first",
-        label: "Your first photograph",
-        max_side_px: 800,
-    },
-    PhotoSlot {
-        id: "second",
-        label: "Your second photograph",
-        max_side_px: 800,
-    },
-];
+const SLOTS: &[PhotoSlot] = &pair_slots(800);
 /// Smaller pictures have no room for features.
 const MIN_SIDE_PX: u32 = 64;
 
@@ -125,10 +113,10 @@ pub(super) enum FocalFrom {
 /// The model of `two-view-sfm`.
 pub(crate) struct TwoViewSfm {
     settings: Settings,
-    orbit: Orbit,
+    pub(super) orbit: Orbit,
     own: Own<2>,
     focal_from: FocalFrom,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
 }
 
 impl TwoViewSfm {
@@ -136,20 +124,8 @@ impl TwoViewSfm {
         STAGES[self.settings.chosen(&STAGE)]
     }
 
-    pub(super) fn asked(&self) -> &Asked<Question> {
-        &self.asked
-    }
-
     pub(super) fn answer(&self) -> Option<&Answer> {
         self.asked.answer()
-    }
-
-    pub(super) fn orbit(&self) -> &Orbit {
-        &self.orbit
-    }
-
-    pub(super) fn zoom(&self) -> f64 {
-        self.settings.number(&ZOOM)
     }
 
     pub(super) fn focal(&self) -> f64 {
@@ -254,6 +230,7 @@ impl Declared for TwoViewSfm {
         or use two fingers.";
     const COMPUTE: Compute = carry_out::<Question>;
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+    const SPACES: &'static [Space] = &[SPACE];
     const PHOTO_SLOTS: &'static [PhotoSlot] = SLOTS;
 
     fn new() -> Self {
@@ -280,7 +257,7 @@ impl Model for TwoViewSfm {
             }
         }
         controls.push(NEXT.control(!self.is_last_stage(), false));
-        controls.push(RECENTER.control(true, false));
+        controls.extend(self.orbit.controls());
         controls
     }
 
@@ -298,41 +275,28 @@ impl Model for TwoViewSfm {
         symbols_of_one(inliers, picture.size())
     }
 
-    fn spaces(&self) -> &'static [Space] {
-        &[SPACE]
-    }
-
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event, &mut self.settings)? {
+        if self.orbit.update(event)? {
             return Ok(());
         }
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == FOCAL.id {
-                    self.focal_from = FocalFrom::Reader;
-                }
-                match &**id {
-                    id if changed && id == PAIR.id => self.begin(),
-                    id if changed && id != STAGE.id => self.ask(),
-                    _ => {}
-                }
-            }
-            Event::Press { id } if id == NEXT.id && !self.is_last_stage() => {
-                let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
-                self.settings.set(STAGE.id, &Value::from(next))?;
-            }
+        let changed = self.settings.update(event)?;
+        if changed == Some(FOCAL.id) {
+            self.focal_from = FocalFrom::Reader;
+        }
+        match changed {
+            Some(id) if id == PAIR.id => self.begin(),
+            Some(id) if id != STAGE.id => self.ask(),
             _ => {}
+        }
+        if *event == Event::press(NEXT.id) && !self.is_last_stage() {
+            let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
+            self.settings.set(STAGE.id, &Value::from(next))?;
         }
         Ok(())
     }
 
-    fn job(&self) -> Option<&dyn Job> {
-        self.asked.job()
-    }
-
-    fn job_done(&mut self, result: JobResult) {
-        self.asked.take(result);
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
     }
 
     fn file(&self) -> Option<FileOffer> {

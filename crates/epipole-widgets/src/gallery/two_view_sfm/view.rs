@@ -79,7 +79,7 @@ impl View for TwoViewSfmView {
                 None => canvas.panel(layout.panel(id).rect),
             }
         }
-        let asked = model.asked();
+        let asked = &model.asked;
         if let Some((question, answer)) = asked.answered() {
             let known = self
                 .framed
@@ -89,7 +89,7 @@ impl View for TwoViewSfmView {
             draw_features(model.stage(), answer, layout, canvas);
             draw_space(model, (question, answer), frame, space, canvas);
         }
-        draw_handles(canvas, space, model.orbit());
+        draw_handles(canvas, space, &model.orbit);
         draw_titles(model, layout, canvas);
         let failed = model.answer().and_then(words::failure);
         let failed = failed.filter(|_| model.stage() >= Stage::Ransac);
@@ -261,7 +261,7 @@ fn draw_space(
     let breadth = panel.rect.width / panel.rect.height.max(1.0);
     let radius = subject.radius * (1.7 / breadth).clamp(1.0, 1.4);
     let subject = Subject { radius, ..subject };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     let stage = model.stage();

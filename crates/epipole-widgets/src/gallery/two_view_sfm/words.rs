@@ -60,7 +60,7 @@ fn caution(answer: &Answer) -> &'static str {
 /// every number keeps its place.
 fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
     let (stage, answer) = (model.stage(), model.answer());
-    let unknown = if answer.is_some() || model.asked().problem().is_some() {
+    let unknown = if answer.is_some() || model.asked.problem().is_some() {
         "–"
     } else {
         "…"
@@ -109,14 +109,13 @@ fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
         let text = format!("{}, {from}", focal_text(model.focal()));
         readouts.push(Readout::words("lens", "Focal length", text));
     }
-    let zoom = format_number(model.zoom(), 1);
-    let from = format!("{}, {zoom} ×", model.orbit().words());
+    let from = model.orbit.seen_from();
     readouts.push(Readout::words("viewpoint", "Seen from", from));
     readouts
 }
 
 fn describe(model: &TwoViewSfm) -> String {
-    if let Some(problem) = model.asked().problem() {
+    if let Some(problem) = model.asked.problem() {
         return problem.to_owned();
     }
     let Some(answer) = model.answer() else {
@@ -166,7 +165,7 @@ fn describe(model: &TwoViewSfm) -> String {
                 "{} pixels of photograph 1 found their partner in photograph 2, and stand in space in their own \
                  colors, seen from {}. {ago}{}",
                 surface.points.len(),
-                model.orbit().words(),
+                model.orbit.words(),
                 caution(answer)
             ),
             Err(_) => no_surface(answer).unwrap_or_default(),
@@ -175,7 +174,7 @@ fn describe(model: &TwoViewSfm) -> String {
             "{} points in color and the two cameras, seen from {}. {ago} The adjustment takes the error from {} px to \
              {} px (RMS).{}",
             motion.points.len(),
-            model.orbit().words(),
+            model.orbit.words(),
             format_number(motion.error_px[0], 2),
             format_number(motion.error_px[1], 2),
             caution(answer)

@@ -163,16 +163,15 @@ impl Model for WindowShift {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        match event {
-            Event::Set { id, value } => {
-                let changed = self.settings.set(id, value)? == Some(true);
-                if changed && id == NOISE.id {
-                    (self.picture, self.gray) = take_picture(self.settings.number(&NOISE));
-                }
-                if changed && id != THRESHOLD.id {
-                    self.look();
-                }
+        if let Some(id) = self.settings.update(event)? {
+            if id == NOISE.id {
+                (self.picture, self.gray) = take_picture(self.settings.number(&NOISE));
             }
+            if id != THRESHOLD.id {
+                self.look();
+            }
+        }
+        match event {
             Event::HandleMoved { id, x, y } if id == "shift" => self.shift = (*x, *y),
             Event::HandleMoved { x, y, .. } => {
                 self.window = (*x, *y);

@@ -67,11 +67,10 @@ impl View for WindowShiftView {
     }
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
-        let panels = ["picture", "map", "surface"].map(|id| layout.panel(id));
+        let panels = layout.panels_named(["picture", "map", "surface"]);
         let titles = ["Image", "Change by shift", "The same as a surface"];
         for (panel, text) in panels.into_iter().zip(titles) {
-            grid::title(canvas, panel.rect, text);
-            canvas.panel(panel.rect);
+            grid::open(canvas, panel, &[text]);
         }
         let [picture, map, surface] = panels;
         let found = match model.found() {

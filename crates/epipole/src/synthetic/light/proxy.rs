@@ -1,5 +1,6 @@
 //! Simple bodies in the place of those that throw shade near contacts.
 
+use crate::math::length;
 use nalgebra::{Matrix3, Vector3};
 
 /// A simple body for the shade near contacts, with a cheap distance.
@@ -46,10 +47,10 @@ impl Proxy {
                 half,
             } => {
                 let q = (local_from_world * (p - center)).abs() - half;
-                let outside = q.map(|x| x.max(0.0)).norm();
+                let outside = length(&q.map(|x| x.max(0.0)));
                 outside + q.max().min(0.0)
             }
-            Self::Ball { center, radius } => (p - center).norm() - radius,
+            Self::Ball { center, radius } => length(&(p - center)) - radius,
             Self::Post {
                 center,
                 radius,

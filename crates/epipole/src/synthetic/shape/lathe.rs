@@ -1,6 +1,7 @@
 //! Turned bodies: a profile rotated about the vertical axis, such as mugs, jugs and fruit.
 
 use super::{Contact, Place, Ray, turns};
+use crate::math::length;
 use nalgebra::{Vector2, Vector3};
 
 /// A profile under construction: (radius, height) from the bottom of the axis outward, upward and
@@ -242,7 +243,7 @@ impl Lathe {
             / along.norm_squared();
         let share = share.clamp(0.0, 1.0);
         let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * share;
-        let flat = flat / flat.norm();
+        let flat = flat / length(&flat);
         let (cos, sin) = if radius > 1e-12 {
             (point.x / radius, point.z / radius)
         } else {
@@ -265,8 +266,8 @@ impl Lathe {
         let segment = self.segment_at(t);
         let share = ((t - segment.before) / segment.share).clamp(0.0, 1.0);
         let at = segment.start + (segment.end - segment.start) * share;
-        let flat = (segment.normal_start + (segment.normal_end - segment.normal_start) * share)
-            .normalize();
+        let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * share;
+        let flat = flat / length(&flat);
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * s);
         (
             Vector3::new(at.x * cos, -at.y, at.x * sin),

@@ -1,6 +1,7 @@
 //! The handle of a mug: a torus, stretched, of which the mug hides one side.
 
 use super::{Contact, Place, Ray, turns};
+use crate::math::length;
 use nalgebra::Vector3;
 
 /// A torus around the z axis, stretched along y and z and cut at a plane x = const.
@@ -60,7 +61,7 @@ impl Ring {
         }
         let origin = ray.origin.component_div(&self.stretch);
         let direction = ray.direction.component_div(&self.stretch);
-        let inverse_speed = 1.0 / direction.norm();
+        let inverse_speed = 1.0 / length(&direction);
         let mut along = first;
         for _ in 0..96 {
             let (distance, gradient) = self.distance(&(origin + direction * along));
@@ -100,12 +101,13 @@ impl Ring {
     pub(super) fn place(&self, point: &Vector3<f64>) -> Place {
         let p = point.component_div(&self.stretch);
         let (_, gradient) = self.distance(&p);
+        let normal = gradient.component_div(&self.stretch);
         let ring = (p.x * p.x + p.y * p.y).sqrt();
         Place {
             chart: 0,
             s: turns(p.x, p.y),
             t: turns(ring - self.major, p.z),
-            normal: gradient.component_div(&self.stretch).normalize(),
+            normal: normal / length(&normal),
             per_m: [
                 1.0 / (std::f64::consts::TAU * self.major),
                 1.0 / (std::f64::consts::TAU * self.minor),
@@ -118,11 +120,8 @@ impl Ring {
         let (sin_t, cos_t) = libm::sincos(std::f64::consts::TAU * t);
         let ring = self.major + self.minor * cos_t;
         let p = Vector3::new(ring * cos_s, ring * sin_s, self.minor * sin_t);
-        let normal = Vector3::new(cos_t * cos_s, cos_t * sin_s, sin_t);
-        (
-            p.component_mul(&self.stretch),
-            normal.component_div(&self.stretch).normalize(),
-        )
+        let normal = Vector3::new(cos_t * cos_s, cos_t * sin_s, sin_t).component_div(&self.stretch);
+        (p.component_mul(&self.stretch), normal / length(&normal))
     }
 
     pub(super) fn contains(&self, point: &Vector3<f64>) -> bool {

@@ -23,7 +23,7 @@ const BEYOND_M: f64 = 0.12;
 /// A line towards an epipole ends so far from its center, meters.
 const TOWARDS_M: f64 = 3.0;
 /// Columns and rows of the picture whose pixels become the cloud of the still life.
-const CLOUD: (u32, u32) = (100, 75);
+const CLOUD: (u32, u32) = (84, 63);
 /// From where to where they look, and which way is up.
 const CLOUD_SEEN: [[f64; 3]; 3] = [[0.0, -0.95, -1.1], [0.03, -0.12, 0.0], [0.0, -1.0, 0.0]];
 /// Walls are left out: the cloud ends so far away.
@@ -68,14 +68,14 @@ pub(super) fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &SUBJECT) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &SUBJECT) else {
         return;
     };
     let lit = model.lit();
     space.ground(&SUBJECT.middle, 0.0, 0.25, 6);
     space.stand(pictures.iter().copied(), PICTURE_M);
     for (point, color) in cloud {
-        space.dot(point, 2.1, *color);
+        space.dot(point, 2.4, *color);
     }
     let [one, two] = scenery.cameras.map(|camera| camera.center_in_world());
     if let Some(plane) = &scenery.plane {
@@ -125,7 +125,7 @@ pub(super) fn draw_space(
     }
     space.label(&scenery.point, "P", LIT);
     space.draw(canvas, panel);
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
     let handles = model.handles();
     let things = handles
         .iter()

@@ -96,8 +96,7 @@ pub(super) fn draw(model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
                 ["Photograph 1, enlarged", "Photograph 1"],
                 ["Photograph 2, enlarged", "Photograph 2"],
             ];
-            grid::fitting_title(canvas, panel.rect, &titles[camera]);
-            canvas.panel(panel.rect);
+            grid::open(canvas, panel, &titles[camera]);
             if let Some(estimates) = estimates {
                 draw_patch(estimates, camera, panel, canvas);
             }

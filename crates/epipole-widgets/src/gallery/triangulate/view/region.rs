@@ -18,7 +18,7 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
         middle: truth,
         radius,
     };
-    let Some(mut space) = Space::new(panel, model.orbit(), model.zoom(), &subject) else {
+    let Some(mut space) = Space::new(panel, &model.orbit, &subject) else {
         return;
     };
     for (index, camera) in estimates.cameras.iter().enumerate() {
@@ -42,7 +42,7 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
         }
     }
     space.draw(canvas, panel);
-    draw_handles(canvas, panel, model.orbit());
+    draw_handles(canvas, panel, &model.orbit);
 }
 
 /// The region of two standard deviations: its outline in the planes of its axes.

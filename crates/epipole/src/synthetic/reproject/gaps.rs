@@ -1,0 +1,230 @@
+//! A picture of pixels that came from elsewhere, with the gaps that they leave and what fills them.
+
+use image::RgbImage;
+use std::ops::Range;
+
+/// A photograph from elsewhere, made of the pixels of another one.
+#[derive(Debug, Default)]
+pub struct Reprojected {
+    pub(super) image: RgbImage,
+    /// Red, green, blue and 255; 0 where no pixel came.
+    pub(super) pixels: Vec<u32>,
+    /// Places that stay empty, each run of neighbors in a row.
+    pub(super) missing: Vec<Range<u32>>,
+}
+
+impl Reprojected {
+    /// The picture. What is missing is black until it is filled.
+    pub fn image(&self) -> &RgbImage {
+        &self.image
+    }
+
+    /// The number of pixels that are missing.
+    pub fn num_missing(&self) -> usize {
+        self.missing.iter().map(Range::len).sum()
+    }
+
+    /// Which pixels of a picture of `size` of the same view [`Reprojected::fill`] takes, row by row;
+    /// of a larger one, also those between.
+    pub fn wanted(&self, (width, height): (u32, u32)) -> Vec<bool> {
+        let (own_width, own_height) = self.image.dimensions();
+        let mut wanted = vec![false; width as usize * height as usize];
+        let columns: Vec<_> = (0..own_width)
+            .map(|u| between(u, own_width, width))
+            .collect();
+        if wanted.is_empty() {
+            return wanted;
+        }
+        for runs in by_rows(&self.missing, own_width) {
+            let start = runs[0].start / own_width * own_width;
+            let (above, below, _) = between(runs[0].start / own_width, own_height, height);
+            for run in runs {
+                let (left, ..) = columns[(run.start - start) as usize];
+                let (_, right, _) = columns[(run.end - 1 - start) as usize];
+                for row in [above, below] {
+                    let place = row * width as usize;
+                    wanted[place + left..=place + right].fill(true);
+                }
+            }
+        }
+        wanted
+    }
+
+    /// Fills what is missing from a picture of the same view, of any size, between its pixels.
+    pub fn fill(&mut self, draft: &RgbImage) {
+        let (width, height) = self.image.dimensions();
+        let (draft_width, draft_height) = draft.dimensions();
+        if draft_width == 0 || draft_height == 0 {
+            return;
+        }
+        let columns: Vec<_> = (0..width).map(|u| between(u, width, draft_width)).collect();
+        let draft = draft
+            .as_raw()
+            .as_chunks::<3>()
+            .0
+            .chunks_exact(draft_width as usize);
+        let draft: Vec<&[[u8; 3]]> = draft.collect();
+        // The two rows of the draft around a row, mixed once: 2¹⁶ times as bright, with what rounds, and
+        // 256 times the way to the next column.
+        let mut mixed = vec![[[0i32; 3]; 2]; draft_width as usize];
+        for runs in by_rows(&self.missing, width) {
+            let start = runs[0].start / width * width;
+            let (above, below, down) = between(runs[0].start / width, height, draft_height);
+            let (first, last) = (runs[0].start - start, runs[runs.len() - 1].end - 1 - start);
+            let (down, last) = (down as i32, columns[last as usize].1);
+            let rows = [draft[above], draft[below]];
+            let mut here = mixture(rows, columns[first as usize].0, down);
+            for at in columns[first as usize].0..=last {
+                let next = if at < last {
+                    mixture(rows, at + 1, down)
+                } else {
+                    here
+                };
+                for i in 0..3 {
+                    mixed[at][0][i] = here[i] * 256 + 32_768;
+                    mixed[at][1][i] = next[i] - here[i];
+                }
+                here = next;
+            }
+            let pixels = self.image.as_chunks_mut::<3>().0;
+            for run in runs {
+                let columns = &columns[(run.start - start) as usize..(run.end - start) as usize];
+                let pixels = &mut pixels[run.start as usize..run.end as usize];
+                for (pixel, &(left, _, across)) in pixels.iter_mut().zip(columns) {
+                    let [color, step] = mixed[left];
+                    let across = across as i32;
+                    for i in 0..3 {
+                        pixel[i] = ((color[i] + step[i] * across) >> 16) as u8;
+                    }
+                }
+            }
+        }
+    }
+
+    /// A picture of this size of which all is missing.
+    pub fn clear(&mut self, (width, height): (u32, u32)) {
+        self.begin((width, height));
+        self.image.fill(0);
+        let rows = (0..height).map(|row| row * width..(row + 1) * width);
+        self.missing.extend(rows.filter(|row| !row.is_empty()));
+    }
+
+    pub(super) fn begin(&mut self, (width, height): (u32, u32)) {
+        if self.image.dimensions() != (width, height) {
+            self.image = RgbImage::new(width, height);
+        }
+        self.pixels.clear();
+        self.pixels.resize(width as usize * height as usize, 0);
+        self.missing.clear();
+    }
+
+    /// Makes the picture of the pixels that have come. A gap one pixel wide takes its neighbor's color.
+    pub(super) fn finish(&mut self) {
+        let width = self.image.width() as usize;
+        let (fours, rest) = self.pixels.as_chunks::<4>();
+        let targets = self.image.as_chunks_mut::<3>().0;
+        let (target_fours, target_rest) = targets.as_chunks_mut::<4>();
+        let mut missing = Missing {
+            width: width as u32,
+            runs: &mut self.missing,
+        };
+        for (index, (four, target)) in fours.iter().zip(target_fours).enumerate() {
+            // Whatever has come is opaque; most of a picture has.
+            if (four[0] & four[1] & four[2] & four[3]) >> 24 != 0 {
+                for i in 0..4 {
+                    target[i] = rgb(four[i]);
+                }
+            } else if is_amid_nothing(&self.pixels, width, 4 * index) {
+                *target = [[0; 3]; 4];
+                missing.push(4 * index..4 * index + 4);
+            } else {
+                for i in 0..4 {
+                    target[i] = match four[i] {
+                        0 => closed(&self.pixels, width, 4 * index + i, &mut missing),
+                        pixel => rgb(pixel),
+                    };
+                }
+            }
+        }
+        let start = self.pixels.len() - rest.len();
+        for (offset, target) in target_rest.iter_mut().enumerate() {
+            *target = closed(&self.pixels, width, start + offset, &mut missing);
+        }
+    }
+}
+
+/// A color between two rows, 256 times as bright; `down` is 256 times the way to the second of them.
+#[inline(always)]
+fn mixture(rows: [&[[u8; 3]]; 2], at: usize, down: i32) -> [i32; 3] {
+    let [a, b] = [rows[0][at], rows[1][at]];
+    let mix = |i: usize| i32::from(a[i]) * (256 - down) + i32::from(b[i]) * down;
+    [mix(0), mix(1), mix(2)]
+}
+
+/// Runs that are in order, row by row.
+fn by_rows(runs: &[Range<u32>], width: u32) -> impl Iterator<Item = &[Range<u32>]> {
+    runs.chunk_by(move |a, b| a.start / width == b.start / width)
+}
+
+/// Runs of places that stay empty, as they are found.
+struct Missing<'a> {
+    width: u32,
+    runs: &'a mut Vec<Range<u32>>,
+}
+
+impl Missing<'_> {
+    /// Places of one row, behind all that have come before.
+    fn push(&mut self, places: Range<usize>) {
+        let [start, end] = [places.start, places.end].map(|place| place as u32);
+        match self.runs.last_mut() {
+            Some(run) if run.end == start && !start.is_multiple_of(self.width) => run.end = end,
+            _ => self.runs.push(start..end),
+        }
+    }
+}
+
+#[inline(always)]
+fn rgb(pixel: u32) -> [u8; 3] {
+    let [r, g, b, _] = pixel.to_le_bytes();
+    [r, g, b]
+}
+
+/// Whether no pixel has come to four of one row, nor above them: then none of them is a gap that is closed.
+fn is_amid_nothing(pixels: &[u32], width: usize, start: usize) -> bool {
+    let is_empty = |start: usize| pixels[start..start + 4] == [0; 4];
+    start % width + 4 <= width && is_empty(start) && (start < width || is_empty(start - width))
+}
+
+/// The color of a pixel, or of its neighbor if it is a gap one pixel wide; black if it is missing.
+#[inline]
+fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
+    let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
+    let mut pixel = at(index);
+    if pixel == 0 {
+        let [left, above] = [1, width].map(|step| at(index.wrapping_sub(step)));
+        let [right, below] = [1, width].map(|step| at(index + step));
+        pixel = match (left != 0 && right != 0, above != 0 && below != 0) {
+            (true, _) => left,
+            (false, true) => above,
+            (false, false) => {
+                missing.push(index..index + 1);
+                0
+            }
+        };
+    }
+    rgb(pixel)
+}
+
+/// Between which two rows or columns of a picture one of another picture lies, and how much the
+/// second of them counts, of 256.
+fn between(at: u32, size: u32, other_size: u32) -> (usize, usize, u32) {
+    let place = (at as f32 + 0.5) * other_size as f32 / size as f32 - 0.5;
+    let place = place.clamp(0.0, (other_size as f32 - 1.0).max(0.0));
+    let first = place as usize;
+    let weight = ((place - first as f32) * 256.0) as u32;
+    (
+        first,
+        (first + 1).min(other_size.max(1) as usize - 1),
+        weight,
+    )
+}
