@@ -44,7 +44,7 @@ fn play(script: &Script) -> Result<Vec<String>, String> {
     let mut answers = Vec::new();
     for words in &script.calls {
         let said = call(&mut figure, script, words)?;
-        answers.push(answer(&figure, script, words, said));
+        answers.push(answer(&mut figure, script, words, said));
     }
     Ok(answers)
 }
@@ -60,7 +60,7 @@ fn time(script: &Script) -> Result<f64, String> {
 
 /// The frame after a drawing; what the call said, everything beside the picture and the state
 /// after all else.
-fn answer(figure: &Figure, script: &Script, words: &[Value], said: Option<String>) -> String {
+fn answer(figure: &mut Figure, script: &Script, words: &[Value], said: Option<String>) -> String {
     if words[0] == "draw_settled" {
         let (width, height) = (figure.pixel_width(), figure.pixel_height());
         format!(
