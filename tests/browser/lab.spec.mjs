@@ -4,7 +4,7 @@
 import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { choose, expect, expectAccessible, press, read, said, solved, test } from "./lab.mjs";
+import { choose, expect, expectAccessible, file, press, read, said, solved, test } from "./lab.mjs";
 
 test.describe.configure({ mode: "serial" });
 
@@ -54,7 +54,7 @@ test("the sample comes solved, and is computed with the same result where that d
   expect(weight, "light enough for a phone").toBeLessThan(1_000_000);
   // A descriptor is computed for whoever wants to see it, and matches are found anew.
   await press(lab, "button", "Matches");
-  await press(lab, "checkbox", "Mutual");
+  await press(lab, "checkbox", "Mutual nearest only");
   await expect(said(lab)).toContainText("36 of 36 pairs share enough matches", { timeout: 90_000 });
   expect(computing.length).toBeGreaterThan(0);
 
@@ -125,6 +125,49 @@ test("the links of the book to the Lab name what there is", async ({ lab, librar
     await expect(said(lab)).not.toContainText("knows no");
     await expect(said(lab)).not.toContainText("has no value");
   }
+});
+
+test("a figure hands on the reader's photographs, its step and its knobs, and nothing stays behind", async ({ blank, library }) => {
+  const databases = () => blank.evaluate(async () => (await indexedDB.databases()).map(({ name }) => name));
+  await blank.goto(`${library}/sfm.html`);
+  const figure = blank.locator('epipole-figure[name="two-view-sfm"]').first();
+  await figure.evaluate(async (element) => {
+    element.apply({ stage: "match", ratio: 0.7 });
+    await element.whenReady();
+  });
+  const button = blank.getByRole("button", { name: /in the Lab$/ });
+  await expect(button).toHaveCount(0);
+  const first = file("one.png", 640, 480);
+  await figure.locator("#photo-first").setInputFiles(first);
+  await expect(button).toHaveText("Open your photograph in the Lab");
+  await figure.locator("#photo-second").setInputFiles(file("two.png", 600, 450));
+  await expect(button).toHaveText("Open your 2 photographs in the Lab");
+  await expectAccessible(blank);
+  // A figure at its start has none of them.
+  await figure.evaluate((element) => element.reset());
+  await expect(button).toHaveCount(0);
+  await figure.evaluate((element) => element.apply({ stage: "match", ratio: 0.7 }));
+  await figure.locator("#photo-first").setInputFiles(first);
+  await figure.locator("#photo-second").setInputFiles(file("two.png", 600, 450));
+  expect(await databases(), "nothing is put aside unasked").toEqual([]);
+
+  // Where there is no Lab, nothing is put aside either.
+  await blank.route(/lab\/index\.html/, (route) => route.fulfill({ contentType: "text/html", body: "not yet" }));
+  await button.click();
+  await expect(blank.locator(".to-lab")).toContainText("The Lab cannot be reached just now.");
+  expect(await databases()).toEqual([]);
+  await blank.unroute(/lab\/index\.html/);
+
+  await button.click();
+  await blank.waitForURL(/lab\/index\.html\?step=matches/, { timeout: 30_000 });
+  await expect(said(blank)).toContainText("1 pair", { timeout: 60_000 });
+  await expect.poll(() => new URL(blank.url()).search).toBe("?step=matches&ratio=0.7");
+  await press(blank, "button", "Photographs");
+  await expect(said(blank)).toContainText("2 photographs.");
+  for (const name of ["one.png", "two.png"]) {
+    await expect(blank.locator("#widgets").getByRole("button", { name: new RegExp(`^${name}:`) })).toHaveCount(1);
+  }
+  await expect.poll(databases).toEqual([]);
 });
 
 test("every step is explained by a figure of the book, which runs beside it", async ({ lab, library }) => {

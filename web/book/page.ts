@@ -7,6 +7,7 @@ import { makeScrollersReachable } from "./scrollers";
 import { settleSections } from "./sections";
 import { startSymbols } from "./symbols";
 import { startTheme } from "./theme";
+import { startHandingOn } from "./to_lab";
 
 startTheme();
 startFolding();
@@ -18,6 +19,7 @@ startOperating();
 startPlaying();
 startListings();
 startSymbols();
+startHandingOn();
 
 /** A script of this page has not come, as after a new edition of the book: a sentence, once, and a way on. */
 function sayMissing(): void {
