@@ -5,7 +5,7 @@
 
 import type { PhotoSlot } from "./contract.js";
 import { capitalize, make } from "./dom.js";
-import { focalOf, HEAD_BYTES } from "./exif.js";
+import { focalOf, HEAD_BYTES, isCutOff } from "./exif.js";
 
 export interface Photo {
   width: number;
@@ -120,6 +120,10 @@ export class Photos {
     const turn = ++row.chosen;
     let bitmap: ImageBitmap;
     try {
+      if (isCutOff(await file.arrayBuffer())) {
+        if (turn === row.chosen) this.#hooks.warn(`${file.name} is cut off: the file ends before its picture does.`);
+        return;
+      }
       bitmap = await createImageBitmap(file, { imageOrientation: "from-image" });
     } catch {
       if (turn === row.chosen) {
@@ -138,7 +142,8 @@ export class Photos {
     const refused = this.#hooks.take(slot.id, photo);
     if (refused !== undefined) {
       // The reader knows the photograph by its own size.
-      this.#hooks.warn(`${capitalize(refused.replace(now, whole))}.`);
+      const size = whole === now ? whole : `${whole}, made smaller to ${now},`;
+      this.#hooks.warn(`${capitalize(refused.replace(now, size))}.`);
       return;
     }
     const words = whole === now ? `${now} pixels.` : `Made smaller, from ${whole} to ${now} pixels.`;
