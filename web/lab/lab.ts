@@ -218,6 +218,9 @@ async function start(): Promise<void> {
   }, LOOK_MS);
   const before = await takeBack();
   if (before.length > 0) await take(before);
+  // Photographs that come show themselves; who was sent to another step wants to see that.
+  const step = link.get("step");
+  if (isHanded && step !== null) lab.link(["step", step]);
   // Without them there is the sample, as ever.
   if (isHanded) lab.solved(before.length > 0 ? new Uint8Array() : await solvedSample());
 }
