@@ -54,7 +54,10 @@ async function goOn(lab) {
   await expect(button).toBeVisible({ timeout: 30_000 });
   await expect(notice(lab)).toContainText("nothing is lost on your machine");
   await expectAccessible(lab);
+  // The page that has stopped says the same; it is the next one that is meant.
+  const next = lab.waitForEvent("load", { timeout: 60_000 });
   await button.click();
+  await next;
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 60_000 });
   for (const name of ["one.png", "two.png"]) {
     await expect(lab.locator("#widgets").getByRole("button", { name: new RegExp(`^${name}:`) })).toHaveCount(1);

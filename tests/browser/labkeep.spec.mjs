@@ -144,7 +144,9 @@ test("a lost context loses nothing of what is kept, and brings nothing back twic
     const context = canvas.getContext("webgl2") ?? canvas.getContext("webgl");
     context.getExtension("WEBGL_lose_context").loseContext();
   });
+  const next = lab.waitForEvent("load", { timeout: 60_000 });
   await lab.getByRole("button", { name: /^Start the Lab again with your project/ }).click({ timeout: 30_000 });
+  await next;
   await expect(said(lab)).toContainText("3 photographs.", { timeout: 60_000 });
   for (const name of ["one.png", "two.png", "three.png"]) await expect(photograph(lab, name)).toHaveCount(1);
   await expect(said(lab)).not.toContainText("same file");

@@ -427,6 +427,39 @@ test.describe("slow and large", () => {
     await expect(note).toHaveText("Or drop one here. Stays on your device.");
     await choose("strip.png", await picture(8, 3000));
     await expect(figure.locator(".notice")).toContainText("8 × 3000");
+    // Wide enough as it is, but not once it is as small as the figure wants it.
+    await choose("strip.png", await picture(64, 3000));
+    await expect(figure.locator(".notice")).toContainText(/64 × 3000, made smaller to \d+ × \d+, pixels/);
     await expect(note).toHaveText("Or drop one here. Stays on your device.");
+  });
+
+  test("a JPEG file that is cut off is told as such, whatever the browser makes of it", async ({ page, open }) => {
+    const figure = await open(page, [own]);
+    const data = await page.evaluate(() => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [320, 240];
+      const context = canvas.getContext("2d");
+      for (let at = 0; at < 200; at += 1) {
+        context.fillStyle = `hsl(${at * 37} 60% 50%)`;
+        context.fillRect((at * 97) % 320, (at * 61) % 240, 36, 27);
+      }
+      return canvas.toDataURL("image/jpeg").split(",")[1];
+    });
+    const whole = Buffer.from(data, "base64");
+    const input = figure.locator("input[type=file]").first();
+    const choose = (name, buffer) => input.setInputFiles({ name, mimeType: "image/jpeg", buffer });
+    const [note, notice] = [figure.locator(".photo .note").first(), figure.locator(".notice")];
+    for (const share of [0.3, 0.6, 0.95]) {
+      await choose(`cut-${share}.jpg`, whole.subarray(0, Math.floor(share * whole.length)));
+      await expect(notice).toContainText(`cut-${share}.jpg is cut off: the file ends before its picture does.`);
+      await expect(note).toHaveText("Or drop one here. Stays on your device.");
+    }
+    // The small picture in a head has an end of its own; what cameras write behind the end does not matter.
+    const thumbnail = Buffer.concat([Buffer.from([0xff, 0xe1, 0, 8]), Buffer.from([0xff, 0xd8, 1, 2, 0xff, 0xd9])]);
+    const head = (bytes) => Buffer.concat([bytes.subarray(0, 2), thumbnail, bytes.subarray(2)]);
+    await choose("head.jpg", head(whole.subarray(0, whole.length / 2)));
+    await expect(notice).toContainText("head.jpg is cut off");
+    await choose("trailer.jpg", Buffer.concat([head(whole), Buffer.alloc(999, 7)]));
+    await expect(note).toContainText("320 × 240 pixels.");
   });
 });

@@ -8,6 +8,7 @@ import { settleSections } from "./sections";
 import { startSmall } from "./small";
 import { startSymbols } from "./symbols";
 import { startTheme } from "./theme";
+import { startHandingOn } from "./to_lab";
 
 startTheme();
 startFolding();
@@ -20,6 +21,7 @@ startPlaying();
 startSmall();
 startListings();
 startSymbols();
+startHandingOn();
 
 /** A script of this page has not come, as after a new edition of the book: a sentence, once, and a way on. */
 function sayMissing(): void {

@@ -48,9 +48,12 @@ function theme(): string {
 }
 
 async function start(): Promise<void> {
-  const linked = new URLSearchParams(location.search).get("sample");
+  const link = new URLSearchParams(location.search);
+  const linked = link.get("sample");
+  /** A figure of the book has put the reader's photographs aside: they take the place of the sample. */
+  const isHanded = link.get("photographs") === "brought";
   // While the module comes, so that nothing waits for it.
-  const sample = linked === null || linked === "table" ? solvedSample() : undefined;
+  const sample = !isHanded && (linked === null || linked === "table") ? solvedSample() : undefined;
   try {
     await load({ module_or_path: new URL(LAB_PAGE_WASM, import.meta.url) });
   } catch (error) {
@@ -114,7 +117,7 @@ async function start(): Promise<void> {
     start: (work: number, branch: string, request: Uint8Array) =>
       crew.start(work, branch === "files" ? "files" : "vision", request),
     cancel: (work: number) => crew.cancel(work),
-    bringsSample: () => sample !== undefined,
+    bringsSample: () => sample !== undefined || isHanded,
     askForPhotographs: () => photographs.click(),
     askForProject: () => project.click(),
     askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
@@ -170,7 +173,7 @@ async function start(): Promise<void> {
     if (event.dataTransfer) void dropped(event.dataTransfer).then(take);
   });
 
-  await open(lab, kept, askForKept);
+  await open(lab, isHanded, kept, askForKept);
 
   letTabLeave();
   try {
@@ -215,14 +218,21 @@ async function start(): Promise<void> {
   }, LOOK_MS);
   const before = await takeBack();
   if (before.length > 0) await take(before);
+  // Photographs that come show themselves; who was sent to another step wants to see that.
+  const step = link.get("step");
+  if (isHanded && step !== null) lab.link(["step", step]);
+  // Without them there is the sample, as ever.
+  if (isHanded) lab.solved(before.length > 0 ? new Uint8Array() : await solvedSample());
 }
 
 /** Opens what is kept, and then what the address asks for. */
-async function open(lab: Lab, kept: Kept, askForKept: () => Promise<boolean>): Promise<void> {
+async function open(lab: Lab, isHanded: boolean, kept: Kept, askForKept: () => Promise<boolean>): Promise<void> {
   const link = new URLSearchParams(location.search);
+  link.delete("photographs");
   const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
-  if (link.has("sample") && visit?.type !== "reload") {
-    // Whoever follows a link to a sample wants to see it, and nothing of the reader's is written over.
+  if ((link.has("sample") || isHanded) && visit?.type !== "reload") {
+    // Whoever follows a link to a sample, or brings photographs, wants to see them, and nothing of the reader's is
+    // written over.
     if (await kept.read().catch(() => undefined)) {
       lab.keptAside("This browser keeps a project of yours. Open it from the Project menu.");
     }

@@ -103,6 +103,11 @@ export class EpipoleFigure extends Base {
     return this.#life.snapshot?.readouts.find((readout) => readout.id === id)?.text;
   }
 
+  /** Photographs of the reader's own that it shows, as they were given. Told by the event `epipole-photographs`. */
+  get photographs(): readonly File[] {
+    return this.#life.shell.photos.files;
+  }
+
   /** What the figure shows now, in words. */
   get description(): string {
     return this.#life.snapshot?.description ?? "";

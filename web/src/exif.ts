@@ -1,7 +1,7 @@
-/** The one thing that figures ask of a photograph's file: the focal length that its camera noted. */
+/** What figures ask of a photograph's file: the focal length that its camera noted, and whether the file is whole. */
 
-/** JPEG markers: start of the image, application data, start of the scan. */
-const [START, APP1, SCAN] = [0xffd8, 0xffe1, 0xffda];
+/** JPEG markers: start of the image, application data, start of the scan, end of the image. */
+const [START, APP1, SCAN, END] = [0xffd8, 0xffe1, 0xffda, 0xffd9];
 /** "Exif", followed by two zeros. */
 const EXIF = 0x45786966;
 const EXIF_DIRECTORY = 0x8769;
@@ -25,6 +25,23 @@ export function focalOf(head: ArrayBuffer, width: number, height: number): numbe
   }
   if (!equivalent) return undefined;
   return (equivalent * Math.hypot(width, height)) / (FULL_FRAME_DIAGONAL * Math.max(width, height));
+}
+
+/**
+ * Whether a JPEG file ends before its picture does. Some browsers show what there is of it and gray below, others nothing.
+ * What cameras write behind the end does not matter, nor the small picture in the head.
+ */
+export function isCutOff(bytes: ArrayBuffer): boolean {
+  const file = new DataView(bytes);
+  if (file.byteLength < 4 || file.getUint16(0) !== START) return false;
+  let at = 2;
+  while (at + 4 <= file.byteLength && file.getUint16(at) !== SCAN) {
+    // A head of another kind is left to the browser.
+    if (file.getUint16(at) < 0xff00 || file.getUint16(at + 2) < 2) return false;
+    at += 2 + file.getUint16(at + 2);
+  }
+  for (let end = file.byteLength - 2; end > at; end -= 1) if (file.getUint16(end) === END) return false;
+  return true;
 }
 
 function equivalentIn(file: DataView): number | undefined {

@@ -27,6 +27,8 @@ export interface EpipoleEvents {
   "epipole-challenge": CustomEvent<{ id: string; goal: string }>;
   /** The figure has been reset. */
   "epipole-reset": CustomEvent<Record<string, never>>;
+  /** The reader has given it a photograph, or it has let go of them. */
+  "epipole-photographs": CustomEvent;
   /** The figure has stopped; Reset starts it again. */
   "epipole-error": CustomEvent<{ message: string }>;
 }

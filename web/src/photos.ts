@@ -5,7 +5,7 @@
 
 import type { PhotoSlot } from "./contract.js";
 import { make } from "./dom.js";
-import { focalOf, HEAD_BYTES } from "./exif.js";
+import { focalOf, HEAD_BYTES, isCutOff } from "./exif.js";
 
 export interface Photo {
   width: number;
@@ -30,6 +30,8 @@ interface Row {
   note: HTMLElement;
   /** How many photographs have been chosen: only the last one counts. */
   chosen: number;
+  /** The photograph that the figure has, as it was given. */
+  file?: File | undefined;
 }
 
 const INVITATION = "Or drop one here. Stays on your device.";
@@ -46,6 +48,11 @@ export class Photos {
 
   get offered(): boolean {
     return this.#rows.length > 0;
+  }
+
+  /** The photographs that the figure has, as the reader gave them, in the order of its slots. */
+  get files(): File[] {
+    return this.#rows.flatMap(({ file }) => file ?? []);
   }
 
   update(slots: PhotoSlot[]): void {
@@ -75,10 +82,18 @@ export class Photos {
 
   /** The figure has none of them any more, and wants none that is still being read. */
   forget(): void {
+    const had = this.files.length > 0;
     for (const row of this.#rows) {
       row.chosen += 1;
       row.note.textContent = INVITATION;
+      row.file = undefined;
     }
+    if (had) this.#tell();
+  }
+
+  /** The page may do something with the files, as hand them to the Lab. */
+  #tell(): void {
+    this.element.dispatchEvent(new CustomEvent("epipole-photographs", { bubbles: true, composed: true }));
   }
 
   #row(slot: PhotoSlot): Row {
@@ -105,6 +120,10 @@ export class Photos {
     const turn = ++row.chosen;
     let bitmap: ImageBitmap;
     try {
+      if (isCutOff(await file.arrayBuffer())) {
+        if (turn === row.chosen) this.#hooks.warn(`${file.name} is cut off: the file ends before its picture does.`);
+        return;
+      }
       bitmap = await createImageBitmap(file, { imageOrientation: "from-image" });
     } catch {
       if (turn === row.chosen) {
@@ -130,7 +149,9 @@ export class Photos {
     }
     const words = whole === now ? `${now} pixels.` : `Made smaller, from ${whole} to ${now} pixels.`;
     note.textContent = `${words} Stays on your device.`;
+    row.file = file;
     this.#hooks.noted();
+    this.#tell();
   }
 }
 

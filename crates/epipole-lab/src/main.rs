@@ -3,5 +3,6 @@
 mod native;
 
 fn main() -> eframe::Result {
+    native::give_back();
     native::run(std::env::args_os().skip(1).map(Into::into).collect())
 }

@@ -6,7 +6,7 @@
 mod common;
 
 use common::{finish, reopened, solved};
-use epipole_lab::project::{COMPUTED_BY, Computed, Event, Project};
+use epipole_lab::project::{About, COMPUTED_BY, Computed, Event, Project, Step, Task};
 use epipole_lab::tasks::{Answer, Blob, Sample};
 
 fn table() -> Project {
@@ -15,20 +15,77 @@ fn table() -> Project {
     project
 }
 
-#[test]
-fn the_sample_with_its_results_leaves_nothing_to_compute() {
-    let done = solved(Sample::Table);
-    let computed = done.all_computed();
+/// The sample with what came with it, nothing computed yet.
+fn brought(computed: &Computed) -> Project {
     let mut project = table();
     project.bring(Computed::from_bytes(&computed.to_bytes()));
-    assert_eq!(project.wanted(), []);
+    project
+}
+
+#[test]
+fn the_sample_comes_solved_and_only_its_pixels_are_left_to_be_made() {
+    let done = solved(Sample::Table);
+    let computed = done.light_computed();
+    let num_bytes = computed.to_bytes().len();
+    assert!(num_bytes < 1_000_000, "{num_bytes}");
+    let mut project = brought(&computed);
     assert_eq!(project.reconstruction(), done.reconstruction());
+    assert!(project.reconstruction().is_some());
+    let is_photograph = |task: &Task| matches!(task.about, About::Photograph(_));
+    assert!(project.wanted().iter().all(is_photograph));
+    assert_eq!(project.wanted().len(), 9);
+    // What is known of a photograph is known before its pixels are there.
+    let first = &project.document().photos[0];
+    assert_eq!(
+        project.camera(first),
+        done.camera(&done.document().photos[0])
+    );
+    assert!(project.photograph(first).is_none());
+    assert!(!project.can_export() && project.export_request().is_none());
+    assert_eq!(finish(&mut project), 9);
+    assert_eq!(project.export_request(), done.export_request());
+    assert!(project.can_export());
     // What has been brought is as good as computed: undo finds it.
     let id = project.document().photos[0].id;
     project.update(Event::Exclude(id, true));
     assert_eq!(finish(&mut project), 1, "eight photographs, all matched");
     project.update(Event::Undo);
     assert_eq!(project.wanted(), []);
+}
+
+#[test]
+fn descriptors_come_once_somebody_asks_for_them() {
+    let done = solved(Sample::Table);
+    let mut project = brought(&done.light_computed());
+    finish(&mut project);
+    let photos = project.document().photos.clone();
+    let is_whole = |project: &Project, n: usize| {
+        let features = project.features(&photos[n]).unwrap();
+        features.has_descriptors()
+    };
+    assert!((0..9).all(|n| !is_whole(&project, n)));
+    // Of the photograph that is looked at.
+    project.update(Event::Show(Step::Features));
+    project.update(Event::Look(photos[3].id));
+    assert_eq!(finish(&mut project), 1);
+    assert_eq!(project.features(&photos[3]), done.features(&photos[3]));
+    assert!(!is_whole(&project, 2));
+    // Of all that are matched anew, and then everything is as if it had been computed here.
+    let tighter = |project: &mut Project| {
+        let mut settings = project.document().settings.clone();
+        settings.matching.ratio = 0.7;
+        project.update(Event::Set(settings));
+        finish(project)
+    };
+    let mut other = solved(Sample::Table);
+    assert_eq!(tighter(&mut other) + 8, tighter(&mut project));
+    assert!((0..9).all(|n| is_whole(&project, n)));
+    assert_eq!(project.reconstruction(), other.reconstruction());
+    assert!(project.reconstruction() != done.reconstruction());
+    // The project is saved with what there is, and opens as well.
+    let mut again = reopened(&brought(&done.light_computed()));
+    assert_eq!(finish(&mut again), 9);
+    assert_eq!(again.reconstruction(), done.reconstruction());
 }
 
 #[test]
@@ -55,18 +112,22 @@ fn a_saved_project_brings_what_was_computed() {
 
 #[test]
 fn what_something_else_has_computed_is_left() {
-    let computed = solved(Sample::Alone).all_computed();
+    let computed = solved(Sample::Alone).light_computed();
     let open = |computed: Computed| {
         let mut project = Project::default();
         project.update(Event::OpenSample(Sample::Alone));
         project.bring(computed);
-        project.wanted().len()
+        // Whether a camera is known; the pixels are to come in any case.
+        assert_eq!(project.wanted().len(), 1);
+        let photos = project.document().photos.iter();
+        let is_known: Vec<bool> = photos.map(|p| project.camera(p).is_some()).collect();
+        is_known
     };
     assert_eq!(computed.by, COMPUTED_BY);
-    assert_eq!(open(computed.clone()), 0);
+    assert_eq!(open(computed.clone()), [true]);
     let by = "another version".to_owned();
-    assert_eq!(open(Computed { by, ..computed }), 1);
-    assert_eq!(open(Computed::from_bytes(b"no results")), 1);
+    assert_eq!(open(Computed { by, ..computed }), [false]);
+    assert_eq!(open(Computed::from_bytes(b"no results")), [false]);
 }
 
 /// Every answer with something that does not fit, by the kind of answer.
@@ -93,7 +154,8 @@ fn spoiled(answer: &Answer) -> Vec<Answer> {
         Answer::Features(_) => {
             spoil(&|answer| {
                 if let Answer::Features(found) = answer {
-                    found.list.pop();
+                    found.described.dimension = 128;
+                    found.described.values = vec![0; 77].into();
                 }
             });
             spoil(&|answer| {
@@ -153,7 +215,7 @@ fn spoiled(answer: &Answer) -> Vec<Answer> {
 #[test]
 fn results_that_do_not_fit_are_computed_once_more() {
     let done = solved(Sample::Table);
-    let computed = done.all_computed();
+    let computed = done.light_computed();
     let mut kinds = std::collections::BTreeSet::new();
     for index in 0..computed.results.len() {
         let answer = Answer::from_bytes(&computed.results[index].1).unwrap();

@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::desk::{Bench, click, open, rest};
+use common::desk::{Bench, Desk, click, open_with, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::panels::Arrival;
 use image::RgbImage;
@@ -23,6 +23,20 @@ const PATIENCE: Duration = Duration::from_secs(420);
 
 /// A program that ends with the test.
 struct Ended(Child);
+
+impl Ended {
+    /// Its resident memory, as the system tells.
+    fn memory_mb(&self) -> u32 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.0.id())).unwrap();
+        let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+        let kilobytes: u32 = line
+            .and_then(|line| line.split_whitespace().nth(1))
+            .unwrap()
+            .parse()
+            .unwrap();
+        kilobytes / 1024
+    }
+}
 
 impl Drop for Ended {
     fn drop(&mut self) {
@@ -161,7 +175,11 @@ fn middle(bench: &Bench<'_>, name: &str) -> egui::Pos2 {
 }
 
 fn bench() -> Bench<'static> {
-    open(SIZE.0 as f32, SIZE.1 as f32)
+    let desk = Desk {
+        keeps_nothing: true,
+        ..Desk::default()
+    };
+    open_with(desk, SIZE.0 as f32, SIZE.1 as f32)
 }
 
 #[test]
@@ -183,6 +201,8 @@ fn the_sample_is_solved_in_a_window_and_saved() {
     ] {
         assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
     }
+    let resting_mb = lab.memory_mb();
+    assert!(resting_mb < 300, "the window holds {resting_mb} MB at rest");
     // The space has thousands of points, and nine photographs standing in it.
     let screen = display.screen();
     let space = image::imageops::crop_imm(&screen, 180, 60, 760, 700).to_image();

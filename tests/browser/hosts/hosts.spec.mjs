@@ -302,7 +302,7 @@ test("Docusaurus", async ({ page, book, strangers }) => {
 
 test("JupyterLab", async ({ page, book, strangers }) => {
   const folder = folderOf("jupyter", book);
-  const child = spawn(join(python, "jupyter"), ["lab", "--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0", "--ServerApp.port_retries=0", "--IdentityProvider.token=t", "--LabApp.news_url=", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate", `--ServerApp.root_dir=${folder}`], {
+  const child = spawn(join(python, "jupyter"), ["lab", "--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0", "--ServerApp.port_retries=0", "--IdentityProvider.token=t", "--LabApp.news_url=", "--LabApp.expose_app_in_browser=True", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate", `--ServerApp.root_dir=${folder}`], {
     cwd: folder,
     env: { ...process.env, PATH: `${python}:${process.env.PATH}`, JUPYTER_CONFIG_DIR: join(folder, ".config"), JUPYTER_DATA_DIR: join(folder, ".data"), JUPYTER_RUNTIME_DIR: join(folder, ".runtime") },
   });
@@ -315,6 +315,11 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   await cells.first().locator(".cm-content").click();
   for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
   await operate(page, race(page));
+  // What its menu of settings does, without the time that a hand takes.
+  const wear = (theme) => () => page.evaluate((name) => window.jupyterapp.commands.execute("apputils:change-theme", { theme: name }), theme);
+  // A theme is loaded when it is worn for the first time, which is the host's time.
+  for (const theme of ["JupyterLab Dark", "JupyterLab Light"]) await wear(theme)();
+  await follows(race(page), wear("JupyterLab Dark"), wear("JupyterLab Light"));
   await answers(map(page));
   await expect(cells).toHaveCount(3);
   // What the reader has set is in Python, and what Python sets is on the page.
@@ -366,6 +371,8 @@ test("JupyterLab", async ({ page, book, strangers }) => {
 
 test("marimo", async ({ page, book, strangers }) => {
   const folder = folderOf("marimo", book);
+  // An app may follow its reader's system.
+  writeFileSync(join(folder, "pyproject.toml"), '[tool.marimo.display]\ntheme = "system"\n');
   const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", String(await freePort())], {
     cwd: folder,
     env: { ...process.env, MARIMO_SKIP_UPDATE_CHECK: "1" },
@@ -374,6 +381,8 @@ test("marimo", async ({ page, book, strangers }) => {
   strangers.push(server.origin.replace("http", "ws"));
   await visit(page, server.origin, strangers);
   await operate(page, race(page));
+  const system = (colorScheme) => () => page.emulateMedia({ colorScheme });
+  await follows(race(page), system("dark"), system("light"));
   await answers(map(page));
   // A page that is left asks nothing of a server that goes.
   await page.goto("about:blank");

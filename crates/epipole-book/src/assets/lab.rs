@@ -53,16 +53,24 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
 
 /// What the Lab computes of the sample that it opens with, computed now so that no reader has to wait for it.
 fn solved(tools: &Tools) -> Result<Vec<u8>> {
-    let path = super::target_folder(&tools.project).join("lab-sample.bin");
-    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["run", "--quiet", "--package", "epipole-lab"])
-        .args(["--no-default-features", "--features", "threads"])
-        .args(["--example", "solved", "--"])
-        .arg(&path)
+    let target = super::target_folder(&tools.project);
+    // The whole workspace is named, so that the core is the one that this builder was compiled with, and need not be
+    // compiled once more.
+    let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["build", "--quiet", "--locked", "--workspace"])
+        .args(["--no-default-features", "--features"])
+        .arg("epipole/default,epipole-lab/threads")
+        .args(["--bin", "epipole-lab-sample", "--target-dir"])
+        .arg(&target)
         .current_dir(&tools.project)
         .stdout(Stdio::null())
         .status()
         .context("cargo cannot be started")?;
-    ensure!(status.success(), "the sample of the Lab cannot be computed");
+    ensure!(built.success(), "the sample of the Lab cannot be compiled");
+    let path = target.join("lab-sample.bin");
+    let program = format!("debug/epipole-lab-sample{}", std::env::consts::EXE_SUFFIX);
+    let computed = Command::new(target.join(program)).arg(&path).status();
+    let is_there = computed.is_ok_and(|status| status.success());
+    ensure!(is_there, "the sample of the Lab cannot be computed");
     read(&path)
 }

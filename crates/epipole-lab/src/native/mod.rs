@@ -2,10 +2,12 @@
 //! folder where the program was started.
 
 mod dialog;
+mod memory;
 
 use dialog::Wanted;
 use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
 use epipole_lab::tasks::{Branch, Told, compute};
+pub(crate) use memory::give_back;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};

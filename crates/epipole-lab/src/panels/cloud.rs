@@ -31,7 +31,8 @@ struct Made {
     component: usize,
     coloring: Coloring,
     theme: Theme,
-    photographs: bool,
+    /// How many photographs stand in their frusta.
+    photographs: usize,
     /// How many cameras there are while there are not all.
     growing: Option<usize>,
     dense: Vec<Key>,
@@ -177,7 +178,12 @@ impl CloudView {
             component: project.view().component,
             coloring: self.coloring,
             theme,
-            photographs: self.photographs,
+            photographs: match self.photographs {
+                true => (project.taking_part().into_iter())
+                    .filter(|photo| project.photograph(photo).is_some())
+                    .count(),
+                false => 0,
+            },
             growing: (project.component().is_none()).then(|| component.num_registered()),
             dense: project.dense_pairs().iter().map(|(key, ..)| *key).collect(),
             floor: project.floor(),

@@ -9,7 +9,7 @@ use egui::{Button, RichText, Ui};
 pub(super) fn knobs(project: &Project, ui: &mut Ui) -> Option<Wish> {
     let mut wish = None;
     ui.label(project.describe());
-    let ready = project.component().is_some();
+    let ready = project.can_export();
     if ui
         .add_enabled(ready, Button::new("Save reconstruction.zip"))
         .clicked()

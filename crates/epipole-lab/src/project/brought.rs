@@ -6,8 +6,8 @@ use super::keys::Key;
 use super::wanted::About;
 use super::{Kept, Project};
 use crate::tasks::{
-    Answer, Blob, CameraFound, Component, Features, Match, Photograph, Reconstructed, TwoViews,
-    ViewModel,
+    Answer, Blob, CameraFound, Component, Described, Features, Match, Photograph, Reconstructed,
+    Source, TwoViews, ViewModel,
 };
 use serde::{Deserialize, Serialize};
 
@@ -68,22 +68,37 @@ impl Project {
 
     /// Features, matches, pairs and the reconstruction that there are: what takes long, but for pixels, which files have.
     pub(super) fn computed(&self) -> Computed {
-        self.computed_if(|kept| {
-            matches!(
-                kept,
-                Kept::Features(_) | Kept::Matches(_) | Kept::TwoViews(_) | Kept::Reconstruction(_)
-            )
+        self.computed_of(|kept| match kept {
+            Kept::Features(found) => Some(Answer::Features((**found).clone())),
+            kept => follows(kept),
         })
     }
 
-    /// The same with the pixels: nothing is left to be computed.
-    pub fn all_computed(&self) -> Computed {
-        self.computed_if(|_| true)
+    /// The same of a sample, to travel light: with sizes and lenses of its photographs, whose pixels are soon rendered, and
+    /// without descriptors, which only somebody asks for who looks at them or who matches anew. Those are nine bytes of ten.
+    pub fn light_computed(&self) -> Computed {
+        self.computed_of(|kept| match kept {
+            Kept::Photograph(found) => Some(Answer::Photograph(Photograph {
+                rgb: Blob::default(),
+                ..(**found).clone()
+            })),
+            Kept::Features(found) => Some(Answer::Features(Features {
+                list: found.list.clone(),
+                described: Described {
+                    dimension: 0,
+                    values: Blob::default(),
+                },
+            })),
+            kept => follows(kept),
+        })
     }
 
-    fn computed_if(&self, is_wanted: impl Fn(&Kept) -> bool) -> Computed {
+    fn computed_of(&self, answer: impl Fn(&Kept) -> Option<Answer>) -> Computed {
         let needed = self.needed().into_iter();
-        let bytes = |key: Key| Some((key.0, self.results.bytes_if(key, &is_wanted)?.into()));
+        let bytes = |key: Key| {
+            let answer = answer(self.results.get(key)?)?;
+            Some((key.0, answer.to_bytes().into()))
+        };
         Computed {
             by: COMPUTED_BY.to_owned(),
             results: needed.filter_map(bytes).collect(),
@@ -97,7 +112,11 @@ impl Project {
             Some(self.features(photo)?.list.len())
         };
         match (about, answer) {
-            (About::Photograph(_), Answer::Photograph(found)) => is_photograph(found),
+            (About::Photograph(id), Answer::Photograph(found)) => {
+                let source = self.document.photo(id).map(|photo| &photo.source);
+                let is_rendered = matches!(source, Some(Source::Rendered(..)));
+                is_photograph(found) && (found.has_pixels() || is_rendered)
+            }
             (About::Features(_), Answer::Features(found)) => is_features(found),
             (About::Matches(first, second), Answer::Matches(found)) => {
                 match (num_features(first), num_features(second)) {
@@ -128,11 +147,22 @@ fn are_finite(numbers: &[f64]) -> bool {
     numbers.iter().all(|x| x.is_finite())
 }
 
+/// What follows from features, if it takes long.
+fn follows(kept: &Kept) -> Option<Answer> {
+    match kept {
+        Kept::Matches(found) => Some(Answer::Matches((**found).clone())),
+        Kept::TwoViews(found) => Some(Answer::TwoViews((**found).clone())),
+        Kept::Reconstruction(found) => Some(Answer::Reconstruction((**found).clone())),
+        _ => None,
+    }
+}
+
+/// With its pixels, or without.
 fn is_photograph(found: &Photograph) -> bool {
     let num_bytes = u64::from(found.width) * u64::from(found.height) * 3;
     let sizes = [found.full_size, found.sensor_size];
     num_bytes > 0
-        && num_bytes == found.rgb.len() as u64
+        && (num_bytes == found.rgb.len() as u64 || !found.has_pixels())
         && sizes
             .iter()
             .all(|(width, height)| *width > 0 && *height > 0)
@@ -142,10 +172,11 @@ fn is_photograph(found: &Photograph) -> bool {
             .is_none_or(|k| are_finite(&k) && k[0] > 0.0 && k[1] > 0.0)
 }
 
+/// With their descriptors, or without.
 fn is_features(found: &Features) -> bool {
     let dimension = found.described.dimension as usize;
-    dimension > 0
-        && found.list.len().checked_mul(dimension) == Some(found.described.values.len())
+    let fits = found.list.len().checked_mul(dimension) == Some(found.described.values.len());
+    (!found.has_descriptors() || (dimension > 0 && fits))
         && (found.list.iter()).all(|feature| {
             are_finite(&[feature.u, feature.v])
                 && feature.scale_px.is_finite()

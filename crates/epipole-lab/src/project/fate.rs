@@ -64,7 +64,7 @@ impl Project {
         }
         let all = self.taking_part();
         if all.len() < 2 {
-            return match self.photograph(photo) {
+            return match self.frame(photo) {
                 Some(_) => Fate::Alone,
                 None => Fate::Open,
             };

@@ -32,7 +32,7 @@ struct Parts<'a> {
 impl Project {
     fn parts(&self) -> Option<Parts<'_>> {
         let photos = self.taking_part();
-        let pixels: Option<Vec<_>> = photos.iter().map(|photo| self.photograph(photo)).collect();
+        let pixels: Option<Vec<_>> = photos.iter().map(|photo| self.frame(photo)).collect();
         let pixels = pixels.filter(|pixels| !pixels.is_empty())?;
         let is_file = |photo: &Given| matches!(photo.source, Source::File(_));
         let both = || photos.iter().zip(&pixels);

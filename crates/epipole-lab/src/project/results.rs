@@ -105,9 +105,14 @@ impl Results {
         }
     }
 
-    /// Whether there is an answer, or a sentence why there is none.
+    /// Whether there is an answer, or a sentence why there is none. A photograph without its pixels is none.
     pub(super) fn is_settled(&self, key: Key) -> bool {
-        self.kept.contains_key(&key) || self.failed.contains_key(&key)
+        let is_there = match self.get(key) {
+            Some(Kept::Photograph(found)) => found.has_pixels(),
+            Some(_) => true,
+            None => false,
+        };
+        is_there || self.failed.contains_key(&key)
     }
 
     /// Why there is no such result.
@@ -115,27 +120,18 @@ impl Results {
         self.failed.get(&key).map(String::as_str)
     }
 
-    /// The bytes of an answer that is kept, if it is of a wanted kind.
-    pub(super) fn bytes_if(&self, key: Key, is_wanted: impl Fn(&Kept) -> bool) -> Option<Vec<u8>> {
-        let answer = match self.get(key).filter(|kept| is_wanted(kept))? {
-            Kept::Photograph(found) => Answer::Photograph((**found).clone()),
-            Kept::Features(found) => Answer::Features((**found).clone()),
-            Kept::Matches(found) => Answer::Matches((**found).clone()),
-            Kept::TwoViews(found) => Answer::TwoViews((**found).clone()),
-            Kept::Reconstruction(found) => Answer::Reconstruction((**found).clone()),
-            Kept::Depth(found) => Answer::Depth((**found).clone()),
-            Kept::Board(found) => Answer::Board((**found).clone()),
-            Kept::Calibration(found) => Answer::Calibration((**found).clone()),
-        };
-        Some(answer.to_bytes())
-    }
-
-    fn get(&self, key: Key) -> Option<&Kept> {
+    /// A result that is kept, whatever it is.
+    pub(super) fn get(&self, key: Key) -> Option<&Kept> {
         self.kept.get(&key).map(|(kept, _, _)| kept)
     }
 
-    /// The photograph of this name.
+    /// The photograph of this name, with its pixels.
     pub fn photograph(&self, key: Key) -> Option<&Rc<Photograph>> {
+        self.frame(key).filter(|found| found.has_pixels())
+    }
+
+    /// The same, with or without its pixels: its size and its lens.
+    pub(super) fn frame(&self, key: Key) -> Option<&Rc<Photograph>> {
         match self.get(key)? {
             Kept::Photograph(found) => Some(found),
             _ => None,

@@ -91,6 +91,11 @@ impl Project {
         self.results.photograph(self.photograph_key(photo))
     }
 
+    /// Its size and its lens, if they are known: its pixels may be to come.
+    pub(super) fn frame(&self, photo: &Given) -> Option<&Rc<Photograph>> {
+        self.results.frame(self.photograph_key(photo))
+    }
+
     /// Its features, if they are there.
     pub fn features(&self, photo: &Given) -> Option<&Rc<Features>> {
         self.results.features(self.features_key(photo))
@@ -111,14 +116,14 @@ impl Project {
         self.results.reconstruction(self.reconstruction_key()?)
     }
 
-    /// Size and intrinsics of a photograph, once it is there.
+    /// Size and intrinsics of a photograph, once they are known.
     pub fn camera(&self, photo: &Given) -> Option<Calibrated> {
-        Some(camera(photo, self.photograph(photo)?).0)
+        Some(camera(photo, self.frame(photo)?).0)
     }
 
     /// Where its focal length comes from.
     pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
-        Some(camera(photo, self.photograph(photo)?).1)
+        Some(camera(photo, self.frame(photo)?).1)
     }
 
     /// The photographs that are neither left out, nor twice in the list, nor unreadable.

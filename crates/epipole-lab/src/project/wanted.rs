@@ -4,6 +4,7 @@ use super::document::{Given, PhotoId};
 use super::keys::Key;
 use super::{Fate, Project, Step};
 use crate::tasks::{Described, ImagePoints, Packed, PairOf, Request};
+use std::collections::BTreeSet;
 
 /// Something to compute.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,8 +43,14 @@ impl Project {
             return Vec::new();
         }
         let mut tasks: Vec<Task> = Vec::new();
+        let to_describe = self.to_describe();
         let mut want = |key: Key, about: About| {
-            if !self.results.is_settled(key) && tasks.iter().all(|task| task.key != key) {
+            let is_whole = match about {
+                About::Features(id) => !to_describe.contains(&id),
+                _ => true,
+            };
+            let is_settled = is_whole && self.results.is_settled(key);
+            if !is_settled && tasks.iter().all(|task| task.key != key) {
                 tasks.push(Task { key, about });
             }
         };
@@ -58,8 +65,9 @@ impl Project {
         }
         let photos = self.taking_part();
         for photo in &photos {
-            if self.photograph(photo).is_some() {
-                want(self.features_key(photo), About::Features(photo.id));
+            let key = self.features_key(photo);
+            if self.photograph(photo).is_some() || self.brought.contains_key(&key) {
+                want(key, About::Features(photo.id));
             }
         }
         let mut all_matched = photos.len() >= 2;
@@ -67,10 +75,13 @@ impl Project {
         for (first, second) in pairs(&photos) {
             let key = self.matches_key(first, second);
             all_matched &= self.results.matches(key).is_some();
-            if self.features(first).is_none() || self.features(second).is_none() {
+            let (Some(one), Some(two)) = (self.features(first), self.features(second)) else {
                 continue;
+            };
+            let is_described = one.has_descriptors() && two.has_descriptors();
+            if is_described || self.brought.contains_key(&key) {
+                want(key, About::Matches(first.id, second.id));
             }
-            want(key, About::Matches(first.id, second.id));
             if self.results.matches(key).is_some()
                 && let Some(key) = self.two_views_key(first, second)
             {
@@ -91,6 +102,8 @@ impl Project {
         let looked_at = (self.view.step == Step::Depth).then_some(&self.view.pair);
         for pair in looked_at.into_iter().chain(&self.document.dense) {
             if let Some((first, second)) = self.document.pair(*pair)
+                && self.photograph(first).is_some()
+                && self.photograph(second).is_some()
                 && let Some(key) = self.depth_key(first, second)
             {
                 want(key, About::Depth(first.id, second.id));
@@ -100,6 +113,30 @@ impl Project {
             want(key, about);
         }
         tasks
+    }
+
+    /// Photographs whose features came without descriptors, which are asked for now: somebody looks at them, or matches
+    /// have to be found anew.
+    fn to_describe(&self) -> BTreeSet<PhotoId> {
+        let photos = self.taking_part();
+        let is_bare = |photo: &Given| {
+            let found = self.features(photo);
+            self.photograph(photo).is_some() && found.is_some_and(|found| !found.has_descriptors())
+        };
+        if !photos.iter().any(|photo| is_bare(photo)) {
+            return BTreeSet::new();
+        }
+        let is_open = |first: &Given, second: &Given| {
+            let key = self.matches_key(first, second);
+            !self.results.is_settled(key) && !self.brought.contains_key(&key)
+        };
+        let open = pairs(&photos).filter(|(first, second)| is_open(first, second));
+        let looked_at = (self.view.step == Step::Features).then_some(self.view.photo);
+        (open.flat_map(|(first, second)| [first, second]))
+            .chain(looked_at.and_then(|id| self.document.photo(id)))
+            .filter(|photo| is_bare(photo))
+            .map(|photo| photo.id)
+            .collect()
     }
 
     /// The request of a task; `None` if the project has changed since.
@@ -190,6 +227,12 @@ impl Project {
             }
         }
         Some(found)
+    }
+
+    /// Whether there is a reconstruction to save, and all of its photographs.
+    pub fn can_export(&self) -> bool {
+        let mut photos = self.taking_part().into_iter();
+        self.component().is_some() && photos.all(|photo| self.photograph(photo).is_some())
     }
 
     /// The request for the zip file of what is looked at; `None` while there is no reconstruction.

@@ -52,7 +52,7 @@ impl Project {
     pub fn orientation_words(&self) -> String {
         let sizes = |is_upright: bool| {
             let photos = self.taking_part().into_iter();
-            let pixels = photos.filter_map(|photo| self.photograph(photo));
+            let pixels = photos.filter_map(|photo| self.frame(photo));
             let sizes = pixels.map(|pixels| pixels.full_size);
             sizes
                 .filter(move |(w, h)| if is_upright { h > w } else { w > h })
@@ -242,6 +242,9 @@ impl Project {
 
     fn export_words(&self) -> String {
         match self.component() {
+            Some(_) if !self.can_export() => {
+                "Ready to save as soon as all photographs are read.".to_owned()
+            }
             Some(component) => {
                 let dense = self.dense_pairs().len();
                 let depth = match dense {

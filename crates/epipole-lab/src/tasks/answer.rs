@@ -11,7 +11,7 @@ pub struct Photograph {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Red, green, blue, row by row.
+    /// Red, green, blue, row by row. None where only its size and lens are known, and the pixels are to come.
     pub rgb: Blob,
     /// The focal length that the file tells, in pixels of this size.
     pub focal_px: Option<f64>,
@@ -24,6 +24,13 @@ pub struct Photograph {
     pub sensor_size: (u32, u32),
     /// Whether its file shows just these pixels: neither reduced nor turned nor redrawn.
     pub as_given: bool,
+}
+
+impl Photograph {
+    /// Whether its pixels are there.
+    pub fn has_pixels(&self) -> bool {
+        !self.rgb.is_empty()
+    }
 }
 
 /// A feature.
@@ -46,8 +53,15 @@ pub struct Feature {
 pub struct Features {
     /// Where, strongest first.
     pub list: Vec<Feature>,
-    /// What they look like, in the same order.
+    /// What they look like, in the same order; nothing where that is to be found out once it is asked for.
     pub described: Described,
+}
+
+impl Features {
+    /// Whether what they look like is there.
+    pub fn has_descriptors(&self) -> bool {
+        self.list.is_empty() || !self.described.values.is_empty()
+    }
 }
 
 /// A match.

@@ -24,6 +24,8 @@ pub(crate) struct Desk {
     pub(crate) brings_sample: bool,
     /// Whether everything that is computed breaks down.
     pub(crate) breaks: bool,
+    /// Whether it keeps nothing, as a window: then a menu has less in it, and is narrower.
+    pub(crate) keeps_nothing: bool,
 }
 
 impl Host for Desk {
@@ -93,7 +95,7 @@ impl Host for Desk {
     }
 
     fn can_keep(&self) -> bool {
-        true
+        !self.keeps_nothing
     }
 
     fn keep(&mut self, project: Vec<u8>) {

@@ -1,0 +1,84 @@
+// From a figure into the Lab: the step that the figure is about, its knobs, and the reader's own photographs. They are put
+// aside in this browser for as long as it takes the Lab to open.
+
+interface Figure extends HTMLElement {
+  readonly photographs?: readonly File[];
+  readonly state?: Record<string, string>;
+}
+
+/** A step of the Lab, and which of its knobs is which of the figure's. */
+interface Way {
+  step: (state: Record<string, string>) => string;
+  knobs: Record<string, string>;
+}
+
+const STAGES: Record<string, string> = { detect: "features", match: "matches", ransac: "two-views", surface: "depth" };
+
+const WAYS: Record<string, Way> = {
+  "gradient-field": { step: () => "features", knobs: {} },
+  harris: { step: () => "features", knobs: {} },
+  "two-view-sfm": {
+    step: ({ stage = "surface" }) => STAGES[stage] ?? "reconstruction",
+    knobs: { ratio: "ratio", threshold: "max-error" },
+  },
+};
+
+/** The address of the Lab for what a figure shows, from the folder of the page. */
+export function addressFor(name: string, state: Record<string, string>): string {
+  const way = WAYS[name];
+  const link = new URLSearchParams({ step: way?.step(state) ?? "photographs" });
+  for (const [knob, theirs] of Object.entries(way?.knobs ?? {})) {
+    const value = state[knob];
+    if (value !== undefined) link.set(theirs, value);
+  }
+  // The Lab takes what was put aside in place of its sample.
+  link.set("photographs", "brought");
+  return `lab/index.html?${link}`;
+}
+
+/** Puts photographs aside and goes to the Lab; throws a sentence where that cannot be. */
+async function go(figure: Figure): Promise<void> {
+  const address = addressFor(figure.getAttribute("name") ?? "", figure.state ?? {});
+  const photographs = figure.photographs ?? [];
+  // Nothing is put aside for a Lab that does not take it back.
+  const answer = await fetch(address).catch(() => undefined);
+  const page = answer?.ok ? await answer.text() : "";
+  if (!page.includes('id="lab"')) throw new Error("The Lab cannot be reached just now.");
+  const { putAside } = await import("../lab/keep");
+  await putAside(photographs).catch(() => {
+    throw new Error("This browser lets a page hand on nothing: open the Lab and choose the photographs there.");
+  });
+  location.assign(address);
+}
+
+/** A button below the figure, as long as the reader's photographs are in it. */
+function offer(figure: Figure): void {
+  const place = figure.parentElement?.querySelector(":scope > .to-lab");
+  const count = figure.photographs?.length ?? 0;
+  if (count === 0) {
+    place?.remove();
+    return;
+  }
+  const button = document.createElement("button");
+  button.type = "button";
+  button.textContent = count === 1 ? "Open your photograph in the Lab" : `Open your ${count} photographs in the Lab`;
+  const box = document.createElement("p");
+  box.className = "to-lab";
+  box.setAttribute("role", "status");
+  button.addEventListener("click", () => {
+    button.disabled = true;
+    go(figure).catch((problem: Error) => {
+      button.disabled = false;
+      box.replaceChildren(button, ` ${problem.message}`);
+    });
+  });
+  box.append(button);
+  if (place) place.replaceWith(box);
+  else figure.after(box);
+}
+
+export function startHandingOn(): void {
+  document.addEventListener("epipole-photographs", ({ target }) => {
+    if (target instanceof HTMLElement) offer(target as Figure);
+  });
+}
