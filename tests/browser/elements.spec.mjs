@@ -214,7 +214,7 @@ test("a photograph that is too narrow is told by its name, as it is and as it wo
     buffer: Buffer.from(url.split(",")[1], "base64"),
   });
   const notice = figure.locator(".notice");
-  await expect(notice).toHaveText(/^strip\.png has 64 × 3000 pixels, made smaller \d+ × \d+\. This figure takes photographs of at least \d+ pixels on each side\.$/);
+  await expect(notice).toHaveText(/^strip\.png has 64 × 3000 pixels, made smaller to \d+ × \d+\. This figure takes photographs of at least \d+ pixels on each side\.$/);
   expect(await told(figure)).toEqual(before);
 });
 

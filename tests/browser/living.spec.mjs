@@ -429,7 +429,7 @@ test.describe("slow and large", () => {
     await expect(figure.locator(".notice")).toContainText("8 × 3000");
     // Wide enough as it is, but not once it is as small as the figure wants it.
     await choose("strip.png", await picture(64, 3000));
-    await expect(figure.locator(".notice")).toContainText(/64 × 3000, made smaller to \d+ × \d+, pixels/);
+    await expect(figure.locator(".notice")).toContainText(/64 × 3000 pixels, made smaller to \d+ × \d+\. This figure takes/);
     await expect(note).toHaveText("Or drop one here. Stays on your device.");
   });
 

@@ -143,7 +143,7 @@ export class Photos {
     if (refused !== undefined) {
       // The reader knows the photograph by its name and its own size. What is wanted stands behind the colon.
       const wanted = refused.split(": it ").at(-1) ?? refused;
-      const size = whole === now ? `${now} pixels` : `${whole} pixels, made smaller ${now}`;
+      const size = whole === now ? `${now} pixels` : `${whole} pixels, made smaller to ${now}`;
       this.#hooks.warn(`${file.name} has ${size}. This figure ${wanted}.`);
       return;
     }
