@@ -480,6 +480,31 @@ fn canceling_leaves_a_valid_part() {
     assert_eq!(result.unregistered.len(), 3);
     let (distance, _) = errors(&world, &result.components[0].cameras);
     assert!(distance < 1e-3, "{distance}");
+    // In the middle of an adjustment, too: the last step is the one that was stopped at.
+    let (mut has_three, mut asked_after) = (false, 0);
+    let mut stop = |step: &SfmStep| {
+        let is_third = matches!(
+            step,
+            SfmStep::Registered {
+                num_registered: 3,
+                ..
+            }
+        );
+        has_three |= is_third;
+        if !has_three || is_third {
+            return ControlFlow::Continue(());
+        }
+        asked_after += 1;
+        assert!(matches!(step, SfmStep::Refined { .. }), "{step:?}");
+        ControlFlow::Break(())
+    };
+    let result =
+        reconstruct(&world.input, &SfmOptions::default(), &mut stop).expect("a partial result");
+    assert!(result.canceled);
+    assert_eq!(result.components[0].num_registered(), 4);
+    assert_eq!(asked_after, 1);
+    let (distance, _) = errors(&world, &result.components[0].cameras);
+    assert!(distance < 0.01, "{distance}");
     let mut at_once = |_: &SfmStep| ControlFlow::Break(());
     let nothing =
         reconstruct(&world.input, &SfmOptions::default(), &mut at_once).expect("a result");

@@ -41,6 +41,7 @@ pub(super) fn reconstruct(
     };
     let progress = RefCell::new(progress);
     let mut costs = Vec::new();
+    let mut last = (0.3, String::new());
     let mut observer = |step: &SfmStep| {
         let (share, words) = match step {
             SfmStep::Verified { done, total } => (
@@ -62,10 +63,13 @@ pub(super) fn reconstruct(
                 costs.push(*cost);
                 return std::ops::ControlFlow::Continue(());
             }
+            // Within an adjustment there is nothing new to say, only to ask.
+            SfmStep::Refined { .. } => last.clone(),
             SfmStep::Detected { .. } | SfmStep::Matched { .. } => {
                 return std::ops::ControlFlow::Continue(());
             }
         };
+        last = (share, words.clone());
         (progress.borrow_mut())(Told::Share(share, &words))
     };
     let mut watcher = |so_far: Reconstruction| {

@@ -118,6 +118,11 @@ pub enum SfmStep {
         /// Points so far, in this component.
         num_points: usize,
     },
+    /// A step of refining cameras and points together was taken, one of several.
+    Refined {
+        /// `½ Σ ρ(‖r‖²)` of what is refined, square pixels.
+        cost: f64,
+    },
     /// Cameras and points were refined together.
     Adjusted {
         /// `½ Σ ρ(‖r‖²)`, square pixels.

@@ -212,7 +212,7 @@ fn follow(
                 v.pair.image1.max(v.pair.image2),
             )
         });
-        early.iter().any(|v| builder.start_from(v))
+        early.iter().any(|v| builder.start_from(v, &mut reporter))
     };
     if !started {
         if reporter.canceled {
@@ -250,7 +250,7 @@ fn follow(
             builder.triangulate_of(Some(frame));
         }
         let window = keyframes.window(frame, options.window.max(2) - 1);
-        let cost = builder.adjust(Some(&window), 10, false);
+        let cost = builder.adjust(Some(&window), 10, false, &mut reporter);
         builder.filter();
         builder.complete();
         if let Some(cost) = cost {
@@ -267,7 +267,7 @@ fn follow(
     if options.final_adjustment && !reporter.canceled {
         builder.complete();
         builder.triangulate();
-        builder.adjust(None, 50, true);
+        builder.adjust(None, 50, true, &mut reporter);
         builder.filter();
     }
     let keyframes = keyframes.into_frames(|frame| builder.cameras[frame].is_some());

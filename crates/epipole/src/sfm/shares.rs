@@ -72,7 +72,7 @@ impl<'a> Shares<'a> {
                     self.num_images.max(num_registered),
                 ),
             ),
-            SfmStep::Adjusted { .. } => (Stage::BundleAdjustment, 0.0),
+            SfmStep::Refined { .. } | SfmStep::Adjusted { .. } => (Stage::BundleAdjustment, 0.0),
         };
         let share = (share - self.begin) / (1.0 - self.begin);
         // A further component begins anew with two photographs; what was done stays done.

@@ -4,6 +4,7 @@ use super::{Builder, undistorted};
 use crate::camera::Intrinsics;
 use crate::optim::{Iteration, LmOptions, RobustLoss};
 use crate::sfm::bundle::{Bundle, BundleOptions, Observation, Sensor, adjust_bundle};
+use crate::sfm::incremental::{Reporter, SfmStep};
 use crate::sfm::reconstruction::Lenses;
 use std::ops::ControlFlow;
 
@@ -29,12 +30,13 @@ impl Builder<'_> {
     }
 
     /// Bundle adjustment of everything, or of some images with the points that they see; returns
-    /// the cost.
+    /// the cost. Whoever breaks in the middle has the best so far.
     pub(in crate::sfm) fn adjust(
         &mut self,
         free: Option<&[usize]>,
         max_iterations: usize,
         with_intrinsics: bool,
+        reporter: &mut Reporter<'_>,
     ) -> Option<f64> {
         let is_free = |image: usize| free.is_none_or(|list| list.contains(&self.frame_of(image).0));
         let mut bundle = Bundle::default();
@@ -97,7 +99,11 @@ impl Builder<'_> {
             let lens = self.lens_in(&mut bundle, &mut lenses, self.images.len() / 2);
             bundle.sensors.push(Sensor { lens, ..rig });
         }
-        let mut go_on = |_: &Iteration| ControlFlow::Continue(());
+        let mut go_on =
+            |step: &Iteration| match reporter.tell(&SfmStep::Refined { cost: step.cost }) {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            };
         let report = adjust_bundle(&mut bundle, &options, &mut go_on).ok()?;
         if options.refines_lens() {
             self.share_intrinsics(&bundle, &image_of, &lenses);

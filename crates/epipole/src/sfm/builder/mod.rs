@@ -137,7 +137,7 @@ impl Builder<'_> {
             });
             for n in order {
                 tried[n] = true;
-                if self.start_from(&verified[n]) {
+                if self.start_from(&verified[n], reporter) {
                     let pair = &verified[n].pair;
                     reporter.tell(&SfmStep::Started {
                         images: [pair.image1, pair.image2],
@@ -154,7 +154,11 @@ impl Builder<'_> {
         false
     }
 
-    pub(super) fn start_from(&mut self, verified: &VerifiedPair) -> bool {
+    pub(super) fn start_from(
+        &mut self,
+        verified: &VerifiedPair,
+        reporter: &mut Reporter<'_>,
+    ) -> bool {
         let (a, b) = (verified.pair.image1, verified.pair.image2);
         let camera = |intrinsics, cam_from_world| {
             Some(Camera {
@@ -166,7 +170,7 @@ impl Builder<'_> {
         self.cameras[b] = camera(self.intrinsics[b], verified.cam2_from_cam1);
         self.triangulate();
         if self.num_points() >= self.options.min_num_inliers {
-            self.adjust(None, 20, false);
+            self.adjust(None, 20, false, reporter);
             self.filter();
             self.triangulate();
         }
@@ -198,10 +202,10 @@ impl Builder<'_> {
             let everything = num_registered <= 12 || num_registered * 10 >= adjusted_at * 11;
             let cost = if everything {
                 adjusted_at = num_registered;
-                self.adjust(None, 15, num_registered >= 4)
+                self.adjust(None, 15, num_registered >= 4, reporter)
             } else {
                 let near = self.neighborhood(image, 6);
-                self.adjust(Some(&near), 15, false)
+                self.adjust(Some(&near), 15, false, reporter)
             };
             self.filter();
             if everything {
@@ -225,7 +229,7 @@ impl Builder<'_> {
             self.complete();
             self.triangulate();
             self.drop_short_tracks();
-            let cost = self.adjust(None, 50, true);
+            let cost = self.adjust(None, 50, true, reporter);
             self.filter();
             self.drop_short_tracks();
             if let Some(cost) = cost
@@ -235,7 +239,7 @@ impl Builder<'_> {
             }
         }
         if self.place_in_world()
-            && let Some(cost) = self.adjust(None, 50, true)
+            && let Some(cost) = self.adjust(None, 50, true, reporter)
         {
             self.filter();
             self.drop_short_tracks();
