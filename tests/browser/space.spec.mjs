@@ -185,7 +185,7 @@ test("one's own photographs bring their focal length, or it is guessed", async (
   await expect.poll(async () => (await told(figure)).description).toContain("now choose photograph 2");
   await put(1, withFocal(jpeg, 28));
   // 28 mm · √(400² + 300²) / (√(36² + 24²) · 400) = 0.81, on the slider 0.80.
-  await expect.poll(words).toContain("0.80 (as 29 mm), from the file");
+  await expect.poll(words).toContain("0.80 (29 mm), from the file");
   await ready(figure);
   await settled(figure);
   // Twice the same picture: the camera did not move at all.
