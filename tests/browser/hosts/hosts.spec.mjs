@@ -316,9 +316,18 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
   await operate(page, race(page));
   // What its menu of settings does, without the time that a hand takes.
-  const wear = (theme) => () => page.evaluate((name) => window.jupyterapp.commands.execute("apputils:change-theme", { theme: name }), theme);
+  const wear = (theme) => async () => {
+    // The picture that it shows meanwhile must be gone, or it is taken away twice, which is an error of its own.
+    await expect(page.locator("#jupyterlab-splash")).toHaveCount(0);
+    await page.evaluate((name) => window.jupyterapp.commands.execute("apputils:change-theme", { theme: name }), theme);
+  };
   // A theme is loaded when it is worn for the first time, which is the host's time.
-  for (const theme of ["JupyterLab Dark", "JupyterLab Light"]) await wear(theme)();
+  for (const theme of ["JupyterLab Dark", "JupyterLab Light"]) {
+    await wear(theme)();
+    // What is asked for while another one is being loaded is lost.
+    await expect.poll(() => page.evaluate(() => document.body.dataset.jpThemeName), { timeout: 30_000 }).toBe(theme);
+  }
+  await expect(page.locator("#jupyterlab-splash")).toHaveCount(0);
   await follows(race(page), wear("JupyterLab Dark"), wear("JupyterLab Light"));
   await answers(map(page));
   await expect(cells).toHaveCount(3);
