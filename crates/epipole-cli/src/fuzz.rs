@@ -9,7 +9,7 @@ mod damage;
 use crate::commands::sfm::positions;
 use crate::failure::Failure;
 use crate::{lens, rows};
-use damage::{damage_text, some_damage};
+use damage::{config, damage_text, some_damage};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -21,15 +21,6 @@ const CAMERA: &str = r#"{ "image": { "width": 640, "height": 480 },
 "#;
 const MATCHES: &str = "# u1 v1 u2 v2\n1 2 3 4\n1e2, -2.5, 3 , 4 # and more\n\n10 20 30.25 40 7\n";
 const POSITIONS: &str = "# name\na.jpg 1 2 3\nb c.jpg -1.5 2e2 3 0.5\n17 1 2 3\n";
-
-fn config() -> ProptestConfig {
-    let told = std::env::var("EPIPOLE_FUZZ_CASES").ok();
-    ProptestConfig {
-        cases: told.map_or(1000, |told| told.parse().expect("a number of cases")),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
-}
 
 /// A sentence says something, and of which file.
 fn is_told(failure: &Failure) -> bool {

@@ -1,6 +1,7 @@
 //! Where the reader looks at a thing in three dimensions from: state, handles and words.
 //!
-//! A model holds an [`Orbit`], whose controls and handles stand behind its own. A panel of [`SPACE`] has degrees as its world: across, how far the scene is turned about its vertical
+//! A model holds an [`Orbit`], whose controls and handles stand behind its own. A panel of
+//! [`SPACE`] has degrees as its world: across, how far the scene is turned about its vertical
 //! axis; down, how far above it the reader is. So a drag to the right turns what is in front to
 //! the right, and one downwards turns it down.
 

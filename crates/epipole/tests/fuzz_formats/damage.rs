@@ -1,6 +1,16 @@
-//! Ways in which files go wrong.
+//! Ways in which files go wrong, and how many of them are tried.
 
 use proptest::prelude::*;
+
+/// A thousand cases, or as many as `EPIPOLE_FUZZ_CASES` says.
+pub(crate) fn config() -> ProptestConfig {
+    let told = std::env::var("EPIPOLE_FUZZ_CASES").ok();
+    ProptestConfig {
+        cases: told.map_or(1000, |told| told.parse().expect("a number of cases")),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
 
 /// One of them, at a share of the length.
 #[derive(Debug, Clone)]

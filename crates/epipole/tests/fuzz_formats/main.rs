@@ -9,22 +9,13 @@ mod damage;
 mod pictures;
 mod written;
 
-use damage::{damage_bytes, damage_text, some_damage};
+use damage::{config, damage_bytes, damage_text, some_damage};
 use epipole::Error;
 use epipole::optim::{LmOptions, RobustLoss};
 use epipole::sfm::{BalProblem, PoseGraph, adjust_bal};
 use epipole::stereo::DisparityImage;
 use proptest::prelude::*;
 use std::ops::ControlFlow;
-
-fn config() -> ProptestConfig {
-    let told = std::env::var("EPIPOLE_FUZZ_CASES").ok();
-    ProptestConfig {
-        cases: told.map_or(1000, |told| told.parse().expect("a number of cases")),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
-}
 
 const BAL: [&str; 2] = [
     "1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 -10\n",
