@@ -10,12 +10,16 @@ use super::{Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Suppo
 use crate::math::random::Random;
 use crate::{Error, Result};
 
+/// A sample's model is improved if it beats those of this block of so many samples and of the block before: a
+/// sample that is better than all others may still lead to an optimum that is worse than a later one's.
+const BLOCK: usize = 100;
+
 /// RANSAC, one sample at a time.
 ///
 /// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) yourself to show what happens.
 ///
 /// Each step draws a sample, fits up to a few models to it and scores them against all data. A
-/// model that beats those of all samples before is improved from its inliers (local
+/// model that beats those of the last hundred samples or more is improved from its inliers (local
 /// optimization). The loop ends once enough samples were drawn for the share of inliers that the
 /// best model has. Nothing is allocated between [`new`](Ransac::new) and
 /// [`finish`](Ransac::finish).
@@ -47,8 +51,8 @@ pub struct Ransac<E: Estimator> {
     models: Vec<E::Model>,
     inliers: Vec<usize>,
     best: Option<Candidate<E::Model>>,
-    /// The lowest cost of a model straight from a sample; only a lower one is worth improving.
-    best_sample_cost: f64,
+    /// The lowest cost of a model straight from a sample, in this block of samples and in the one before.
+    block_costs: [f64; 2],
     iterations: usize,
     refinements: usize,
     required: u64,
@@ -91,7 +95,7 @@ impl<E: Estimator> Ransac<E> {
             models: Vec::with_capacity(estimator.max_models()),
             inliers: Vec::with_capacity(num_data),
             best: None,
-            best_sample_cost: f64::INFINITY,
+            block_costs: [f64::INFINITY; 2],
             iterations: 0,
             refinements: 0,
             required: u64::MAX,
@@ -125,14 +129,16 @@ impl<E: Estimator> Ransac<E> {
         self.models.clear();
         self.estimator.fit_sample(&self.sample, &mut self.models);
 
+        if self.iterations.is_multiple_of(BLOCK) {
+            self.block_costs = [f64::INFINITY, self.block_costs[0]];
+        }
+        let least_cost = self.block_costs[0].min(self.block_costs[1]);
         let mut trial_best: Option<(usize, Support)> = None;
         for (place, model) in self.models.iter().enumerate() {
             let limit = if self.options.score_every_trial {
                 f64::INFINITY
             } else {
-                trial_best.map_or(self.best_sample_cost, |(_, support)| {
-                    support.cost.min(self.best_sample_cost)
-                })
+                trial_best.map_or(least_cost, |(_, support)| support.cost.min(least_cost))
             };
             let support = self.support(model, limit);
             if trial_best.is_none_or(|(_, best)| support.cost < best.cost) {
@@ -149,8 +155,8 @@ impl<E: Estimator> Ransac<E> {
             model = Some(candidate.model.clone());
             score = self.score(&support);
             num_inliers = support.num_inliers;
-            if support.cost < self.best_sample_cost {
-                self.best_sample_cost = support.cost;
+            if support.cost < least_cost {
+                self.block_costs[0] = support.cost;
                 (is_best, refined) = self.consider(candidate);
             }
         }

@@ -8,15 +8,15 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end, at most.
 const EXPLORATIONS: usize = 30;
 
-/// A start fits some of the data within so many thresholds of the best model: those just outside of
+/// A start fits some of the data within so many thresholds of the best model: those outside of
 /// one threshold are what another model would claim.
-const START_REACH: f64 = 1.5;
+const START_REACH: f64 = 3.0;
 
 /// So many starts that lead back to the best model show that there is hardly another one nearby.
 const RETURNS: usize = 3;
 
 /// A start whose first fit costs more than the best model by this share of its cost is left off.
-const FAR_OFF: f64 = 0.02;
+const FAR_OFF: f64 = 0.1;
 
 /// A start whose first fit costs the same up to this share, or this much of one datum, leads back
 /// to the best model.
@@ -25,6 +25,11 @@ const SAME: f64 = 1e-3;
 /// At the end, models are compared within so many medians of the errors that inliers have: two
 /// standard deviations, if errors of one dimension are Gaussian.
 const SHARP_MEDIANS: f64 = 3.0;
+
+/// They are compared within so many thresholds at most, look by look, for errors of one dimension and of two. Errors
+/// that fill the threshold tell two homographies apart only by what lies behind it, as errors of two dimensions are
+/// small by chance so seldom; but a wide look alone would leave a sharp optimum.
+const SHARP_THRESHOLDS: [&[f64]; 2] = [&[1.0], &[1.0, 2.0]];
 
 /// The width of the last loss, in the same medians, for errors of one dimension, of which it is three standard
 /// deviations, and of two. Chosen on classes of pairs, of which nearly every one gains where it is left out of the choice.
@@ -111,17 +116,21 @@ impl<E: Estimator> Ransac<E> {
     /// dozen and cannot tell which model the right ones fit best.
     fn explore_sharply(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
-        self.estimator
-            .inliers(&best.model, max_error_px, &mut self.inliers);
-        if self.inliers.is_empty() {
-            return;
+        let mut explored = true;
+        for &most in SHARP_THRESHOLDS[self.codimension_index()] {
+            self.estimator
+                .inliers(&best.model, max_error_px, &mut self.inliers);
+            if self.inliers.is_empty() {
+                break;
+            }
+            // A count of inliers is about the threshold that the caller gave.
+            if self.options.score == ScoreKind::Msac {
+                let most_px = most * max_error_px;
+                self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS, most_px);
+            }
+            best.support = self.support(&best.model, f64::INFINITY);
+            explored = self.explore(best);
         }
-        // A count of inliers is about the threshold that the caller gave.
-        if self.options.score == ScoreKind::Msac {
-            self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS, max_error_px);
-        }
-        best.support = self.support(&best.model, f64::INFINITY);
-        let explored = self.explore(best);
         self.judge_px = max_error_px;
         best.support = self.support(&best.model, f64::INFINITY);
         if !explored {
@@ -216,7 +225,7 @@ impl<E: Estimator> Ransac<E> {
         let mut model = candidate.model.clone();
         let mut weights = Vec::new();
         let mut width_px = 0.0;
-        let medians = WIDTH_MEDIANS[self.estimator.codimension().clamp(1, 2) - 1];
+        let medians = WIDTH_MEDIANS[self.codimension_index()];
         for round in 0..REWEIGHTINGS {
             if round < REWEIGHTINGS_OF_WIDTH {
                 self.estimator
@@ -249,6 +258,11 @@ impl<E: Estimator> Ransac<E> {
             *candidate = Candidate { model, support };
             self.refinements += 1;
         }
+    }
+
+    /// Where constants stand that differ by the dimension of errors.
+    fn codimension_index(&self) -> usize {
+        self.estimator.codimension().clamp(1, 2) - 1
     }
 
     /// How large the errors of the inliers are: so many times their median, between a quarter of the
