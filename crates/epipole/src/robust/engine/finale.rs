@@ -12,15 +12,19 @@ const EXPLORATIONS: usize = 30;
 /// one threshold are what another model would claim.
 const START_REACH: f64 = 3.0;
 
-/// So many starts that lead back to the best model show that there is hardly another one nearby.
+/// So many starts, at least, that lead back to the best model show that there is hardly another one nearby.
 const RETURNS: usize = 3;
+
+/// More have to lead back where that costs next to nothing, so many inliers in all: few data leave room for several
+/// optima.
+const RETURNED_INLIERS: usize = 3000;
 
 /// A start whose first fit costs more than the best model by this share of its cost is left off.
 const FAR_OFF: f64 = 0.1;
 
-/// A start whose first fit costs the same up to this share, or this much of one datum, leads back
+/// A start whose first or second fit costs the same up to this share, or this much of one datum, leads back
 /// to the best model.
-const SAME: f64 = 1e-3;
+const SAME: f64 = 2e-3;
 
 /// At the end, models are compared within so many medians of the errors that inliers have: two
 /// standard deviations, if errors of one dimension are Gaussian.
@@ -149,16 +153,22 @@ impl<E: Estimator> Ransac<E> {
         let mut subset = Vec::with_capacity(size);
         let alike = vec![1.0; size];
         let reach_px = START_REACH * max_error_px;
+        let needed =
+            (RETURNED_INLIERS / best.support.num_inliers.max(1)).clamp(RETURNS, EXPLORATIONS);
         let mut returns = 0;
+        let mut around = Vec::with_capacity(self.estimator.num_data());
+        let mut moved = true;
         for _ in 0..EXPLORATIONS {
-            self.estimator
-                .inliers(&best.model, reach_px, &mut self.inliers);
-            if self.inliers.len() <= size {
+            if moved {
+                self.estimator.inliers(&best.model, reach_px, &mut around);
+                moved = false;
+            }
+            if around.len() <= size {
                 return false;
             }
             subset.clear();
             while subset.len() < size {
-                let index = self.inliers[self.random.below(self.inliers.len())];
+                let index = around[self.random.below(around.len())];
                 if !subset.contains(&index) {
                     subset.push(index);
                 }
@@ -170,21 +180,22 @@ impl<E: Estimator> Ransac<E> {
                 continue;
             };
             let known = best.support.cost;
+            let leads_back = |cost: f64| (cost - known).abs() < SAME * known.max(1.0);
             let cost = self.support(&first, (1.0 + FAR_OFF) * known).cost;
-            if (cost - known).abs() < SAME * known.max(1.0) {
-                returns += 1;
-                if returns == RETURNS {
-                    break;
-                }
-                continue;
-            }
             if cost > (1.0 + FAR_OFF) * known {
                 continue;
             }
-            if let Some(model) = self.fitted(&first, max_error_px)
-                && self.replace_if_better(best, model)
-            {
-                self.improve(best);
+            let mut back = leads_back(cost);
+            if !back && let Some(model) = self.fitted(&first, max_error_px) {
+                back = leads_back(self.support(&model, (1.0 + SAME) * known).cost);
+                if !back && self.replace_if_better(best, model) {
+                    self.improve(best);
+                    moved = true;
+                }
+            }
+            returns += usize::from(back);
+            if returns == needed {
+                break;
             }
         }
         true
