@@ -42,6 +42,26 @@ impl Stroke {
         }
     }
 
+    /// The same line, dashed if `dashed`.
+    pub fn dashed_if(self, dashed: bool) -> Self {
+        if dashed { self.dashed() } else { self }
+    }
+
+    /// The same line, dotted if `dotted`.
+    pub fn dotted_if(self, dotted: bool) -> Self {
+        if dotted { self.dotted() } else { self }
+    }
+
+    /// The line of one of several curves: they differ in hue and in pattern.
+    pub fn of_series(series: usize, width: f64) -> Self {
+        let stroke = Self::solid(Role::Series(series as u8), width);
+        match series % 3 {
+            0 => stroke,
+            1 => stroke.dashed(),
+            _ => stroke.dotted(),
+        }
+    }
+
     /// The same line with a casing.
     pub fn cased(self) -> Self {
         Self {

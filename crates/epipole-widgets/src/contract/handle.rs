@@ -33,6 +33,51 @@ pub struct Handle {
 }
 
 impl Handle {
+    /// A handle at a place, to be moved within ranges of x and of y: by whole units, until a step is said.
+    pub fn new(
+        id: impl Into<String>,
+        panel: &'static str,
+        label: impl Into<String>,
+        (x, y): (f64, f64),
+        [x_range, y_range]: [[f64; 2]; 2],
+    ) -> Self {
+        Self {
+            id: id.into(),
+            panel,
+            label: label.into(),
+            value_text: String::new(),
+            x,
+            y,
+            x_range,
+            y_range,
+            step: [1.0; 2],
+            digits: 0,
+            removable: false,
+        }
+    }
+
+    /// The same handle with its place in words.
+    #[must_use]
+    pub fn told(self, value_text: String) -> Self {
+        Self { value_text, ..self }
+    }
+
+    /// The same handle, moved so far by a press of an arrow key, its place kept with so many digits.
+    #[must_use]
+    pub fn step(self, step: [f64; 2], digits: usize) -> Self {
+        Self {
+            step,
+            digits,
+            ..self
+        }
+    }
+
+    /// The same handle, which the reader may remove if `removable`.
+    #[must_use]
+    pub fn removable_if(self, removable: bool) -> Self {
+        Self { removable, ..self }
+    }
+
     /// The nearest place within its ranges, with its digits; `None` for NaN and infinities.
     pub fn admit(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let admit = |value: f64, [low, high]: [f64; 2]| {

@@ -1,21 +1,14 @@
 //! The plane of points near a line: its panel, lines in it, and the band around one.
 
 use crate::canvas::{Canvas, Stroke};
-use crate::contract::{Axis, Panel, Rect};
+use crate::contract::{Panel, Rect};
 use crate::kit::line_points::{HEIGHT_PX, WIDTH_PX};
 use crate::theme::Role;
 use epipole::math::Line2;
 
 /// The panel of the plane.
 pub(crate) fn panel(id: &'static str, rect: Rect) -> Panel {
-    let axis = |end: f64| Axis { start: 0.0, end };
-    Panel {
-        id,
-        rect,
-        x_axis: axis(WIDTH_PX),
-        y_axis: axis(HEIGHT_PX),
-        clickable: false,
-    }
+    Panel::new(id, rect, [0.0, WIDTH_PX], [0.0, HEIGHT_PX])
 }
 
 /// Both ends of a line, beyond the panel.

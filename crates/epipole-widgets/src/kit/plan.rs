@@ -18,19 +18,9 @@ const SPACING: f64 = 26.0;
 /// * `half_depth`: how far it shows to each side along z
 pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth: f64) -> Panel {
     let half_width = half_depth * rect.width / rect.height.max(1e-9);
-    Panel {
-        id,
-        rect,
-        x_axis: Axis {
-            start: middle.0 - half_width,
-            end: middle.0 + half_width,
-        },
-        y_axis: Axis {
-            start: middle.1 + half_depth,
-            end: middle.1 - half_depth,
-        },
-        clickable: false,
-    }
+    let across = [middle.0 - half_width, middle.0 + half_width];
+    let away = [middle.1 + half_depth, middle.1 - half_depth];
+    Panel::new(id, rect, across, away)
 }
 
 /// A panel that shows all of these ranges with some room around them, with one scale for both

@@ -4,8 +4,8 @@
 //! world; [`decade`] takes values there.
 
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle, text_width};
-use crate::contract::{Axis, Panel, Rect, format_number};
-use crate::kit::grid::SMALL;
+use crate::contract::{Layout, Panel, Rect, format_number};
+use crate::kit::grid::{SMALL, fitting_title};
 use crate::theme::Role;
 
 /// Room for the numbers of the vertical axis.
@@ -208,24 +208,27 @@ pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel
     } else {
         BELOW + NAME
     };
-    Panel {
-        id,
-        rect: Rect::new(
-            cell.x + LEFT,
-            cell.y,
-            (cell.width - LEFT - RIGHT).max(1.0),
-            (cell.height - below).max(1.0),
-        ),
-        x_axis: Axis {
-            start: x.from,
-            end: x.to,
-        },
-        y_axis: Axis {
-            start: y.to,
-            end: y.from,
-        },
-        clickable: false,
-    }
+    let rect = Rect::new(
+        cell.x + LEFT,
+        cell.y,
+        (cell.width - LEFT - RIGHT).max(1.0),
+        (cell.height - below).max(1.0),
+    );
+    Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
+}
+
+/// A plot's panel with its title, in the first wording that fits, and its axes.
+pub(crate) fn open<'a>(
+    canvas: &mut Canvas,
+    layout: &'a Layout,
+    id: &str,
+    titles: &[&str],
+    [x, y]: &[Ruler; 2],
+) -> &'a Panel {
+    let panel = layout.panel(id);
+    fitting_title(canvas, panel.rect, titles);
+    draw_axes(canvas, panel, x, y);
+    panel
 }
 
 /// The surface, the ticks and their numbers.

@@ -11,6 +11,7 @@ use crate::contract::{
 };
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, SPACE};
+use crate::kit::probe::{place_words, ranges};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 
@@ -188,25 +189,10 @@ impl Model for BundleAdjustment {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (u, v) = self.mark;
-        let mut handles = vec![Handle {
-            id: MARK.to_owned(),
-            panel: "photo",
-            label: "Ridge feature".to_owned(),
-            value_text: format!(
-                "column {}, row {}, {} px from where it belongs",
-                format_number(u, 0),
-                format_number(v, 0),
-                format_number(self.mark_off_px(), 0)
-            ),
-            x: u,
-            y: v,
-            x_range: [0.0, f64::from(SIZE.0 - 1)],
-            y_range: [0.0, f64::from(SIZE.1 - 1)],
-            step: [4.0, 4.0],
-            digits: DIGITS,
-            removable: false,
-        }];
+        let (place, off) = (self.mark, format_number(self.mark_off_px(), 0));
+        let told = format!("{}, {off} px from where it belongs", place_words(place, 0));
+        let mark = Handle::new(MARK, "photo", "Ridge feature", place, ranges(SIZE));
+        let mut handles = vec![mark.told(told).step([4.0; 2], DIGITS)];
         handles.extend(self.orbit.handles());
         handles
     }

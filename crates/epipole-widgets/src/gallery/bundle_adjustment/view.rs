@@ -98,15 +98,11 @@ impl View for BundleAdjustmentView {
         };
         let photo = Rect::new(photo.x, photo.y, photo.width, photo.width * aspect);
         let [x, cost, damping] = rulers(model);
-        let clickable = |panel: Panel| Panel {
-            clickable: true,
-            ..panel
-        };
         grid.layout(vec![
             Orbit::panel(space),
-            Panel::photograph("photo", photo, SIZE.0, SIZE.1),
-            clickable(plot::panel("cost", plots[0], &x, &cost)),
-            clickable(plot::panel("damping", plots[1], &x, &damping)),
+            Panel::photograph("photo", photo, SIZE),
+            plot::panel("cost", plots[0], &x, &cost).clickable(),
+            plot::panel("damping", plots[1], &x, &damping).clickable(),
         ])
     }
 

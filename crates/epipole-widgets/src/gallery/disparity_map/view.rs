@@ -66,7 +66,7 @@ impl View for DisparityMapView {
         }
         let rects = [left, found, error, right, truth];
         let panels = NAMES.into_iter().zip(rects).map(|((id, ..), rect)| {
-            let mut panel = Panel::photograph(id, rect, SIZE.0, SIZE.1);
+            let mut panel = Panel::photograph(id, rect, SIZE);
             panel.clickable = id == "left";
             panel
         });

@@ -4,7 +4,7 @@
 use super::estimate::{Estimate, line2};
 use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::{border_arrow, draw_line};
@@ -39,27 +39,18 @@ impl View for EightPointView {
         let mut grid = Grid::new(width);
         let shares = [[1.0, 1.15], [0.8, 1.0]];
         let [first, second, meeting, values] = grid.photographs_and_two(ASPECT, shares);
-        let (columns, rows) = PHOTO_SIZE;
-        let mut first = Panel::photograph("first", first, columns, rows);
-        first.clickable = true;
-        let second = Panel::photograph("second", second, columns, rows);
         let (place, half_width) = enlarged(model);
         // As many pixels to a CSS pixel along the rows as along the columns.
         let half_height = half_width * meeting.height / meeting.width;
-        let axis = |middle: f64, half: f64| Axis {
-            start: middle - half,
-            end: middle + half,
-        };
-        let meeting = Panel {
-            id: "meeting",
-            rect: meeting,
-            x_axis: axis(place.x, half_width),
-            y_axis: axis(place.y, half_height),
-            clickable: false,
-        };
+        let around = |middle: f64, half: f64| [middle - half, middle + half];
+        let (columns, rows) = (around(place.x, half_width), around(place.y, half_height));
         let [x, y] = rulers();
-        let values = plot::panel("values", values, &x, &y);
-        grid.layout(vec![first, second, meeting, values])
+        grid.layout(vec![
+            Panel::photograph("first", first, PHOTO_SIZE).clickable(),
+            Panel::photograph("second", second, PHOTO_SIZE),
+            Panel::new("meeting", meeting, columns, rows),
+            plot::panel("values", values, &x, &y),
+        ])
     }
 
     fn draw(&mut self, model: &EightPoint, layout: &Layout, canvas: &mut Canvas) {

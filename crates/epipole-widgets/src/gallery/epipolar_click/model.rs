@@ -6,7 +6,8 @@ use crate::contract::{
     Settings, Slider, Symbol, Value,
 };
 use crate::kit::geometry::{Geometry, symbols};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::{PHOTO_SIZE, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use nalgebra::Point2;
@@ -129,19 +130,12 @@ impl EpipolarClick {
     }
 
     fn handle(&self, index: usize, point: Point2<f64>) -> Handle {
-        Handle {
-            id: POINT_IDS[index].to_owned(),
-            panel: "first",
-            label: format!("Point {} in photograph 1", index + 1),
-            value_text: format!("column {:.1}, row {:.1}", point.x, point.y),
-            x: point.x,
-            y: point.y,
-            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
-            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
-            step: [4.0, 4.0],
-            digits: DIGITS,
-            removable: true,
-        }
+        let (id, place) = (POINT_IDS[index], (point.x, point.y));
+        let label = format!("Point {} in photograph 1", index + 1);
+        Handle::new(id, "first", label, place, ranges(PHOTO_SIZE))
+            .told(place_words(place, DIGITS))
+            .step([4.0; 2], DIGITS)
+            .removable_if(true)
     }
 
     fn put(&mut self, index: usize, x: f64, y: f64) {

@@ -32,9 +32,8 @@ impl View for EpipolarClickView {
         let mut grid = Grid::new(width);
         let aspect = f64::from(PHOTO_HEIGHT) / f64::from(PHOTO_WIDTH);
         let [first, second] = grid.row([aspect; 2], TALLEST);
-        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-        let mut first = photograph("first", first);
-        first.clickable = true;
+        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE);
+        let first = photograph("first", first).clickable();
         grid.layout(vec![first, photograph("second", second)])
     }
 

@@ -9,7 +9,8 @@ use crate::contract::{
 use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use nalgebra::{Point2, Point3};
@@ -213,39 +214,24 @@ impl EpipolarPlane {
     fn handle(
         &self,
         (id, panel): (&str, &'static str),
-        (label, value_text): (&str, String),
+        (label, told): (&str, String),
         (x, y): (f64, f64),
-        [x_range, y_range]: [[f64; 2]; 2],
+        ranges: [[f64; 2]; 2],
         step: f64,
     ) -> Handle {
         let keep =
             |value: f64, [low, high]: [f64; 2]| round_to_digits(value.clamp(low, high), DIGITS);
-        Handle {
-            id: id.to_owned(),
-            panel,
-            label: label.to_owned(),
-            value_text,
-            x: keep(x, x_range),
-            y: keep(y, y_range),
-            x_range,
-            y_range,
-            step: [step; 2],
-            digits: DIGITS,
-            removable: false,
-        }
+        let place = (keep(x, ranges[0]), keep(y, ranges[1]));
+        let handle = Handle::new(id, panel, label, place, ranges);
+        handle.told(told).step([step; 2], DIGITS)
     }
 
     fn pixel_handle(&self, scenery: &Scenery) -> Handle {
         let middle = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) / 2.0;
         let pixel = scenery.pixels[0].unwrap_or(middle);
-        let text = format!(
-            "column {}, row {}",
-            format_number(pixel.x, 1),
-            format_number(pixel.y, 1)
-        );
-        let ranges = [PHOTO_WIDTH, PHOTO_HEIGHT].map(|side| [0.0, f64::from(side) - 1.0]);
-        let names = ("p in photograph 1", text);
-        self.handle((PIXEL, "first"), names, (pixel.x, pixel.y), ranges, 4.0)
+        let place = (pixel.x, pixel.y);
+        let names = ("p in photograph 1", place_words(place, DIGITS));
+        self.handle((PIXEL, "first"), names, place, ranges(PHOTO_SIZE), 4.0)
     }
 
     fn space_handle(&self, id: &str, label: &str, text: String, point: &Point3<f64>) -> Handle {

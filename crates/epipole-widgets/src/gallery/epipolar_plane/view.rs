@@ -56,9 +56,8 @@ impl View for EpipolarPlaneView {
         let mut grid = Grid::new(width);
         let (space, [first, second]) = cells(&mut grid, width);
         grid.strip(FORMULA);
-        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-        let mut first = photograph("first", first);
-        first.clickable = true;
+        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE);
+        let first = photograph("first", first).clickable();
         let panels = vec![Orbit::panel(space), first, photograph("second", second)];
         grid.layout(panels)
     }

@@ -4,7 +4,7 @@ use super::model::KernelStepper;
 use super::pixels::SIZE;
 use super::words::short;
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::theme::{Rgb, Role, Theme, mix};
 
@@ -35,37 +35,12 @@ impl View for KernelStepperView {
         } else {
             [pixels, sum, answer] = grid.row([around, 2.1, rows / columns], TALLEST);
         }
-        let panel = |id, rect, [left, right]: [f64; 2], [top, bottom]: [f64; 2], clickable| Panel {
-            id,
-            rect,
-            x_axis: Axis {
-                start: left,
-                end: right,
-            },
-            y_axis: Axis {
-                start: top,
-                end: bottom,
-            },
-            clickable,
-        };
         let height = answer.width * rows / columns;
         let answer = Rect::new(answer.x, answer.y, answer.width, height.min(answer.height));
         grid.layout(vec![
-            panel(
-                "pixels",
-                pixels,
-                [-1.5, columns + 0.5],
-                [-1.5, rows + 0.5],
-                true,
-            ),
-            panel("sum", sum, [0.0, 1.0], [0.0, 1.0], false),
-            panel(
-                "answer",
-                answer,
-                [-0.5, columns - 0.5],
-                [-0.5, rows - 0.5],
-                false,
-            ),
+            Panel::new("pixels", pixels, [-1.5, columns + 0.5], [-1.5, rows + 0.5]).clickable(),
+            Panel::photograph("sum", sum, (1, 1)),
+            Panel::photograph("answer", answer, SIZE),
         ])
     }
 

@@ -7,7 +7,8 @@ use crate::contract::{
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{Match, Matches, cameras};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
 use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
 use nalgebra::{Point2, Vector2};
 
@@ -132,25 +133,11 @@ impl Model for OutlierDrag {
         let Ok(state) = &self.state else {
             return Vec::new();
         };
-        let place = state.wrong.1;
-        vec![Handle {
-            id: WRONG.to_owned(),
-            panel: "second",
-            label: "Wrong match".to_owned(),
-            value_text: format!(
-                "column {}, row {}, {} px from where it belongs",
-                format_number(place.x, 0),
-                format_number(place.y, 0),
-                format_number(self.away_px(), 0)
-            ),
-            x: place.x,
-            y: place.y,
-            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
-            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
-            step: [5.0, 5.0],
-            digits: DIGITS,
-            removable: false,
-        }]
+        let place = (state.wrong.1.x, state.wrong.1.y);
+        let away = format_number(self.away_px(), 0);
+        let told = format!("{}, {away} px from where it belongs", place_words(place, 0));
+        let handle = Handle::new(WRONG, "second", "Wrong match", place, ranges(PHOTO_SIZE));
+        vec![handle.told(told).step([5.0; 2], DIGITS)]
     }
 
     /// Those of the wrong match.

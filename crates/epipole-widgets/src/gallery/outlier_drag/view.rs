@@ -52,8 +52,8 @@ impl View for OutlierDragView {
         let (columns, rows) = PHOTO_SIZE;
         let ([x, y], [k, sigma]) = (led_rulers(), value_rulers());
         grid.layout(vec![
-            Panel::photograph("first", first, columns, rows),
-            Panel::photograph("second", second, columns, rows),
+            Panel::photograph("first", first, (columns, rows)),
+            Panel::photograph("second", second, (columns, rows)),
             plot::panel("led", led, &x, &y),
             plot::panel("values", values, &k, &sigma),
         ])

@@ -37,7 +37,7 @@ impl View for PatchMatchView {
         for (round, names) in OPTIONS.iter().enumerate() {
             let y = cell.y + round as f64 * (side + BETWEEN);
             let mut add = |id, x, clickable| {
-                let mut panel = Panel::photograph(id, Rect::new(x, y, side, side), 1, 1);
+                let mut panel = Panel::photograph(id, Rect::new(x, y, side, side), (1, 1));
                 panel.clickable = clickable;
                 panels.push(panel);
             };

@@ -45,19 +45,11 @@ impl RansacBudget {
     }
 
     fn handle(&self) -> Handle {
-        Handle {
-            id: "share".to_owned(),
-            panel: "plot",
-            label: "Inlier ratio w".to_owned(),
-            value_text: format!("{} % inliers", format_number(100.0 * self.inlier_ratio, 0)),
-            x: self.inlier_ratio,
-            y: 0.0,
-            x_range: RATIOS,
-            y_range: [0.0, 0.0],
-            step: [0.01, 0.0],
-            digits: 2,
-            removable: false,
-        }
+        let (place, ranges) = ((self.inlier_ratio, 0.0), [RATIOS, [0.0; 2]]);
+        let percent = format_number(100.0 * self.inlier_ratio, 0);
+        Handle::new("share", "plot", "Inlier ratio w", place, ranges)
+            .told(format!("{percent} % inliers"))
+            .step([0.01, 0.0], 2)
     }
 }
 

@@ -32,8 +32,7 @@ impl View for RansacBudgetView {
         let mut grid = Grid::new(width);
         let [cell] = grid.shares([1.0], (0.6 * width + 60.0).min(HEIGHT));
         let [x, y] = rulers();
-        let mut plot = plot::panel("plot", cell, &x, &y);
-        plot.clickable = true;
+        let plot = plot::panel("plot", cell, &x, &y).clickable();
         grid.layout(vec![plot])
     }
 

@@ -66,9 +66,8 @@ impl View for RansacEpipolarView {
         let [left, right] = grid.row(sizes.map(aspect), TALLEST);
         grid.strip(GAP / 2.0 + legend::height(&legend_of(model), width, 0.0));
         let [(width1, height1), (width2, height2)] = sizes;
-        let mut first = Panel::photograph("first", left, width1, height1);
-        first.clickable = true;
-        let second = Panel::photograph("second", right, width2, height2);
+        let first = Panel::photograph("first", left, (width1, height1)).clickable();
+        let second = Panel::photograph("second", right, (width2, height2));
         grid.layout(vec![first, second])
     }
 

@@ -158,22 +158,15 @@ impl Model for RansacRace {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let handle = |point: &DataPoint| Handle {
-            id: format!("p{}", point.number),
-            panel: "plane",
-            label: format!("Point {}", point.number),
-            value_text: format!(
-                "{} px across, {} px down",
-                format_number(point.place.x, 0),
-                format_number(point.place.y, 0)
-            ),
-            x: point.place.x,
-            y: point.place.y,
-            x_range: [0.0, WIDTH_PX],
-            y_range: [0.0, HEIGHT_PX],
-            step: [10.0, 10.0],
-            digits: DIGITS,
-            removable: self.points.len() > 2,
+        let ranges = [[0.0, WIDTH_PX], [0.0, HEIGHT_PX]];
+        let handle = |point: &DataPoint| {
+            let (x, y) = (point.place.x, point.place.y);
+            let [id, label] = ["p", "Point "].map(|name| format!("{name}{}", point.number));
+            let [across, down] = [x, y].map(|value| format_number(value, 0));
+            Handle::new(id, "plane", label, (x, y), ranges)
+                .told(format!("{across} px across, {down} px down"))
+                .step([10.0; 2], DIGITS)
+                .removable_if(self.points.len() > 2)
         };
         self.points.iter().map(handle).collect()
     }

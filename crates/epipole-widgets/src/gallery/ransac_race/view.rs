@@ -61,8 +61,7 @@ impl View for RansacRaceView {
         };
         let [plane] = grid.row([HEIGHT_PX / WIDTH_PX], tallest);
         grid.strip(GAP / 2.0 + legend::height(&legend(), width, 0.0));
-        let mut plane = line_plane::panel("plane", plane);
-        plane.clickable = true;
+        let plane = line_plane::panel("plane", plane).clickable();
         grid.layout(vec![plane])
     }
 

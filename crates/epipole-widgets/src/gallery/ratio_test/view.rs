@@ -85,16 +85,17 @@ impl View for RatioTestView {
             let height = if grid::is_narrow(width) { 128.0 } else { 172.0 };
             [curve, patches] = grid.shares([1.0, 1.0], height);
         }
-        let [mut first, second] = [("first", photographs[0]), ("second", photographs[1])]
-            .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
-        first.clickable = true;
         grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
-        let mut panels = vec![first, second, plot::panel("curve", curve, &x, &y)];
+        let mut panels = vec![
+            Panel::photograph("first", photographs[0], SIZE).clickable(),
+            Panel::photograph("second", photographs[1], SIZE),
+            plot::panel("curve", curve, &x, &y),
+        ];
         for (id, rect) in ["feature", "nearest", "second-nearest"]
             .into_iter()
             .zip(squares(patches))
         {
-            panels.push(Panel::photograph(id, rect, 1, 1));
+            panels.push(Panel::photograph(id, rect, (1, 1)));
         }
         grid.layout(panels)
     }

@@ -50,9 +50,7 @@ impl View for RectifyView {
         };
         let mut panels = vec![plan::panel("top", top, (0.22, 0.7), 1.06)];
         for (id, rect) in ["first", "second"].into_iter().zip(pictures) {
-            let mut panel = Panel::photograph(id, rect, PHOTO_SIZE.0, PHOTO_SIZE.1);
-            panel.clickable = true;
-            panels.push(panel);
+            panels.push(Panel::photograph(id, rect, PHOTO_SIZE).clickable());
         }
         grid.layout(panels)
     }

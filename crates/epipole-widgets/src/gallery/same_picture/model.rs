@@ -121,19 +121,10 @@ impl Model for SamePicture {
 
     fn handles(&self) -> Vec<Handle> {
         let meters = format_number(self.distance_m, 2);
-        vec![Handle {
-            id: "mug".to_owned(),
-            panel: "top",
-            label: "The mug".to_owned(),
-            value_text: format!("{meters} m away"),
-            x: RIGHT * self.distance_m,
-            y: self.distance_m,
-            x_range: RANGE_M.map(|z| RIGHT * z),
-            y_range: RANGE_M,
-            step: [0.1, 0.05],
-            digits: 3,
-            removable: false,
-        }]
+        let place = (RIGHT * self.distance_m, self.distance_m);
+        let ranges = [RANGE_M.map(|z| RIGHT * z), RANGE_M];
+        let handle = Handle::new("mug", "top", "The mug", place, ranges);
+        vec![handle.told(format!("{meters} m away")).step([0.1, 0.05], 3)]
     }
 
     fn symbols(&self) -> Vec<Symbol> {

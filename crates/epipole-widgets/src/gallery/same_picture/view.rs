@@ -49,7 +49,7 @@ impl View for SamePictureView {
         };
         let mut panels = vec![plan::panel("top", top, (0.95, 1.3), 1.6)];
         for (id, rect) in ["first", "second"].into_iter().zip(photographs) {
-            panels.push(Panel::photograph(id, rect, SIZE.0, SIZE.1));
+            panels.push(Panel::photograph(id, rect, SIZE));
         }
         grid.layout(panels)
     }

@@ -58,7 +58,7 @@ impl View for ScaleAmbiguityView {
             (space, grid.row([aspect; 2], 160.0))
         };
         grid.strip(legend_height(width));
-        let photograph = |(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1);
+        let photograph = |(id, rect)| Panel::photograph(id, rect, SIZE);
         let mut panels = vec![Orbit::panel(space)];
         panels.extend(PHOTOS.into_iter().zip(photos).map(photograph));
         grid.layout(panels)

@@ -190,22 +190,16 @@ impl Model for ScaleDrift {
 
     fn handles(&self) -> Vec<Handle> {
         let (traveled, all) = (self.traveled(), self.num_steps());
-        vec![Handle {
-            id: TRAVELED.to_owned(),
-            panel: "track",
-            label: "Steps traveled".to_owned(),
-            value_text: match self.is_home() {
-                true => format!("all {all} steps, home again"),
-                false => format!("{traveled} of {all} steps"),
-            },
-            x: traveled as f64,
-            y: 0.0,
-            x_range: [FEWEST as f64, all as f64],
-            y_range: [0.0, 0.0],
-            step: [1.0, 0.0],
-            digits: 0,
-            removable: false,
-        }]
+        let told = match self.is_home() {
+            true => format!("all {all} steps, home again"),
+            false => format!("{traveled} of {all} steps"),
+        };
+        let (place, ranges) = (
+            (traveled as f64, 0.0),
+            [[FEWEST as f64, all as f64], [0.0; 2]],
+        );
+        let handle = Handle::new(TRAVELED, "track", "Steps traveled", place, ranges);
+        vec![handle.told(told).step([1.0, 0.0], 0)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

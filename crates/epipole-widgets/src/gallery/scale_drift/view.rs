@@ -76,10 +76,7 @@ impl View for ScaleDriftView {
         grid.strip(LEGEND_GAP + legend::height(&legend_entries(), width, 0.0));
         let cell = Rect::new(right.x, right.y, right.width, right.height - TRACK);
         let [x, y] = rulers(model);
-        let plot = Panel {
-            clickable: true,
-            ..plot::panel("plot", cell, &x, &y)
-        };
+        let plot = plot::panel("plot", cell, &x, &y).clickable();
         // Below the numbers, out of the way of the curves.
         let track = Panel {
             id: "track",

@@ -3,7 +3,7 @@
 use super::blocks::{PER_CAMERA, PER_POINT};
 use super::model::Schur;
 use crate::canvas::{Align, Canvas, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, View};
+use crate::contract::{Layout, Panel, Rect, View};
 use crate::kit::grid::{self, GAP, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
@@ -19,17 +19,8 @@ const BOTH: Role = Role::Series(2);
 pub(crate) struct SchurView;
 
 fn panel(id: &'static str, rect: Rect, size: usize) -> Panel {
-    let axis = Axis {
-        start: 0.0,
-        end: size.max(1) as f64,
-    };
-    Panel {
-        id,
-        rect,
-        x_axis: axis,
-        y_axis: axis,
-        clickable: false,
-    }
+    let axis = [0.0, size.max(1) as f64];
+    Panel::new(id, rect, axis, axis)
 }
 
 impl View for SchurView {

@@ -57,11 +57,7 @@ impl View for StereoSliderView {
 
     fn layout(&self, _model: &StereoSlider, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let photo = |id, rect| {
-            let mut panel = Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-            panel.clickable = true;
-            panel
-        };
+        let photo = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE).clickable();
         // Side by side on every page: that both are on the same row is the point.
         if grid::is_narrow(width) {
             let [left, right] = grid.row([PHOTO_ASPECT; 2], f64::INFINITY);

@@ -33,7 +33,7 @@ const AGAIN: Button = Button::new("again", "Run again", ButtonRole::Restart);
 /// The model of `tournament`.
 pub(crate) struct Tournament {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     wins: Wins,
     num_batches: usize,
 }
@@ -53,11 +53,6 @@ impl Tournament {
             0 => Subject::Line,
             _ => Subject::Fundamental,
         }
-    }
-
-    /// Why there are no more runs.
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.asked.problem()
     }
 
     /// The ratio that the numbers are about, and its index.
@@ -127,11 +122,8 @@ impl Model for Tournament {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self
-            .settings
-            .update(event)?
-            .is_some_and(|id| id != RATIO.id)
-        {
+        let changed = self.settings.update(event)?;
+        if changed.is_some_and(|id| id != RATIO.id) {
             self.start();
         }
         match event {
@@ -222,7 +214,7 @@ mod tests {
         let before = model.share(LOCAL, 5);
         model.job_done(Err(Error::Canceled.into()));
         assert_eq!((model.share(LOCAL, 5), model.num_runs()), (before, 60));
-        assert!(model.job().is_none() && model.problem().is_some());
+        assert!(model.job().is_none() && model.asked.problem().is_some());
         model.update(&Event::press(AGAIN.id)).unwrap();
         assert_eq!(model.num_runs(), 0);
         assert!(model.job().is_some());

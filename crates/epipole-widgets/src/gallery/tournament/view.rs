@@ -27,13 +27,7 @@ fn rulers() -> [Ruler; 2] {
 /// Rivals differ in hue, in shape and in dash.
 fn look(rival: usize) -> (Role, Shape, Stroke) {
     let (role, shape) = (Role::Series(rival as u8), Shape::of_series(rival));
-    let stroke = Stroke::solid(role, 2.25);
-    let stroke = match rival % 3 {
-        0 => stroke,
-        1 => stroke.dashed(),
-        _ => stroke.dotted(),
-    };
-    (role, shape, stroke)
+    (role, shape, Stroke::of_series(rival, 2.25))
 }
 
 fn entries() -> Vec<Entry> {
@@ -53,18 +47,14 @@ impl View for TournamentView {
         grid.strip(legend::height(&entries(), width, plot::LEFT));
         let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
         let [x, y] = rulers();
-        let mut plot = plot::panel("plot", cell, &x, &y);
-        plot.clickable = true;
-        grid.layout(vec![plot])
+        grid.layout(vec![plot::panel("plot", cell, &x, &y).clickable()])
     }
 
     fn draw(&mut self, model: &Tournament, layout: &Layout, canvas: &mut Canvas) {
-        let plot = layout.panel("plot");
-        let [x, y] = rulers();
         let runs = format!("{} runs", model.num_runs());
         let full = format!("{runs}: fits {}", success(model.subject()));
-        grid::fitting_title(canvas, plot.rect, &[&full, &format!("Successes, {runs}")]);
-        plot::draw_axes(canvas, plot, &x, &y);
+        let titles = [&*full, &format!("Successes, {runs}")];
+        let plot = plot::open(canvas, layout, "plot", &titles, &rulers());
         let (_, ratio) = model.ratio();
         plot::draw_now(canvas, plot, ratio);
         for rival in 0..NUM_RIVALS {
@@ -78,7 +68,7 @@ impl View for TournamentView {
             }
         }
         legend::draw(canvas, &entries(), layout.width, plot::LEFT, 0.0);
-        if let Some(problem) = model.problem() {
+        if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, plot.rect, problem);
         }
     }

@@ -35,14 +35,9 @@ impl Words for Tournament {
         let (ratio, _) = self.ratio();
         let share = |rival: usize| {
             let (id, name) = (IDS[rival], NAMES[rival]);
-            let readout = match self.share(rival, ratio) {
-                Some(share) => Readout::number(id, name, 100.0 * share, 0, "%"),
-                None => Readout::words(id, name, "no runs yet"),
-            };
-            match MAIN[rival] {
-                true => readout.main(),
-                false => readout,
-            }
+            let percent = self.share(rival, ratio).map(|share| 100.0 * share);
+            let readout = Readout::number(id, name, percent, 0, "%").or("no runs yet");
+            readout.main_if(MAIN[rival])
         };
         let mut readouts: Vec<Readout> = (0..NUM_RIVALS).map(share).collect();
         readouts.push(Readout::count("runs", "Runs", self.num_runs()));
@@ -52,8 +47,8 @@ impl Words for Tournament {
     fn describe(&self) -> String {
         let (index, ratio) = self.ratio();
         if self.num_runs() == 0 {
-            let problem = self.problem().unwrap_or("The first runs are on their way.");
-            return problem.to_owned();
+            let waiting = "The first runs are on their way.";
+            return self.asked.problem().unwrap_or(waiting).to_owned();
         }
         let share = |rival: usize| {
             let share = 100.0 * self.share(rival, index).unwrap_or(0.0);
@@ -64,10 +59,8 @@ impl Words for Tournament {
             Subject::Line => "Lines",
             Subject::Fundamental => "Fundamental matrices",
         };
-        let stopped = match self.problem() {
-            Some(problem) => format!(" {problem}"),
-            None => String::new(),
-        };
+        let stopped = self.asked.problem();
+        let stopped = stopped.map_or_else(String::new, |problem| format!(" {problem}"));
         format!(
             "{thing} {}, at an outlier ratio of {} over {} runs: {}.{stopped}",
             success(self.subject()),

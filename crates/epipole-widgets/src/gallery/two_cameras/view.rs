@@ -32,7 +32,7 @@ impl View for TwoCamerasView {
         let (top, photographs) = grid.beside_photographs(aspect, 430.0);
         let mut panels = vec![plan::panel("top", top, (0.2, 1.35), 2.0)];
         for (id, rect) in ["left", "right"].into_iter().zip(photographs) {
-            panels.push(Panel::photograph(id, rect, SIZE.0, SIZE.1));
+            panels.push(Panel::photograph(id, rect, SIZE));
         }
         grid.layout(panels)
     }

@@ -60,12 +60,8 @@ impl View for TwoViewSfmView {
             let cell = photos[index];
             let scale = (cell.width / f64::from(columns)).min(cell.height / f64::from(rows));
             let size = (scale * f64::from(columns), scale * f64::from(rows));
-            Panel::photograph(
-                PHOTOS[index],
-                Rect::new(cell.x, cell.y, size.0, size.1),
-                columns,
-                rows,
-            )
+            let rect = Rect::new(cell.x, cell.y, size.0, size.1);
+            Panel::photograph(PHOTOS[index], rect, (columns, rows))
         };
         grid.layout(vec![photo(0), photo(1), Orbit::panel(space)])
     }

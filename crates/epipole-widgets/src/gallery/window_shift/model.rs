@@ -5,6 +5,7 @@ use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number,
 };
+use crate::kit::probe::place_words;
 use epipole::imaging::GrayImage32;
 use image::RgbImage;
 
@@ -126,39 +127,14 @@ impl Model for WindowShift {
             [from + LARGEST_HALF, from + size - 1 - LARGEST_HALF].map(f64::from)
         };
         let reach = REACH as f64;
-        let (u, v) = self.window;
-        let (du, dv) = self.shift;
+        let ranges = [range(left, width), range(top, height)];
+        let [du, dv] = [self.shift.0, self.shift.1].map(|shift| format_number(shift, 0));
         vec![
-            Handle {
-                id: "place".to_owned(),
-                panel: "picture",
-                label: "Window".to_owned(),
-                value_text: format!("column {u}, row {v}"),
-                x: u,
-                y: v,
-                x_range: range(left, width),
-                y_range: range(top, height),
-                step: [2.0, 2.0],
-                digits: 0,
-                removable: false,
-            },
-            Handle {
-                id: "shift".to_owned(),
-                panel: "map",
-                label: "Shift".to_owned(),
-                value_text: format!(
-                    "{} columns right, {} rows down",
-                    format_number(du, 0),
-                    format_number(dv, 0)
-                ),
-                x: du,
-                y: dv,
-                x_range: [-reach, reach],
-                y_range: [-reach, reach],
-                step: [1.0, 1.0],
-                digits: 0,
-                removable: false,
-            },
+            Handle::new("place", "picture", "Window", self.window, ranges)
+                .told(place_words(self.window, 0))
+                .step([2.0; 2], 0),
+            Handle::new("shift", "map", "Shift", self.shift, [[-reach, reach]; 2])
+                .told(format!("{du} columns right, {dv} rows down")),
         ]
     }
 

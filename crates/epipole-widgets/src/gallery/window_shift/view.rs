@@ -5,7 +5,7 @@ mod surface;
 use super::measure::{CHANGE, Found, REACH, SHOWN};
 use super::model::WindowShift;
 use crate::canvas::{Canvas, Place, Stroke, TextStyle, text_width};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
 use crate::theme::{Rgb, Role, Theme, mix};
@@ -42,27 +42,14 @@ impl View for WindowShiftView {
             [picture, map, surface] = grid.row([aspect, 1.0, 1.0], f64::INFINITY);
             grid.strip(LEGEND);
         }
-        let axis = |from: u32, size: u32| Axis {
-            start: f64::from(from) - 0.5,
-            end: f64::from(from + size) - 0.5,
-        };
+        let axis = |from: u32, size: u32| [from, from + size].map(|edge| f64::from(edge) - 0.5);
         let reach = REACH as f64 + 0.5;
-        let around = Axis {
-            start: -reach,
-            end: reach,
-        };
-        let panel = |id, rect, x_axis, y_axis, clickable| Panel {
-            id,
-            rect,
-            x_axis,
-            y_axis,
-            clickable,
-        };
+        let around = [-reach, reach];
         let (columns, rows) = (axis(left, width_px), axis(top, height_px));
         grid.layout(vec![
-            panel("picture", picture, columns, rows, true),
-            panel("map", map, around, around, true),
-            panel("surface", surface, around, around, false),
+            Panel::new("picture", picture, columns, rows).clickable(),
+            Panel::new("map", map, around, around).clickable(),
+            Panel::new("surface", surface, around, around),
         ])
     }
 
