@@ -17,7 +17,7 @@ pub struct Stroke {
 
 impl Stroke {
     /// A solid line.
-    pub fn solid(role: Role, width: f64) -> Self {
+    pub const fn solid(role: Role, width: f64) -> Self {
         Self {
             role,
             width,
@@ -27,7 +27,7 @@ impl Stroke {
     }
 
     /// The same line, dashed.
-    pub fn dashed(self) -> Self {
+    pub const fn dashed(self) -> Self {
         Self {
             dash: Dash::Dashed,
             ..self
@@ -35,7 +35,7 @@ impl Stroke {
     }
 
     /// The same line, dotted.
-    pub fn dotted(self) -> Self {
+    pub const fn dotted(self) -> Self {
         Self {
             dash: Dash::Dotted,
             ..self
@@ -63,7 +63,7 @@ impl Stroke {
     }
 
     /// The same line with a casing.
-    pub fn cased(self) -> Self {
+    pub const fn cased(self) -> Self {
         Self {
             cased: true,
             ..self

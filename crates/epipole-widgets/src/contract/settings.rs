@@ -15,6 +15,14 @@ pub enum Knob {
     Choice(&'static Choice),
 }
 
+/// A model's list of settings, in order, by the names of its sliders, toggles and choices.
+macro_rules! knobs {
+    ($($knob:expr),+ $(,)?) => {
+        &[$($knob.knob()),+]
+    };
+}
+pub(crate) use knobs;
+
 impl From<&'static Slider> for Knob {
     fn from(slider: &'static Slider) -> Self {
         Self::Slider(slider)

@@ -62,7 +62,7 @@ impl PlanCamera {
     /// The center, and the image plane `depth` in front of it with the rays to its ends.
     pub(crate) fn draw(&self, canvas: &mut Canvas, panel: &Panel, depth: f64) {
         let (role, shape) = self.mark;
-        let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let at = |point: &Point2<f64>| panel.place_of(&point);
         let center = at(&self.center);
         let ends = [-1.0, 1.0].map(|across| at(&self.on_image(across, depth)));
         for end in ends {
@@ -109,7 +109,7 @@ impl PlanCamera {
             Stroke::solid(role, 1.75),
         );
         self.draw(canvas, panel, depth);
-        let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let at = |point: Point2<f64>| panel.place_of(&point);
         let ahead = towards.dot(&self.axes().0);
         if ahead > 1e-9 {
             let pixel = self.center + towards * (depth / ahead);
@@ -146,7 +146,7 @@ pub(crate) fn draw_ray(
         + reach(from.x, panel.x_axis)
         + reach(from.y, panel.y_axis);
     let to = from + direction * far;
-    let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let at = |point: &Point2<f64>| panel.place_of(&point);
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         canvas.line(at(from), at(&to), stroke)
     });

@@ -3,9 +3,10 @@
 //! A panel's world is linear, so an axis in [`Scale::Decades`] has the logarithm to base 10 as its
 //! world; [`decade`] takes values there.
 
-use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle, text_width};
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
 use crate::contract::{Layout, Panel, Rect, format_number};
 use crate::kit::grid::{SMALL, fitting_title};
+use crate::kit::labels::Labels;
 use crate::theme::Role;
 
 /// Room for the numbers of the vertical axis.
@@ -275,6 +276,41 @@ pub(crate) fn draw_curve(
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         canvas.polyline(&places, stroke)
     });
+}
+
+/// Values of an axis that counts things, in decades: a curve with a mark for each.
+pub(crate) struct List<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) stroke: Stroke,
+    /// Shape and radius of its marks.
+    pub(crate) mark: (Shape, f64),
+    /// Its name, and the index of the value beside which it stands.
+    pub(crate) name: (&'a str, usize),
+}
+
+/// Draws lists, and then their names beside them. A value beyond the axis is drawn at its edge.
+pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    let world = |(k, value): (usize, &f64)| {
+        let decade = decade(*value).clamp(panel.y_axis.end, panel.y_axis.start);
+        (k as f64 + 1.0, decade)
+    };
+    for list in lists {
+        let places = || list.values.iter().enumerate().map(world);
+        draw_curve(canvas, panel, places(), list.stroke);
+        for place in places() {
+            let (x, y) = panel.canvas_from_world(place);
+            let place = (x, y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0));
+            let (shape, radius) = list.mark;
+            canvas.marker(place, radius, shape, list.stroke.role, false);
+            labels.keep_free(place, 6.0);
+        }
+    }
+    for list in lists {
+        let (name, index) = list.name;
+        let place = panel.canvas_from_world(world((index, &list.values[index])));
+        labels.name(canvas, (place, 8.0), name, (list.stroke.role, SMALL));
+    }
 }
 
 /// The line that says where along the horizontal axis the figure is now.

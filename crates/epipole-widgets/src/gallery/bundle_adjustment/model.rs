@@ -7,7 +7,7 @@
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Knob, Model,
-    Problem, Settings, Slider, Space, Value, format_number, round_to_digits,
+    Problem, Settings, Slider, Space, Value, format_number, knobs, round_to_digits,
 };
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, SPACE};
@@ -41,15 +41,7 @@ const NOISE: Slider = Slider::new("noise", "Feature noise")
     .unit("px")
     .more();
 const SEED: Slider = Slider::seed(4.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&LOSS),
-    Knob::Slider(&WRONG),
-    Knob::Slider(&DISTURBANCE),
-    Knob::Slider(&DAMPING),
-    Knob::Slider(&STEPS),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![LOSS, WRONG, DISTURBANCE, DAMPING, STEPS, NOISE, SEED];
 
 const STEPS_PER_SECOND: f64 = 1.5;
 /// The dragged feature's place is kept to a tenth of a pixel.
@@ -63,7 +55,7 @@ pub(crate) struct BundleAdjustment {
     pub(super) orbit: Orbit,
     house: Option<House>,
     /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
-    mark: (f64, f64),
+    pub(super) mark: (f64, f64),
     pub(super) asked: Asked<Question>,
     running: Running,
 }
@@ -71,10 +63,6 @@ pub(crate) struct BundleAdjustment {
 impl BundleAdjustment {
     pub(super) fn house(&self) -> Option<&House> {
         self.house.as_ref()
-    }
-
-    pub(super) fn mark(&self) -> (f64, f64) {
-        self.mark
     }
 
     pub(super) fn is_robust(&self) -> bool {

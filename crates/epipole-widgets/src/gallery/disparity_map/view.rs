@@ -1,12 +1,11 @@
 //! The pair, the truth, what is found and how far it is off; a legend for the colors.
 
 use super::model::DisparityMap;
-use super::question::{Answer, BAD_PX, Question, SIZE};
+use super::question::{Answer, BAD_PX, SIZE};
 use crate::canvas::{Canvas, Place, Stroke, text_width};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
-use crate::kit::question::Question as _;
 use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
@@ -80,7 +79,7 @@ impl View for DisparityMapView {
         let asked = &model.asked;
         let found = layout.panel("found").rect;
         let Some(answer) = asked.answer() else {
-            let words = asked.problem().unwrap_or(Question::LABEL);
+            let words = asked.words();
             grid::notice(canvas, layout.panel("left").rect, words);
             return draw_legend(canvas, layout, None);
         };

@@ -3,7 +3,7 @@
 use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Symbol, Value,
+    Settings, Slider, Symbol, Value, knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::probe::{place_words, ranges};
@@ -32,12 +32,7 @@ const SELECTED: Slider = Slider::new("selected", "Selected point")
     .range(0.0, MAX_POINTS as f64, 1.0)
     .at(0.0)
     .hidden();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&BASELINE),
-    Knob::Slider(&FORWARD),
-    Knob::Slider(&TURN),
-    Knob::Slider(&SELECTED),
-];
+const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SELECTED];
 const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
 const REMOVE: Button = Button::new("remove", "Remove a point", ButtonRole::Action).more();
 

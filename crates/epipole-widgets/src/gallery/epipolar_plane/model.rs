@@ -4,7 +4,7 @@
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    Space, Symbol, Value, format_number, round_to_digits,
+    Space, Symbol, Value, format_number, knobs, round_to_digits,
 };
 use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
@@ -78,17 +78,7 @@ const PY: Slider = coordinate("py", "P below table");
 const PZ: Slider = coordinate("pz", "P away");
 const COORDINATES: [&Slider; 3] = [&PX, &PY, &PZ];
 
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&DEPTH),
-    Knob::Choice(&SHOW),
-    Knob::Slider(&X1),
-    Knob::Slider(&Z1),
-    Knob::Slider(&X2),
-    Knob::Slider(&Z2),
-    Knob::Slider(&PX),
-    Knob::Slider(&PY),
-    Knob::Slider(&PZ),
-];
+const KNOBS: &[Knob] = knobs![DEPTH, SHOW, X1, Z1, X2, Z2, PX, PY, PZ];
 
 /// Height over width of the space, the same on every page, so that the model knows where things are
 /// seen.

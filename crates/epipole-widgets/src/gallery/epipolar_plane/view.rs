@@ -169,7 +169,7 @@ fn draw_first(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: &
     let Some(pixel) = scenery.pixels[0] else {
         return grid::notice(canvas, panel.rect, "P is behind camera 1.");
     };
-    let place = panel.canvas_from_world((pixel.x, pixel.y));
+    let place = panel.place_of(&pixel);
     canvas.grip(place, Role::Grip);
     labels.keep_free(place, 10.0);
     if let Some(geometry) = scenery.geometry.as_ref().filter(|_| lit == Lit::Epipole) {
@@ -194,12 +194,12 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
         .and_then(|surface| surface.pixel2);
     let mut ring = None;
     if let Some(pixel) = surface.filter(in_picture) {
-        let place = panel.canvas_from_world((pixel.x, pixel.y));
+        let place = panel.place_of(&pixel);
         canvas.marker(place, 6.0, Shape::Ring, Role::Ink, true);
         labels.keep_free(place, 8.0);
         ring = Some(place);
     }
-    let image = scenery.pixels[1].map(|pixel| panel.canvas_from_world((pixel.x, pixel.y)));
+    let image = scenery.pixels[1].map(|pixel| panel.place_of(&pixel));
     match image {
         Some(place) if panel.rect.contains(place) => {
             let radius = if lit == Lit::Point { 6.5 } else { 5.0 };

@@ -3,7 +3,7 @@
 use super::poses::{Ambiguity, Pose};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
 use epipole::camera::RigidTransform;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -12,7 +12,7 @@ const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-45.0, 45.0, 1.0)
     .at(16.0)
     .unit("°");
-const KNOBS: &[Knob] = &[Knob::Slider(&TURN)];
+const KNOBS: &[Knob] = knobs![TURN];
 
 /// Where camera 2 may stand, in steps of the figure's world: to the right, and forward.
 pub(super) const X_RANGE: [f64; 2] = [-1.6, 1.6];

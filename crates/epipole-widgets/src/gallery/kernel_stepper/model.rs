@@ -4,7 +4,7 @@ use super::kernel::Kernel;
 use super::pixels::{self, SIZE};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider,
+    Settings, Slider, knobs,
 };
 use crate::kit::probe::Probe;
 use epipole::imaging::{Border, GrayImage32, correlate};
@@ -58,21 +58,9 @@ const DIVIDE: Slider = Slider::new("divide", "Divide by")
     .range(1.0, 16.0, 1.0)
     .at(1.0)
     .more();
-static KNOBS: [Knob; 14] = [
-    Knob::Choice(&KERNEL),
-    Knob::Choice(&ALONG),
-    Knob::Choice(&BORDER),
-    Knob::Choice(&PIXELS),
-    Knob::Slider(&WEIGHTS[0]),
-    Knob::Slider(&WEIGHTS[1]),
-    Knob::Slider(&WEIGHTS[2]),
-    Knob::Slider(&WEIGHTS[3]),
-    Knob::Slider(&WEIGHTS[4]),
-    Knob::Slider(&WEIGHTS[5]),
-    Knob::Slider(&WEIGHTS[6]),
-    Knob::Slider(&WEIGHTS[7]),
-    Knob::Slider(&WEIGHTS[8]),
-    Knob::Slider(&DIVIDE),
+static KNOBS: &[Knob] = knobs![
+    KERNEL, ALONG, BORDER, PIXELS, WEIGHTS[0], WEIGHTS[1], WEIGHTS[2], WEIGHTS[3], WEIGHTS[4],
+    WEIGHTS[5], WEIGHTS[6], WEIGHTS[7], WEIGHTS[8], DIVIDE,
 ];
 const NEXT: Button = Button::new("next", "Next pixel", ButtonRole::Step);
 
@@ -180,7 +168,7 @@ impl Declared for KernelStepper {
 
     fn new() -> Self {
         let mut model = Self {
-            settings: Settings::new(&KNOBS),
+            settings: Settings::new(KNOBS),
             window: Probe::new("window", "pixels", "Window").at(3.0, 2.0),
             image: pixels::image(false),
             sums: Err(String::new()),

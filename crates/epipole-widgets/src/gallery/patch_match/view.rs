@@ -1,12 +1,11 @@
 //! A row for each patch: the patch itself, and its four candidates.
 
 use super::model::{OPTIONS, PatchMatch};
-use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
+use super::question::{NUM_OPTIONS, NUM_ROUNDS, Round};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::patch::Cuts;
-use crate::kit::question::Question as _;
 use crate::theme::Role;
 
 /// Between the patches of a row, and of the rows.
@@ -61,7 +60,7 @@ impl View for PatchMatchView {
         };
         grid::fitting_title(canvas, all, &wordings);
         let Some(answer) = model.asked.answer() else {
-            let notice = model.asked.problem().unwrap_or(Question::LABEL);
+            let notice = model.asked.words();
             let whole = Rect::new(0.0, first.y, layout.width, layout.height - first.y);
             canvas.panel(whole);
             return grid::notice(canvas, whole, notice);

@@ -3,7 +3,7 @@
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
 use epipole::robust::num_trials_with_replacement;
 
@@ -18,19 +18,15 @@ const CONFIDENCE: Slider = Slider::new("p", "Confidence p")
     .range(0.5, 0.999, 0.001)
     .at(0.99)
     .digits(3);
-const KNOBS: &[Knob] = &[Knob::Slider(&CONFIDENCE)];
+const KNOBS: &[Knob] = knobs![CONFIDENCE];
 
 /// The model of `ransac-budget`.
 pub struct RansacBudget {
     settings: Settings,
-    inlier_ratio: f64,
+    pub(super) inlier_ratio: f64,
 }
 
 impl RansacBudget {
-    pub(super) fn inlier_ratio(&self) -> f64 {
-        self.inlier_ratio
-    }
-
     pub(super) fn confidence(&self) -> f64 {
         self.settings.number(&CONFIDENCE)
     }

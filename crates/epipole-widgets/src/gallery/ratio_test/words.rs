@@ -32,7 +32,7 @@ impl Words for RatioTest {
                 .main()
         };
         let [near, far] = found.distances.map(f64::from);
-        let is_right = ["wrong", "right"][usize::from(found.is_right)];
+        let is_right = if found.is_right { "right" } else { "wrong" };
         let is_kept = kept_or_not(self.rules().keep(found));
         let verdict = format!("{is_right}, {is_kept}");
         let [u, v] = answer.spots[0][index].place;

@@ -28,7 +28,7 @@ impl View for SchurView {
 
     fn layout(&self, model: &Schur, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let [cameras, points] = model.blocks().unknowns();
+        let [cameras, points] = model.blocks.unknowns();
         // Beside the larger one there is room for half of it.
         let side = ((width - GAP) / 1.55).min(LARGEST);
         let [row] = grid.shares([1.0], side);
@@ -44,7 +44,7 @@ impl View for SchurView {
 
     fn draw(&mut self, model: &Schur, layout: &Layout, canvas: &mut Canvas) {
         let (all, left) = (layout.panel("all"), layout.panel("cameras"));
-        let blocks = model.blocks();
+        let blocks = &model.blocks;
         let [cameras, _] = blocks.unknowns();
         grid::fitting_title(canvas, all.rect, &["Everything at once", "All"]);
         let place = (left.rect.x, all.rect.y - grid::TITLE / 2.0);

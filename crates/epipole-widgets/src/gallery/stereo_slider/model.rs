@@ -2,7 +2,7 @@
 
 use super::rig::{Measured, Rig};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
 };
 use crate::kit::scenes::PHOTO_WIDTH;
 
@@ -15,7 +15,7 @@ const FOCAL: Slider = Slider::new("focal", "Focal length")
     .range(400.0, 1000.0, 20.0)
     .at(700.0)
     .unit("px");
-const KNOBS: &[Knob] = &[Knob::Slider(&BASELINE), Knob::Slider(&FOCAL)];
+const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
 
 /// The smallest and largest distance of the ball from the line between the cameras, meters.
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];

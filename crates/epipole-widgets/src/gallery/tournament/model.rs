@@ -3,7 +3,7 @@
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
-    Problem, Settings, Slider, Value,
+    Problem, Settings, Slider, Value, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -22,12 +22,7 @@ const THRESHOLD: Slider = Slider::new("threshold", "Threshold")
     .digits(1)
     .unit("σ");
 const SEED: Slider = Slider::seed(1.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SUBJECT),
-    Knob::Slider(&RATIO),
-    Knob::Slider(&THRESHOLD),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![SUBJECT, RATIO, THRESHOLD, SEED];
 const AGAIN: Button = Button::new("again", "Run again", ButtonRole::Restart);
 
 /// The model of `tournament`.

@@ -2,7 +2,7 @@
 
 use super::model::Tournament;
 use super::question::{NUM_RATIOS, outlier_ratio};
-use super::rivals::{NAMES, NUM_RIVALS};
+use super::rivals::{NUM_RIVALS, RIVALS};
 use super::words::success;
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Layout, View};
@@ -31,11 +31,11 @@ fn look(rival: usize) -> (Role, Shape, Stroke) {
 }
 
 fn entries() -> Vec<Entry> {
-    let entry = |rival: usize| {
-        let (role, shape, _) = look(rival);
-        (Swatch::Marker(shape, role), NAMES[rival])
-    };
-    (0..NUM_RIVALS).map(entry).collect()
+    let swatch = |(role, shape, _)| Swatch::Marker(shape, role);
+    let names = RIVALS.iter().enumerate();
+    names
+        .map(|(rival, (_, name, _))| (swatch(look(rival)), *name))
+        .collect()
 }
 
 impl View for TournamentView {

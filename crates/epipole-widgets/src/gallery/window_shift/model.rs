@@ -3,7 +3,7 @@
 use super::measure::{Found, LARGEST_HALF, REACH, SHOWN, Verdict, find, take_picture};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
 use crate::kit::probe::place_words;
 use epipole::imaging::GrayImage32;
@@ -20,11 +20,7 @@ const NOISE: Slider = Slider::new("noise", "Noise σ")
 const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .range(20.0, 600.0, 20.0)
     .at(100.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&WINDOW),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&THRESHOLD),
-];
+const KNOBS: &[Knob] = knobs![WINDOW, NOISE, THRESHOLD];
 
 /// Where the window is at the start, on a corner of the square, and the shift to try.
 const PLACE: (f64, f64) = (151.0, 143.0);
@@ -36,37 +32,21 @@ const PLAIN_FROM: f64 = 190.0;
 pub struct WindowShift {
     settings: Settings,
     /// The middle of the window: column and row, whole pixels.
-    window: (f64, f64),
+    pub(super) window: (f64, f64),
     /// Columns to the right and rows down, whole pixels.
-    shift: (f64, f64),
+    pub(super) shift: (f64, f64),
     /// What is shown.
-    picture: RgbImage,
+    pub(super) picture: RgbImage,
     /// Gray levels of the whole picture.
     gray: GrayImage32,
     found: Result<Found, epipole::Error>,
     /// Counts pictures and places, so that the view knows when to color the map anew.
-    version: u64,
+    pub(super) version: u64,
 }
 
 impl WindowShift {
-    pub(super) fn picture(&self) -> &RgbImage {
-        &self.picture
-    }
-
-    pub(super) fn version(&self) -> u64 {
-        self.version
-    }
-
     pub(super) fn window_px(&self) -> usize {
         self.settings.count(&WINDOW)
-    }
-
-    pub(super) fn window(&self) -> (f64, f64) {
-        self.window
-    }
-
-    pub(super) fn shift(&self) -> (f64, f64) {
-        self.shift
     }
 
     /// What is found there.

@@ -64,14 +64,14 @@ impl View for WindowShiftView {
             Ok(found) => found,
             Err(problem) => return grid::notice(canvas, picture.rect, &problem),
         };
-        canvas.photograph(picture.rect, model.picture());
+        canvas.photograph(picture.rect, &model.picture);
         canvas.clipped(picture.rect, |canvas| windows(canvas, picture, model));
         let theme = canvas.theme();
-        let [colors] = (self.map).maps(model.version(), theme, || [colored(found, theme)]);
+        let [colors] = (self.map).maps(model.version, theme, || [colored(found, theme)]);
         canvas.photograph(map.rect, colors);
         canvas.clipped(map.rect, |canvas| ellipse(canvas, map, model, found));
         canvas.clipped(surface.rect, |canvas| {
-            surface::draw(canvas, surface.rect, model.shift(), found);
+            surface::draw(canvas, surface.rect, model.shift, found);
         });
         draw_legend(canvas, layout, model, found);
     }
@@ -80,8 +80,8 @@ impl View for WindowShiftView {
 /// The window where it is, and where the shift takes it.
 fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     let side = model.window_px() as f64 * panel.scale_x();
-    let place = model.window();
-    let shifted = (place.0 + model.shift().0, place.1 + model.shift().1);
+    let place = model.window;
+    let shifted = (place.0 + model.shift.0, place.1 + model.shift.1);
     let [still, moved] = [place, shifted].map(|place| panel.canvas_from_world(place));
     let square = |(x, y): Place| Rect::new(x - side / 2.0, y - side / 2.0, side, side);
     let stroke = Stroke::solid(Role::Candidate, 2.0).cased();
@@ -125,7 +125,7 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
         canvas.label(place(beyond(short), 0.0), "λ₁", style);
         canvas.label(place(0.0, -beyond(long)), "λ₂", style);
     }
-    let shift = panel.canvas_from_world(model.shift());
+    let shift = panel.canvas_from_world(model.shift);
     let stroke = Stroke::solid(Role::Grip, 2.0).cased();
     canvas.line(middle, shift, stroke);
     canvas.grip(shift, Role::Grip);

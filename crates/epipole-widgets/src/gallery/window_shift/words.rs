@@ -21,7 +21,7 @@ impl Words for WindowShift {
             return vec![Readout::words("state", "State", self.describe()).main()];
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift();
+        let (du, dv) = self.shift;
         let change = found.change(du as i32, dv as i32);
         let number = |id, label, value| Readout::number(id, label, value, 0, "");
         vec![
@@ -29,11 +29,7 @@ impl Words for WindowShift {
             number("lambda1", "λ₁ per pixel", large).main(),
             number("lambda2", "λ₂ per pixel", small).main(),
             number("change", "Squared change", change).main(),
-            number(
-                "estimate",
-                "Taylor's estimate",
-                found.estimate(self.shift()),
-            ),
+            number("estimate", "Taylor's estimate", found.estimate(self.shift)),
         ]
     }
 
@@ -48,12 +44,12 @@ impl Words for WindowShift {
             Verdict::Corner => "a corner: every shift changes it",
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift();
+        let (du, dv) = self.shift;
         format!(
             "The window at column {}, row {} is on {what}. Per pixel λ₁ is {} and λ₂ is {}; {} and \
              more counts as large. A shift by {} columns and {} rows changes it by {}.",
-            self.window().0,
-            self.window().1,
+            self.window.0,
+            self.window.1,
             format_number(large, 0),
             format_number(small, 0),
             format_number(self.threshold(), 0),

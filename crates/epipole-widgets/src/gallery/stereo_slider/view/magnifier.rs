@@ -83,7 +83,7 @@ impl Magnifier {
                 canvas.line((x, glass.y), (x, glass.bottom()), edge);
             }
             let (role, shape) = CAMERAS[1];
-            let middle = panel.canvas_from_world((self.at.x, self.at.y));
+            let middle = panel.place_of(&self.at);
             canvas.marker(middle, 3.0, shape, role, true);
         });
         canvas.stroke_rect(glass, frame);
