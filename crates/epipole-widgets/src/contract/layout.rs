@@ -68,6 +68,13 @@ impl Panel {
         self.canvas_from_world((point.x, point.y))
     }
 
+    /// The rectangle on the page between two corners in the world: upper left and lower right.
+    pub fn rect_between(&self, from: (f64, f64), to: (f64, f64)) -> Rect {
+        let (x, y) = self.canvas_from_world(from);
+        let (right, bottom) = self.canvas_from_world(to);
+        Rect::new(x, y, right - x, bottom - y)
+    }
+
     /// The place in the world of a place on the page.
     pub fn world_from_canvas(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let at = |axis: Axis, share: f64| axis.start + share * (axis.end - axis.start);

@@ -49,14 +49,9 @@ impl Probe {
 
     /// Takes an event that moves it; whether it was one.
     pub(crate) fn update(&mut self, event: &Event, size: (u32, u32)) -> bool {
-        match event {
-            Event::HandleMoved { id, x, y } if id == self.id => self.place = (*x, *y),
-            Event::Clicked { panel, x, y } if panel == self.panel => {
-                self.place = within((x.round(), y.round()), size);
-            }
-            _ => return false,
-        }
-        true
+        let moved = self.handle(size, 1.0).moved_by(event);
+        self.place = moved.unwrap_or(self.place);
+        moved.is_some()
     }
 }
 

@@ -142,9 +142,8 @@ fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &m
         };
         let Some(shift) = shift else { continue };
         let place = panel.canvas_from_world((u - f64::from(shift), v));
-        let window = model
-            .window_px()
-            .filter(|_| ["left", "right"].contains(&id));
+        let is_compared = ["left", "right"].contains(&id);
+        let window = model.window_px().filter(|_| is_compared);
         canvas.clipped(panel.rect, |canvas| match window {
             Some(window_px) => {
                 let half = 0.5 * f64::from(window_px) * panel.scale_x();
@@ -163,8 +162,7 @@ fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
         let at = |distance: f64| (x + along * distance, y + across * distance);
         canvas.line(at(half + 2.0), at(half + 11.0), stroke);
     }
-    let window = Rect::new(x - half, y - half, 2.0 * half, 2.0 * half);
-    canvas.stroke_rect(window, stroke);
+    canvas.stroke_rect(Rect::around((x, y), half), stroke);
 }
 
 /// What the colors mean: beside the small panels, or below everything.
@@ -176,10 +174,8 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, answer: Option<&Answer>) {
         false => (truth.right() + 2.0 * grid::GAP, truth.y + 1.0),
     };
     let room = layout.width - x;
-    let most = answer.map_or_else(
-        || "near".to_owned(),
-        |answer| format!("{} px, near", format_number(answer.scale_px().into(), 0)),
-    );
+    let most = answer.map(|answer| format_number(answer.scale_px().into(), 0));
+    let most = most.map_or("near".to_owned(), |px| format!("{px} px, near"));
     let bar = Rect::new(x, y, room.min(240.0), 11.0);
     heat::bar(canvas, bar, ["0 px, far", &most], Theme::scale);
     // Beside the bar where there is room, below it in columns of two on a phone.

@@ -184,7 +184,7 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
         if panel.rect.contains(place) {
             canvas.marker(place, 6.0, Shape::Plus, Role::Truth, true);
             labels.keep_free(place, 8.0);
-            labels.draw(canvas, &Labels::around(place, 9.0), "true epipole", style);
+            labels.name(canvas, (place, 9.0), "true epipole", (Role::Ink, SMALL));
         } else if let Some((from, to)) = border_arrow(panel.rect, place) {
             canvas.arrow(from, to, Stroke::solid(Role::Truth, 2.5).cased());
             let away_px = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();

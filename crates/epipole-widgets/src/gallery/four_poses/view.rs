@@ -3,7 +3,7 @@
 use super::model::{FourPoses, X_RANGE, Z_RANGE};
 use super::poses::{EDGES, FOCAL_PX, Pose, RIDGE, SIZE};
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Aspect, Layout, Panel, Rect, View};
+use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::border_arrow;
@@ -75,9 +75,7 @@ impl View for FourPosesView {
 
 /// Where camera 2 may stand.
 fn draw_room(panel: &Panel, canvas: &mut Canvas) {
-    let (left, far) = panel.canvas_from_world((X_RANGE[0], Z_RANGE[1]));
-    let (right, near) = panel.canvas_from_world((X_RANGE[1], Z_RANGE[0]));
-    let room = Rect::new(left, far, right - left, near - far);
+    let room = panel.rect_between((X_RANGE[0], Z_RANGE[1]), (X_RANGE[1], Z_RANGE[0]));
     canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
 }
 

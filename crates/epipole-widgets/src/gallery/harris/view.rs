@@ -51,7 +51,7 @@ impl View for HarrisView {
                 draw_corners(canvas, panel, model);
                 let place = panel.canvas_from_world(model.probe_place());
                 let half = question.window_px as f64 / 2.0 * panel.scale_x();
-                let window = Rect::new(place.0 - half, place.1 - half, 2.0 * half, 2.0 * half);
+                let window = Rect::around(place, half);
                 canvas.stroke_rect(window, Stroke::solid(Role::Grip, 1.5).cased());
                 canvas.grip(place, Role::Grip);
             });

@@ -126,10 +126,8 @@ impl KernelStepper {
     pub(super) fn window(&self) -> [f32; 9] {
         let (u, v) = self.pixel();
         std::array::from_fn(|index| {
-            self.level(
-                u as i32 + index as i32 % 3 - 1,
-                v as i32 + index as i32 / 3 - 1,
-            )
+            let (column, row) = (index as i32 % 3 - 1, index as i32 / 3 - 1);
+            self.level(u as i32 + column, v as i32 + row)
         })
     }
 
@@ -183,12 +181,11 @@ impl Model for KernelStepper {
         let mut controls = self.settings.controls();
         let kernel = self.settings.chosen(&KERNEL);
         for control in &mut controls {
-            let is_weight =
-                control.id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == control.id);
-            control.enabled = if is_weight {
-                kernel == OWN
-            } else {
-                control.id != ALONG.id || kernel < 3
+            let is_weight = |id| id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == id);
+            control.enabled = match control.id {
+                id if id == ALONG.id => kernel < 3,
+                id if is_weight(id) => kernel == OWN,
+                _ => true,
             };
         }
         controls.push(NEXT.control(true, false));
@@ -209,14 +206,11 @@ impl Model for KernelStepper {
             }
             self.filter();
         }
-        match event {
-            Event::Press { id } if id == NEXT.id => {
-                let (u, v) = self.pixel();
-                let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
-                let (u, v) = (next % SIZE.0, next / SIZE.0);
-                self.window = self.window.at(f64::from(u), f64::from(v));
-            }
-            _ => {}
+        if *event == Event::press(NEXT.id) {
+            let (u, v) = self.pixel();
+            let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
+            let (u, v) = (next % SIZE.0, next / SIZE.0);
+            self.window = self.window.at(f64::from(u), f64::from(v));
         }
         Ok(())
     }

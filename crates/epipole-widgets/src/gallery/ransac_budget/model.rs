@@ -75,9 +75,7 @@ impl Model for RansacBudget {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        if let Event::Clicked { x, .. } | Event::HandleMoved { x, .. } = event
-            && let Some((ratio, _)) = self.handle().admit(*x, 0.0)
-        {
+        if let Some((ratio, _)) = self.handle().moved_by(event) {
             self.inlier_ratio = ratio;
         }
         Ok(())

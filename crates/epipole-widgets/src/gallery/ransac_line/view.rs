@@ -131,21 +131,24 @@ fn eased(phase: f64, start: f64, end: f64) -> f64 {
 fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Canvas) {
     let (phase, scattered) = (model.phase(), &model.scattered);
     let region = scattered.region;
-    let at = |x: f64, y: f64| panel.canvas_from_world((x, y));
-    let (upper, lower) = (at(region.x, region.y), at(region.right(), region.bottom()));
+    let region_rect = panel.rect_between((region.x, region.y), (region.right(), region.bottom()));
     let good = scattered.points.len() - scattered.num_outliers.min(scattered.points.len());
     let outliers = scattered.points.iter().skip(good);
     let in_region = outliers.filter(|point| region.contains((point.place.x, point.place.y)));
     let num_in_region = in_region.count();
     if num_in_region > 0 {
-        let corners = [upper, (lower.0, upper.1), lower, (upper.0, lower.1)];
-        canvas.polygon_outline(&corners, Stroke::solid(Role::Outlier, 1.25).dashed());
+        let stroke = Stroke::solid(Role::Outlier, 1.25).dashed();
+        canvas.polygon_outline(&region_rect.corners(), stroke);
         let style = TextStyle::new(Role::Outlier, SMALL).cased();
-        let above = upper.1 - 9.0;
+        let above = region_rect.y - 9.0;
         let has_room = above > panel.rect.y + 8.0;
-        let row = if has_room { above } else { lower.1 + 9.0 };
+        let row = if has_room {
+            above
+        } else {
+            region_rect.bottom() + 9.0
+        };
         let text = format!("{num_in_region} of {} outliers", scattered.num_outliers);
-        canvas.label((upper.0, row), &text, style);
+        canvas.label((region_rect.x, row), &text, style);
     }
     let candidate = tally.candidate.as_ref();
     if let Some(candidate) = candidate {
@@ -207,11 +210,10 @@ fn draw_tally(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
             false => vote.num_votes,
         };
         let number = index as f64 + 1.0;
-        let (left, top) = panel.canvas_from_world((number - 0.36, height as f64));
-        let (right, bottom) = panel.canvas_from_world((number + 0.36, 0.0));
+        let mut column = panel.rect_between((number - 0.36, height as f64), (number + 0.36, 0.0));
+        column.width = column.width.max(1.0);
         let counts = vote.is_best && (!is_last || phase >= 1.0);
         let role = if counts { Role::Best } else { Role::Candidate };
-        let column = Rect::new(left, top, (right - left).max(1.0), bottom - top);
         canvas.fill_rect(column, role, if counts { 1.0 } else { 0.55 });
         if counts {
             best = best.max(vote.num_votes);

@@ -127,28 +127,16 @@ impl Model for WindowShift {
                 self.look();
             }
         }
-        match event {
-            Event::HandleMoved { id, x, y } if id == "shift" => self.shift = (*x, *y),
-            Event::HandleMoved { x, y, .. } => {
-                self.window = (*x, *y);
+        for handle in self.handles() {
+            let Some(place) = handle.moved_by(event) else {
+                continue;
+            };
+            if handle.id == "shift" {
+                self.shift = place;
+            } else {
+                self.window = place;
                 self.look();
             }
-            Event::Clicked { panel, x, y } => {
-                let handles = self.handles();
-                let Some(handle) = handles.iter().find(|handle| handle.panel == panel) else {
-                    return Ok(());
-                };
-                let Some(place) = handle.admit(*x, *y) else {
-                    return Ok(());
-                };
-                if handle.id == "shift" {
-                    self.shift = place;
-                } else {
-                    self.window = place;
-                    self.look();
-                }
-            }
-            _ => {}
         }
         Ok(())
     }

@@ -54,12 +54,12 @@ impl View for WindowShiftView {
     }
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
-        let panels = layout.panels_named(["picture", "map", "surface"]);
-        let titles = ["Image", "Change by shift", "The same as a surface"];
-        for (panel, text) in panels.into_iter().zip(titles) {
-            grid::open(canvas, panel, &[text]);
-        }
-        let [picture, map, surface] = panels;
+        let titles: [(_, &[_]); 3] = [
+            ("picture", &["Image"]),
+            ("map", &["Change by shift"]),
+            ("surface", &["The same as a surface"]),
+        ];
+        let [picture, map, surface] = grid::open_all(canvas, layout, titles);
         let found = match model.found() {
             Ok(found) => found,
             Err(problem) => return grid::notice(canvas, picture.rect, &problem),
@@ -83,16 +83,11 @@ fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     let place = model.window;
     let shifted = (place.0 + model.shift.0, place.1 + model.shift.1);
     let [still, moved] = [place, shifted].map(|place| panel.canvas_from_world(place));
-    let square = |(x, y): Place| Rect::new(x - side / 2.0, y - side / 2.0, side, side);
+    let [still_square, moved] = [still, moved].map(|place| Rect::around(place, side / 2.0));
     let stroke = Stroke::solid(Role::Candidate, 2.0).cased();
-    canvas.polygon_outline(&outline(square(moved)), stroke.dashed());
-    canvas.stroke_rect(square(still), Stroke::solid(Role::Grip, 2.0).cased());
+    canvas.polygon_outline(&moved.corners(), stroke.dashed());
+    canvas.stroke_rect(still_square, Stroke::solid(Role::Grip, 2.0).cased());
     canvas.grip(still, Role::Grip);
-}
-
-fn outline(rect: Rect) -> [Place; 4] {
-    let (left, top, right, bottom) = (rect.x, rect.y, rect.right(), rect.bottom());
-    [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
 /// Where Taylor expects the change of the legend, its half axes, and the shift to try.
@@ -103,12 +98,11 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
         panel.canvas_from_world((a * across.0 - b * across.1, a * across.1 + b * across.0))
     };
     const CORNERS: usize = 120;
-    let round: Vec<Place> = (0..CORNERS)
-        .map(|corner| {
-            let turn = std::f64::consts::TAU * corner as f64 / CORNERS as f64;
-            place(short * libm::cos(turn), long * libm::sin(turn))
-        })
-        .collect();
+    let corner = |index: usize| {
+        let turn = std::f64::consts::TAU * index as f64 / CORNERS as f64;
+        place(short * libm::cos(turn), long * libm::sin(turn))
+    };
+    let round: Vec<Place> = (0..CORNERS).map(corner).collect();
     let middle = place(0.0, 0.0);
     let reach = REACH as f64;
     let style = TextStyle::new(Role::Ink, SMALL).middle().cased();
@@ -170,10 +164,9 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     let colors: Vec<[Rgb; 2]> = (0..=most)
         .map(|level| {
             let change = level as f64 * LEVEL;
-            let share = if change < CHANGE {
-                0.0
-            } else {
-                0.3 + 0.6 * (change / 150.0).min(1.0)
+            let share = match change < CHANGE {
+                true => 0.0,
+                false => 0.3 + 0.6 * (change / 150.0).min(1.0),
             };
             let color = mix(pale, strong, share as f32);
             [color, mix(color, line, 0.45)]
