@@ -92,8 +92,8 @@ pub(crate) fn draw_epipole(
     let style = TextStyle::new(Role::Ink, TEXT).cased();
     let stroke = Stroke::solid(Role::Ink, 2.5).cased();
     match epipole {
-        Epipole::Finite(pixel) if rect.contains(panel.place_of(&pixel)) => {
-            let place = panel.place_of(&pixel);
+        Epipole::Finite(pixel) if rect.contains(panel.place_of(pixel)) => {
+            let place = panel.place_of(pixel);
             canvas.marker(place, 7.0, Shape::Ring, Role::Ink, true);
             canvas.marker(place, 2.0, Shape::Disk, Role::Ink, false);
             labels.keep_free(place, 9.0);
@@ -101,7 +101,7 @@ pub(crate) fn draw_epipole(
             labels.draw(canvas, &Labels::around(place, 13.0), &text, style);
         }
         Epipole::Finite(pixel) => {
-            let place = panel.place_of(&pixel);
+            let place = panel.place_of(pixel);
             let Some((from, to)) = border_arrow(rect, place) else {
                 return;
             };

@@ -62,7 +62,7 @@ impl PlanCamera {
     /// The center, and the image plane `depth` in front of it with the rays to its ends.
     pub(crate) fn draw(&self, canvas: &mut Canvas, panel: &Panel, depth: f64) {
         let (role, shape) = self.mark;
-        let at = |point: &Point2<f64>| panel.place_of(&point);
+        let at = |point: &Point2<f64>| panel.place_of(point);
         let center = at(&self.center);
         let ends = [-1.0, 1.0].map(|across| at(&self.on_image(across, depth)));
         for end in ends {
@@ -146,7 +146,7 @@ pub(crate) fn draw_ray(
         + reach(from.x, panel.x_axis)
         + reach(from.y, panel.y_axis);
     let to = from + direction * far;
-    let at = |point: &Point2<f64>| panel.place_of(&point);
+    let at = |point: &Point2<f64>| panel.place_of(point);
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         canvas.line(at(from), at(&to), stroke)
     });

@@ -180,7 +180,7 @@ fn camera_mark(index: usize) -> (Role, Shape) {
 }
 
 fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
-    let on_page = |pixel: &Point2<f64>| panel.place_of(&pixel);
+    let on_page = |pixel: &Point2<f64>| panel.place_of(pixel);
     let mark = panel.canvas_from_world(model.mark);
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         if let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) {

@@ -133,7 +133,7 @@ fn draw_picture(
 
 /// The epipolar lines with the matches on them, and in the end what the photograph fills.
 fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canvas: &mut Canvas) {
-    let at = |pixel: &Point2<f64>| panel.place_of(&pixel);
+    let at = |pixel: &Point2<f64>| panel.place_of(pixel);
     let chosen = model.selected().map(|(chosen, _)| chosen);
     let mut labels = Labels::new(panel.rect.inset(2.0));
     if model.is_rectified() {

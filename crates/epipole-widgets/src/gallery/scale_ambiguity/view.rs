@@ -138,7 +138,7 @@ fn draw_photograph(
     canvas: &mut Canvas,
 ) {
     let places: Vec<Place> = (world.pixels[camera].iter())
-        .map(|pixel| panel.place_of(&pixel))
+        .map(|pixel| panel.place_of(pixel))
         .collect();
     for wire in &house.wires {
         let wire: Vec<Place> = wire.iter().map(|&index| places[index]).collect();

@@ -140,7 +140,7 @@ fn size(model: &TwoViewSfm, index: usize) -> (u32, u32) {
 fn draw_features(stage: Stage, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
     let panels = PHOTOS.map(|id| layout.panel(id));
     let radius = (panels[0].rect.width / 230.0).clamp(0.7, 1.6);
-    let place = |index: usize, at: &Point2<f64>| panels[index].place_of(&at);
+    let place = |index: usize, at: &Point2<f64>| panels[index].place_of(at);
     let role = role_of(stage);
     let color = canvas.theme().color(role);
     if stage == Stage::Detect {
