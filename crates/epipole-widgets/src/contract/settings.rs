@@ -109,6 +109,22 @@ impl Settings {
         self.knobs.iter().zip(&self.values).map(control).collect()
     }
 
+    /// The same, and further controls behind them: buttons, and those of a space.
+    pub fn controls_and(&self, more: impl IntoIterator<Item = Control>) -> Vec<Control> {
+        let mut controls = self.controls();
+        controls.extend(more);
+        controls
+    }
+
+    /// The same, of which only those that `is_enabled` can be set.
+    pub fn controls_enabled(&self, is_enabled: impl Fn(&str) -> bool) -> Vec<Control> {
+        let mut controls = self.controls();
+        for control in &mut controls {
+            control.enabled = is_enabled(control.id);
+        }
+        controls
+    }
+
     /// Sets one knob; a slider's value is snapped to its grid. Says whether anything changed.
     ///
     /// # Errors

@@ -107,11 +107,8 @@ impl Declared for DisparityMap {
 
 impl Model for DisparityMap {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        for control in &mut controls {
-            control.enabled = control.id != WINDOW.id || self.window_px().is_some();
-        }
-        controls
+        let has_window = self.window_px().is_some();
+        (self.settings).controls_enabled(|id| id != WINDOW.id || has_window)
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -179,11 +179,10 @@ impl Declared for EpipolarClick {
 
 impl Model for EpipolarClick {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
         let count = self.points().count();
-        controls.push(ADD.control(count < MAX_POINTS, false));
-        controls.push(REMOVE.control(count > 0, false));
-        controls
+        let add = ADD.control(count < MAX_POINTS, false);
+        self.settings
+            .controls_and([add, REMOVE.control(count > 0, false)])
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -257,9 +257,7 @@ impl Declared for EpipolarPlane {
 
 impl Model for EpipolarPlane {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.extend(self.orbit.controls());
-        controls
+        self.settings.controls_and(self.orbit.controls())
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -178,16 +178,13 @@ impl Declared for KernelStepper {
 
 impl Model for KernelStepper {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
         let kernel = self.settings.chosen(&KERNEL);
-        for control in &mut controls {
-            let is_weight = |id| id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == id);
-            control.enabled = match control.id {
-                id if id == ALONG.id => kernel < 3,
-                id if is_weight(id) => kernel == OWN,
-                _ => true,
-            };
-        }
+        let is_weight = |id: &str| id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == id);
+        let mut controls = self.settings.controls_enabled(|id| match id {
+            id if id == ALONG.id => kernel < 3,
+            id if is_weight(id) => kernel == OWN,
+            _ => true,
+        });
         controls.push(NEXT.control(true, false));
         controls
     }

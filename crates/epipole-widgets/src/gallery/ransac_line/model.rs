@@ -141,10 +141,8 @@ impl Declared for RansacLine {
 impl Model for RansacLine {
     fn controls(&self) -> Vec<Control> {
         let (drawn, is_finished) = self.drawn();
-        let mut controls = self.settings.controls();
-        let can_run = self.tally.is_ok();
-        controls.extend(self.running.controls(can_run, drawn, is_finished));
-        controls
+        let running = (self.running).controls(self.tally.is_ok(), drawn, is_finished);
+        self.settings.controls_and(running)
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

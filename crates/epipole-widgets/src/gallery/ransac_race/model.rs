@@ -128,9 +128,8 @@ impl Model for RansacRace {
     fn controls(&self) -> Vec<Control> {
         let (drawn, finished) = (self.fits.num_samples(), self.fits.is_finished());
         let can_run = self.fits.problem.is_none();
-        let mut controls = self.settings.controls();
-        controls.extend(self.running.controls(can_run, drawn, finished));
-        controls
+        let running = self.running.controls(can_run, drawn, finished);
+        self.settings.controls_and(running)
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -112,9 +112,7 @@ impl Declared for ScaleAmbiguity {
 
 impl Model for ScaleAmbiguity {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.extend(self.orbit.controls());
-        controls
+        self.settings.controls_and(self.orbit.controls())
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -164,12 +164,9 @@ impl Declared for ScaleDrift {
 
 impl Model for ScaleDrift {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        for control in &mut controls {
-            // A rig that measures the scale has none that drifts.
-            control.enabled = control.id != DRIFT.id || !self.is_metric();
-        }
-        controls
+        // A rig that measures the scale has none that drifts.
+        let drifts = !self.is_metric();
+        (self.settings).controls_enabled(|id| id != DRIFT.id || drifts)
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -111,9 +111,8 @@ impl Declared for Tournament {
 
 impl Model for Tournament {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.push(AGAIN.control(self.num_batches > 0, false));
-        controls
+        let again = AGAIN.control(self.num_batches > 0, false);
+        self.settings.controls_and([again])
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
