@@ -26,6 +26,17 @@ impl Rect {
         }
     }
 
+    /// The rectangle around its middle that reaches so far to each side.
+    pub fn around((x, y): (f64, f64), half: f64) -> Self {
+        Self::new(x - half, y - half, 2.0 * half, 2.0 * half)
+    }
+
+    /// The corners in turn, the upper left one first.
+    pub fn corners(&self) -> [(f64, f64); 4] {
+        let (left, top, right, bottom) = (self.x, self.y, self.right(), self.bottom());
+        [(left, top), (right, top), (right, bottom), (left, bottom)]
+    }
+
     /// Right edge.
     pub fn right(&self) -> f64 {
         self.x + self.width

@@ -116,6 +116,26 @@ const SCALE: [Rgb; 9] = [
 ];
 
 impl Theme {
+    /// Ink or paper, whichever is easier to read on a color.
+    ///
+    /// ```
+    /// use epipole_canvas::theme::{Role, Theme};
+    /// assert_eq!(Theme::Light.readable_on([255, 240, 200]), Role::Ink);
+    /// assert_eq!(Theme::Light.readable_on([40, 30, 20]), Role::Background);
+    /// ```
+    pub fn readable_on(self, color: Rgb) -> Role {
+        let light = |color: Rgb| {
+            let channels = color.map(|channel| libm::pow(f64::from(channel) / 255.0, 2.2));
+            0.05 + channels.iter().sum::<f64>() / 3.0
+        };
+        let contrast = |role| libm::log(light(self.color(role)) / light(color)).abs();
+        if contrast(Role::Ink) >= contrast(Role::Background) {
+            Role::Ink
+        } else {
+            Role::Background
+        }
+    }
+
     /// The color of a value on a scale from 0 to 1: the larger, the brighter, in every theme.
     pub fn scale(self, share: f64) -> Rgb {
         let share = if share.is_nan() { 0.0 } else { share };

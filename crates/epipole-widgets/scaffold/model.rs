@@ -1,7 +1,7 @@
 //! Say what the model knows and which function of the core it calls.
 
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
 };
 use crate::kit::pin::Pin;
 
@@ -10,7 +10,7 @@ const RADIUS: Slider = Slider::new("radius", "Radius")
     .at(0.5)
     .digits(1)
     .unit("m");
-const KNOBS: &[Knob] = &[Knob::Slider(&RADIUS)];
+const KNOBS: &[Knob] = knobs![RADIUS];
 
 /// The model of `new-figure`.
 pub(crate) struct NewFigure {

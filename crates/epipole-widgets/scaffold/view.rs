@@ -21,9 +21,7 @@ impl View for NewFigureView {
     }
 
     fn draw(&mut self, model: &NewFigure, layout: &Layout, canvas: &mut Canvas) {
-        let plan = layout.panel("plan");
-        grid::title(canvas, plan.rect, "From above");
-        canvas.panel(plan.rect);
+        let [plan] = grid::open_all(canvas, layout, [("plan", &["From above"])]);
         let middle = plan.canvas_from_world((0.0, 0.0));
         let radius = model.radius_m() * plan.scale_x();
         canvas.circle(middle, radius, Stroke::solid(Role::Best, 2.0));

@@ -17,7 +17,7 @@ pub struct Stroke {
 
 impl Stroke {
     /// A solid line.
-    pub fn solid(role: Role, width: f64) -> Self {
+    pub const fn solid(role: Role, width: f64) -> Self {
         Self {
             role,
             width,
@@ -27,7 +27,7 @@ impl Stroke {
     }
 
     /// The same line, dashed.
-    pub fn dashed(self) -> Self {
+    pub const fn dashed(self) -> Self {
         Self {
             dash: Dash::Dashed,
             ..self
@@ -35,15 +35,35 @@ impl Stroke {
     }
 
     /// The same line, dotted.
-    pub fn dotted(self) -> Self {
+    pub const fn dotted(self) -> Self {
         Self {
             dash: Dash::Dotted,
             ..self
         }
     }
 
+    /// The same line, dashed if `dashed`.
+    pub fn dashed_if(self, dashed: bool) -> Self {
+        if dashed { self.dashed() } else { self }
+    }
+
+    /// The same line, dotted if `dotted`.
+    pub fn dotted_if(self, dotted: bool) -> Self {
+        if dotted { self.dotted() } else { self }
+    }
+
+    /// The line of one of several curves: they differ in hue and in pattern.
+    pub fn of_series(series: usize, width: f64) -> Self {
+        let stroke = Self::solid(Role::Series(series as u8), width);
+        match series % 3 {
+            0 => stroke,
+            1 => stroke.dashed(),
+            _ => stroke.dotted(),
+        }
+    }
+
     /// The same line with a casing.
-    pub fn cased(self) -> Self {
+    pub const fn cased(self) -> Self {
         Self {
             cased: true,
             ..self

@@ -1,6 +1,7 @@
 //! Handles: points in the picture that the reader moves.
 
 use super::control::round_to_digits;
+use super::event::Event;
 use serde::Serialize;
 
 /// A draggable point, in the world units of its panel.
@@ -33,6 +34,60 @@ pub struct Handle {
 }
 
 impl Handle {
+    /// A handle at a place, to be moved within ranges of x and of y: by whole units, until a step is said.
+    pub fn new(
+        id: impl Into<String>,
+        panel: &'static str,
+        label: impl Into<String>,
+        (x, y): (f64, f64),
+        [x_range, y_range]: [[f64; 2]; 2],
+    ) -> Self {
+        Self {
+            id: id.into(),
+            panel,
+            label: label.into(),
+            value_text: String::new(),
+            x,
+            y,
+            x_range,
+            y_range,
+            step: [1.0; 2],
+            digits: 0,
+            removable: false,
+        }
+    }
+
+    /// The same handle with its place in words.
+    #[must_use]
+    pub fn told(self, value_text: String) -> Self {
+        Self { value_text, ..self }
+    }
+
+    /// The same handle, moved so far by a press of an arrow key, its place kept with so many digits.
+    #[must_use]
+    pub fn step(self, step: [f64; 2], digits: usize) -> Self {
+        Self {
+            step,
+            digits,
+            ..self
+        }
+    }
+
+    /// The same handle, which the reader may remove if `removable`.
+    #[must_use]
+    pub fn removable_if(self, removable: bool) -> Self {
+        Self { removable, ..self }
+    }
+
+    /// Where an event takes it: a drag, an arrow key, or a click in its panel; `None` if it stays.
+    pub fn moved_by(&self, event: &Event) -> Option<(f64, f64)> {
+        match event {
+            Event::HandleMoved { id, x, y } if *id == self.id => self.admit(*x, *y),
+            Event::Clicked { panel, x, y } if panel == self.panel => self.admit(*x, *y),
+            _ => None,
+        }
+    }
+
     /// The nearest place within its ranges, with its digits; `None` for NaN and infinities.
     pub fn admit(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let admit = |value: f64, [low, high]: [f64; 2]| {
@@ -41,5 +96,22 @@ impl Handle {
                 .then(|| round_to_digits(value.clamp(low, high), self.digits))
         };
         Some((admit(x, self.x_range)?, admit(y, self.y_range)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drags_and_clicks_in_its_panel_move_it_within_its_ranges() {
+        let ranges = [[0.0, 10.0], [-1.0, 1.0]];
+        let handle = Handle::new("here", "plane", "Here", (2.0, 0.0), ranges).step([0.5; 2], 1);
+        let moved = |event: Event| handle.moved_by(&event);
+        assert_eq!(moved(Event::moved("here", 3.26, 4.0)), Some((3.3, 1.0)));
+        assert_eq!(moved(Event::clicked("plane", -3.0, 0.5)), Some((0.0, 0.5)));
+        assert_eq!(moved(Event::moved("there", 3.0, 0.0)), None);
+        assert_eq!(moved(Event::clicked("plot", 3.0, 0.0)), None);
+        assert_eq!(moved(Event::clicked("plane", f64::NAN, 0.0)), None);
     }
 }

@@ -1,6 +1,7 @@
 //! Where things are in the picture: the one transform between world units and the page.
 
 use epipole_canvas::Rect;
+use nalgebra::Point2;
 use serde::Serialize;
 
 /// How one world coordinate runs along one side of a panel.
@@ -28,21 +29,29 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// A panel that shows a photograph: world units are its pixels, centers at integers.
-    pub fn photograph(id: &'static str, rect: Rect, width_px: u32, height_px: u32) -> Self {
+    /// A panel with the world values at its left and right edge, and at its top and bottom.
+    pub fn new(id: &'static str, rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+        let axis = |[start, end]: [f64; 2]| Axis { start, end };
         Self {
             id,
             rect,
-            x_axis: Axis {
-                start: -0.5,
-                end: f64::from(width_px) - 0.5,
-            },
-            y_axis: Axis {
-                start: -0.5,
-                end: f64::from(height_px) - 0.5,
-            },
+            x_axis: axis(x),
+            y_axis: axis(y),
             clickable: false,
         }
+    }
+
+    /// A panel that shows a photograph: world units are its pixels, centers at integers.
+    pub fn photograph(id: &'static str, rect: Rect, size_px: (u32, u32)) -> Self {
+        let axis = |size_px: u32| [-0.5, f64::from(size_px) - 0.5];
+        Self::new(id, rect, axis(size_px.0), axis(size_px.1))
+    }
+
+    /// The same panel, where a click means something.
+    #[must_use]
+    pub fn clickable(self) -> Self {
+        let clickable = true;
+        Self { clickable, ..self }
     }
 
     /// The place on the page of a place in the world.
@@ -52,6 +61,18 @@ impl Panel {
             self.rect.x + along(x, self.x_axis) * self.rect.width,
             self.rect.y + along(y, self.y_axis) * self.rect.height,
         )
+    }
+
+    /// The place on the page of a point of the panel's world, such as a pixel.
+    pub fn place_of(&self, point: &Point2<f64>) -> (f64, f64) {
+        self.canvas_from_world((point.x, point.y))
+    }
+
+    /// The rectangle on the page between two corners in the world: upper left and lower right.
+    pub fn rect_between(&self, from: (f64, f64), to: (f64, f64)) -> Rect {
+        let (x, y) = self.canvas_from_world(from);
+        let (right, bottom) = self.canvas_from_world(to);
+        Rect::new(x, y, right - x, bottom - y)
     }
 
     /// The place in the world of a place on the page.
@@ -114,19 +135,8 @@ mod tests {
 
     #[test]
     fn a_place_returns_from_the_world() {
-        let panel = Panel {
-            id: "top",
-            rect: Rect::new(10.0, 20.0, 300.0, 200.0),
-            x_axis: Axis {
-                start: -1.0,
-                end: 1.0,
-            },
-            y_axis: Axis {
-                start: 5.0,
-                end: 0.0,
-            },
-            clickable: true,
-        };
+        let rect = Rect::new(10.0, 20.0, 300.0, 200.0);
+        let panel = Panel::new("top", rect, [-1.0, 1.0], [5.0, 0.0]);
         assert_eq!(panel.canvas_from_world((0.0, 5.0)), (160.0, 20.0));
         let (x, y) = panel.world_from_canvas(panel.canvas_from_world((0.3, 1.7)));
         assert!((x - 0.3).abs() < 1e-12 && (y - 1.7).abs() < 1e-12);
@@ -134,7 +144,7 @@ mod tests {
 
     #[test]
     fn pixel_centers_of_a_photograph_are_inside_their_pixels() {
-        let panel = Panel::photograph("left", Rect::new(0.0, 0.0, 640.0, 480.0), 320, 240);
+        let panel = Panel::photograph("left", Rect::new(0.0, 0.0, 640.0, 480.0), (320, 240));
         assert_eq!(panel.canvas_from_world((0.0, 0.0)), (1.0, 1.0));
         assert_eq!(panel.canvas_from_world((319.0, 239.0)), (639.0, 479.0));
     }

@@ -31,6 +31,7 @@ pub use layout::{Axis, Layout, Panel, WIDTHS};
 pub use model::{Declared, Model};
 pub use problem::Problem;
 pub use readout::{Readout, ReadoutValue, format_number};
+pub(crate) use settings::knobs;
 pub use settings::{Knob, Settings};
 pub use space::Space;
 pub use symbol::{Mark, PlacedSymbol, Symbol};

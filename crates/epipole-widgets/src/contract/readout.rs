@@ -30,17 +30,17 @@ pub enum ReadoutValue {
 }
 
 impl Readout {
-    /// A number; one that is not finite becomes the words "no value".
+    /// A number; one that is not there, or not finite, becomes the words "no value".
     pub fn number(
         id: &'static str,
         label: &'static str,
-        value: f64,
+        value: impl Into<Option<f64>>,
         digits: usize,
         unit: &'static str,
     ) -> Self {
-        if !value.is_finite() {
+        let Some(value) = value.into().filter(|value| value.is_finite()) else {
             return Self::words(id, label, "no value");
-        }
+        };
         let number = format_number(value, digits);
         let text = with_unit(&number, unit);
         Self {
@@ -73,10 +73,31 @@ impl Readout {
 }
 
 impl Readout {
+    /// The same number, or these words where there is none.
+    ///
+    /// ```
+    /// use epipole_widgets::contract::Readout;
+    /// let error = |px| Readout::number("error", "Error", px, 1, "px").or("no line");
+    /// assert_eq!(error(Some(0.52)).text, "0.5 px");
+    /// assert_eq!(error(None).text, "no line");
+    /// ```
+    #[must_use]
+    pub fn or(self, words: &str) -> Self {
+        match self.value {
+            ReadoutValue::Number(_) => self,
+            ReadoutValue::Text(_) => Self::words(self.id, self.label, words).main_if(self.main),
+        }
+    }
+
     /// One of the two to four that carry the figure's point.
     #[must_use]
     pub fn main(self) -> Self {
-        let main = true;
+        self.main_if(true)
+    }
+
+    /// As [`Readout::main`], if `main`.
+    #[must_use]
+    pub fn main_if(self, main: bool) -> Self {
         Self { main, ..self }
     }
 }

@@ -15,6 +15,14 @@ pub enum Knob {
     Choice(&'static Choice),
 }
 
+/// A model's list of settings, in order, by the names of its sliders, toggles and choices.
+macro_rules! knobs {
+    ($($knob:expr),+ $(,)?) => {
+        &[$($knob.knob()),+]
+    };
+}
+pub(crate) use knobs;
+
 impl From<&'static Slider> for Knob {
     fn from(slider: &'static Slider) -> Self {
         Self::Slider(slider)
@@ -99,6 +107,22 @@ impl Settings {
             Knob::Choice(choice) => choice.with_value(*value as usize),
         };
         self.knobs.iter().zip(&self.values).map(control).collect()
+    }
+
+    /// The same, and further controls behind them: buttons, and those of a space.
+    pub fn controls_and(&self, more: impl IntoIterator<Item = Control>) -> Vec<Control> {
+        let mut controls = self.controls();
+        controls.extend(more);
+        controls
+    }
+
+    /// The same, of which only those that `is_enabled` can be set.
+    pub fn controls_enabled(&self, is_enabled: impl Fn(&str) -> bool) -> Vec<Control> {
+        let mut controls = self.controls();
+        for control in &mut controls {
+            control.enabled = is_enabled(control.id);
+        }
+        controls
     }
 
     /// Sets one knob; a slider's value is snapped to its grid. Says whether anything changed.

@@ -108,7 +108,7 @@ mod tests {
         Layout {
             width: 120.0,
             height: 80.0,
-            panels: vec![Panel::photograph("first", rect, 100, 50)],
+            panels: vec![Panel::photograph("first", rect, (100, 50))],
         }
     }
 

@@ -176,6 +176,19 @@ pub(crate) fn open(canvas: &mut Canvas, panel: &Panel, wordings: &[&str]) {
     canvas.panel(panel.rect);
 }
 
+/// Opens all of these panels, as [`open`] does, each with its name and its titles.
+pub(crate) fn open_all<'a, const N: usize>(
+    canvas: &mut Canvas,
+    layout: &'a Layout,
+    panels: [(&str, &[&str]); N],
+) -> [&'a Panel; N] {
+    panels.map(|(id, wordings)| {
+        let panel = layout.panel(id);
+        open(canvas, panel, wordings);
+        panel
+    })
+}
+
 /// The first of these wordings that is no wider, or else the last.
 fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
     let fits = |text: &&&str| text_width(text, TEXT) <= width;

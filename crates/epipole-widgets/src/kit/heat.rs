@@ -1,7 +1,7 @@
 //! Numbers as colors: a map that is colored anew only when its numbers or the theme change, stripes
 //! where there is no number, and the bar that says what the colors mean.
 
-use crate::canvas::{Canvas, Stroke, TextStyle};
+use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
 use crate::contract::Rect;
 use crate::theme::{Rgb, Role, Theme};
 use image::RgbImage;
@@ -83,6 +83,19 @@ pub(crate) enum Fill {
     Role(Role, f64),
     /// The stripes of "no number".
     Stripes,
+}
+
+/// Swatches with their words in a row, so far apart; `place` is the middle of its left edge.
+pub(crate) fn swatches(
+    canvas: &mut Canvas,
+    (mut x, y): (f64, f64),
+    apart: f64,
+    entries: &[(Fill, &str)],
+) {
+    for (fill, words) in entries {
+        swatch(canvas, (x, y), *fill, words);
+        x += SWATCH + apart + text_width(words, TEXT);
+    }
 }
 
 /// A swatch with its words; `place` is the middle of its left edge.

@@ -2,6 +2,7 @@
 
 use crate::canvas::{Align, Canvas, Place, TextStyle, text_width};
 use crate::contract::Rect;
+use crate::theme::Role;
 
 /// Space around a label, CSS pixels.
 const MARGIN: f64 = 3.0;
@@ -84,6 +85,18 @@ impl Labels {
             canvas.label((rect.x + MARGIN, rect.center().1), text, style);
             self.taken.push(rect);
         }
+    }
+
+    /// Names a mark beside it, letters of this size in the color of a role.
+    pub(crate) fn name(
+        &mut self,
+        canvas: &mut Canvas,
+        (place, distance): (Place, f64),
+        text: &str,
+        (role, size): (Role, f64),
+    ) {
+        let style = TextStyle::new(role, size).cased();
+        self.draw(canvas, &Self::around(place, distance), text, style);
     }
 
     /// Six places around a mark, right above first.

@@ -1,21 +1,19 @@
 //! The plane of points near a line: its panel, lines in it, and the band around one.
 
-use crate::canvas::{Canvas, Stroke};
-use crate::contract::{Axis, Panel, Rect};
+use crate::canvas::{Canvas, Shape, Stroke};
+use crate::contract::{Panel, Rect};
+use crate::kit::legend::Swatch;
 use crate::kit::line_points::{HEIGHT_PX, WIDTH_PX};
 use crate::theme::Role;
 use epipole::math::Line2;
 
+/// In legends, a point that votes for a line, and one that does not.
+pub(crate) const INLIER: Swatch = Swatch::Marker(Shape::Disk, Role::Inlier);
+pub(crate) const OUTLIER: Swatch = Swatch::Marker(Shape::Cross, Role::Outlier);
+
 /// The panel of the plane.
 pub(crate) fn panel(id: &'static str, rect: Rect) -> Panel {
-    let axis = |end: f64| Axis { start: 0.0, end };
-    Panel {
-        id,
-        rect,
-        x_axis: axis(WIDTH_PX),
-        y_axis: axis(HEIGHT_PX),
-        clickable: false,
-    }
+    Panel::new(id, rect, [0.0, WIDTH_PX], [0.0, HEIGHT_PX])
 }
 
 /// Both ends of a line, beyond the panel.
@@ -32,6 +30,16 @@ fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
 pub(crate) fn draw_line(canvas: &mut Canvas, plane: &Panel, line: &Line2, stroke: Stroke) {
     let [from, to] = ends(plane, line, 0.0);
     canvas.line(from, to, stroke);
+}
+
+/// A point that votes for a line, or does not; with no line yet, neither.
+pub(crate) fn draw_point(canvas: &mut Canvas, place: (f64, f64), radius: f64, votes: Option<bool>) {
+    let (shape, role) = match votes {
+        Some(true) => (Shape::Disk, Role::Inlier),
+        Some(false) => (Shape::Cross, Role::Outlier),
+        None => (Shape::Disk, Role::Muted),
+    };
+    canvas.marker(place, radius, shape, role, false);
 }
 
 /// The strip of places within the threshold of the sample's line.

@@ -1,7 +1,7 @@
 //! Points near a hidden line, and outliers; a line with the points that vote for it.
 
-use crate::contract::Rect;
-use crate::contract::round_to_digits;
+use crate::contract::{Rect, Settings, Slider, round_to_digits};
+use crate::kit::samples::inliers_of;
 use epipole::math::{Line2, random::Random};
 use epipole::robust::fit_line_total_least_squares;
 use nalgebra::Point2;
@@ -14,6 +14,17 @@ pub(crate) const HEIGHT_PX: f64 = 400.0;
 pub(crate) const DIGITS: usize = 1;
 /// Standard deviation of a good point's distance from the hidden line.
 const NOISE_PX: f64 = 4.0;
+
+/// How near a point must be to a line to vote for it.
+pub(crate) const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
+    .range(2.0, 40.0, 1.0)
+    .at(10.0)
+    .unit("px");
+/// Points of all kinds.
+pub(crate) const COUNT: Slider = Slider::new("points", "Number of points")
+    .range(8.0, 120.0, 2.0)
+    .at(60.0)
+    .more();
 
 /// A point and where it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +44,19 @@ pub(crate) struct Scatter {
     pub(crate) num_outliers: usize,
     /// Where about half of the outliers lie.
     pub(crate) region: Rect,
+}
+
+impl Scatter {
+    /// As the settings of a figure say: its seed and outlier ratio, and [`COUNT`] points.
+    pub(crate) fn by(settings: &Settings, seed: &'static Slider, ratio: &'static Slider) -> Self {
+        let (seed, count) = (settings.count(seed) as u64, settings.count(&COUNT));
+        scatter(seed, count, settings.number(ratio))
+    }
+}
+
+/// Where points are.
+pub(crate) fn places_of(points: &[DataPoint]) -> Vec<Point2<f64>> {
+    points.iter().map(|point| point.place).collect()
 }
 
 /// The share of the plane that the region takes: its left and upper edge, its width and height.
@@ -122,8 +146,7 @@ impl Consensus {
     /// The same votes, the line fitted to all of them. Voters without a direction of their own
     /// keep the line of their sample.
     pub(crate) fn refitted(self, places: &[Point2<f64>]) -> Self {
-        let voters = places.iter().zip(&self.is_inlier);
-        let voters: Vec<_> = voters.filter(|(_, is)| **is).map(|(p, _)| *p).collect();
+        let voters = inliers_of(places, &self.is_inlier);
         Self {
             line: fit_line_total_least_squares(&voters).unwrap_or(self.line),
             ..self

@@ -12,7 +12,7 @@
 //! | [`running`] | a loop that runs, steps and starts over |
 //! | [`matches`] | exact and noisy matches of the still life |
 //! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
-//! | [`samples`] | the RANSAC loop, sample by sample |
+//! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
 //! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
 //! | [`standing`] | photographs that stand among them |
 //! | [`geometry`] | the epipolar geometry of two cameras |
@@ -21,7 +21,7 @@
 //! | [`plan`] | a view from above |
 //! | [`heat`] | numbers as colors |
 //! | [`house`] | a house of wire with cameras around it |
-//! | [`pair`] | two photographs with epipolar lines |
+//! | [`pair`] | two photographs of the still life, epipolar lines |
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
 pub(crate) mod features;
@@ -50,4 +50,5 @@ pub(crate) mod samples;
 pub(crate) mod scenes;
 pub(crate) mod space;
 pub(crate) mod standing;
+pub(crate) mod tally;
 pub(crate) mod words;

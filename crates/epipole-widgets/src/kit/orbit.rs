@@ -6,7 +6,7 @@
 //! the right, and one downwards turns it down.
 
 use crate::contract::{
-    Axis, Button, ButtonRole, Control, Event, Handle, Knob, Panel, Problem, Rect, Settings, Slider,
+    Button, ButtonRole, Control, Event, Handle, Knob, Panel, Problem, Rect, Settings, Slider,
     Space, format_number,
 };
 
@@ -86,17 +86,8 @@ impl Orbit {
 
     /// The panel of the space, in its place on the page.
     pub(crate) fn panel(rect: Rect) -> Panel {
-        let axis = |half: f64| Axis {
-            start: -half,
-            end: half,
-        };
-        Panel {
-            id: SPACE.panel,
-            rect,
-            x_axis: axis(HALF_TURN_DEG),
-            y_axis: axis(HALF_RISE_DEG),
-            clickable: false,
-        }
+        let axis = |half: f64| [-half, half];
+        Panel::new(SPACE.panel, rect, axis(HALF_TURN_DEG), axis(HALF_RISE_DEG))
     }
 
     /// The slider that enlarges, and the button that goes back to the start.
@@ -108,43 +99,19 @@ impl Orbit {
 
     /// The two handles: one turns the scene, one moves it across the panel.
     pub(crate) fn handles(&self) -> [Handle; 2] {
-        let handle = |id: &str, label: &str, value_text, (x, y), half_y: f64, step| Handle {
-            id: id.to_owned(),
-            panel: SPACE.panel,
-            label: label.to_owned(),
-            value_text,
-            x,
-            y,
-            x_range: [-HALF_TURN_DEG, HALF_TURN_DEG],
-            y_range: [-half_y, half_y],
-            step,
-            digits: 0,
-            removable: false,
+        let handle = |id, label, told, place, half_y: f64| {
+            let ranges = [HALF_TURN_DEG, half_y].map(|half| [-half, half]);
+            let handle = Handle::new(id, SPACE.panel, label, place, ranges);
+            handle.told(told).step([5.0; 2], 0)
         };
         let share = |value: f64, half: f64| format_number(50.0 * (1.0 + value / half), 0);
-        let (x, y) = self.panned;
-        let place = format!(
-            "{} % across, {} % down",
-            share(x, HALF_TURN_DEG),
-            share(y, HALF_RISE_DEG)
-        );
+        let (across, down) = self.panned;
+        let [across, down] = [share(across, HALF_TURN_DEG), share(down, HALF_RISE_DEG)];
+        let place = format!("{across} % across, {down} % down");
+        let (view, center) = ("Viewpoint", "Scene center");
         [
-            handle(
-                SPACE.orbit,
-                "Viewpoint",
-                self.words(),
-                self.turned,
-                HIGHEST_DEG,
-                [5.0, 5.0],
-            ),
-            handle(
-                SPACE.pan,
-                "Scene center",
-                place,
-                self.panned,
-                HALF_RISE_DEG,
-                [5.0, 5.0],
-            ),
+            handle(SPACE.orbit, view, self.words(), self.turned, HIGHEST_DEG),
+            handle(SPACE.pan, center, place, self.panned, HALF_RISE_DEG),
         ]
     }
 

@@ -1,16 +1,51 @@
-//! Epipolar lines and epipoles on photographs.
+//! Two photographs of the still life, with epipolar lines and epipoles.
 
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Panel, Rect, format_number};
-use crate::kit::grid::TEXT;
+use crate::kit::grid::{self, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::photo::Photo;
+use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use crate::theme::Role;
+use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use nalgebra::{Point2, Vector2};
 
 /// Farther than any pixel from the middle of the picture, so that a line's ends are outside.
 const FAR_PX: f64 = 2000.0;
+
+/// Two photographs of the still life in which nothing moves but the cameras.
+#[derive(Default)]
+pub(crate) struct Photos([Photo; 2]);
+
+impl Photos {
+    /// The photographs in their panels, as good as they are now.
+    pub(crate) fn draw(&mut self, canvas: &mut Canvas, panels: [&Panel; 2], cameras: &[Camera; 2]) {
+        let scene = still_life();
+        for ((photo, camera), panel) in self.0.iter_mut().zip(cameras).zip(panels) {
+            match photo.picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+                Ok(picture) => canvas.photograph(panel.rect, picture),
+                Err(error) => {
+                    canvas.panel(panel.rect);
+                    grid::notice(canvas, panel.rect, &error.to_string());
+                }
+            }
+        }
+    }
+
+    /// As [`Photo::refine`].
+    pub(crate) fn refine(&mut self, cameras: &[Camera; 2]) -> bool {
+        let scene = still_life();
+        let mut photos = self.0.iter_mut().zip(cameras);
+        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+    }
+}
+
+/// The color and the shape of one of several points, in both photographs.
+pub(crate) fn series(index: usize) -> (Role, Shape) {
+    (Role::Series(index as u8), Shape::of_series(index))
+}
 
 /// Draws a line of the image plane, and says from where to where.
 pub(crate) fn draw_line(
@@ -57,8 +92,8 @@ pub(crate) fn draw_epipole(
     let style = TextStyle::new(Role::Ink, TEXT).cased();
     let stroke = Stroke::solid(Role::Ink, 2.5).cased();
     match epipole {
-        Epipole::Finite(pixel) if rect.contains(panel.canvas_from_world((pixel.x, pixel.y))) => {
-            let place = panel.canvas_from_world((pixel.x, pixel.y));
+        Epipole::Finite(pixel) if rect.contains(panel.place_of(pixel)) => {
+            let place = panel.place_of(pixel);
             canvas.marker(place, 7.0, Shape::Ring, Role::Ink, true);
             canvas.marker(place, 2.0, Shape::Disk, Role::Ink, false);
             labels.keep_free(place, 9.0);
@@ -66,7 +101,7 @@ pub(crate) fn draw_epipole(
             labels.draw(canvas, &Labels::around(place, 13.0), &text, style);
         }
         Epipole::Finite(pixel) => {
-            let place = panel.canvas_from_world((pixel.x, pixel.y));
+            let place = panel.place_of(pixel);
             let Some((from, to)) = border_arrow(rect, place) else {
                 return;
             };

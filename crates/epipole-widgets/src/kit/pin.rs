@@ -42,23 +42,14 @@ impl Pin {
     pub(crate) fn handle(&self) -> Handle {
         let (x, z) = self.place;
         let side = if x < 0.0 { "left" } else { "right" };
-        Handle {
-            id: self.id.to_owned(),
-            panel: self.panel,
-            label: self.label.to_owned(),
-            value_text: format!(
-                "{} m away, {} m to the {side}",
-                format_number(z, 2),
-                format_number(x.abs(), 2)
-            ),
-            x,
-            y: z,
-            x_range: self.ranges[0],
-            y_range: self.ranges[1],
-            step: [STEP_M; 2],
-            digits: 2,
-            removable: false,
-        }
+        let told = format!(
+            "{} m away, {} m to the {side}",
+            format_number(z, 2),
+            format_number(x.abs(), 2)
+        );
+        Handle::new(self.id, self.panel, self.label, self.place, self.ranges)
+            .told(told)
+            .step([STEP_M; 2], 2)
     }
 
     /// Takes an event that moves it; whether it was one.

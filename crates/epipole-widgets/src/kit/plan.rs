@@ -18,19 +18,9 @@ const SPACING: f64 = 26.0;
 /// * `half_depth`: how far it shows to each side along z
 pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth: f64) -> Panel {
     let half_width = half_depth * rect.width / rect.height.max(1e-9);
-    Panel {
-        id,
-        rect,
-        x_axis: Axis {
-            start: middle.0 - half_width,
-            end: middle.0 + half_width,
-        },
-        y_axis: Axis {
-            start: middle.1 + half_depth,
-            end: middle.1 - half_depth,
-        },
-        clickable: false,
-    }
+    let across = [middle.0 - half_width, middle.0 + half_width];
+    let away = [middle.1 + half_depth, middle.1 - half_depth];
+    Panel::new(id, rect, across, away)
 }
 
 /// A panel that shows all of these ranges with some room around them, with one scale for both
@@ -72,7 +62,7 @@ impl PlanCamera {
     /// The center, and the image plane `depth` in front of it with the rays to its ends.
     pub(crate) fn draw(&self, canvas: &mut Canvas, panel: &Panel, depth: f64) {
         let (role, shape) = self.mark;
-        let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let at = |point: &Point2<f64>| panel.place_of(point);
         let center = at(&self.center);
         let ends = [-1.0, 1.0].map(|across| at(&self.on_image(across, depth)));
         for end in ends {
@@ -119,7 +109,7 @@ impl PlanCamera {
             Stroke::solid(role, 1.75),
         );
         self.draw(canvas, panel, depth);
-        let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+        let at = |point: Point2<f64>| panel.place_of(&point);
         let ahead = towards.dot(&self.axes().0);
         if ahead > 1e-9 {
             let pixel = self.center + towards * (depth / ahead);
@@ -156,7 +146,7 @@ pub(crate) fn draw_ray(
         + reach(from.x, panel.x_axis)
         + reach(from.y, panel.y_axis);
     let to = from + direction * far;
-    let at = |point: &Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let at = |point: &Point2<f64>| panel.place_of(point);
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         canvas.line(at(from), at(&to), stroke)
     });

@@ -3,9 +3,10 @@
 //! A panel's world is linear, so an axis in [`Scale::Decades`] has the logarithm to base 10 as its
 //! world; [`decade`] takes values there.
 
-use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle, text_width};
-use crate::contract::{Axis, Panel, Rect, format_number};
-use crate::kit::grid::SMALL;
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
+use crate::contract::{Layout, Panel, Rect, format_number};
+use crate::kit::grid::{SMALL, fitting_title};
+use crate::kit::labels::Labels;
 use crate::theme::Role;
 
 /// Room for the numbers of the vertical axis.
@@ -208,24 +209,27 @@ pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel
     } else {
         BELOW + NAME
     };
-    Panel {
-        id,
-        rect: Rect::new(
-            cell.x + LEFT,
-            cell.y,
-            (cell.width - LEFT - RIGHT).max(1.0),
-            (cell.height - below).max(1.0),
-        ),
-        x_axis: Axis {
-            start: x.from,
-            end: x.to,
-        },
-        y_axis: Axis {
-            start: y.to,
-            end: y.from,
-        },
-        clickable: false,
-    }
+    let rect = Rect::new(
+        cell.x + LEFT,
+        cell.y,
+        (cell.width - LEFT - RIGHT).max(1.0),
+        (cell.height - below).max(1.0),
+    );
+    Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
+}
+
+/// A plot's panel with its title, in the first wording that fits, and its axes.
+pub(crate) fn open<'a>(
+    canvas: &mut Canvas,
+    layout: &'a Layout,
+    id: &str,
+    titles: &[&str],
+    [x, y]: &[Ruler; 2],
+) -> &'a Panel {
+    let panel = layout.panel(id);
+    fitting_title(canvas, panel.rect, titles);
+    draw_axes(canvas, panel, x, y);
+    panel
 }
 
 /// The surface, the ticks and their numbers.
@@ -272,6 +276,41 @@ pub(crate) fn draw_curve(
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         canvas.polyline(&places, stroke)
     });
+}
+
+/// Values of an axis that counts things, in decades: a curve with a mark for each.
+pub(crate) struct List<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) stroke: Stroke,
+    /// Shape and radius of its marks.
+    pub(crate) mark: (Shape, f64),
+    /// Its name, and the index of the value beside which it stands.
+    pub(crate) name: (&'a str, usize),
+}
+
+/// Draws lists, and then their names beside them. A value beyond the axis is drawn at its edge.
+pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    let world = |(k, value): (usize, &f64)| {
+        let decade = decade(*value).clamp(panel.y_axis.end, panel.y_axis.start);
+        (k as f64 + 1.0, decade)
+    };
+    for list in lists {
+        let places = || list.values.iter().enumerate().map(world);
+        draw_curve(canvas, panel, places(), list.stroke);
+        for place in places() {
+            let (x, y) = panel.canvas_from_world(place);
+            let place = (x, y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0));
+            let (shape, radius) = list.mark;
+            canvas.marker(place, radius, shape, list.stroke.role, false);
+            labels.keep_free(place, 6.0);
+        }
+    }
+    for list in lists {
+        let (name, index) = list.name;
+        let place = panel.canvas_from_world(world((index, &list.values[index])));
+        labels.name(canvas, (place, 8.0), name, (list.stroke.role, SMALL));
+    }
 }
 
 /// The line that says where along the horizontal axis the figure is now.

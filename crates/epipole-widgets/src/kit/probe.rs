@@ -41,42 +41,34 @@ impl Probe {
 
     /// Its handle over a photograph of this size; an arrow key moves it by `step_px`.
     pub(crate) fn handle(&self, size: (u32, u32), step_px: f64) -> Handle {
-        let (u, v) = self.place(size);
-        Handle {
-            id: self.id.to_owned(),
-            panel: self.panel,
-            label: self.label.to_owned(),
-            value_text: format!(
-                "column {}, row {}",
-                format_number(u, 0),
-                format_number(v, 0)
-            ),
-            x: u,
-            y: v,
-            x_range: [0.0, f64::from(size.0.max(1) - 1)],
-            y_range: [0.0, f64::from(size.1.max(1) - 1)],
-            step: [step_px, step_px],
-            digits: 0,
-            removable: false,
-        }
+        let place = self.place(size);
+        Handle::new(self.id, self.panel, self.label, place, ranges(size))
+            .told(place_words(place, 0))
+            .step([step_px; 2], 0)
     }
 
     /// Takes an event that moves it; whether it was one.
     pub(crate) fn update(&mut self, event: &Event, size: (u32, u32)) -> bool {
-        match event {
-            Event::HandleMoved { id, x, y } if id == self.id => self.place = (*x, *y),
-            Event::Clicked { panel, x, y } if panel == self.panel => {
-                self.place = within((x.round(), y.round()), size);
-            }
-            _ => return false,
-        }
-        true
+        let moved = self.handle(size, 1.0).moved_by(event);
+        self.place = moved.unwrap_or(self.place);
+        moved.is_some()
     }
 }
 
-fn within((u, v): (f64, f64), (width, height): (u32, u32)) -> (f64, f64) {
-    let keep = |value: f64, size: u32| value.clamp(0.0, f64::from(size.max(1) - 1));
-    (keep(u, width), keep(v, height))
+/// The columns and the rows of a photograph of this size, for a handle over it.
+pub(crate) fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
+    [width, height].map(|size| [0.0, f64::from(size.max(1) - 1)])
+}
+
+/// A place in a photograph, such as "column 12, row 30".
+pub(crate) fn place_words((u, v): (f64, f64), digits: usize) -> String {
+    let [column, row] = [u, v].map(|value| format_number(value, digits));
+    format!("column {column}, row {row}")
+}
+
+fn within((u, v): (f64, f64), size: (u32, u32)) -> (f64, f64) {
+    let [columns, rows] = ranges(size);
+    (u.clamp(columns[0], columns[1]), v.clamp(rows[0], rows[1]))
 }
 
 #[cfg(test)]

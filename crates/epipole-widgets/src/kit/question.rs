@@ -130,6 +130,17 @@ impl<Q: Question> Asked<Q> {
             .map(|(question, answer)| (question, answer))
     }
 
+    /// What stands in the place of an answer: why there is none, or what is under way.
+    pub(crate) fn words(&self) -> &str {
+        self.problem().unwrap_or(Q::LABEL)
+    }
+
+    /// What a figure says that can say no more: why there is no answer, or what is under way.
+    pub(crate) fn sentence(&self) -> String {
+        self.problem()
+            .map_or_else(|| format!("{}.", Q::LABEL), str::to_owned)
+    }
+
     /// Why there is no answer, as a sentence.
     pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()

@@ -2,7 +2,7 @@
 
 use crate::contract::Readout;
 use epipole::Error;
-use epipole::robust::{Budget, Estimator, Ransac, RansacOptions, ScoreKind, Step};
+use epipole::robust::{Budget, Estimator, Ransac, RansacOptions, ScoreKind, Step, ransac};
 use serde::{Deserialize, Serialize};
 
 /// How sure the loop is to have drawn a sample of inliers alone before it ends.
@@ -22,6 +22,50 @@ pub(crate) struct Rules {
     pub(crate) msac: bool,
     /// Whether each new best model is fitted to its inliers at once.
     pub(crate) local_optimization: bool,
+}
+
+impl Rules {
+    /// The same for the core.
+    fn options(&self) -> RansacOptions {
+        RansacOptions {
+            max_error_px: self.epsilon_px,
+            confidence: CONFIDENCE,
+            min_iterations: 1,
+            max_iterations: self.max_samples,
+            seed: self.seed,
+            score: match self.msac {
+                true => ScoreKind::Msac,
+                false => ScoreKind::InlierCount,
+            },
+            budget: Budget::WithReplacement,
+            local_optimization: self.local_optimization,
+            ..RansacOptions::default()
+        }
+    }
+
+    /// The whole loop at once: the model, and how many samples it took. As the last step of the plain
+    /// loop, without local optimization, the model is fitted once more to all inliers.
+    ///
+    /// # Errors
+    /// As [`ransac`].
+    pub(crate) fn run<E: Estimator>(
+        &self,
+        estimator: E,
+        refit: impl FnOnce(&[bool]) -> Result<E::Model, Error>,
+    ) -> Result<(E::Model, usize), Error> {
+        let report = ransac(estimator, &self.options())?;
+        let model = match self.local_optimization {
+            true => report.model,
+            false => refit(&report.inliers).unwrap_or(report.model),
+        };
+        Ok((model, report.iterations))
+    }
+}
+
+/// Those of the data that are inliers.
+pub(crate) fn inliers_of<T: Copy>(data: &[T], is_inlier: &[bool]) -> Vec<T> {
+    let inliers = data.iter().zip(is_inlier).filter(|(_, is)| **is);
+    inliers.map(|(datum, _)| *datum).collect()
 }
 
 /// The last sample that was drawn.
@@ -46,23 +90,8 @@ impl<E: Estimator> Samples<E> {
     /// # Errors
     /// As [`Ransac::new`]: too few data, or rules out of range.
     pub(crate) fn new(estimator: E, rules: Rules) -> Result<Self, Error> {
-        let options = RansacOptions {
-            max_error_px: rules.epsilon_px,
-            confidence: CONFIDENCE,
-            min_iterations: 1,
-            max_iterations: rules.max_samples,
-            seed: rules.seed,
-            score: if rules.msac {
-                ScoreKind::Msac
-            } else {
-                ScoreKind::InlierCount
-            },
-            budget: Budget::WithReplacement,
-            local_optimization: rules.local_optimization,
-            ..RansacOptions::default()
-        };
         Ok(Self {
-            engine: Ransac::new(estimator, options)?,
+            engine: Ransac::new(estimator, rules.options())?,
             rules,
             last: None,
         })
@@ -145,15 +174,15 @@ impl Drawn {
         self.is_confident() || self.count >= self.max_samples
     }
 
-    /// How many samples have been drawn, and how many are needed.
-    pub(crate) fn readouts(&self) -> [Readout; 2] {
-        let needed = "Samples needed";
+    /// How many samples a loop has drawn, and how many are needed; without a loop, these words.
+    pub(crate) fn readouts(drawn: Option<Self>, none: &str) -> [Readout; 2] {
+        let otherwise = if drawn.is_some() { "> 10⁶" } else { none };
+        let count = drawn.map(|drawn| drawn.count as f64);
+        let budget = drawn.and_then(|drawn| drawn.budget);
+        let budget = budget.map(|budget| budget as f64);
         [
-            Readout::count("iterations", "Samples drawn", self.count),
-            match self.budget {
-                Some(budget) => Readout::number("budget", needed, budget as f64, 0, ""),
-                None => Readout::words("budget", needed, "> 10⁶"),
-            },
+            Readout::number("iterations", "Samples drawn", count, 0, "").or(none),
+            Readout::number("budget", "Samples needed", budget, 0, "").or(otherwise),
         ]
     }
 

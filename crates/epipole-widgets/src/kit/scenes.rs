@@ -17,6 +17,8 @@ pub(crate) const PHOTO_WIDTH: u32 = 640;
 pub(crate) const PHOTO_HEIGHT: u32 = 480;
 /// Width and height of a photograph, pixels.
 pub(crate) const PHOTO_SIZE: (u32, u32) = (PHOTO_WIDTH, PHOTO_HEIGHT);
+/// Height over width.
+pub(crate) const PHOTO_ASPECT: f64 = PHOTO_HEIGHT as f64 / PHOTO_WIDTH as f64;
 
 /// Whether a place of the image plane lies within the photograph.
 pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {

@@ -7,10 +7,11 @@
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Knob, Model,
-    Problem, Settings, Slider, Space, Value, format_number, round_to_digits,
+    Problem, Settings, Slider, Space, Value, format_number, knobs, round_to_digits,
 };
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, SPACE};
+use crate::kit::probe::{place_words, ranges};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 
@@ -40,15 +41,7 @@ const NOISE: Slider = Slider::new("noise", "Feature noise")
     .unit("px")
     .more();
 const SEED: Slider = Slider::seed(4.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&LOSS),
-    Knob::Slider(&WRONG),
-    Knob::Slider(&DISTURBANCE),
-    Knob::Slider(&DAMPING),
-    Knob::Slider(&STEPS),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![LOSS, WRONG, DISTURBANCE, DAMPING, STEPS, NOISE, SEED];
 
 const STEPS_PER_SECOND: f64 = 1.5;
 /// The dragged feature's place is kept to a tenth of a pixel.
@@ -62,7 +55,7 @@ pub(crate) struct BundleAdjustment {
     pub(super) orbit: Orbit,
     house: Option<House>,
     /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
-    mark: (f64, f64),
+    pub(super) mark: (f64, f64),
     pub(super) asked: Asked<Question>,
     running: Running,
 }
@@ -70,10 +63,6 @@ pub(crate) struct BundleAdjustment {
 impl BundleAdjustment {
     pub(super) fn house(&self) -> Option<&House> {
         self.house.as_ref()
-    }
-
-    pub(super) fn mark(&self) -> (f64, f64) {
-        self.mark
     }
 
     pub(super) fn is_robust(&self) -> bool {
@@ -188,25 +177,10 @@ impl Model for BundleAdjustment {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (u, v) = self.mark;
-        let mut handles = vec![Handle {
-            id: MARK.to_owned(),
-            panel: "photo",
-            label: "Ridge feature".to_owned(),
-            value_text: format!(
-                "column {}, row {}, {} px from where it belongs",
-                format_number(u, 0),
-                format_number(v, 0),
-                format_number(self.mark_off_px(), 0)
-            ),
-            x: u,
-            y: v,
-            x_range: [0.0, f64::from(SIZE.0 - 1)],
-            y_range: [0.0, f64::from(SIZE.1 - 1)],
-            step: [4.0, 4.0],
-            digits: DIGITS,
-            removable: false,
-        }];
+        let (place, off) = (self.mark, format_number(self.mark_off_px(), 0));
+        let told = format!("{}, {off} px from where it belongs", place_words(place, 0));
+        let mark = Handle::new(MARK, "photo", "Ridge feature", place, ranges(SIZE));
+        let mut handles = vec![mark.told(told).step([4.0; 2], DIGITS)];
         handles.extend(self.orbit.handles());
         handles
     }

@@ -44,24 +44,16 @@ const START: Stroke = Stroke {
 #[derive(Default)]
 pub(crate) struct BundleAdjustmentView;
 
-fn error_stroke() -> Stroke {
-    Stroke::solid(Role::Series(1), 2.0)
-}
-
-fn truth_stroke() -> Stroke {
-    Stroke::solid(Role::Truth, 1.5).dotted()
-}
-
-fn legend_entries() -> [Entry; 6] {
-    [
-        (Swatch::Line(START), "at the start"),
-        (Swatch::Line(Stroke::solid(Role::Best, 2.0)), "now"),
-        (Swatch::Line(truth_stroke()), "truth"),
-        (Swatch::Marker(Shape::Ring, Role::Ink), "feature"),
-        (Swatch::Marker(Shape::Cross, Role::Outlier), "wrong feature"),
-        (Swatch::Line(error_stroke()), "reprojection error"),
-    ]
-}
+const ERROR: Stroke = Stroke::solid(Role::Series(1), 2.0);
+const TRUTH: Stroke = Stroke::solid(Role::Truth, 1.5).dotted();
+const LEGEND: [Entry; 6] = [
+    (Swatch::Line(START), "at the start"),
+    (Swatch::Line(Stroke::solid(Role::Best, 2.0)), "now"),
+    (Swatch::Line(TRUTH), "truth"),
+    (Swatch::Marker(Shape::Ring, Role::Ink), "feature"),
+    (Swatch::Marker(Shape::Cross, Role::Outlier), "wrong feature"),
+    (Swatch::Line(ERROR), "reprojection error"),
+];
 
 fn rulers(model: &BundleAdjustment) -> [Ruler; 3] {
     let answer = model.asked.answer();
@@ -81,7 +73,7 @@ impl View for BundleAdjustmentView {
     fn layout(&self, model: &BundleAdjustment, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
-        let legend_height = |width| LEGEND_GAP + legend::height(&legend_entries(), width, 0.0);
+        let legend_height = |width| LEGEND_GAP + legend::height(&LEGEND, width, 0.0);
         let (space, photo, plots) = if grid::is_broad(width) {
             let shares = [0.385, 0.385, 0.23];
             let photo = shares[1] * (width - 2.0 * GAP);
@@ -98,15 +90,11 @@ impl View for BundleAdjustmentView {
         };
         let photo = Rect::new(photo.x, photo.y, photo.width, photo.width * aspect);
         let [x, cost, damping] = rulers(model);
-        let clickable = |panel: Panel| Panel {
-            clickable: true,
-            ..panel
-        };
         grid.layout(vec![
             Orbit::panel(space),
-            Panel::photograph("photo", photo, SIZE.0, SIZE.1),
-            clickable(plot::panel("cost", plots[0], &x, &cost)),
-            clickable(plot::panel("damping", plots[1], &x, &damping)),
+            Panel::photograph("photo", photo, SIZE),
+            plot::panel("cost", plots[0], &x, &cost).clickable(),
+            plot::panel("damping", plots[1], &x, &damping).clickable(),
         ])
     }
 
@@ -132,7 +120,7 @@ impl View for BundleAdjustmentView {
         };
         let top = photo.rect.bottom() + LEGEND_GAP;
         // As much margin on the right as on the left.
-        legend::draw(canvas, &legend_entries(), right + left, left, top);
+        legend::draw(canvas, &LEGEND, right + left, left, top);
         draw_plots(model, layout, canvas);
         if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, space.rect, problem);
@@ -179,7 +167,7 @@ fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
             space.frustum(camera, SIZE, PICTURE_DEPTH, role, shape);
         }
     }
-    wires(&mut space, &house.points, truth_stroke());
+    wires(&mut space, &house.points, TRUTH);
     space.draw(canvas, panel);
 }
 
@@ -192,8 +180,8 @@ fn camera_mark(index: usize) -> (Role, Shape) {
 }
 
 fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
-    let on_page = |pixel: &Point2<f64>| panel.canvas_from_world((pixel.x, pixel.y));
-    let mark = panel.canvas_from_world(model.mark());
+    let on_page = |pixel: &Point2<f64>| panel.place_of(pixel);
+    let mark = panel.canvas_from_world(model.mark);
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         if let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) {
             let places = |state: &State| -> Vec<Option<Place>> {
@@ -212,7 +200,7 @@ fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
                     false => on_page(&feature.pixel),
                 };
                 if let Some(shown) = shown {
-                    canvas.line(*shown, place, error_stroke());
+                    canvas.line(*shown, place, ERROR);
                 }
                 match feature.is_wrong {
                     true => canvas.marker(place, 4.0, Shape::Cross, Role::Outlier, true),
@@ -223,7 +211,7 @@ fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
             let shown = |point| house.cameras[SHOWN].project(point).ok();
             let shown = house.points.iter().map(shown);
             let places: Vec<_> = shown.map(|p| p.as_ref().map(on_page)).collect();
-            draw_wires(house, &places, truth_stroke(), canvas);
+            draw_wires(house, &places, TRUTH, canvas);
         }
         canvas.grip(mark, Role::Grip);
         let style = TextStyle::new(Role::Grip, SMALL).cased();

@@ -1,7 +1,7 @@
 //! Matches in units of the reader's choice, and the sizes of the columns that they make.
 
 use crate::contract::{
-    Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
+    Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, knobs,
 };
 use crate::kit::matches::{MAX_USED, Match, Matches};
 use crate::kit::scenes::PHOTO_WIDTH;
@@ -17,11 +17,7 @@ const COUNT: Slider = Slider::new("count", "Matches")
     .range(8.0, MAX_USED as f64, 1.0)
     .at(20.0);
 const SEED: Slider = Slider::seed(1.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&WIDTH),
-    Knob::Slider(&COUNT),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![WIDTH, COUNT, SEED];
 const NOISE_PX: f64 = 0.5;
 
 /// The root mean square of each column of the equations.

@@ -24,12 +24,10 @@ fn rulers() -> [Ruler; 2] {
     [Ruler::things(names), Ruler::decades(-0.6, 7.2)]
 }
 
-fn entries() -> [Entry; 2] {
-    [
-        (Swatch::Marker(RAW.1, RAW.0), "raw pixels"),
-        (Swatch::Marker(NORMALIZED.1, NORMALIZED.0), "normalized"),
-    ]
-}
+const LEGEND: [Entry; 2] = [
+    (Swatch::Marker(RAW.1, RAW.0), "raw pixels"),
+    (Swatch::Marker(NORMALIZED.1, NORMALIZED.0), "normalized"),
+];
 
 impl View for ColumnSizesView {
     type Model = ColumnSizes;
@@ -39,7 +37,7 @@ impl View for ColumnSizesView {
         let [cell] = grid.shares([1.0], (0.3 * width + 120.0).min(HEIGHT));
         let [x, y] = rulers();
         let plot = plot::panel("plot", cell, &x, &y);
-        grid.strip(MARGIN + legend::height(&entries(), width, plot::LEFT));
+        grid.strip(MARGIN + legend::height(&LEGEND, width, plot::LEFT));
         grid.layout(vec![plot])
     }
 
@@ -59,8 +57,8 @@ impl View for ColumnSizesView {
             }
             Err(sentence) => grid::notice(canvas, plot.rect, sentence),
         }
-        let top = layout.height - 1.0 - legend::height(&entries(), layout.width, plot::LEFT);
-        legend::draw(canvas, &entries(), layout.width, plot::LEFT, top);
+        let top = layout.height - 1.0 - legend::height(&LEGEND, layout.width, plot::LEFT);
+        legend::draw(canvas, &LEGEND, layout.width, plot::LEFT, top);
     }
 }
 

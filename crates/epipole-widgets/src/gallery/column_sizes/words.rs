@@ -14,9 +14,8 @@ fn times(ratio: f64) -> String {
 impl Words for ColumnSizes {
     fn readouts(&self) -> Vec<Readout> {
         let both = self.both().ok();
-        let ratio = |id, label, get: fn(&Both) -> f64, digits| match both {
-            Some(both) => Readout::number(id, label, get(both), digits, ""),
-            None => Readout::words(id, label, "no columns"),
+        let ratio = |id, label, get: fn(&Both) -> f64, digits| {
+            Readout::number(id, label, both.map(get), digits, "").or("no columns")
         };
         vec![
             ratio("raw", "Raw ratio", |both| both.raw.spread(), 0).main(),

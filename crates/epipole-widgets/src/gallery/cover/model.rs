@@ -2,7 +2,7 @@
 
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob,
-    Model, Problem, Settings, Slider, Space, Value,
+    Model, Problem, Settings, Slider, Space, Value, knobs,
 };
 use crate::gallery::two_view_sfm::question::{Answer, Question, Source};
 use crate::kit::orbit::{Orbit, SPACE};
@@ -27,7 +27,7 @@ const TIME: Slider = Slider::new("time", "Steps told")
     .digits(2)
     .hidden();
 const PLAY: Button = Button::new("play", "Play", ButtonRole::Run);
-const KNOBS: &[Knob] = &[Knob::Choice(&STEP), Knob::Slider(&TIME)];
+const KNOBS: &[Knob] = knobs![STEP, TIME];
 
 pub(super) const NUM_STEPS: usize = 5;
 const STEPS_PER_SECOND: f64 = 0.5;

@@ -20,9 +20,9 @@ fn num_pixels(answer: &Answer) -> usize {
 
 impl Words for Cover {
     fn readouts(&self) -> Vec<Readout> {
-        let count = |id, label, get: fn(&Answer) -> usize| match self.answer() {
-            Some(answer) => Readout::count(id, label, get(answer)),
-            None => Readout::words(id, label, "not yet"),
+        let count = |id, label, get: fn(&Answer) -> usize| {
+            let count = self.answer().map(|answer| get(answer) as f64);
+            Readout::number(id, label, count, 0, "").or("not yet")
         };
         vec![
             count("features", "Points found", |answer| {

@@ -3,7 +3,7 @@
 use super::question::{Answer, Method, Question, SIZE};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Settings, Slider, Toggle, knobs,
 };
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
@@ -27,13 +27,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .digits(2)
     .unit("m");
 const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain").on();
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&METHOD),
-    Knob::Slider(&WINDOW),
-    Knob::Slider(&RANGE),
-    Knob::Slider(&BASELINE),
-    Knob::Toggle(&CHECKS),
-];
+const KNOBS: &[Knob] = knobs![METHOD, WINDOW, RANGE, BASELINE, CHECKS];
 
 /// On the mug, where both cameras see it.
 const PROBE: (f64, f64) = (228.0, 165.0);
@@ -113,11 +107,8 @@ impl Declared for DisparityMap {
 
 impl Model for DisparityMap {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        for control in &mut controls {
-            control.enabled = control.id != WINDOW.id || self.window_px().is_some();
-        }
-        controls
+        let has_window = self.window_px().is_some();
+        (self.settings).controls_enabled(|id| id != WINDOW.id || has_window)
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -1,12 +1,11 @@
 //! The pair, the truth, what is found and how far it is off; a legend for the colors.
 
 use super::model::DisparityMap;
-use super::question::{Answer, BAD_PX, Question, SIZE};
+use super::question::{Answer, BAD_PX, SIZE};
 use crate::canvas::{Canvas, Place, Stroke, text_width};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
-use crate::kit::question::Question as _;
 use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
@@ -66,7 +65,7 @@ impl View for DisparityMapView {
         }
         let rects = [left, found, error, right, truth];
         let panels = NAMES.into_iter().zip(rects).map(|((id, ..), rect)| {
-            let mut panel = Panel::photograph(id, rect, SIZE.0, SIZE.1);
+            let mut panel = Panel::photograph(id, rect, SIZE);
             panel.clickable = id == "left";
             panel
         });
@@ -80,7 +79,7 @@ impl View for DisparityMapView {
         let asked = &model.asked;
         let found = layout.panel("found").rect;
         let Some(answer) = asked.answer() else {
-            let words = asked.problem().unwrap_or(Question::LABEL);
+            let words = asked.words();
             grid::notice(canvas, layout.panel("left").rect, words);
             return draw_legend(canvas, layout, None);
         };
@@ -143,9 +142,8 @@ fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &m
         };
         let Some(shift) = shift else { continue };
         let place = panel.canvas_from_world((u - f64::from(shift), v));
-        let window = model
-            .window_px()
-            .filter(|_| ["left", "right"].contains(&id));
+        let is_compared = ["left", "right"].contains(&id);
+        let window = model.window_px().filter(|_| is_compared);
         canvas.clipped(panel.rect, |canvas| match window {
             Some(window_px) => {
                 let half = 0.5 * f64::from(window_px) * panel.scale_x();
@@ -164,8 +162,7 @@ fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
         let at = |distance: f64| (x + along * distance, y + across * distance);
         canvas.line(at(half + 2.0), at(half + 11.0), stroke);
     }
-    let window = Rect::new(x - half, y - half, 2.0 * half, 2.0 * half);
-    canvas.stroke_rect(window, stroke);
+    canvas.stroke_rect(Rect::around((x, y), half), stroke);
 }
 
 /// What the colors mean: beside the small panels, or below everything.
@@ -177,10 +174,8 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, answer: Option<&Answer>) {
         false => (truth.right() + 2.0 * grid::GAP, truth.y + 1.0),
     };
     let room = layout.width - x;
-    let most = answer.map_or_else(
-        || "near".to_owned(),
-        |answer| format!("{} px, near", format_number(answer.scale_px().into(), 0)),
-    );
+    let most = answer.map(|answer| format_number(answer.scale_px().into(), 0));
+    let most = most.map_or("near".to_owned(), |px| format!("{px} px, near"));
     let bar = Rect::new(x, y, room.min(240.0), 11.0);
     heat::bar(canvas, bar, ["0 px, far", &most], Theme::scale);
     // Beside the bar where there is room, below it in columns of two on a phone.

@@ -1,23 +1,18 @@
 //! What `disparity-map` says.
 
 use super::model::DisparityMap;
-use super::question::{Method, Question};
+use super::question::Method;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::question::Question as _;
 
 impl Words for DisparityMap {
     fn readouts(&self) -> Vec<Readout> {
         let answered = self.asked.answered();
         let scores = answered.map(|(_, answer)| answer.scores);
         let probed = answered.and_then(|(_, answer)| self.probed(answer));
-        let waiting = if self.asked.is_waiting() {
-            "…"
-        } else {
-            "none"
-        };
-        let number = |id, label, value: Option<f64>, digits, unit, otherwise: &str| match value {
-            Some(value) => Readout::number(id, label, value, digits, unit),
-            None => Readout::words(id, label, otherwise),
+        let is_waiting = self.asked.is_waiting();
+        let waiting = if is_waiting { "…" } else { "none" };
+        let number = |id, label, value: Option<f64>, digits, unit, otherwise: &str| {
+            Readout::number(id, label, value, digits, unit).or(otherwise)
         };
         let found_px = probed.and_then(|probed| probed.found_px);
         let truth_px = probed.map(|probed| probed.truth_px);
@@ -25,14 +20,9 @@ impl Words for DisparityMap {
             let (question, _) = answered?;
             question.depth_m(d?)
         };
-        let none = if probed.is_some() {
-            "no answer"
-        } else {
-            waiting
-        };
-        let percent = |share: f64| 100.0 * share;
-        let bad = scores.map(|scores| percent(scores.bad));
-        let coverage = scores.map(|scores| percent(scores.coverage));
+        let none = probed.map_or(waiting, |_| "no answer");
+        let bad = scores.map(|scores| 100.0 * scores.bad);
+        let coverage = scores.map(|scores| 100.0 * scores.coverage);
         let error_px = scores.map(|scores| scores.mean_error_px);
         let hidden = probed.map_or(waiting, |probed| match probed.is_hidden {
             true => "hidden on the right",
@@ -58,13 +48,13 @@ impl Words for DisparityMap {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked.problem() {
-            return problem.to_owned();
-        }
-        let answered = self.asked.answered();
+        let answered = self
+            .asked
+            .answered()
+            .filter(|_| self.asked.problem().is_none());
         let probed = answered.and_then(|(_, answer)| self.probed(answer));
         let (Some((question, answer)), Some(probed)) = (answered, probed) else {
-            return format!("{}.", Question::LABEL);
+            return self.asked.sentence();
         };
         let method = match question.method {
             Method::Blocks(window_px) => format!("Block matching with {window_px} px windows"),

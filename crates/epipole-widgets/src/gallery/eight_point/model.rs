@@ -7,12 +7,12 @@ use super::estimate::{Estimate, line2};
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
-    Slider, Symbol, Toggle,
+    Slider, Symbol, Toggle, knobs,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, Question as _, carry_out};
+use crate::kit::question::{Asked, carry_out};
 use crate::kit::scenes::PHOTO_SIZE;
 use epipole::epipolar::{Epipole, epipoles, fundamental_from_cameras};
 use nalgebra::{Matrix3, Point2};
@@ -29,13 +29,7 @@ const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
 const NORMALIZE: Toggle = Toggle::new("normalize", "Normalize").on();
 const RANK2: Toggle = Toggle::new("rank2", "Enforce rank 2").on();
 const SEED: Slider = Slider::seed(1.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&COUNT),
-    Knob::Slider(&NOISE),
-    Knob::Toggle(&NORMALIZE),
-    Knob::Toggle(&RANK2),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![COUNT, NOISE, NORMALIZE, RANK2, SEED];
 
 /// Where the probe begins: on the handle of the mug.
 const PROBE_PX: (f64, f64) = (479.0, 327.0);
@@ -52,7 +46,7 @@ pub struct EightPoint {
 impl EightPoint {
     /// The photographs, or why there are none.
     pub(super) fn photographs(&self) -> Result<&Answer, &str> {
-        let why = || self.asked.problem().unwrap_or(Question::LABEL);
+        let why = || self.asked.words();
         self.asked.answer().ok_or_else(why)
     }
 
@@ -232,6 +226,7 @@ const CHALLENGES: &[Challenge<EightPoint>] = &[
 mod tests {
     use super::*;
     use crate::contract::Words;
+    use crate::kit::question::Question as _;
 
     fn changed(events: &[Event]) -> EightPoint {
         let mut model = EightPoint::new();

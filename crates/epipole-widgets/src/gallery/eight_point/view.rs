@@ -4,13 +4,13 @@
 use super::estimate::{Estimate, line2};
 use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::{border_arrow, draw_line};
+use crate::kit::pair::{border_arrow, draw_line, series};
 use crate::kit::plan;
-use crate::kit::plot::{self, Ruler};
-use crate::kit::scenes::PHOTO_SIZE;
+use crate::kit::plot::{self, List, Ruler};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 use epipole::epipolar::Epipole;
 use nalgebra::Point2;
@@ -21,7 +21,6 @@ const NUM_LINES: usize = 10;
 /// The enlarged place shows so many pixels of photograph 2 to each side: the first that is enough.
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
 /// Height over width of the photographs.
-const ASPECT: f64 = 0.75;
 /// Draws [`EightPoint`].
 #[derive(Default)]
 pub struct EightPointView;
@@ -38,51 +37,42 @@ impl View for EightPointView {
     fn layout(&self, model: &EightPoint, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let shares = [[1.0, 1.15], [0.8, 1.0]];
-        let [first, second, meeting, values] = grid.photographs_and_two(ASPECT, shares);
-        let (columns, rows) = PHOTO_SIZE;
-        let mut first = Panel::photograph("first", first, columns, rows);
-        first.clickable = true;
-        let second = Panel::photograph("second", second, columns, rows);
+        let [first, second, meeting, values] = grid.photographs_and_two(PHOTO_ASPECT, shares);
         let (place, half_width) = enlarged(model);
         // As many pixels to a CSS pixel along the rows as along the columns.
         let half_height = half_width * meeting.height / meeting.width;
-        let axis = |middle: f64, half: f64| Axis {
-            start: middle - half,
-            end: middle + half,
-        };
-        let meeting = Panel {
-            id: "meeting",
-            rect: meeting,
-            x_axis: axis(place.x, half_width),
-            y_axis: axis(place.y, half_height),
-            clickable: false,
-        };
+        let around = |middle: f64, half: f64| [middle - half, middle + half];
+        let (columns, rows) = (around(place.x, half_width), around(place.y, half_height));
         let [x, y] = rulers();
-        let values = plot::panel("values", values, &x, &y);
-        grid.layout(vec![first, second, meeting, values])
+        grid.layout(vec![
+            Panel::photograph("first", first, PHOTO_SIZE).clickable(),
+            Panel::photograph("second", second, PHOTO_SIZE),
+            Panel::new("meeting", meeting, columns, rows),
+            plot::panel("values", values, &x, &y),
+        ])
     }
 
     fn draw(&mut self, model: &EightPoint, layout: &Layout, canvas: &mut Canvas) {
-        let [first, second, meeting, values] =
-            layout.panels_named(["first", "second", "meeting", "values"]);
-        grid::open(
-            canvas,
-            first,
-            &["Photograph 1: drag the probe", "Photograph 1"],
-        );
-        grid::open(
-            canvas,
-            second,
-            &["Photograph 2: lines by the F found", "Photograph 2"],
-        );
-        let titles = [
-            "Where the lines meet, enlarged",
-            "Where lines meet",
-            "Meeting",
+        let titles: [(_, &[_]); 4] = [
+            ("first", &["Photograph 1: drag the probe", "Photograph 1"]),
+            (
+                "second",
+                &["Photograph 2: lines by the F found", "Photograph 2"],
+            ),
+            (
+                "meeting",
+                &[
+                    "Where the lines meet, enlarged",
+                    "Where lines meet",
+                    "Meeting",
+                ],
+            ),
+            (
+                "values",
+                &["Singular values of the rows", "Singular values", "Values"],
+            ),
         ];
-        grid::open(canvas, meeting, &titles);
-        let titles = ["Singular values of the rows", "Singular values", "Values"];
-        grid::open(canvas, values, &titles);
+        let [first, second, meeting, values] = grid::open_all(canvas, layout, titles);
         let [x, y] = rulers();
         plot::draw_axes(canvas, values, &x, &y);
         let problem = match model.photographs() {
@@ -127,16 +117,12 @@ fn enlarged(model: &EightPoint) -> (Point2<f64>, f64) {
     )
 }
 
-fn series(index: usize) -> (Role, Shape) {
-    (Role::Series(index as u8), Shape::of_series(index))
-}
-
 fn draw_first(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
     for (index, (pixel1, _)) in estimate.used.iter().enumerate().rev() {
-        draw_match(canvas, panel.canvas_from_world((pixel1.x, pixel1.y)), index);
+        draw_match(canvas, panel.place_of(pixel1), index);
     }
     let probe = model.probe();
-    canvas.grip(panel.canvas_from_world((probe.x, probe.y)), Role::Grip);
+    canvas.grip(panel.place_of(&probe), Role::Grip);
 }
 
 /// Matches without a line of their own are small.
@@ -152,20 +138,19 @@ fn draw_match(canvas: &mut Canvas, place: Place, index: usize) {
 fn draw_second(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
     draw_lines(estimate, panel, canvas, true);
     for (index, (_, pixel2)) in estimate.used.iter().enumerate().rev() {
-        draw_match(canvas, panel.canvas_from_world((pixel2.x, pixel2.y)), index);
+        draw_match(canvas, panel.place_of(pixel2), index);
     }
     let probe = model.probe();
     if let Some(line) = line2(&estimate.fundamental, &probe) {
         draw_line(canvas, panel, &line, Stroke::solid(Role::Grip, 3.0).cased());
     }
     if let Some(pixel2) = model.probe_match() {
-        let place = panel.canvas_from_world((pixel2.x, pixel2.y));
+        let place = panel.place_of(&pixel2);
         canvas.marker(place, 6.5, Shape::Ring, Role::Grip, true);
         canvas.marker(place, 2.0, Shape::Disk, Role::Grip, true);
         let mut labels = Labels::new(panel.rect);
         labels.keep_free(place, 9.0);
-        let style = TextStyle::new(Role::Ink, TEXT).cased();
-        labels.draw(canvas, &Labels::around(place, 11.0), "true match", style);
+        labels.name(canvas, (place, 11.0), "true match", (Role::Ink, TEXT));
     }
 }
 
@@ -195,11 +180,11 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
     labels.keep_rect_free(Rect::new(panel.rect.x, lower, panel.rect.width, 24.0));
     let style = TextStyle::new(Role::Ink, SMALL).cased();
     if let Some(Epipole::Finite(truth)) = model.true_epipole2() {
-        let place = panel.canvas_from_world((truth.x, truth.y));
+        let place = panel.place_of(&truth);
         if panel.rect.contains(place) {
             canvas.marker(place, 6.0, Shape::Plus, Role::Truth, true);
             labels.keep_free(place, 8.0);
-            labels.draw(canvas, &Labels::around(place, 9.0), "true epipole", style);
+            labels.name(canvas, (place, 9.0), "true epipole", (Role::Ink, SMALL));
         } else if let Some((from, to)) = border_arrow(panel.rect, place) {
             canvas.arrow(from, to, Stroke::solid(Role::Truth, 2.5).cased());
             let away_px = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
@@ -214,37 +199,31 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
 
 /// Both lists of singular values, in decades.
 fn draw_values(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
-    let mut labels = Labels::new(panel.rect.inset(2.0));
     let [raw, normalized] = estimate.singular_values();
-    let lists = [
-        (raw, Role::Outlier, Shape::Square, "raw pixels"),
-        (normalized, Role::Inlier, Shape::Disk, "normalized"),
+    // Those that the figure works with are stronger.
+    let list = |values, is_chosen: bool, role, shape, name| List {
+        values,
+        stroke: Stroke::solid(role, if is_chosen { 2.5 } else { 1.25 }),
+        mark: (shape, if is_chosen { 4.5 } else { 3.5 }),
+        name,
+    };
+    let is_normalized = model.is_normalized();
+    let mut lists = [
+        list(
+            raw,
+            !is_normalized,
+            Role::Outlier,
+            Shape::Square,
+            ("raw pixels", 3),
+        ),
+        list(
+            normalized,
+            is_normalized,
+            Role::Inlier,
+            Shape::Disk,
+            ("normalized", 4),
+        ),
     ];
-    let mut texts = Vec::new();
-    for (index, (values, role, shape, name)) in lists.into_iter().enumerate() {
-        let places: Vec<(f64, f64)> = (values.iter().enumerate())
-            .map(|(k, value)| (k as f64 + 1.0, plot::decade(*value).max(panel.y_axis.end)))
-            .collect();
-        let is_normalized = index == 1;
-        let is_chosen = is_normalized == model.is_normalized();
-        let stroke = Stroke::solid(role, if is_chosen { 2.5 } else { 1.25 });
-        let stroke = if is_normalized {
-            stroke
-        } else {
-            stroke.dashed()
-        };
-        plot::draw_curve(canvas, panel, places.iter().copied(), stroke);
-        for place in &places {
-            let (x, y) = panel.canvas_from_world(*place);
-            let place = (x, y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0));
-            canvas.marker(place, if is_chosen { 4.5 } else { 3.5 }, shape, role, false);
-            labels.keep_free(place, 6.0);
-        }
-        let anchor = panel.canvas_from_world(places[if is_normalized { 4 } else { 3 }]);
-        texts.push((anchor, name, role));
-    }
-    for (anchor, text, role) in texts {
-        let style = TextStyle::new(role, SMALL).cased();
-        labels.draw(canvas, &Labels::around(anchor, 8.0), text, style);
-    }
+    lists[0].stroke = lists[0].stroke.dashed();
+    plot::draw_lists(canvas, panel, &lists);
 }

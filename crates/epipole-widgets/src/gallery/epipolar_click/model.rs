@@ -3,10 +3,11 @@
 use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Symbol, Value,
+    Settings, Slider, Symbol, Value, knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::{PHOTO_SIZE, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use nalgebra::Point2;
@@ -31,12 +32,7 @@ const SELECTED: Slider = Slider::new("selected", "Selected point")
     .range(0.0, MAX_POINTS as f64, 1.0)
     .at(0.0)
     .hidden();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&BASELINE),
-    Knob::Slider(&FORWARD),
-    Knob::Slider(&TURN),
-    Knob::Slider(&SELECTED),
-];
+const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SELECTED];
 const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
 const REMOVE: Button = Button::new("remove", "Remove a point", ButtonRole::Action).more();
 
@@ -129,19 +125,12 @@ impl EpipolarClick {
     }
 
     fn handle(&self, index: usize, point: Point2<f64>) -> Handle {
-        Handle {
-            id: POINT_IDS[index].to_owned(),
-            panel: "first",
-            label: format!("Point {} in photograph 1", index + 1),
-            value_text: format!("column {:.1}, row {:.1}", point.x, point.y),
-            x: point.x,
-            y: point.y,
-            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
-            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
-            step: [4.0, 4.0],
-            digits: DIGITS,
-            removable: true,
-        }
+        let (id, place) = (POINT_IDS[index], (point.x, point.y));
+        let label = format!("Point {} in photograph 1", index + 1);
+        Handle::new(id, "first", label, place, ranges(PHOTO_SIZE))
+            .told(place_words(place, DIGITS))
+            .step([4.0; 2], DIGITS)
+            .removable_if(true)
     }
 
     fn put(&mut self, index: usize, x: f64, y: f64) {
@@ -190,11 +179,10 @@ impl Declared for EpipolarClick {
 
 impl Model for EpipolarClick {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
         let count = self.points().count();
-        controls.push(ADD.control(count < MAX_POINTS, false));
-        controls.push(REMOVE.control(count > 0, false));
-        controls
+        let add = ADD.control(count < MAX_POINTS, false);
+        self.settings
+            .controls_and([add, REMOVE.control(count > 0, false)])
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -3,14 +3,13 @@
 use super::geometry::Match;
 use super::model::EpipolarClick;
 use super::words::NO_BASELINE;
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
+use crate::canvas::{Canvas, Place, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::geometry::Geometry;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::{border_arrow, draw_epipole, draw_line};
-use crate::kit::photo::Photo;
-use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
+use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line, series};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 5.5;
@@ -20,7 +19,7 @@ const TALLEST: f64 = 430.0;
 /// Draws [`EpipolarClick`].
 #[derive(Default)]
 pub(crate) struct EpipolarClickView {
-    photos: [Photo; 2],
+    photos: Photos,
 }
 
 impl View for EpipolarClickView {
@@ -30,17 +29,26 @@ impl View for EpipolarClickView {
 
     fn layout(&self, _model: &EpipolarClick, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(PHOTO_HEIGHT) / f64::from(PHOTO_WIDTH);
-        let [first, second] = grid.row([aspect; 2], TALLEST);
-        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-        let mut first = photograph("first", first);
-        first.clickable = true;
-        grid.layout(vec![first, photograph("second", second)])
+        let [first, second] = grid.row([PHOTO_ASPECT; 2], TALLEST);
+        grid.layout(vec![
+            Panel::photograph("first", first, PHOTO_SIZE).clickable(),
+            Panel::photograph("second", second, PHOTO_SIZE),
+        ])
     }
 
     fn draw(&mut self, model: &EpipolarClick, layout: &Layout, canvas: &mut Canvas) {
-        let (first, second) = (layout.panel("first"), layout.panel("second"));
-        self.draw_photographs(model, [first, second], canvas);
+        let [first, second] = layout.panels_named(["first", "second"]);
+        let titles = [
+            ["Photograph 1: click or drag a point", "1: click or drag"],
+            [
+                "Photograph 2: its match is on its line",
+                "2: matches on lines",
+            ],
+        ];
+        for (panel, titles) in [first, second].into_iter().zip(titles) {
+            grid::fitting_title(canvas, panel.rect, &titles);
+        }
+        self.photos.draw(canvas, [first, second], &model.cameras());
         let geometry = model.geometry();
         canvas.clipped(first.rect, |canvas| {
             draw_first(model, geometry.as_ref(), first, canvas);
@@ -54,44 +62,8 @@ impl View for EpipolarClickView {
     }
 
     fn refine(&mut self, model: &EpipolarClick) -> bool {
-        let (cameras, scene) = (model.cameras(), scenes::still_life());
-        let mut photos = self.photos.iter_mut().zip(&cameras);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+        self.photos.refine(&model.cameras())
     }
-}
-
-impl EpipolarClickView {
-    fn draw_photographs(
-        &mut self,
-        model: &EpipolarClick,
-        panels: [&Panel; 2],
-        canvas: &mut Canvas,
-    ) {
-        let (cameras, scene) = (model.cameras(), scenes::still_life());
-        let titles = [
-            ["Photograph 1: click or drag a point", "1: click or drag"],
-            [
-                "Photograph 2: its match is on its line",
-                "2: matches on lines",
-            ],
-        ];
-        for index in 0..2 {
-            let rect = panels[index].rect;
-            grid::fitting_title(canvas, rect, &titles[index]);
-            let picture = self.photos[index].picture(&scene, &cameras[index], [0.0; 3], PHOTO_SIZE);
-            match picture {
-                Ok(picture) => canvas.photograph(rect, picture),
-                Err(error) => {
-                    canvas.panel(rect);
-                    grid::notice(canvas, rect, &error.to_string());
-                }
-            }
-        }
-    }
-}
-
-fn series(index: usize) -> (Role, Shape) {
-    (Role::Series(index as u8), Shape::of_series(index))
 }
 
 /// The points, and through each the faint line of all points that share its epipolar line.
@@ -114,7 +86,7 @@ fn draw_first(
     }
     for (index, point) in model.points() {
         let (role, shape) = series(index);
-        let place = panel.canvas_from_world((point.x, point.y));
+        let place = panel.place_of(&point);
         draw_selection(model, index, place, canvas);
         canvas.marker(place, MARKER, shape, role, true);
         labels.keep_free(place, MARKER + 3.0);
@@ -123,7 +95,7 @@ fn draw_first(
         draw_epipole(canvas, panel, &mut labels, &geometry.epipole1, "e");
     }
     for (index, point) in model.points() {
-        let place = panel.canvas_from_world((point.x, point.y));
+        let place = panel.place_of(&point);
         draw_number(canvas, &mut labels, place, index, "");
     }
 }
@@ -137,11 +109,10 @@ fn draw_second(
 ) {
     let mut labels = Labels::new(panel.rect);
     if let Some(geometry) = geometry {
-        let selected = model.selected().map(|(index, _)| index);
         for (index, point) in model.points() {
             if let Some(line) = geometry.line2(&point) {
                 let (role, _) = series(index);
-                let width = if selected == Some(index) { 2.5 } else { 1.75 };
+                let width = if is_selected(model, index) { 2.5 } else { 1.75 };
                 let stroke = Stroke::solid(role, width).cased();
                 let (from, to) = draw_line(canvas, panel, &line, stroke);
                 labels.keep_line_free(from, to);
@@ -153,7 +124,7 @@ fn draw_second(
         let (role, shape) = series(index);
         let found = model.find_match(&point);
         let Some(pixel) = found.pixel() else { continue };
-        let place = panel.canvas_from_world((pixel.x, pixel.y));
+        let place = panel.place_of(&pixel);
         match found {
             Match::Visible(_) | Match::Hidden(..) => {
                 draw_selection(model, index, place, canvas);
@@ -183,12 +154,15 @@ fn draw_second(
     }
 }
 
-/// A ring around the point that the readouts speak of.
-fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mut Canvas) {
-    if model
+fn is_selected(model: &EpipolarClick, index: usize) -> bool {
+    model
         .selected()
         .is_some_and(|(selected, _)| selected == index)
-    {
+}
+
+/// A ring around the point that the readouts speak of.
+fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mut Canvas) {
+    if is_selected(model, index) {
         let ring = Stroke::solid(Role::Grip, 2.0).cased();
         canvas.circle(place, MARKER + 5.0, ring);
     }
@@ -198,6 +172,5 @@ fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mu
 fn draw_number(canvas: &mut Canvas, labels: &mut Labels, place: Place, index: usize, words: &str) {
     let (role, _) = series(index);
     let text = format!("{}{words}", index + 1);
-    let style = TextStyle::new(role, TEXT).cased();
-    labels.draw(canvas, &Labels::around(place, 11.0), &text, style);
+    labels.name(canvas, (place, 11.0), &text, (role, TEXT));
 }

@@ -3,6 +3,7 @@
 use super::geometry::Match;
 use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::geometry::Geometry;
 use crate::kit::words::{self, pixel, side};
 use epipole::epipolar::Epipole;
 
@@ -17,63 +18,33 @@ impl Words for EpipolarClick {
         let matched = selected.map(|(_, point)| self.find_match(&point));
         let pixel2 = matched.and_then(Match::pixel);
         let geometry = self.geometry();
-        let line = selected
-            .zip(geometry)
-            .and_then(|((_, point), geometry)| geometry.line2(&point));
-        let distance = line
-            .zip(pixel2)
-            .map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
-        let text = |id, label, text: String| Readout::words(id, label, text);
-        let none = || "none".to_owned();
-        let of_geometry = |say: &dyn Fn(&crate::kit::geometry::Geometry) -> String| {
-            geometry.as_ref().map_or_else(none, say)
+        let line = selected.zip(geometry);
+        let line = line.and_then(|((_, point), geometry)| geometry.line2(&point));
+        let distance = line.zip(pixel2);
+        let distance = distance.map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
+        let say = |id, label, text: Option<String>| {
+            Readout::words(id, label, text.unwrap_or("none".to_owned()))
         };
+        let of = |get: fn(&Geometry) -> String| geometry.as_ref().map(get);
+        let [e1, e2] = [
+            of(|all| short(&all.epipole1)),
+            of(|all| short(&all.epipole2)),
+        ];
+        let f = of(|geometry| words::matrix(&geometry.fundamental));
+        let e = of(|geometry| words::matrix(&geometry.essential));
+        let point = selected.map(|(index, point)| format!("{} at {}", index + 1, pixel(&point)));
         vec![
-            text(
-                "match",
-                "Its match",
-                pixel2.map_or_else(none, |pixel2| pixel(&pixel2)),
-            )
-            .main(),
-            match distance {
-                Some(distance) => Readout::number("residual", "Residual", distance, 3, "px"),
-                None => text("residual", "Residual", none()),
-            }
-            .main(),
-            text(
-                "e2",
-                "Epipole e′",
-                of_geometry(&|geometry| short(&geometry.epipole2)),
-            )
-            .main(),
-            text(
-                "point",
-                "Selected point",
-                selected.map_or_else(none, |(index, point)| {
-                    format!("{} at {}", index + 1, pixel(&point))
-                }),
-            ),
-            text("sight", "Visible", matched.map_or_else(none, sight)),
-            text(
-                "line",
-                "Line ℓ′",
-                line.map_or_else(none, |line| words::line(&line)),
-            ),
-            text(
-                "e1",
-                "Epipole e",
-                of_geometry(&|geometry| short(&geometry.epipole1)),
-            ),
-            text(
-                "f",
-                "F, by rows",
-                of_geometry(&|geometry| words::matrix(&geometry.fundamental)),
-            ),
-            text(
-                "e",
-                "E, by rows",
-                of_geometry(&|geometry| words::matrix(&geometry.essential)),
-            ),
+            say("match", "Its match", pixel2.as_ref().map(pixel)).main(),
+            Readout::number("residual", "Residual", distance, 3, "px")
+                .or("none")
+                .main(),
+            say("e2", "Epipole e′", e2).main(),
+            say("point", "Selected point", point),
+            say("sight", "Visible", matched.map(sight)),
+            say("line", "Line ℓ′", line.as_ref().map(words::line)),
+            say("e1", "Epipole e", e1),
+            say("f", "F, by rows", f),
+            say("e", "E, by rows", e),
         ]
     }
 

@@ -4,12 +4,13 @@
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    Space, Symbol, Value, format_number, round_to_digits,
+    Space, Symbol, Value, format_number, knobs, round_to_digits,
 };
 use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use nalgebra::{Point2, Point3};
@@ -77,17 +78,7 @@ const PY: Slider = coordinate("py", "P below table");
 const PZ: Slider = coordinate("pz", "P away");
 const COORDINATES: [&Slider; 3] = [&PX, &PY, &PZ];
 
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&DEPTH),
-    Knob::Choice(&SHOW),
-    Knob::Slider(&X1),
-    Knob::Slider(&Z1),
-    Knob::Slider(&X2),
-    Knob::Slider(&Z2),
-    Knob::Slider(&PX),
-    Knob::Slider(&PY),
-    Knob::Slider(&PZ),
-];
+const KNOBS: &[Knob] = knobs![DEPTH, SHOW, X1, Z1, X2, Z2, PX, PY, PZ];
 
 /// Height over width of the space, the same on every page, so that the model knows where things are
 /// seen.
@@ -213,39 +204,24 @@ impl EpipolarPlane {
     fn handle(
         &self,
         (id, panel): (&str, &'static str),
-        (label, value_text): (&str, String),
+        (label, told): (&str, String),
         (x, y): (f64, f64),
-        [x_range, y_range]: [[f64; 2]; 2],
+        ranges: [[f64; 2]; 2],
         step: f64,
     ) -> Handle {
         let keep =
             |value: f64, [low, high]: [f64; 2]| round_to_digits(value.clamp(low, high), DIGITS);
-        Handle {
-            id: id.to_owned(),
-            panel,
-            label: label.to_owned(),
-            value_text,
-            x: keep(x, x_range),
-            y: keep(y, y_range),
-            x_range,
-            y_range,
-            step: [step; 2],
-            digits: DIGITS,
-            removable: false,
-        }
+        let place = (keep(x, ranges[0]), keep(y, ranges[1]));
+        let handle = Handle::new(id, panel, label, place, ranges);
+        handle.told(told).step([step; 2], DIGITS)
     }
 
     fn pixel_handle(&self, scenery: &Scenery) -> Handle {
         let middle = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) / 2.0;
         let pixel = scenery.pixels[0].unwrap_or(middle);
-        let text = format!(
-            "column {}, row {}",
-            format_number(pixel.x, 1),
-            format_number(pixel.y, 1)
-        );
-        let ranges = [PHOTO_WIDTH, PHOTO_HEIGHT].map(|side| [0.0, f64::from(side) - 1.0]);
-        let names = ("p in photograph 1", text);
-        self.handle((PIXEL, "first"), names, (pixel.x, pixel.y), ranges, 4.0)
+        let place = (pixel.x, pixel.y);
+        let names = ("p in photograph 1", place_words(place, DIGITS));
+        self.handle((PIXEL, "first"), names, place, ranges(PHOTO_SIZE), 4.0)
     }
 
     fn space_handle(&self, id: &str, label: &str, text: String, point: &Point3<f64>) -> Handle {
@@ -281,9 +257,7 @@ impl Declared for EpipolarPlane {
 
 impl Model for EpipolarPlane {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.extend(self.orbit.controls());
-        controls
+        self.settings.controls_and(self.orbit.controls())
     }
 
     fn handles(&self) -> Vec<Handle> {

@@ -56,30 +56,23 @@ impl View for EpipolarPlaneView {
         let mut grid = Grid::new(width);
         let (space, [first, second]) = cells(&mut grid, width);
         grid.strip(FORMULA);
-        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-        let mut first = photograph("first", first);
-        first.clickable = true;
+        let photograph = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE);
+        let first = photograph("first", first).clickable();
         let panels = vec![Orbit::panel(space), first, photograph("second", second)];
         grid.layout(panels)
     }
 
     fn draw(&mut self, model: &EpipolarPlane, layout: &Layout, canvas: &mut Canvas) {
-        let [space, first, second] = layout.panels_named(["space", "first", "second"]);
-        let titles: [(&Panel, &[&str]); 3] = [
-            (
-                space,
-                &[
-                    "Both cameras and what they see: drag to turn, or take P or a camera",
-                    "Drag to turn; take P or a camera",
-                ],
-            ),
-            (first, &["Photograph 1: drag p", "1: drag p"]),
-            (second, &["Photograph 2", "2"]),
+        let space_titles = [
+            "Both cameras and what they see: drag to turn, or take P or a camera",
+            "Drag to turn; take P or a camera",
         ];
-        for (panel, wordings) in titles {
-            grid::fitting_title(canvas, panel.rect, wordings);
-            canvas.panel(panel.rect);
-        }
+        let titles: [(_, &[_]); 3] = [
+            ("space", &space_titles),
+            ("first", &["Photograph 1: drag p", "1: drag p"]),
+            ("second", &["Photograph 2", "2"]),
+        ];
+        let [space, first, second] = grid::open_all(canvas, layout, titles);
         let Some(scenery) = model.scenery() else {
             return grid::notice(canvas, space.rect, "A camera cannot stand there.");
         };
@@ -139,11 +132,8 @@ fn draw_pencil(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    let Some(geometry) = scenery
-        .geometry
-        .as_ref()
-        .filter(|_| model.lit() == Lit::Epipole)
-    else {
+    let is_lit = model.lit() == Lit::Epipole;
+    let Some(geometry) = scenery.geometry.as_ref().filter(|_| is_lit) else {
         return;
     };
     for row in PENCIL_ROWS {
@@ -170,7 +160,7 @@ fn draw_first(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: &
     let Some(pixel) = scenery.pixels[0] else {
         return grid::notice(canvas, panel.rect, "P is behind camera 1.");
     };
-    let place = panel.canvas_from_world((pixel.x, pixel.y));
+    let place = panel.place_of(&pixel);
     canvas.grip(place, Role::Grip);
     labels.keep_free(place, 10.0);
     if let Some(geometry) = scenery.geometry.as_ref().filter(|_| lit == Lit::Epipole) {
@@ -189,18 +179,16 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
         labels.keep_line_free(from, to);
     }
     let off_surface = scenery.before_surface_m() != Some(0.0);
-    let surface = scenery
-        .surface
-        .filter(|_| off_surface)
-        .and_then(|surface| surface.pixel2);
+    let surface = scenery.surface.filter(|_| off_surface);
+    let surface = surface.and_then(|surface| surface.pixel2);
     let mut ring = None;
     if let Some(pixel) = surface.filter(in_picture) {
-        let place = panel.canvas_from_world((pixel.x, pixel.y));
+        let place = panel.place_of(&pixel);
         canvas.marker(place, 6.0, Shape::Ring, Role::Ink, true);
         labels.keep_free(place, 8.0);
         ring = Some(place);
     }
-    let image = scenery.pixels[1].map(|pixel| panel.canvas_from_world((pixel.x, pixel.y)));
+    let image = scenery.pixels[1].map(|pixel| panel.place_of(&pixel));
     match image {
         Some(place) if panel.rect.contains(place) => {
             let radius = if lit == Lit::Point { 6.5 } else { 5.0 };
@@ -218,29 +206,20 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
         draw_epipole(canvas, panel, &mut labels, &geometry.epipole2, "e′");
     }
     if let Some(place) = image {
-        let inside = (
-            place
-                .0
-                .min(panel.rect.right() - 8.0)
-                .max(panel.rect.x + 8.0),
-            place
-                .1
-                .min(panel.rect.bottom() - 8.0)
-                .max(panel.rect.y + 8.0),
-        );
+        let room = panel.rect.inset(8.0);
+        let x = place.0.min(room.right()).max(room.x);
+        let inside = (x, place.1.min(room.bottom()).max(room.y));
         draw_name(canvas, &mut labels, inside, "p′", lit == Lit::Point);
     }
     // On a phone there is no room for words.
     if let Some(place) = ring.filter(|_| panel.rect.width > 200.0) {
-        let style = TextStyle::new(Role::Ink, SMALL).cased();
-        labels.draw(canvas, &Labels::around(place, 9.0), "what p shows", style);
+        labels.name(canvas, (place, 9.0), "what p shows", (Role::Ink, SMALL));
     }
 }
 
 fn draw_name(canvas: &mut Canvas, labels: &mut Labels, place: Place, name: &str, is_lit: bool) {
     let role = if is_lit { LIT } else { Role::Ink };
-    let style = TextStyle::new(role, TEXT + 1.0).cased();
-    labels.draw(canvas, &Labels::around(place, 10.0), name, style);
+    labels.name(canvas, (place, 10.0), name, (role, TEXT + 1.0));
 }
 
 /// A piece of a formula: its letters, whether they are raised, and what lights it up.

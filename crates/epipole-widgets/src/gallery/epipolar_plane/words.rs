@@ -17,17 +17,13 @@ pub(super) const ON_BASELINE: &str =
 impl Words for EpipolarPlane {
     fn readouts(&self) -> Vec<Readout> {
         let scenery = self.scenery();
-        let number = |id, label, value: Option<f64>, digits, unit| match value {
-            Some(value) => Readout::number(id, label, value, digits, unit),
-            None => Readout::words(id, label, "none"),
+        let number = |id, label, value: Option<f64>, digits, unit| {
+            Readout::number(id, label, value, digits, unit).or("none")
         };
         let pixel = |id, label, index: usize| {
             let place = scenery.and_then(|scenery| scenery.pixels[index]);
-            Readout::words(
-                id,
-                label,
-                place.map_or_else(|| "behind it".to_owned(), |p| short(&p)),
-            )
+            let text = place.map_or("behind it".to_owned(), |place| short(&place));
+            Readout::words(id, label, text)
         };
         let of = |get: fn(&Scenery) -> Option<f64>| scenery.and_then(get);
         let epipole = |id, label, index: usize| {
@@ -53,7 +49,7 @@ impl Words for EpipolarPlane {
             number(
                 "baseline",
                 "Baseline",
-                of(|scenery| Some(scenery.baseline_m())),
+                scenery.map(Scenery::baseline_m),
                 2,
                 "m",
             ),

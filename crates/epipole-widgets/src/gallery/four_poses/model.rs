@@ -3,7 +3,7 @@
 use super::poses::{Ambiguity, Pose};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
 use epipole::camera::RigidTransform;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -12,7 +12,7 @@ const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-45.0, 45.0, 1.0)
     .at(16.0)
     .unit("°");
-const KNOBS: &[Knob] = &[Knob::Slider(&TURN)];
+const KNOBS: &[Knob] = knobs![TURN];
 
 /// Where camera 2 may stand, in steps of the figure's world: to the right, and forward.
 pub(super) const X_RANGE: [f64; 2] = [-1.6, 1.6];
@@ -26,15 +26,11 @@ const FAR: f64 = 20.0;
 /// The model of `four-poses`.
 pub(crate) struct FourPoses {
     settings: Settings,
-    place: (f64, f64),
+    pub(super) place: (f64, f64),
     found: epipole::Result<Ambiguity>,
 }
 
 impl FourPoses {
-    pub(super) fn place(&self) -> (f64, f64) {
-        self.place
-    }
-
     pub(super) fn turn_deg(&self) -> f64 {
         self.settings.number(&TURN)
     }
@@ -91,20 +87,9 @@ impl Model for FourPoses {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (x, z) = self.place;
-        vec![Handle {
-            id: "camera2".to_owned(),
-            panel: "first",
-            label: "Camera 2".to_owned(),
-            value_text: self.place_words(),
-            x,
-            y: z,
-            x_range: X_RANGE,
-            y_range: Z_RANGE,
-            step: [0.1, 0.1],
-            digits: 2,
-            removable: false,
-        }]
+        let ranges = [X_RANGE, Z_RANGE];
+        let handle = Handle::new("camera2", "first", "Camera 2", self.place, ranges);
+        vec![handle.told(self.place_words()).step([0.1; 2], 2)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

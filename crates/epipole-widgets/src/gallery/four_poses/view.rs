@@ -3,7 +3,7 @@
 use super::model::{FourPoses, X_RANGE, Z_RANGE};
 use super::poses::{EDGES, FOCAL_PX, Pose, RIDGE, SIZE};
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
-use crate::contract::{Aspect, Layout, Panel, Rect, View};
+use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::border_arrow;
@@ -66,7 +66,7 @@ impl View for FourPosesView {
             }
         }
         let first = layout.panel(PANELS[0].0);
-        canvas.grip(first.canvas_from_world(model.place()), Role::Grip);
+        canvas.grip(first.canvas_from_world(model.place), Role::Grip);
         if model.poses().is_empty() {
             grid::notice(canvas, first.rect, "No step, no E: move camera 2.");
         }
@@ -75,20 +75,21 @@ impl View for FourPosesView {
 
 /// Where camera 2 may stand.
 fn draw_room(panel: &Panel, canvas: &mut Canvas) {
-    let (left, far) = panel.canvas_from_world((X_RANGE[0], Z_RANGE[1]));
-    let (right, near) = panel.canvas_from_world((X_RANGE[1], Z_RANGE[0]));
-    let room = Rect::new(left, far, right - left, near - far);
+    let room = panel.rect_between((X_RANGE[0], Z_RANGE[1]), (X_RANGE[1], Z_RANGE[0]));
     canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
+}
+
+/// Whether there is room for words beside the marks.
+fn is_wordy(panel: &Panel) -> bool {
+    panel.rect.width >= 240.0
 }
 
 /// How many points are in front of both cameras.
 fn draw_count(model: &FourPoses, pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let (count, all) = (pose.num_in_front(), model.num_matches());
     let wins = count == all && all > 0;
-    let text = match panel.rect.width < 240.0 {
-        true => format!("{count} of {all}"),
-        false => format!("{count} of {all} in front"),
-    };
+    let wide = if is_wordy(panel) { " in front" } else { "" };
+    let text = format!("{count} of {all}{wide}");
     let role = if wins { Role::Inlier } else { Role::Outlier };
     let place = (panel.rect.right(), panel.rect.y - grid::TITLE / 2.0);
     canvas.label(place, &text, TextStyle::new(role, TEXT).end());
@@ -111,10 +112,7 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
         if let Some(crossing) = &pose.crossings[RIDGE] {
             for (index, center) in centers.iter().enumerate() {
                 let stroke = Stroke::solid(CAMERAS[index].0, 1.25);
-                let stroke = match crossing.in_front[index] {
-                    true => stroke,
-                    false => stroke.dotted(),
-                };
+                let stroke = stroke.dotted_if(!crossing.in_front[index]);
                 canvas.line(at(center), at(&crossing.point), stroke);
             }
         }
@@ -134,10 +132,9 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     let mut labels = Labels::new(panel.rect.inset(4.0));
     for crossing in pose.crossings.iter().flatten() {
         let place = at(&crossing.point);
-        let role = if crossing.is_good() {
-            Role::Inlier
-        } else {
-            Role::Outlier
+        let (role, shape) = match crossing.is_good() {
+            true => (Role::Inlier, Shape::Disk),
+            false => (Role::Outlier, Shape::Cross),
         };
         if !inner.contains(place) {
             // Too far away to be shown: where it is.
@@ -146,25 +143,22 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
             }
             continue;
         }
-        match crossing.is_good() {
-            true => canvas.marker(place, 4.0, Shape::Disk, role, true),
-            false => canvas.marker(place, 4.0, Shape::Cross, role, true),
-        }
+        canvas.marker(place, 4.0, shape, role, true);
         labels.keep_free(place, 6.0);
     }
     for center in &centers {
         labels.keep_free(at(center), 9.0);
     }
+    let names = match is_wordy(panel) {
+        true => ["camera 1", "camera 2"],
+        false => ["1", "2"],
+    };
     for (index, center) in centers.iter().enumerate() {
         let style = TextStyle::new(CAMERAS[index].0, TEXT).cased();
-        let name = match panel.rect.width < 240.0 {
-            true => ["1", "2"][index],
-            false => ["camera 1", "camera 2"][index],
-        };
         let distance = if is_held && index == 1 { 12.0 } else { 8.0 };
         let mut around = Labels::around(at(center), distance);
         around.rotate_left(2);
-        labels.draw(canvas, &around, name, style);
+        labels.draw(canvas, &around, names[index], style);
     }
 }
 
@@ -172,29 +166,23 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
 /// to behind them would pass through infinity.
 fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let at = |point: &Point3<f64>| panel.canvas_from_world((point.x, point.z));
-    let base: Vec<Place> = pose.crossings[..4]
-        .iter()
-        .flatten()
-        .map(|c| at(&c.point))
-        .collect();
-    let sides: Vec<[bool; 2]> = pose
+    let base = pose.crossings[..4].iter().flatten();
+    let base: Vec<Place> = base.map(|corner| at(&corner.point)).collect();
+    let mut sides = pose
         .crossings
         .iter()
         .flatten()
-        .map(|c| c.in_front)
-        .collect();
-    if base.len() == 4 && sides.windows(2).all(|pair| pair[0] == pair[1]) {
+        .map(|corner| corner.in_front);
+    let first = sides.next();
+    if base.len() == 4 && sides.all(|side| Some(side) == first) {
         canvas.polygon(&base, Role::Reference, 0.16);
     }
+    let stroke = Stroke::solid(Role::Reference, 1.5);
     for (from, to) in EDGES {
         if let (Some(a), Some(b)) = (&pose.crossings[from], &pose.crossings[to])
             && a.in_front == b.in_front
         {
-            canvas.line(
-                at(&a.point),
-                at(&b.point),
-                Stroke::solid(Role::Reference, 1.5),
-            );
+            canvas.line(at(&a.point), at(&b.point), stroke);
         }
     }
 }

@@ -5,27 +5,21 @@ use crate::contract::{Readout, Words, format_number};
 
 impl Words for FourPoses {
     fn readouts(&self) -> Vec<Readout> {
-        let names = [
-            ("first", "R, t"),
-            ("second", "R, −t"),
-            ("third", "turned R, t"),
-            ("fourth", "turned R, −t"),
-        ];
         let all = self.num_matches();
-        let mut readouts: Vec<Readout> = names
-            .into_iter()
-            .enumerate()
-            .map(|(index, (id, label))| {
-                let count = self.poses().get(index).map(|pose| pose.num_in_front());
-                let text =
-                    count.map_or_else(|| "none".to_owned(), |count| format!("{count} of {all}"));
-                Readout::words(id, label, text).main()
-            })
-            .collect();
-        readouts.push(Readout::count("matches", "Matches", all));
-        readouts.push(Readout::words("step", "Step", self.place_words()));
-        readouts.push(Readout::number("turn", "Turn", self.turn_deg(), 0, "°"));
-        readouts
+        let pose = |id, label, index: usize| {
+            let count = self.poses().get(index).map(|pose| pose.num_in_front());
+            let text = count.map_or("none".to_owned(), |count| format!("{count} of {all}"));
+            Readout::words(id, label, text).main()
+        };
+        vec![
+            pose("first", "R, t", 0),
+            pose("second", "R, −t", 1),
+            pose("third", "turned R, t", 2),
+            pose("fourth", "turned R, −t", 3),
+            Readout::count("matches", "Matches", all),
+            Readout::words("step", "Step", self.place_words()),
+            Readout::number("turn", "Turn", self.turn_deg(), 0, "°"),
+        ]
     }
 
     fn describe(&self) -> String {

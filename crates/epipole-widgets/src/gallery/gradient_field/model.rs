@@ -5,7 +5,7 @@ use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
-    Problem, Settings, Slider, Space, Toggle,
+    Problem, Settings, Slider, Space, Toggle, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::picture::{Own, Picture, slot};
@@ -43,15 +43,7 @@ const BESIDE: Choice = Choice::new(
     &[("surface", "Surface"), ("curve", "Noise and slope")],
 );
 const SEED: Slider = Slider::seed(3.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SOURCE),
-    Knob::Slider(&ANGLE),
-    Knob::Slider(&NOISE),
-    Knob::Toggle(&SMOOTH),
-    Knob::Slider(&SIGMA),
-    Knob::Choice(&BESIDE),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![SOURCE, ANGLE, NOISE, SMOOTH, SIGMA, BESIDE, SEED];
 /// What only the edge has.
 const OF_EDGE: [&str; 4] = [ANGLE.id, NOISE.id, SEED.id, BESIDE.id];
 const SLOTS: &[PhotoSlot] = &[slot(480)];

@@ -58,8 +58,7 @@ impl View for GradientFieldView {
             [image, beside] = grid.row([aspect, of_beside], TALLEST);
         }
         grid.strip(legend::height(&entries(), width, 0.0) + 4.0);
-        let mut image = Panel::photograph("image", image, columns, rows);
-        image.clickable = true;
+        let image = Panel::photograph("image", image, (columns, rows)).clickable();
         let [x, y] = rulers();
         let beside = match model.beside() {
             Beside::Surface => Orbit::panel(beside),

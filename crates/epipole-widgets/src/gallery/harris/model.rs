@@ -3,7 +3,7 @@
 use super::question::{Answer, Question, STILL_LIFE_SIZE, Source};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
-    Problem, Settings, Slider,
+    Problem, Settings, Slider, knobs,
 };
 use crate::kit::picture::{Own, slot};
 use crate::kit::probe::Probe;
@@ -34,12 +34,7 @@ const WINDOW: Slider = Slider::new("window", "Window")
     .range(3.0, 15.0, 2.0)
     .at(7.0)
     .unit("px");
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SOURCE),
-    Knob::Slider(&THRESHOLD),
-    Knob::Slider(&K),
-    Knob::Slider(&WINDOW),
-];
+const KNOBS: &[Knob] = knobs![SOURCE, THRESHOLD, K, WINDOW];
 
 const SLOTS: &[PhotoSlot] = &[slot(640)];
 /// Smaller pictures have no room for a window.

@@ -2,11 +2,10 @@
 
 use super::model::Harris;
 use super::question::Answer;
-use crate::canvas::{Canvas, Stroke, text_width};
+use crate::canvas::{Canvas, Stroke};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
-use crate::kit::grid::{self, Grid, SMALL};
+use crate::kit::grid::{self, Grid};
 use crate::kit::heat::{self, Fill, Heat};
-use crate::kit::question::Question as _;
 use crate::theme::{Role, Theme, mix};
 use image::RgbImage;
 
@@ -29,22 +28,18 @@ impl View for HarrisView {
         let mut grid = Grid::new(width);
         let [left, right] = grid.row([f64::from(rows) / f64::from(columns); 2], TALLEST);
         grid.strip(LEGEND);
-        let mut picture = Panel::photograph("picture", left, columns, rows);
-        picture.clickable = true;
-        let response = Panel::photograph("response", right, columns, rows);
+        let picture = Panel::photograph("picture", left, (columns, rows)).clickable();
+        let response = Panel::photograph("response", right, (columns, rows));
         grid.layout(vec![picture, response])
     }
 
     fn draw(&mut self, model: &Harris, layout: &Layout, canvas: &mut Canvas) {
-        let [picture, response] = layout.panels_named(["picture", "response"]);
-        grid::open(canvas, picture, &["Image"]);
-        grid::open(canvas, response, &["Response R"]);
+        let titles: [(_, &[_]); 2] = [("picture", &["Image"]), ("response", &["Response R"])];
+        let [picture, response] = grid::open_all(canvas, layout, titles);
         draw_legend(canvas, layout.width, response.rect);
         let asked = &model.asked;
         let Some((question, answer)) = asked.answered() else {
-            let waiting = super::question::Question::LABEL;
-            grid::notice(canvas, picture.rect, asked.problem().unwrap_or(waiting));
-            return;
+            return grid::notice(canvas, picture.rect, asked.words());
         };
         canvas.photograph(picture.rect, answer.picture.image());
         let theme = canvas.theme();
@@ -56,7 +51,7 @@ impl View for HarrisView {
                 draw_corners(canvas, panel, model);
                 let place = panel.canvas_from_world(model.probe_place());
                 let half = question.window_px as f64 / 2.0 * panel.scale_x();
-                let window = Rect::new(place.0 - half, place.1 - half, 2.0 * half, 2.0 * half);
+                let window = Rect::around(place, half);
                 canvas.stroke_rect(window, Stroke::solid(Role::Grip, 1.5).cased());
                 canvas.grip(place, Role::Grip);
             });
@@ -96,13 +91,11 @@ fn colored(answer: &Answer, theme: Theme) -> RgbImage {
 fn draw_legend(canvas: &mut Canvas, width: f64, map: Rect) {
     let narrow = grid::is_narrow(width);
     let y = map.bottom() + LEGEND / 2.0 + 2.0;
-    let mut x = if narrow { 0.0 } else { map.x };
-    for (role, opacity, label) in [
-        (Role::Candidate, 0.7, "R < 0: edge (striped)"),
-        (Role::Surface, 1.0, "flat"),
-        (Role::Outlier, 0.9, "R > 0: corner"),
-    ] {
-        heat::swatch(canvas, (x, y), Fill::Role(role, opacity), label);
-        x += 32.0 + text_width(label, SMALL);
-    }
+    let x = if narrow { 0.0 } else { map.x };
+    let entries = [
+        (Fill::Role(Role::Candidate, 0.7), "R < 0: edge (striped)"),
+        (Fill::Role(Role::Surface, 1.0), "flat"),
+        (Fill::Role(Role::Outlier, 0.9), "R > 0: corner"),
+    ];
+    heat::swatches(canvas, (x, y), 18.0, &entries);
 }

@@ -2,9 +2,6 @@
 
 use super::model::{Harris, Verdict};
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::question::Question as _;
-
-use super::question::Question;
 
 impl Verdict {
     fn word(self) -> &'static str {
@@ -35,11 +32,9 @@ impl Words for Harris {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked.problem() {
-            return problem.to_owned();
-        }
-        let Some(probe) = self.probe() else {
-            return format!("{}.", Question::LABEL);
+        let is_told = self.asked.problem().is_none();
+        let Some(probe) = self.probe().filter(|_| is_told) else {
+            return self.asked.sentence();
         };
         let what = match probe.verdict {
             Verdict::Flat => "a flat place",

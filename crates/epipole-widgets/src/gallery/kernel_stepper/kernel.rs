@@ -60,12 +60,8 @@ impl Kernel {
 
     /// Whether all that it does is to fetch a neighbor.
     pub(super) fn is_shift(&self) -> bool {
-        let mut weights = self.weights;
-        let middle = std::mem::replace(&mut weights[4], 0.0);
-        let others: Vec<f32> = weights
-            .into_iter()
-            .filter(|weight| *weight != 0.0)
-            .collect();
-        middle == 0.0 && others == [self.divisor]
+        let used = |index: &usize| self.weights[*index] != 0.0;
+        let used: Vec<usize> = (0..9).filter(used).collect();
+        matches!(used[..], [only] if only != 4 && self.weights[only] == self.divisor)
     }
 }

@@ -4,7 +4,7 @@ use super::kernel::Kernel;
 use super::pixels::{self, SIZE};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider,
+    Settings, Slider, knobs,
 };
 use crate::kit::probe::Probe;
 use epipole::imaging::{Border, GrayImage32, correlate};
@@ -58,21 +58,9 @@ const DIVIDE: Slider = Slider::new("divide", "Divide by")
     .range(1.0, 16.0, 1.0)
     .at(1.0)
     .more();
-static KNOBS: [Knob; 14] = [
-    Knob::Choice(&KERNEL),
-    Knob::Choice(&ALONG),
-    Knob::Choice(&BORDER),
-    Knob::Choice(&PIXELS),
-    Knob::Slider(&WEIGHTS[0]),
-    Knob::Slider(&WEIGHTS[1]),
-    Knob::Slider(&WEIGHTS[2]),
-    Knob::Slider(&WEIGHTS[3]),
-    Knob::Slider(&WEIGHTS[4]),
-    Knob::Slider(&WEIGHTS[5]),
-    Knob::Slider(&WEIGHTS[6]),
-    Knob::Slider(&WEIGHTS[7]),
-    Knob::Slider(&WEIGHTS[8]),
-    Knob::Slider(&DIVIDE),
+static KNOBS: &[Knob] = knobs![
+    KERNEL, ALONG, BORDER, PIXELS, WEIGHTS[0], WEIGHTS[1], WEIGHTS[2], WEIGHTS[3], WEIGHTS[4],
+    WEIGHTS[5], WEIGHTS[6], WEIGHTS[7], WEIGHTS[8], DIVIDE,
 ];
 const NEXT: Button = Button::new("next", "Next pixel", ButtonRole::Step);
 
@@ -138,10 +126,8 @@ impl KernelStepper {
     pub(super) fn window(&self) -> [f32; 9] {
         let (u, v) = self.pixel();
         std::array::from_fn(|index| {
-            self.level(
-                u as i32 + index as i32 % 3 - 1,
-                v as i32 + index as i32 / 3 - 1,
-            )
+            let (column, row) = (index as i32 % 3 - 1, index as i32 / 3 - 1);
+            self.level(u as i32 + column, v as i32 + row)
         })
     }
 
@@ -180,7 +166,7 @@ impl Declared for KernelStepper {
 
     fn new() -> Self {
         let mut model = Self {
-            settings: Settings::new(&KNOBS),
+            settings: Settings::new(KNOBS),
             window: Probe::new("window", "pixels", "Window").at(3.0, 2.0),
             image: pixels::image(false),
             sums: Err(String::new()),
@@ -192,17 +178,13 @@ impl Declared for KernelStepper {
 
 impl Model for KernelStepper {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
         let kernel = self.settings.chosen(&KERNEL);
-        for control in &mut controls {
-            let is_weight =
-                control.id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == control.id);
-            control.enabled = if is_weight {
-                kernel == OWN
-            } else {
-                control.id != ALONG.id || kernel < 3
-            };
-        }
+        let is_weight = |id: &str| id == DIVIDE.id || WEIGHTS.iter().any(|weight| weight.id == id);
+        let mut controls = self.settings.controls_enabled(|id| match id {
+            id if id == ALONG.id => kernel < 3,
+            id if is_weight(id) => kernel == OWN,
+            _ => true,
+        });
         controls.push(NEXT.control(true, false));
         controls
     }
@@ -221,14 +203,11 @@ impl Model for KernelStepper {
             }
             self.filter();
         }
-        match event {
-            Event::Press { id } if id == NEXT.id => {
-                let (u, v) = self.pixel();
-                let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
-                let (u, v) = (next % SIZE.0, next / SIZE.0);
-                self.window = self.window.at(f64::from(u), f64::from(v));
-            }
-            _ => {}
+        if *event == Event::press(NEXT.id) {
+            let (u, v) = self.pixel();
+            let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
+            let (u, v) = (next % SIZE.0, next / SIZE.0);
+            self.window = self.window.at(f64::from(u), f64::from(v));
         }
         Ok(())
     }

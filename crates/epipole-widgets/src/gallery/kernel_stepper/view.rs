@@ -4,7 +4,7 @@ use super::model::KernelStepper;
 use super::pixels::SIZE;
 use super::words::short;
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::theme::{Rgb, Role, Theme, mix};
 
@@ -35,60 +35,25 @@ impl View for KernelStepperView {
         } else {
             [pixels, sum, answer] = grid.row([around, 2.1, rows / columns], TALLEST);
         }
-        let panel = |id, rect, [left, right]: [f64; 2], [top, bottom]: [f64; 2], clickable| Panel {
-            id,
-            rect,
-            x_axis: Axis {
-                start: left,
-                end: right,
-            },
-            y_axis: Axis {
-                start: top,
-                end: bottom,
-            },
-            clickable,
-        };
         let height = answer.width * rows / columns;
         let answer = Rect::new(answer.x, answer.y, answer.width, height.min(answer.height));
         grid.layout(vec![
-            panel(
-                "pixels",
-                pixels,
-                [-1.5, columns + 0.5],
-                [-1.5, rows + 0.5],
-                true,
-            ),
-            panel("sum", sum, [0.0, 1.0], [0.0, 1.0], false),
-            panel(
-                "answer",
-                answer,
-                [-0.5, columns - 0.5],
-                [-0.5, rows - 0.5],
-                false,
-            ),
+            Panel::new("pixels", pixels, [-1.5, columns + 0.5], [-1.5, rows + 0.5]).clickable(),
+            Panel::photograph("sum", sum, (1, 1)),
+            Panel::photograph("answer", answer, SIZE),
         ])
     }
 
     fn draw(&mut self, model: &KernelStepper, layout: &Layout, canvas: &mut Canvas) {
         let [pixels, sum, answer] = layout.panels_named(["pixels", "sum", "answer"]);
         let narrow = grid::is_narrow(layout.width);
-        grid::fitting_title(
-            canvas,
-            pixels.rect,
-            &[
-                "Pixels, and what lies beyond the border",
-                "Pixels and border",
-            ],
-        );
-        grid::title(
-            canvas,
-            answer.rect,
-            if narrow {
-                "Answers"
-            } else {
-                "The answer at every pixel"
-            },
-        );
+        let titles = [
+            "Pixels, and what lies beyond the border",
+            "Pixels and border",
+        ];
+        grid::fitting_title(canvas, pixels.rect, &titles);
+        let long = "The answer at every pixel";
+        grid::title(canvas, answer.rect, if narrow { "Answers" } else { long });
         canvas.panel(pixels.rect);
         draw_pixels(model, pixels, canvas);
         draw_products(model, sum.rect, narrow, canvas);
@@ -101,28 +66,12 @@ impl View for KernelStepperView {
 
 /// The rectangle of a pixel.
 fn cell(panel: &Panel, (u, v): (i32, i32)) -> Rect {
-    let (x, y) = panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5));
-    let (right, bottom) = panel.canvas_from_world((f64::from(u) + 0.5, f64::from(v) + 0.5));
-    Rect::new(x, y, right - x, bottom - y)
+    let (u, v) = (f64::from(u), f64::from(v));
+    panel.rect_between((u - 0.5, v - 0.5), (u + 0.5, v + 0.5))
 }
 
 fn gray(level: f64) -> Rgb {
     [level.round().clamp(0.0, 255.0) as u8; 3]
-}
-
-/// Ink or paper, whichever is better to be read on a color.
-fn readable(theme: Theme, color: Rgb) -> Role {
-    let light = |color: Rgb| {
-        let channels = color.map(|channel| libm::pow(f64::from(channel) / 255.0, 2.2));
-        0.05 + channels.iter().sum::<f64>() / 3.0
-    };
-    let contrast = |role: Role| libm::fabs(libm::log(light(theme.color(role)) / light(color)));
-    let roles = [Role::Ink, Role::Background];
-    if contrast(roles[0]) >= contrast(roles[1]) {
-        roles[0]
-    } else {
-        roles[1]
-    }
 }
 
 /// A filled cell with its number, if there is room for one.
@@ -131,12 +80,7 @@ fn draw_cell(canvas: &mut Canvas, rect: Rect, color: Rgb, text: &str) {
     if rect.width < SMALLEST {
         return;
     }
-    let role = readable(canvas.theme(), color);
-    draw_number(canvas, rect, text, role);
-}
-
-/// A number in the middle of a cell, as large as fits.
-fn draw_number(canvas: &mut Canvas, rect: Rect, text: &str, role: Role) {
+    let role = canvas.theme().readable_on(color);
     let fitting = (rect.width - 4.0) / text_width(text, 1.0).max(1e-9);
     let size = fitting.min(TEXT).min(rect.height * 0.8);
     canvas.label(rect.center(), text, TextStyle::new(role, size).middle());
@@ -159,22 +103,13 @@ fn draw_pixels(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
             }
         }
     }
-    let (first, last) = (cell(panel, (0, 0)), cell(panel, (columns - 1, rows - 1)));
-    let image = Rect::new(
-        first.x,
-        first.y,
-        last.right() - first.x,
-        last.bottom() - first.y,
-    );
+    let (right, bottom) = (f64::from(columns) - 0.5, f64::from(rows) - 0.5);
+    let image = panel.rect_between((-0.5, -0.5), (right, bottom));
     canvas.stroke_rect(image, Stroke::solid(Role::Ink, 1.5).dashed());
     let (u, v) = model.pixel();
     let middle = cell(panel, (u as i32, v as i32));
-    let window = Rect::new(
-        middle.x - middle.width,
-        middle.y - middle.height,
-        3.0 * middle.width,
-        3.0 * middle.height,
-    );
+    let (u, v) = (f64::from(u), f64::from(v));
+    let window = panel.rect_between((u - 1.5, v - 1.5), (u + 1.5, v + 1.5));
     canvas.stroke_rect(window, Stroke::solid(Role::Grip, 3.0).cased());
     canvas.stroke_rect(middle.inset(1.0), Stroke::solid(Role::Grip, 1.5));
 }
@@ -184,27 +119,19 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
     let (window, kernel) = (model.window(), model.kernel());
     let products: [f32; 9] = std::array::from_fn(|index| window[index] * kernel.weights[index]);
     let room = Rect::new(rect.x, rect.y, rect.width, rect.height - SUM);
-    let tables = if narrow {
-        grid::columns(room, [1.0; 3])
-    } else {
-        // Their titles stand above them, the first one above the panel.
-        grid::stack(room, [1.0; 3])
+    // Below each other, their titles stand above them, the first one above the panel.
+    let tables = match narrow {
+        true => grid::columns(room, [1.0; 3]),
+        false => grid::stack(room, [1.0; 3]),
     };
     let surface = canvas.theme().color(Role::Surface);
     let titles = ["Window", "× weights", "= products"];
     for (index, (table, title)) in tables.into_iter().zip(titles).enumerate() {
         let side = (table.width / 3.0).min(table.height / 3.0);
-        let wide = if narrow {
-            table.width / 3.0
-        } else {
-            (1.5 * side).min(table.width / 3.0)
-        };
+        let most = if narrow { f64::INFINITY } else { 1.5 * side };
+        let wide = most.min(table.width / 3.0);
         let left = table.center().0 - 1.5 * wide;
-        grid::title(
-            canvas,
-            Rect::new(left, table.y, 3.0 * wide, table.height),
-            title,
-        );
+        grid::title(canvas, Rect { x: left, ..table }, title);
         for k in 0..9 {
             let (column, row) = ((k % 3) as f64, (k / 3) as f64);
             let at = Rect::new(left + column * wide, table.y + row * side, wide, side);
@@ -219,14 +146,9 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
         }
     }
     let (sum, answer) = (model.sum(model.pixel()), model.answer(model.pixel()));
-    let divisor = f64::from(kernel.divisor);
-    let long = format!(
-        "sum {}, ÷ {} = {}",
-        short(sum),
-        short(divisor),
-        short(answer)
-    );
-    let brief = format!("{} ÷ {} = {}", short(sum), short(divisor), short(answer));
+    let [sum, divisor, answer] = [sum, f64::from(kernel.divisor), answer].map(short);
+    let long = format!("sum {sum}, ÷ {divisor} = {answer}");
+    let brief = format!("{sum} ÷ {divisor} = {answer}");
     let fits = text_width(&long, TEXT) <= rect.width;
     let text = if fits { long } else { brief };
     let size = TEXT.min((rect.width - 2.0) / text_width(&text, 1.0).max(1e-9));
@@ -236,7 +158,8 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
 
 /// Warm where positive, cool where negative; the sign is in the number, too.
 fn shade(theme: Theme, value: f64, most: f64) -> Rgb {
-    let role = if value < 0.0 {
+    let is_negative = value < 0.0;
+    let role = if is_negative {
         Role::Candidate
     } else {
         Role::Outlier
@@ -247,9 +170,8 @@ fn shade(theme: Theme, value: f64, most: f64) -> Rgb {
 
 fn draw_answers(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
     let pixels = || (0..SIZE.1).flat_map(|v| (0..SIZE.0).map(move |u| (u, v)));
-    let most = pixels()
-        .map(|pixel| model.answer(pixel).abs())
-        .fold(0.0, f64::max);
+    let sizes = pixels().map(|pixel| model.answer(pixel).abs());
+    let most = sizes.fold(0.0, f64::max);
     let is_difference = model.kernel().is_difference();
     for (u, v) in pixels() {
         let answer = model.answer((u, v));

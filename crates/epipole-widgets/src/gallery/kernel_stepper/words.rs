@@ -28,18 +28,14 @@ impl Kernel {
 impl Words for KernelStepper {
     fn readouts(&self) -> Vec<Readout> {
         let pixel = self.pixel();
-        let sum = self.sum(pixel);
-        let divisor = f64::from(self.kernel().divisor);
+        let place = format!("column {}, row {}", pixel.0, pixel.1);
+        let number = |id, label, value: f64, digits| Readout::number(id, label, value, digits, "");
         vec![
-            Readout::number("sum", "Sum", sum, 0, "").main(),
-            Readout::number("divisor", "Divisor", divisor, 0, "").main(),
-            Readout::number("answer", "Answer", self.answer(pixel), 2, "").main(),
-            Readout::words(
-                "place",
-                "Pixel",
-                format!("column {}, row {}", pixel.0, pixel.1),
-            ),
-            Readout::number("level", "Gray level", f64::from(self.window()[4]), 0, ""),
+            number("sum", "Sum", self.sum(pixel), 0).main(),
+            number("divisor", "Divisor", self.kernel().divisor.into(), 0).main(),
+            number("answer", "Answer", self.answer(pixel), 2).main(),
+            Readout::words("place", "Pixel", place),
+            number("level", "Gray level", self.window()[4].into(), 0),
             Readout::words("beyond", "Border", self.border_name()),
             Readout::words("own-kernel", "Your kernel", self.own().words()),
         ]
@@ -49,9 +45,8 @@ impl Words for KernelStepper {
         let pixel = self.pixel();
         let (name, along) = self.names();
         let along = along.map_or(String::new(), |axis| format!(" along {axis}"));
-        let remark = self
-            .remark()
-            .map_or(String::new(), |remark| format!(" {remark}"));
+        let remark = self.remark();
+        let remark = remark.map_or(String::new(), |remark| format!(" {remark}"));
         format!(
             "A window of 3 by 3 pixels at column {}, row {}. Kernel: {name}{along}. The products add up to \
              {}; divided by {} that is {}.{remark}",

@@ -32,10 +32,8 @@ impl Fit {
         let (pixels1, pixels2): (Vec<_>, Vec<_>) = used.copied().unzip();
         let found = fundamental_8point_explained(&pixels1, &pixels2)?;
         let fundamental = found.fundamental;
-        let distances: Vec<f64> = truth
-            .iter()
-            .map(|pair| distance_px(&fundamental, pair))
-            .collect();
+        let distance = |pair: &Match| distance_px(&fundamental, pair);
+        let distances: Vec<f64> = truth.iter().map(distance).collect();
         let wrong_px = distance_px(&fundamental, wrong);
         Ok(Self {
             fundamental,
@@ -57,32 +55,20 @@ fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> f64 {
     line2(fundamental, pixel1).map_or(0.0, |line| line.signed_distance(pixel2).abs())
 }
 
-/// Mean and largest distance of the true matches, the wrong one led away step by step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Led {
-    pub(super) away_px: f64,
-    pub(super) mean_px: f64,
-    pub(super) worst_px: f64,
-}
-
 /// How far the curve leads the wrong match away, pixels, and in how many steps.
 pub(super) const REACH_PX: f64 = 300.0;
 const NUM_STEPS: usize = 30;
 
-/// What becomes of the true matches on the way from the right place towards where the wrong match is,
-/// and on.
-pub(super) fn led_away(truth: &[Match], right: &Match, wrong: &Point2<f64>) -> Vec<Led> {
+/// What becomes of F on the way from the right place towards where the wrong match is, and on: how far the
+/// match is led away at each step, pixels, and F with it.
+pub(super) fn led_away(truth: &[Match], right: &Match, wrong: &Point2<f64>) -> Vec<(f64, Fit)> {
     let direction = (wrong - right.1)
         .try_normalize(1e-9)
         .unwrap_or(Vector2::y());
     let step = |index: usize| {
         let away_px = REACH_PX * index as f64 / NUM_STEPS as f64;
         let fit = Fit::new(truth, &(right.0, right.1 + direction * away_px), true).ok()?;
-        Some(Led {
-            away_px,
-            mean_px: fit.mean_px,
-            worst_px: fit.worst_px,
-        })
+        Some((away_px, fit))
     };
     (0..=NUM_STEPS).filter_map(step).collect()
 }
@@ -107,7 +93,7 @@ mod tests {
         assert_eq!(without.num_farther, 0);
         let led = led_away(&exact, &right, &wrong.1);
         assert_eq!(led.len(), NUM_STEPS + 1);
-        assert!((led[12].away_px - 120.0).abs() < 1e-9);
-        assert!((led[12].mean_px - bad.mean_px).abs() < 1e-6);
+        assert!((led[12].0 - 120.0).abs() < 1e-9);
+        assert!((led[12].1.mean_px - bad.mean_px).abs() < 1e-6);
     }
 }

@@ -1,13 +1,14 @@
 //! Matches of the still life, the first of them dragged to a wrong place.
 
-use super::fit::{Fit, Led, led_away, line2};
+use super::fit::{Fit, led_away, line2};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
-    Toggle, format_number, round_to_digits,
+    Toggle, format_number, knobs, round_to_digits,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{Match, Matches, cameras};
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
+use crate::kit::probe::{place_words, ranges};
+use crate::kit::scenes::PHOTO_SIZE;
 use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
 use nalgebra::{Point2, Vector2};
 
@@ -23,12 +24,7 @@ const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
     .unit("px")
     .more();
 const SEED: Slider = Slider::seed(1.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&COUNT),
-    Knob::Toggle(&HEARD),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![COUNT, HEARD, NOISE, SEED];
 
 const WRONG: &str = "wrong";
 /// Where the wrong match is at first, seen from where it belongs, pixels.
@@ -44,7 +40,7 @@ pub(super) struct State {
     /// As the toggle wants it, and from the true matches alone.
     pub(super) fit: Fit,
     pub(super) without: Fit,
-    pub(super) led: Vec<Led>,
+    pub(super) led: Vec<(f64, Fit)>,
 }
 
 /// The model of `outlier-drag`.
@@ -81,10 +77,8 @@ impl OutlierDrag {
         let count = self.settings.count(&COUNT) + 1;
         let mut truth = self.matches.noisy(count, self.settings.number(&NOISE));
         let right = truth.remove(0);
-        let wrong = (
-            right.0,
-            self.put.unwrap_or_else(|| inside(right.1 + AWAY_PX)),
-        );
+        let put = self.put.unwrap_or_else(|| inside(right.1 + AWAY_PX));
+        let wrong = (right.0, put);
         Ok(State {
             fit: Fit::new(&truth, &wrong, self.is_heard())?,
             without: Fit::new(&truth, &wrong, false)?,
@@ -98,9 +92,9 @@ impl OutlierDrag {
 
 /// The place within the photograph, with the handle's digits.
 fn inside(place: Point2<f64>) -> Point2<f64> {
-    let keep =
-        |value: f64, side: u32| round_to_digits(value.clamp(0.0, f64::from(side) - 1.0), DIGITS);
-    Point2::new(keep(place.x, PHOTO_WIDTH), keep(place.y, PHOTO_HEIGHT))
+    let [u, v] = ranges(PHOTO_SIZE);
+    let inside = Point2::new(place.x.clamp(u[0], u[1]), place.y.clamp(v[0], v[1]));
+    inside.map(|x| round_to_digits(x, DIGITS))
 }
 
 impl Declared for OutlierDrag {
@@ -132,25 +126,11 @@ impl Model for OutlierDrag {
         let Ok(state) = &self.state else {
             return Vec::new();
         };
-        let place = state.wrong.1;
-        vec![Handle {
-            id: WRONG.to_owned(),
-            panel: "second",
-            label: "Wrong match".to_owned(),
-            value_text: format!(
-                "column {}, row {}, {} px from where it belongs",
-                format_number(place.x, 0),
-                format_number(place.y, 0),
-                format_number(self.away_px(), 0)
-            ),
-            x: place.x,
-            y: place.y,
-            x_range: [0.0, f64::from(PHOTO_WIDTH) - 1.0],
-            y_range: [0.0, f64::from(PHOTO_HEIGHT) - 1.0],
-            step: [5.0, 5.0],
-            digits: DIGITS,
-            removable: false,
-        }]
+        let place = (state.wrong.1.x, state.wrong.1.y);
+        let away = format_number(self.away_px(), 0);
+        let told = format!("{}, {away} px from where it belongs", place_words(place, 0));
+        let handle = Handle::new(WRONG, "second", "Wrong match", place, ranges(PHOTO_SIZE));
+        vec![handle.told(told).step([5.0; 2], DIGITS)]
     }
 
     /// Those of the wrong match.
@@ -213,16 +193,13 @@ const CHALLENGES: &[Challenge<OutlierDrag>] = &[
         why: "Along its own epipolar line a match can be as wrong as it likes: no F can tell, and so no \
               vote will either.",
         check: |model| {
-            let mean = model
-                .state()
-                .map_or(f64::INFINITY, |state| state.fit.mean_px);
+            let state = model.state().ok();
+            let mean = state.map_or(f64::INFINITY, |state| state.fit.mean_px);
             model.is_heard() && model.away_px() >= 80.0 && mean <= 1.5
         },
         solution: || {
-            let place = along_its_line(90.0);
-            place.map_or_else(Vec::new, |place| {
-                vec![Event::moved(WRONG, place.x, place.y)]
-            })
+            let moved = |place: Point2<f64>| Event::moved(WRONG, place.x, place.y);
+            along_its_line(90.0).map(moved).into_iter().collect()
         },
     },
 ];

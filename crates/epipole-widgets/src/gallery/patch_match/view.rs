@@ -1,12 +1,11 @@
 //! A row for each patch: the patch itself, and its four candidates.
 
 use super::model::{OPTIONS, PatchMatch};
-use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
+use super::question::{NUM_OPTIONS, NUM_ROUNDS, Round};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::patch::Cuts;
-use crate::kit::question::Question as _;
 use crate::theme::Role;
 
 /// Between the patches of a row, and of the rows.
@@ -37,7 +36,7 @@ impl View for PatchMatchView {
         for (round, names) in OPTIONS.iter().enumerate() {
             let y = cell.y + round as f64 * (side + BETWEEN);
             let mut add = |id, x, clickable| {
-                let mut panel = Panel::photograph(id, Rect::new(x, y, side, side), 1, 1);
+                let mut panel = Panel::photograph(id, Rect::new(x, y, side, side), (1, 1));
                 panel.clickable = clickable;
                 panels.push(panel);
             };
@@ -61,7 +60,7 @@ impl View for PatchMatchView {
         };
         grid::fitting_title(canvas, all, &wordings);
         let Some(answer) = model.asked.answer() else {
-            let notice = model.asked.problem().unwrap_or(Question::LABEL);
+            let notice = model.asked.words();
             let whole = Rect::new(0.0, first.y, layout.width, layout.height - first.y);
             canvas.panel(whole);
             return grid::notice(canvas, whole, notice);

@@ -1,9 +1,8 @@
 //! What `patch-match` says.
 
 use super::model::PatchMatch;
-use super::question::{NUM_ROUNDS, Question};
+use super::question::NUM_ROUNDS;
 use crate::contract::{Readout, Words};
-use crate::kit::question::Question as _;
 
 impl Words for PatchMatch {
     fn readouts(&self) -> Vec<Readout> {
@@ -19,11 +18,8 @@ impl Words for PatchMatch {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked.problem() {
-            return problem.to_owned();
-        }
         if self.asked.answer().is_none() {
-            return format!("{}.", Question::LABEL);
+            return self.asked.sentence();
         }
         let (picked, score) = (self.num_picked(), self.score());
         if self.is_finished() {

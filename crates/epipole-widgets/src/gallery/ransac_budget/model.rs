@@ -3,7 +3,7 @@
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
 use epipole::robust::num_trials_with_replacement;
 
@@ -18,19 +18,15 @@ const CONFIDENCE: Slider = Slider::new("p", "Confidence p")
     .range(0.5, 0.999, 0.001)
     .at(0.99)
     .digits(3);
-const KNOBS: &[Knob] = &[Knob::Slider(&CONFIDENCE)];
+const KNOBS: &[Knob] = knobs![CONFIDENCE];
 
 /// The model of `ransac-budget`.
 pub struct RansacBudget {
     settings: Settings,
-    inlier_ratio: f64,
+    pub(super) inlier_ratio: f64,
 }
 
 impl RansacBudget {
-    pub(super) fn inlier_ratio(&self) -> f64 {
-        self.inlier_ratio
-    }
-
     pub(super) fn confidence(&self) -> f64 {
         self.settings.number(&CONFIDENCE)
     }
@@ -45,19 +41,11 @@ impl RansacBudget {
     }
 
     fn handle(&self) -> Handle {
-        Handle {
-            id: "share".to_owned(),
-            panel: "plot",
-            label: "Inlier ratio w".to_owned(),
-            value_text: format!("{} % inliers", format_number(100.0 * self.inlier_ratio, 0)),
-            x: self.inlier_ratio,
-            y: 0.0,
-            x_range: RATIOS,
-            y_range: [0.0, 0.0],
-            step: [0.01, 0.0],
-            digits: 2,
-            removable: false,
-        }
+        let (place, ranges) = ((self.inlier_ratio, 0.0), [RATIOS, [0.0; 2]]);
+        let percent = format_number(100.0 * self.inlier_ratio, 0);
+        Handle::new("share", "plot", "Inlier ratio w", place, ranges)
+            .told(format!("{percent} % inliers"))
+            .step([0.01, 0.0], 2)
     }
 }
 
@@ -87,9 +75,7 @@ impl Model for RansacBudget {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        if let Event::Clicked { x, .. } | Event::HandleMoved { x, .. } = event
-            && let Some((ratio, _)) = self.handle().admit(*x, 0.0)
-        {
+        if let Some((ratio, _)) = self.handle().moved_by(event) {
             self.inlier_ratio = ratio;
         }
         Ok(())

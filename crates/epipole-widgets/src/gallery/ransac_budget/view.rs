@@ -3,7 +3,7 @@
 use super::model::{RATIOS, RansacBudget, SIZES};
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Layout, View};
-use crate::kit::grid::{self, Grid, TEXT};
+use crate::kit::grid::{Grid, TEXT};
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 
@@ -32,24 +32,20 @@ impl View for RansacBudgetView {
         let mut grid = Grid::new(width);
         let [cell] = grid.shares([1.0], (0.6 * width + 60.0).min(HEIGHT));
         let [x, y] = rulers();
-        let mut plot = plot::panel("plot", cell, &x, &y);
-        plot.clickable = true;
+        let plot = plot::panel("plot", cell, &x, &y).clickable();
         grid.layout(vec![plot])
     }
 
     fn draw(&mut self, model: &RansacBudget, layout: &Layout, canvas: &mut Canvas) {
-        let plot = layout.panel("plot");
-        let [x, y] = rulers();
-        grid::title(canvas, plot.rect, "Samples needed, N");
-        plot::draw_axes(canvas, plot, &x, &y);
-        let ratio = model.inlier_ratio();
+        let plot = plot::open(canvas, layout, "plot", &["Samples needed, N"], &rulers());
+        let ratio = model.inlier_ratio;
         for (index, size) in SIZES.into_iter().enumerate() {
             let places = (0..=NUM_STEPS).filter_map(|step| {
                 let share = f64::from(step) / f64::from(NUM_STEPS);
                 let w = RATIOS[0] + share * (RATIOS[1] - RATIOS[0]);
                 Some((w, plot::decade(model.trials(size, w)? as f64)))
             });
-            plot::draw_curve(canvas, plot, places, stroke(index));
+            plot::draw_curve(canvas, plot, places, Stroke::of_series(index, 2.25));
         }
         // From the highest mark down: above it is the legend.
         let mark = |trials: u64| plot.canvas_from_world((ratio, plot::decade(trials as f64)));
@@ -72,15 +68,5 @@ impl View for RansacBudgetView {
             let text = format!("s = {size}: {trials}");
             canvas.label((left + 12.0, y), &text, TextStyle::new(role, TEXT).cased());
         }
-    }
-}
-
-/// Curves differ in dash as well as in hue.
-fn stroke(index: usize) -> Stroke {
-    let stroke = Stroke::solid(Role::Series(index as u8), 2.25);
-    match index % 3 {
-        0 => stroke,
-        1 => stroke.dashed(),
-        _ => stroke.dotted(),
     }
 }

@@ -12,7 +12,7 @@ impl Words for RansacBudget {
             ("n7", "F, s = 7"),
             ("n8", "F, s = 8"),
         ];
-        let percent = 100.0 * self.inlier_ratio();
+        let percent = 100.0 * self.inlier_ratio;
         let mut readouts = vec![Readout::number("w", "Inlier ratio", percent, 0, "%").main()];
         for ((id, label), size) in LABELS.into_iter().zip(SIZES) {
             let count = Readout::number(id, label, self.now(size) as f64, 0, "");
@@ -27,7 +27,7 @@ impl Words for RansacBudget {
         format!(
             "With an inlier ratio of {} % and a confidence of {} %, a line takes {} samples of 2, a \
              homography {} of 4, E {} of 5, and F {} of 7 or {} of 8.",
-            format_number(100.0 * self.inlier_ratio(), 0),
+            format_number(100.0 * self.inlier_ratio, 0),
             format_number(100.0 * self.confidence(), 1),
             self.now(2),
             self.now(4),

@@ -7,7 +7,7 @@ use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
 use super::votes::{Best, Moment, Voters, Votes};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
-    Problem, Settings, Slider, Symbol, Toggle, Value,
+    Problem, Settings, Slider, Symbol, Toggle, Value, knobs,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
@@ -51,15 +51,7 @@ const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(MAX_SAMPLES as f64)
     .hidden();
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SOURCE),
-    Knob::Choice(&SHOW),
-    Knob::Slider(&EPSILON),
-    Knob::Slider(&RATIO),
-    Knob::Toggle(&LOCAL),
-    Knob::Slider(&SEED),
-    Knob::Slider(&ITERATIONS),
-];
+const KNOBS: &[Knob] = knobs![SOURCE, SHOW, EPSILON, RATIO, LOCAL, SEED, ITERATIONS];
 
 const SLOTS: &[PhotoSlot] = &pair_slots(640);
 /// Smaller photographs have no features to speak of.

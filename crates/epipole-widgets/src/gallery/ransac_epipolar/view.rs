@@ -27,12 +27,12 @@ fn legend_of(model: &RansacEpipolar) -> Vec<Entry> {
             Swatch::Line(Stroke::solid(Role::Series(0), 2.0)),
             "line of an inlier",
         ),
-        _ => (Swatch::Line(inlier_stroke()), "inlier"),
+        _ => (Swatch::Line(INLIER), "inlier"),
     };
     let mut entries = vec![
         inlier,
-        (Swatch::Line(outlier_stroke()), "outlier"),
-        (Swatch::Line(sample_stroke()), "last sample"),
+        (Swatch::Line(OUTLIER), "outlier"),
+        (Swatch::Line(SAMPLE), "last sample"),
     ];
     match model.show() {
         Show::Matches => {}
@@ -42,18 +42,9 @@ fn legend_of(model: &RansacEpipolar) -> Vec<Entry> {
     entries
 }
 
-fn inlier_stroke() -> Stroke {
-    Stroke::solid(Role::Inlier, 1.25)
-}
-
-fn outlier_stroke() -> Stroke {
-    Stroke::solid(Role::Outlier, 1.25).dashed()
-}
-
-fn sample_stroke() -> Stroke {
-    Stroke::solid(Role::Candidate, 2.75)
-}
-
+const INLIER: Stroke = Stroke::solid(Role::Inlier, 1.25);
+const OUTLIER: Stroke = Stroke::solid(Role::Outlier, 1.25).dashed();
+const SAMPLE: Stroke = Stroke::solid(Role::Candidate, 2.75);
 impl View for RansacEpipolarView {
     type Model = RansacEpipolar;
 
@@ -66,9 +57,8 @@ impl View for RansacEpipolarView {
         let [left, right] = grid.row(sizes.map(aspect), TALLEST);
         grid.strip(GAP / 2.0 + legend::height(&legend_of(model), width, 0.0));
         let [(width1, height1), (width2, height2)] = sizes;
-        let mut first = Panel::photograph("first", left, width1, height1);
-        first.clickable = true;
-        let second = Panel::photograph("second", right, width2, height2);
+        let first = Panel::photograph("first", left, (width1, height1)).clickable();
+        let second = Panel::photograph("second", right, (width2, height2));
         grid.layout(vec![first, second])
     }
 
@@ -138,8 +128,8 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
     };
     let (inliers, outliers) = (votes(true), votes(false));
     let groups = [
-        (&outliers, outlier_stroke(), Shape::Cross),
-        (&inliers, inlier_stroke(), Shape::Disk),
+        (&outliers, OUTLIER, Shape::Cross),
+        (&inliers, INLIER, Shape::Disk),
     ];
     let num_groups = if show == Show::Outliers { 1 } else { 2 };
     // On a phone the photographs are small.
@@ -193,7 +183,7 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
     let ends = ends(model, panels);
     for &index in &last.sample {
         let [from, to] = ends[index];
-        canvas.line(from, to, sample_stroke().cased());
+        canvas.line(from, to, SAMPLE.cased());
         for place in [from, to] {
             canvas.circle(place, 5.5, Stroke::solid(Role::Candidate, 2.5).cased());
         }
@@ -219,7 +209,7 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
             );
         });
     }
-    canvas.grip(first.canvas_from_world((probe.x, probe.y)), Role::Grip);
+    canvas.grip(first.place_of(&probe), Role::Grip);
 }
 
 /// What the reader should know or do before there is an F to see.

@@ -2,6 +2,7 @@
 
 use super::model::{RansacEpipolar, Show};
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::samples::Drawn;
 use crate::kit::words;
 use epipole::epipolar::epipolar_line2;
 
@@ -22,16 +23,7 @@ impl Words for RansacEpipolar {
         let words = |id, label, value: Option<String>| {
             Readout::words(id, label, value.unwrap_or_else(|| WAITING.to_owned()))
         };
-        let [drawn, needed] = self.drawn().map_or_else(
-            || {
-                [
-                    ("iterations", "Samples drawn"),
-                    ("budget", "Samples needed"),
-                ]
-                .map(|(id, label)| words(id, label, None))
-            },
-            |drawn| drawn.readouts(),
-        );
+        let [drawn, needed] = Drawn::readouts(self.drawn(), WAITING);
         let mut readouts = vec![
             words("best", "Best votes", best.map(|best| of(best.num_votes))).main(),
             Readout::words("right", "Right inliers", right).main(),

@@ -3,7 +3,6 @@
 
 mod model;
 mod question;
-mod tally;
 mod view;
 mod words;
 

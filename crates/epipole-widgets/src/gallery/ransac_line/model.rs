@@ -1,31 +1,22 @@
 //! Points near a hidden line among outliers, and the RANSAC loop one sample at a time.
 
 use super::question::{MAX_SAMPLES, Question, Runs, kind};
-use super::tally::Tally;
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
-    Toggle, Value,
+    Toggle, Value, knobs,
 };
-use crate::kit::line_points::{Scatter, angle_between_deg, scatter};
+use crate::kit::line_points::{COUNT, EPSILON, Scatter, angle_between_deg, places_of};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
-use nalgebra::Point2;
+use crate::kit::tally::Tally;
 
 const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
     .range(0.0, 0.8, 0.05)
     .at(0.5)
     .digits(2);
-const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
-    .range(2.0, 40.0, 1.0)
-    .at(10.0)
-    .unit("px");
 const MSAC: Toggle = Toggle::new("msac", "MSAC");
 const LOCAL: Toggle = Toggle::new("local", "Local optimization");
-const COUNT: Slider = Slider::new("points", "Number of points")
-    .range(8.0, 120.0, 2.0)
-    .at(60.0)
-    .more();
 const SEED: Slider = Slider::seed(9.0);
 const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
@@ -37,15 +28,8 @@ const PHASE: Slider = Slider::new("phase", "Votes cast")
     .at(1.0)
     .digits(3)
     .hidden();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&OUTLIERS),
-    Knob::Slider(&EPSILON),
-    Knob::Toggle(&MSAC),
-    Knob::Toggle(&LOCAL),
-    Knob::Slider(&COUNT),
-    Knob::Slider(&SEED),
-    Knob::Slider(&ITERATIONS),
-    Knob::Slider(&PHASE),
+const KNOBS: &[Knob] = knobs![
+    OUTLIERS, EPSILON, MSAC, LOCAL, COUNT, SEED, ITERATIONS, PHASE
 ];
 
 /// Slow enough to see the votes fly.
@@ -54,17 +38,13 @@ const SAMPLES_PER_SECOND: f64 = 0.7;
 /// The model of `ransac-line`.
 pub(crate) struct RansacLine {
     settings: Settings,
-    scattered: Scatter,
+    pub(super) scattered: Scatter,
     tally: Result<Tally, String>,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     running: Running,
 }
 
 impl RansacLine {
-    pub(super) fn scattered(&self) -> &Scatter {
-        &self.scattered
-    }
-
     /// The samples so far, or why there are none.
     pub(super) fn tally(&self) -> Result<&Tally, &str> {
         self.tally.as_ref().map_err(String::as_str)
@@ -73,10 +53,6 @@ impl RansacLine {
     /// The hundred runs of each kind, perhaps of the settings before.
     pub(super) fn runs(&self) -> Option<&Runs> {
         self.asked.answer()
-    }
-
-    pub(super) fn runs_problem(&self) -> Option<&str> {
-        self.asked.problem()
     }
 
     pub(super) fn epsilon_px(&self) -> f64 {
@@ -106,9 +82,6 @@ impl RansacLine {
     }
 
     fn compute(&mut self) {
-        let places: Vec<Point2<f64>> = (self.scattered.points.iter())
-            .map(|point| point.place)
-            .collect();
         let rules = Rules {
             epsilon_px: self.epsilon_px(),
             seed: self.settings.count(&SEED) as u64,
@@ -117,7 +90,12 @@ impl RansacLine {
             local_optimization: self.settings.flag(&LOCAL),
         };
         let count = self.settings.count(&ITERATIONS);
-        let tally = Tally::new(&places, self.scattered.truth, rules, count);
+        let tally = Tally::new(
+            &places_of(&self.scattered.points),
+            self.scattered.truth,
+            rules,
+            count,
+        );
         self.tally = tally.map_err(|error| format!("There are no samples: {error}."));
         self.asked.ask(Question {
             outlier_ratio: self.settings.number(&OUTLIERS),
@@ -137,14 +115,6 @@ impl RansacLine {
     }
 }
 
-fn scatter_as(settings: &Settings) -> Scatter {
-    scatter(
-        settings.count(&SEED) as u64,
-        settings.count(&COUNT),
-        settings.number(&OUTLIERS),
-    )
-}
-
 impl Declared for RansacLine {
     const NAME: &'static str = "ransac-line";
     const TITLE: &'static str = "Sample, band, votes";
@@ -157,7 +127,7 @@ impl Declared for RansacLine {
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
         let mut model = Self {
-            scattered: scatter_as(&settings),
+            scattered: Scatter::by(&settings, &SEED, &OUTLIERS),
             settings,
             tally: Err(String::new()),
             asked: Asked::default(),
@@ -171,12 +141,8 @@ impl Declared for RansacLine {
 impl Model for RansacLine {
     fn controls(&self) -> Vec<Control> {
         let (drawn, is_finished) = self.drawn();
-        let mut controls = self.settings.controls();
-        controls.extend(
-            self.running
-                .controls(self.tally.is_ok(), drawn, is_finished),
-        );
-        controls
+        let running = (self.running).controls(self.tally.is_ok(), drawn, is_finished);
+        self.settings.controls_and(running)
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
@@ -209,7 +175,7 @@ impl Model for RansacLine {
                     return Ok(());
                 }
                 if [OUTLIERS.id, COUNT.id, SEED.id].contains(&&**id) {
-                    self.scattered = scatter_as(&self.settings);
+                    self.scattered = Scatter::by(&self.settings, &SEED, &OUTLIERS);
                 }
                 self.compute();
                 self.running.stop_if(self.drawn().1);
@@ -236,10 +202,8 @@ const CHALLENGES: &[Challenge<RansacLine>] = &[
         why: "The points scatter by 4 px, so a band of 2 px to each side loses more than half of the good \
               ones, and the loop takes them for outliers.",
         check: |model| {
-            let budget = model
-                .tally()
-                .ok()
-                .and_then(|tally| tally.samples.drawn().budget);
+            let tally = model.tally().ok();
+            let budget = tally.and_then(|tally| tally.samples.drawn().budget);
             let half = (model.settings.number(&OUTLIERS) - 0.5).abs() < 1e-9;
             half && model.drawn().1 && budget.is_some_and(|budget| budget > 60)
         },

@@ -1,13 +1,11 @@
 //! A hundred runs of each kind on points of their own.
 
 use crate::contract::{Problem, Progress};
-use crate::kit::line_points::{angle_between_deg, scatter};
+use crate::kit::line_points::{angle_between_deg, places_of, scatter};
 use crate::kit::question::{self, tell};
+use crate::kit::samples::{Rules, inliers_of};
 use epipole::Error;
-use epipole::robust::{
-    Budget, LineEstimator, RansacOptions, ScoreKind, fit_line_total_least_squares, ransac,
-};
-use nalgebra::Point2;
+use epipole::robust::{LineEstimator, fit_line_total_least_squares};
 use serde::{Deserialize, Serialize};
 
 /// Runs of each kind.
@@ -16,8 +14,6 @@ pub(super) const NUM_RUNS: usize = 100;
 pub(super) const NUM_KINDS: usize = 4;
 /// No run draws more samples.
 pub(super) const MAX_SAMPLES: usize = 500;
-/// As sure as the loop of the figure itself.
-pub(super) const CONFIDENCE: f64 = 0.99;
 
 /// The index of a kind of run.
 pub(super) fn kind(msac: bool, local: bool) -> usize {
@@ -70,34 +66,19 @@ impl Runs {
 impl Question {
     fn run(&self, seed: u64, msac: bool, local: bool) -> Result<Run, Error> {
         let scattered = scatter(seed, self.count, self.outlier_ratio);
-        let places: Vec<Point2<f64>> = scattered.points.iter().map(|point| point.place).collect();
-        let options = RansacOptions {
-            max_error_px: self.epsilon_px,
-            confidence: CONFIDENCE,
-            min_iterations: 1,
-            max_iterations: MAX_SAMPLES,
+        let places = places_of(&scattered.points);
+        let rules = Rules {
+            epsilon_px: self.epsilon_px,
             seed,
-            score: if msac {
-                ScoreKind::Msac
-            } else {
-                ScoreKind::InlierCount
-            },
-            budget: Budget::WithReplacement,
+            max_samples: MAX_SAMPLES,
+            msac,
             local_optimization: local,
-            ..RansacOptions::default()
         };
-        let report = ransac(LineEstimator::new(&places)?, &options)?;
-        // The last step of the plain loop: once more, to all inliers.
-        let line = if local {
-            report.model
-        } else {
-            let inliers = places.iter().zip(&report.inliers).filter(|(_, is)| **is);
-            let inliers: Vec<_> = inliers.map(|(place, _)| *place).collect();
-            fit_line_total_least_squares(&inliers).unwrap_or(report.model)
-        };
+        let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(&places, is));
+        let (line, num_samples) = rules.run(LineEstimator::new(&places)?, refit)?;
         Ok(Run {
             error_deg: angle_between_deg(&line, &scattered.truth),
-            num_samples: report.iterations,
+            num_samples,
         })
     }
 }

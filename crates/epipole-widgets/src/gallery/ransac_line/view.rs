@@ -3,15 +3,15 @@
 
 use super::model::RansacLine;
 use super::question::NUM_KINDS;
-use super::tally::Tally;
-use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
+use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::labels::Labels;
 use crate::kit::legend::{self, Entry, Swatch};
-use crate::kit::line_plane::{self, band, draw_line};
+use crate::kit::line_plane::{self, INLIER, OUTLIER, band, draw_line, draw_point};
 use crate::kit::line_points::{Consensus, HEIGHT_PX, WIDTH_PX};
 use crate::kit::plot::{self, Ruler};
+use crate::kit::tally::Tally;
 use crate::theme::Role;
 
 /// The tally shows so many samples, the last ones.
@@ -26,27 +26,16 @@ const DECADES: [f64; 2] = [-1.7, 1.95];
 /// Where the axis ends: beyond the dots there is room for a number.
 const AXIS_END: f64 = 2.75;
 
-fn legend_entries() -> [Entry; 5] {
-    [
-        (Swatch::Line(candidate_stroke()), "this sample"),
-        (Swatch::Line(best_stroke()), "best so far"),
-        (Swatch::Line(truth_stroke()), "hidden line"),
-        (Swatch::Marker(Shape::Disk, Role::Inlier), "votes"),
-        (Swatch::Marker(Shape::Cross, Role::Outlier), "no vote"),
-    ]
-}
-
-fn candidate_stroke() -> Stroke {
-    Stroke::solid(Role::Candidate, 2.0)
-}
-
-fn best_stroke() -> Stroke {
-    Stroke::solid(Role::Best, 3.0)
-}
-
-fn truth_stroke() -> Stroke {
-    Stroke::solid(Role::Truth, 2.0).dotted()
-}
+const CANDIDATE: Stroke = Stroke::solid(Role::Candidate, 2.0);
+const BEST: Stroke = Stroke::solid(Role::Best, 3.0);
+const TRUTH: Stroke = Stroke::solid(Role::Truth, 2.0).dotted();
+const LEGEND: [Entry; 5] = [
+    (Swatch::Line(CANDIDATE), "this sample"),
+    (Swatch::Line(BEST), "best so far"),
+    (Swatch::Line(TRUTH), "hidden line"),
+    (INLIER, "votes"),
+    (OUTLIER, "no vote"),
+];
 
 /// Draws [`RansacLine`].
 #[derive(Default)]
@@ -58,7 +47,7 @@ fn tally_rulers(model: &RansacLine) -> [Ruler; 2] {
     let first = last - SHOWN as f64;
     [
         Ruler::linear(first + 0.5, last + 0.5),
-        Ruler::linear(0.0, model.scattered().points.len() as f64),
+        Ruler::linear(0.0, model.scattered.points.len() as f64),
     ]
 }
 
@@ -83,7 +72,7 @@ fn cells(grid: &mut Grid, width: f64) -> [Rect; 3] {
 }
 
 fn legend_height(width: f64) -> f64 {
-    legend::height(&legend_entries(), width, 0.0) + 4.0
+    legend::height(&LEGEND, width, 0.0) + 4.0
 }
 
 impl View for RansacLineView {
@@ -103,25 +92,23 @@ impl View for RansacLineView {
     }
 
     fn draw(&mut self, model: &RansacLine, layout: &Layout, canvas: &mut Canvas) {
-        let [plane, tally, runs] = layout.panels_named(["plane", "tally", "runs"]);
+        let plane = layout.panel("plane");
         let titles = [
             "Two points, the band around their line, and who is in it",
             "Two points, a band, votes",
         ];
         grid::open(canvas, plane, &titles);
-        grid::fitting_title(canvas, tally.rect, &["Votes for each sample", "Votes"]);
+        let votes = ["Votes for each sample", "Votes"];
+        let tally = plot::open(canvas, layout, "tally", &votes, &tally_rulers(model));
         let titles = [
             "100 runs each: degrees off, and how many within 1°",
             "100 runs each: degrees off",
             "100 runs: ° off",
         ];
-        grid::fitting_title(canvas, runs.rect, &titles);
-        let ([x, y], [error, kinds]) = (tally_rulers(model), run_rulers());
-        plot::draw_axes(canvas, tally, &x, &y);
-        plot::draw_axes(canvas, runs, &error, &kinds);
+        let runs = plot::open(canvas, layout, "runs", &titles, &run_rulers());
         draw_runs(model, runs, canvas);
         let top = layout.height - legend_height(layout.width);
-        legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
+        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
         match model.tally() {
             Ok(counted) => {
                 canvas.clipped(plane.rect.inset(1.0), |canvas| {
@@ -142,26 +129,26 @@ fn eased(phase: f64, start: f64, end: f64) -> f64 {
 }
 
 fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Canvas) {
-    let (phase, scattered) = (model.phase(), model.scattered());
+    let (phase, scattered) = (model.phase(), &model.scattered);
     let region = scattered.region;
-    let at = |x: f64, y: f64| panel.canvas_from_world((x, y));
-    let (upper, lower) = (at(region.x, region.y), at(region.right(), region.bottom()));
+    let region_rect = panel.rect_between((region.x, region.y), (region.right(), region.bottom()));
     let good = scattered.points.len() - scattered.num_outliers.min(scattered.points.len());
     let outliers = scattered.points.iter().skip(good);
     let in_region = outliers.filter(|point| region.contains((point.place.x, point.place.y)));
     let num_in_region = in_region.count();
     if num_in_region > 0 {
-        let corners = [upper, (lower.0, upper.1), lower, (upper.0, lower.1)];
-        canvas.polygon_outline(&corners, Stroke::solid(Role::Outlier, 1.25).dashed());
+        let stroke = Stroke::solid(Role::Outlier, 1.25).dashed();
+        canvas.polygon_outline(&region_rect.corners(), stroke);
         let style = TextStyle::new(Role::Outlier, SMALL).cased();
-        let above = upper.1 - 9.0;
-        let row = if above > panel.rect.y + 8.0 {
+        let above = region_rect.y - 9.0;
+        let has_room = above > panel.rect.y + 8.0;
+        let row = if has_room {
             above
         } else {
-            lower.1 + 9.0
+            region_rect.bottom() + 9.0
         };
         let text = format!("{num_in_region} of {} outliers", scattered.num_outliers);
-        canvas.label((upper.0, row), &text, style);
+        canvas.label((region_rect.x, row), &text, style);
     }
     let candidate = tally.candidate.as_ref();
     if let Some(candidate) = candidate {
@@ -170,26 +157,24 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
             band(canvas, panel, &candidate.line, width_px);
         }
     }
-    draw_line(canvas, panel, &scattered.truth, truth_stroke());
+    draw_line(canvas, panel, &scattered.truth, TRUTH);
     if let Some(candidate) = candidate {
-        draw_line(canvas, panel, &candidate.line, candidate_stroke());
+        draw_line(canvas, panel, &candidate.line, CANDIDATE);
     }
     // The best so far is known once the votes are counted.
     if let Some(best) = tally.best.as_ref().filter(|_| phase >= 1.0) {
-        draw_line(canvas, panel, &best.line, best_stroke());
+        draw_line(canvas, panel, &best.line, BEST);
     }
     let radius = (panel.scale_x() * 4.5).clamp(2.5, 4.5);
     for (index, point) in scattered.points.iter().enumerate() {
-        let place = at(point.place.x, point.place.y);
-        let votes = candidate
-            .filter(|_| phase >= BANDED)
-            .map(|line| line.is_inlier[index]);
-        let (shape, role) = match votes {
-            Some(true) => (Shape::Disk, Role::Inlier),
-            Some(false) => (Shape::Cross, Role::Outlier),
-            None => (Shape::Disk, Role::Muted),
-        };
-        canvas.marker(place, radius, shape, role, false);
+        let place = panel.place_of(&point.place);
+        let banded = candidate.filter(|_| phase >= BANDED);
+        draw_point(
+            canvas,
+            place,
+            radius,
+            banded.map(|line| line.is_inlier[index]),
+        );
         if tally.sample().contains(&index) {
             canvas.circle(place, radius + 5.0, Stroke::solid(Role::Candidate, 3.0));
         }
@@ -215,26 +200,20 @@ fn flown(phase: f64, index: usize, num_votes: usize) -> f64 {
 fn draw_tally(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Canvas) {
     let (phase, drawn) = (model.phase(), tally.votes.len());
     let first = drawn.saturating_sub(SHOWN);
-    let mut best: usize = tally.votes[..first]
-        .iter()
-        .filter(|vote| vote.is_best)
-        .map(|vote| vote.num_votes)
-        .max()
-        .unwrap_or(0);
+    let kept = tally.votes[..first].iter().filter(|vote| vote.is_best);
+    let mut best = kept.map(|vote| vote.num_votes).max().unwrap_or(0);
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for (index, vote) in tally.votes.iter().enumerate().skip(first) {
         let is_last = index + 1 == drawn;
-        let height = if is_last {
-            num_landed(phase, vote.num_votes)
-        } else {
-            vote.num_votes
+        let height = match is_last {
+            true => num_landed(phase, vote.num_votes),
+            false => vote.num_votes,
         };
         let number = index as f64 + 1.0;
-        let (left, top) = panel.canvas_from_world((number - 0.36, height as f64));
-        let (right, bottom) = panel.canvas_from_world((number + 0.36, 0.0));
+        let mut column = panel.rect_between((number - 0.36, height as f64), (number + 0.36, 0.0));
+        column.width = column.width.max(1.0);
         let counts = vote.is_best && (!is_last || phase >= 1.0);
         let role = if counts { Role::Best } else { Role::Candidate };
-        let column = Rect::new(left, top, (right - left).max(1.0), bottom - top);
         canvas.fill_rect(column, role, if counts { 1.0 } else { 0.55 });
         if counts {
             best = best.max(vote.num_votes);
@@ -247,13 +226,13 @@ fn draw_tally(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     }
     let truth = tally.truth.num_votes() as f64;
     let ends = [panel.x_axis.start, panel.x_axis.end].map(|x| (x, truth));
-    plot::draw_curve(canvas, panel, ends, truth_stroke());
+    plot::draw_curve(canvas, panel, ends, TRUTH);
     let mut labels = Labels::new(panel.rect.inset(2.0));
     let (x, y) = panel.canvas_from_world((panel.x_axis.end, truth));
     let style = TextStyle::new(Role::Truth, SMALL).cased();
     let places = [
-        ((x - 4.0, y - 10.0), crate::canvas::Align::End),
-        ((x - 4.0, y + 10.0), crate::canvas::Align::End),
+        ((x - 4.0, y - 10.0), Align::End),
+        ((x - 4.0, y + 10.0), Align::End),
     ];
     labels.draw(canvas, &places, "hidden line", style);
 }
@@ -270,16 +249,14 @@ fn draw_flight(
         return;
     };
     let num_votes = Consensus::num_votes(candidate);
-    let points = model.scattered().points.iter().zip(&candidate.is_inlier);
-    let voters = points
-        .filter(|(_, votes)| **votes)
-        .map(|(point, _)| point.place);
-    for (index, place) in voters.enumerate() {
+    let points = model.scattered.points.iter().zip(&candidate.is_inlier);
+    let voters = points.filter(|(_, votes)| **votes);
+    for (index, (point, _)) in voters.enumerate() {
         let share = flown(phase, index, num_votes);
         if share <= 0.0 || share >= 1.0 {
             continue;
         }
-        let from = plane.canvas_from_world((place.x, place.y));
+        let from = plane.place_of(&point.place);
         let to = panel.canvas_from_world((drawn as f64, index as f64 + 0.5));
         canvas.disk(between(from, to, share), 3.5, Role::Inlier, 1.0);
     }
@@ -294,7 +271,7 @@ fn between(from: Place, to: Place, share: f64) -> Place {
 
 fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
     let Some(runs) = model.runs() else {
-        let text = model.runs_problem().unwrap_or("Running a hundred times …");
+        let text = model.asked.problem().unwrap_or("Running a hundred times …");
         return grid::notice(canvas, panel.rect, text);
     };
     let at = |error_deg: f64, row: f64| {
@@ -325,12 +302,9 @@ fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
     for kind in 0..NUM_KINDS {
         let place = (panel.rect.right() - 4.0, at(1.0, kind as f64 + 1.0).1);
         let text = format_number(runs.num_near(kind) as f64, 0);
-        let role = if kind == model.kind() {
-            Role::Best
-        } else {
-            Role::Muted
-        };
+        let is_chosen = kind == model.kind();
+        let role = if is_chosen { Role::Best } else { Role::Muted };
         let style = TextStyle::new(role, SMALL).cased();
-        labels.draw(canvas, &[(place, crate::canvas::Align::End)], &text, style);
+        labels.draw(canvas, &[(place, Align::End)], &text, style);
     }
 }

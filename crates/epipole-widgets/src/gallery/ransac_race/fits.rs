@@ -1,9 +1,10 @@
 //! Both fits to the points as they are: least squares, and RANSAC after some number of samples.
 
 use crate::kit::line_points::{Consensus, angle_between_deg};
-use crate::kit::samples::{Rules, Samples};
+use crate::kit::samples::{Drawn, Rules};
+use crate::kit::tally::Tally;
 use epipole::math::Line2;
-use epipole::robust::{LineEstimator, fit_line_total_least_squares};
+use epipole::robust::fit_line_total_least_squares;
 use nalgebra::Point2;
 
 /// A line farther from the hidden one is a wrong line, degrees.
@@ -14,12 +15,9 @@ const WRONG_DEG: f64 = 5.0;
 pub(super) struct Fits {
     /// The hidden line, with the points near it.
     pub(super) truth: Consensus,
+    /// Points that have no such line, such as a square's corners, may still be sampled.
     pub(super) least_squares: Option<Line2>,
-    pub(super) samples: Option<Samples<LineEstimator<'static>>>,
-    /// The line of the last sample.
-    pub(super) candidate: Option<Consensus>,
-    /// The line with the most votes so far, fitted to them.
-    pub(super) best: Option<Consensus>,
+    pub(super) tally: Option<Tally>,
     /// Why there is no fit, as a sentence.
     pub(super) problem: Option<String>,
 }
@@ -52,24 +50,46 @@ impl Fits {
         rules: Rules,
         num_samples: usize,
     ) -> Self {
-        let mut fits = Self {
+        let least_squares = fit_line_total_least_squares(places);
+        let tally = Tally::new(places, truth, rules, num_samples);
+        let problem = tally.as_ref().err().or(least_squares.as_ref().err());
+        Self {
+            problem: problem.map(|error| format!("There is no fit: {error}.")),
             truth: Consensus::of(truth, places, rules.epsilon_px),
-            least_squares: None,
-            samples: None,
-            candidate: None,
-            best: None,
-            problem: None,
-        };
-        if let Err(error) = fits.fit(places, rules, num_samples) {
-            fits.problem = Some(format!("There is no fit: {error}."));
+            least_squares: least_squares.ok(),
+            tally: tally.ok(),
         }
-        fits
+    }
+
+    /// The line of the last sample.
+    pub(super) fn candidate(&self) -> Option<&Consensus> {
+        self.tally.as_ref()?.candidate.as_ref()
+    }
+
+    /// The line with the most votes so far, fitted to them.
+    pub(super) fn best(&self) -> Option<&Consensus> {
+        self.tally.as_ref()?.best.as_ref()
+    }
+
+    /// How far the loop is.
+    pub(super) fn drawn(&self) -> Option<Drawn> {
+        Some(self.tally.as_ref()?.samples.drawn())
+    }
+
+    /// Whether no more samples are drawn.
+    pub(super) fn is_finished(&self) -> bool {
+        self.drawn().is_some_and(|drawn| drawn.is_finished())
+    }
+
+    /// Samples drawn so far.
+    pub(super) fn num_samples(&self) -> usize {
+        self.drawn().map_or(0, |drawn| drawn.count)
     }
 
     pub(super) fn angles_deg(&self) -> Angles {
         let truth = Some(&self.truth.line);
         let least_squares = self.least_squares.as_ref();
-        let ransac = self.best.as_ref().map(|best| &best.line);
+        let ransac = self.best().map(|best| &best.line);
         let angle = |a: Option<&Line2>, b: Option<&Line2>| Some(angle_between_deg(a?, b?));
         Angles {
             between: angle(least_squares, ransac),
@@ -80,7 +100,7 @@ impl Fits {
 
     /// How the loop has ended, if it has.
     pub(super) fn ending(&self) -> Option<Ending> {
-        let best = self.best.as_ref().filter(|_| self.is_finished())?;
+        let best = self.best().filter(|_| self.is_finished())?;
         if self.angles_deg().ransac? <= WRONG_DEG {
             Some(Ending::Right)
         } else if best.num_votes() >= self.truth.num_votes() {
@@ -88,41 +108,6 @@ impl Fits {
         } else {
             Some(Ending::Missed)
         }
-    }
-
-    fn fit(
-        &mut self,
-        places: &[Point2<f64>],
-        rules: Rules,
-        num_samples: usize,
-    ) -> Result<(), epipole::Error> {
-        // Points that have no least-squares line, such as a square's corners, may still be sampled.
-        let least_squares = fit_line_total_least_squares(places);
-        self.least_squares = least_squares.as_ref().ok().copied();
-        let mut samples = Samples::new(LineEstimator::new(places.to_vec())?, rules)?;
-        samples.draw_to(num_samples);
-        let consensus = |line: &Line2| Consensus::of(*line, places, rules.epsilon_px);
-        let last = samples.last().and_then(|last| last.model.as_ref());
-        self.candidate = last.map(consensus);
-        self.best = (samples.best()).map(|line| consensus(line).refitted(places));
-        self.samples = Some(samples);
-        least_squares.map(|_| ())
-    }
-
-    /// Whether no more samples are drawn.
-    pub(super) fn is_finished(&self) -> bool {
-        self.samples.as_ref().is_some_and(Samples::is_finished)
-    }
-
-    /// Samples drawn so far.
-    pub(super) fn num_samples(&self) -> usize {
-        self.samples.as_ref().map_or(0, Samples::count)
-    }
-
-    /// The points of the last sample, as indices.
-    pub(super) fn sample(&self) -> &[usize] {
-        let last = self.samples.as_ref().and_then(Samples::last);
-        last.map_or(&[], |last| &last.sample)
     }
 }
 
@@ -149,12 +134,16 @@ mod tests {
         let mut places: Vec<_> = (0..9).map(|k| Point2::new(f64::from(k), 2.0)).collect();
         places.push(Point2::new(4.0, 90.0));
         let fits = Fits::new(&places, LEVEL, RULES, 100);
-        let best = fits.best.as_ref().unwrap();
+        let best = fits.best().unwrap();
         assert_eq!(best.num_votes(), 9);
         assert!(best.line.signed_distance(&Point2::new(100.0, 2.0)).abs() < 1e-9);
         assert_eq!(fits.ending(), Some(Ending::Right));
         assert!(fits.angles_deg().least_squares.unwrap() > 1.0);
-        assert!(fits.is_finished() && fits.num_samples() < 10 && fits.sample().len() == 2);
+        assert!(
+            fits.is_finished()
+                && fits.num_samples() < 10
+                && fits.tally.as_ref().unwrap().sample().len() == 2
+        );
     }
 
     #[test]

@@ -7,9 +7,11 @@
 use super::fits::Fits;
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Value,
-    format_number, round_to_digits,
+    format_number, knobs, round_to_digits,
 };
-use crate::kit::line_points::{DIGITS, DataPoint, HEIGHT_PX, Scatter, WIDTH_PX, scatter};
+use crate::kit::line_points::{
+    COUNT, DIGITS, DataPoint, EPSILON, HEIGHT_PX, Scatter, WIDTH_PX, places_of,
+};
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
 use epipole::math::Line2;
@@ -20,27 +22,13 @@ const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
     .range(0.0, 0.9, 0.05)
     .at(0.4)
     .digits(2);
-const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
-    .range(2.0, 40.0, 1.0)
-    .at(10.0)
-    .unit("px");
-const COUNT: Slider = Slider::new("points", "Number of points")
-    .range(8.0, 120.0, 2.0)
-    .at(60.0)
-    .more();
 const SEED: Slider = Slider::seed(36.0);
 /// Asked for; the loop ends before when enough have been drawn.
 const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(3.0)
     .hidden();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&OUTLIERS),
-    Knob::Slider(&EPSILON),
-    Knob::Slider(&COUNT),
-    Knob::Slider(&SEED),
-    Knob::Slider(&ITERATIONS),
-];
+const KNOBS: &[Knob] = knobs![OUTLIERS, EPSILON, COUNT, SEED, ITERATIONS];
 
 const MAX_ADDED: usize = 24;
 const SAMPLES_PER_SECOND: f64 = 4.0;
@@ -49,20 +37,12 @@ const SAMPLES_PER_SECOND: f64 = 4.0;
 pub struct RansacRace {
     settings: Settings,
     truth: Line2,
-    points: Vec<DataPoint>,
-    fits: Fits,
+    pub(super) points: Vec<DataPoint>,
+    pub(super) fits: Fits,
     running: Running,
 }
 
 impl RansacRace {
-    pub(super) fn points(&self) -> &[DataPoint] {
-        &self.points
-    }
-
-    pub(super) fn fits(&self) -> &Fits {
-        &self.fits
-    }
-
     pub(super) fn epsilon_px(&self) -> f64 {
         self.settings.number(&EPSILON)
     }
@@ -82,15 +62,20 @@ impl RansacRace {
         Ok(())
     }
 
+    fn index_of(&self, id: &str) -> Option<usize> {
+        let number = number_of(id)?;
+        self.points.iter().position(|point| point.number == number)
+    }
+
     fn add(&mut self, number: usize, u: f64, v: f64) -> bool {
         let added = self.points.iter().filter(|point| point.added).count();
         if added >= MAX_ADDED || self.points.iter().any(|point| point.number == number) {
             return false;
         }
-        let place = Point2::new(round_to_digits(u, DIGITS), round_to_digits(v, DIGITS));
+        let [u, v] = [u, v].map(|value| round_to_digits(value, DIGITS));
         let point = DataPoint {
             number,
-            place,
+            place: Point2::new(u, v),
             added: true,
         };
         let at = self.points.partition_point(|other| other.number < number);
@@ -100,17 +85,7 @@ impl RansacRace {
     }
 }
 
-fn scatter_as(settings: &Settings) -> (Line2, Vec<DataPoint>) {
-    let Scatter { truth, points, .. } = scatter(
-        settings.count(&SEED) as u64,
-        settings.count(&COUNT),
-        settings.number(&OUTLIERS),
-    );
-    (truth, points)
-}
-
 fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
-    let places: Vec<Point2<f64>> = points.iter().map(|point| point.place).collect();
     let rules = Rules {
         epsilon_px: settings.number(&EPSILON),
         seed: settings.count(&SEED) as u64,
@@ -119,7 +94,8 @@ fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
         // The reader sees the plain loop: candidates come straight from two points.
         local_optimization: false,
     };
-    Fits::new(&places, truth, rules, settings.count(&ITERATIONS))
+    let count = settings.count(&ITERATIONS);
+    Fits::new(&places_of(points), truth, rules, count)
 }
 
 fn number_of(id: &str) -> Option<usize> {
@@ -137,7 +113,7 @@ impl Declared for RansacRace {
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
-        let (truth, points) = scatter_as(&settings);
+        let Scatter { truth, points, .. } = Scatter::by(&settings, &SEED, &OUTLIERS);
         Self {
             fits: fit_as(&settings, truth, &points),
             settings,
@@ -152,28 +128,20 @@ impl Model for RansacRace {
     fn controls(&self) -> Vec<Control> {
         let (drawn, finished) = (self.fits.num_samples(), self.fits.is_finished());
         let can_run = self.fits.problem.is_none();
-        let mut controls = self.settings.controls();
-        controls.extend(self.running.controls(can_run, drawn, finished));
-        controls
+        let running = self.running.controls(can_run, drawn, finished);
+        self.settings.controls_and(running)
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let handle = |point: &DataPoint| Handle {
-            id: format!("p{}", point.number),
-            panel: "plane",
-            label: format!("Point {}", point.number),
-            value_text: format!(
-                "{} px across, {} px down",
-                format_number(point.place.x, 0),
-                format_number(point.place.y, 0)
-            ),
-            x: point.place.x,
-            y: point.place.y,
-            x_range: [0.0, WIDTH_PX],
-            y_range: [0.0, HEIGHT_PX],
-            step: [10.0, 10.0],
-            digits: DIGITS,
-            removable: self.points.len() > 2,
+        let ranges = [[0.0, WIDTH_PX], [0.0, HEIGHT_PX]];
+        let handle = |point: &DataPoint| {
+            let (x, y) = (point.place.x, point.place.y);
+            let [id, label] = ["p", "Point "].map(|name| format!("{name}{}", point.number));
+            let [across, down] = [x, y].map(|value| format_number(value, 0));
+            Handle::new(id, "plane", label, (x, y), ranges)
+                .told(format!("{across} px across, {down} px down"))
+                .step([10.0; 2], DIGITS)
+                .removable_if(self.points.len() > 2)
         };
         self.points.iter().map(handle).collect()
     }
@@ -186,27 +154,28 @@ impl Model for RansacRace {
         if let Some(id) = self.settings.update(event)? {
             if [OUTLIERS.id, COUNT.id, SEED.id].contains(&id) {
                 // What the reader had moved or added is gone.
-                (self.truth, self.points) = scatter_as(&self.settings);
+                let scattered = Scatter::by(&self.settings, &SEED, &OUTLIERS);
+                (self.truth, self.points) = (scattered.truth, scattered.points);
             }
             self.run_to(self.settings.count(&ITERATIONS))?;
         }
         match event {
             Event::HandleMoved { id, x, y } => {
-                let number = number_of(id);
-                if let Some(point) = self.points.iter_mut().find(|d| Some(d.number) == number) {
-                    point.place = Point2::new(*x, *y);
+                if let Some(index) = self.index_of(id) {
+                    self.points[index].place = Point2::new(*x, *y);
                     self.compute();
                 }
             }
             Event::HandleRemoved { id } => {
-                let number = number_of(id);
-                self.points.retain(|point| Some(point.number) != number);
-                self.compute();
+                if let Some(index) = self.index_of(id) {
+                    self.points.remove(index);
+                    self.compute();
+                }
             }
             Event::Clicked { x, y, .. } => {
-                let numbers = self.points.iter().map(|point| point.number);
-                let last = numbers.fold(self.settings.count(&COUNT), usize::max);
-                self.add(last + 1, *x, *y);
+                // Points are in the order of their numbers.
+                let last = self.points.last().map_or(0, |point| point.number);
+                self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
             }
             _ => {}
         }
@@ -232,11 +201,8 @@ const CHALLENGES: &[Challenge<RansacRace>] = &[
         hint: "What can only one of the two bear?",
         why: "Without outliers both see the same good points, and a vote has nothing to throw out.",
         check: |model| {
-            model
-                .fits
-                .angles_deg()
-                .between
-                .is_some_and(|angle| angle < 1.0)
+            let between = model.fits.angles_deg().between;
+            between.is_some_and(|angle| angle < 1.0)
         },
         solution: || vec![Event::set(&OUTLIERS, 0.0), Event::set(&ITERATIONS, 40.0)],
     },
@@ -312,7 +278,7 @@ mod tests {
     }
 
     fn best(model: &RansacRace) -> usize {
-        model.fits.best.as_ref().map_or(0, |best| best.num_votes())
+        model.fits.best().map_or(0, |best| best.num_votes())
     }
 
     /// How often the best line gains votes from here to the end.
@@ -368,11 +334,7 @@ mod tests {
     #[test]
     fn four_outliers_to_an_inlier_take_more_than_a_hundred_samples() {
         let mut model = after(&[Event::set(&OUTLIERS, 0.8), Event::set(&ITERATIONS, 25.0)]);
-        let budget = model
-            .fits
-            .samples
-            .as_ref()
-            .and_then(|samples| samples.drawn().budget);
+        let budget = model.fits.drawn().unwrap().budget;
         assert!(budget.unwrap() > 100 && model.fits.ending().is_none());
         model.run_to(MAX_SAMPLES).unwrap();
         assert!(model.fits.num_samples() > 100);

@@ -2,51 +2,35 @@
 
 use super::fits::Ending;
 use super::model::RansacRace;
-use crate::canvas::{Canvas, Shape, Stroke};
+use crate::canvas::{Canvas, Stroke};
 use crate::contract::{Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
-use crate::kit::line_plane::{self, band, draw_line};
+use crate::kit::line_plane::{self, INLIER, OUTLIER, band, draw_line, draw_point};
 use crate::kit::line_points::{Consensus, HEIGHT_PX, WIDTH_PX};
+use crate::kit::tally::Tally;
 use crate::theme::Role;
 
 /// The plane must not push everything else off the screen.
 const TALLEST: f64 = 460.0;
 const WHOLE_SCREEN: f64 = 680.0;
 
+const LEAST_SQUARES: Stroke = Stroke::solid(Role::Reference, 2.5).dashed();
+const CANDIDATE: Stroke = Stroke::solid(Role::Candidate, 1.75);
+const BEST: Stroke = Stroke::solid(Role::Best, 3.5);
+const TRUTH: Stroke = Stroke::solid(Role::Truth, 2.0).dotted();
+const LEGEND: [Entry; 6] = [
+    (Swatch::Line(LEAST_SQUARES), "least squares"),
+    (Swatch::Line(CANDIDATE), "this sample"),
+    (Swatch::Line(BEST), "best so far"),
+    (Swatch::Line(TRUTH), "hidden line"),
+    (INLIER, "inlier of the best"),
+    (OUTLIER, "outlier"),
+];
+
 /// Draws [`RansacRace`].
 #[derive(Default)]
 pub struct RansacRaceView;
-
-fn legend() -> [Entry; 6] {
-    [
-        (Swatch::Line(least_squares_stroke()), "least squares"),
-        (Swatch::Line(candidate_stroke()), "this sample"),
-        (Swatch::Line(best_stroke()), "best so far"),
-        (Swatch::Line(truth_stroke()), "hidden line"),
-        (
-            Swatch::Marker(Shape::Disk, Role::Inlier),
-            "inlier of the best",
-        ),
-        (Swatch::Marker(Shape::Cross, Role::Outlier), "outlier"),
-    ]
-}
-
-fn least_squares_stroke() -> Stroke {
-    Stroke::solid(Role::Reference, 2.5).dashed()
-}
-
-fn candidate_stroke() -> Stroke {
-    Stroke::solid(Role::Candidate, 1.75)
-}
-
-fn best_stroke() -> Stroke {
-    Stroke::solid(Role::Best, 3.5)
-}
-
-fn truth_stroke() -> Stroke {
-    Stroke::solid(Role::Truth, 2.0).dotted()
-}
 
 impl View for RansacRaceView {
     type Model = RansacRace;
@@ -54,64 +38,60 @@ impl View for RansacRaceView {
     fn layout(&self, _: &RansacRace, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         // A broad room for a tall picture is a whole screen.
-        let tallest = if grid::is_broad(width) {
-            WHOLE_SCREEN
-        } else {
-            TALLEST
-        };
+        let is_broad = grid::is_broad(width);
+        let tallest = if is_broad { WHOLE_SCREEN } else { TALLEST };
         let [plane] = grid.row([HEIGHT_PX / WIDTH_PX], tallest);
-        grid.strip(GAP / 2.0 + legend::height(&legend(), width, 0.0));
-        let mut plane = line_plane::panel("plane", plane);
-        plane.clickable = true;
-        grid.layout(vec![plane])
+        grid.strip(GAP / 2.0 + legend::height(&LEGEND, width, 0.0));
+        grid.layout(vec![line_plane::panel("plane", plane).clickable()])
     }
 
     fn draw(&mut self, model: &RansacRace, layout: &Layout, canvas: &mut Canvas) {
         let plane = layout.panel("plane");
         canvas.panel(plane.rect);
         canvas.clipped(plane.rect.inset(1.0), |canvas| {
-            let fits = model.fits();
-            let candidate = fits.candidate.as_ref().map(|candidate| candidate.line);
-            if let Some(line) = &candidate {
-                band(canvas, plane, line, model.epsilon_px());
+            let fits = &model.fits;
+            let [candidate, best] = [fits.candidate(), fits.best()];
+            if let Some(candidate) = candidate {
+                band(canvas, plane, &candidate.line, model.epsilon_px());
             }
-            draw_line(canvas, plane, &fits.truth.line, truth_stroke());
-            if let Some(line) = &fits.least_squares {
-                draw_line(canvas, plane, line, least_squares_stroke());
-            }
-            if let Some(line) = &candidate {
-                draw_line(canvas, plane, line, candidate_stroke());
-            }
-            if let Some(best) = &fits.best {
-                draw_line(canvas, plane, &best.line, best_stroke());
+            let lines = [
+                (Some(&fits.truth.line), TRUTH),
+                (fits.least_squares.as_ref(), LEAST_SQUARES),
+                (candidate.map(|candidate| &candidate.line), CANDIDATE),
+                (best.map(|best| &best.line), BEST),
+            ];
+            for (line, stroke) in lines {
+                if let Some(line) = line {
+                    draw_line(canvas, plane, line, stroke);
+                }
             }
             draw_points(canvas, plane, model);
         });
-        match &model.fits().problem {
+        match &model.fits.problem {
             Some(problem) => grid::notice(canvas, plane.rect, problem),
             None => grid::title(canvas, plane.rect, &standing(model)),
         }
         let top = plane.rect.bottom() + GAP / 2.0;
-        legend::draw(canvas, &legend(), layout.width, 0.0, top);
+        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
     }
 }
 
 fn draw_points(canvas: &mut Canvas, plane: &Panel, model: &RansacRace) {
     let radius = (plane.scale_x() * 4.5).clamp(3.0, 4.5);
-    let fits = model.fits();
-    for (index, point) in model.points().iter().enumerate() {
-        let place = plane.canvas_from_world((point.place.x, point.place.y));
-        let (shape, role) = match fits.best.as_ref().map(|best| best.is_inlier[index]) {
-            Some(true) => (Shape::Disk, Role::Inlier),
-            Some(false) => (Shape::Cross, Role::Outlier),
-            None => (Shape::Disk, Role::Muted),
-        };
-        canvas.marker(place, radius, shape, role, false);
-        let candidate = fits.candidate.as_ref();
+    let (candidate, best) = (model.fits.candidate(), model.fits.best());
+    let sample = model.fits.tally.as_ref().map_or(&[][..], Tally::sample);
+    for (index, point) in model.points.iter().enumerate() {
+        let place = plane.place_of(&point.place);
+        draw_point(
+            canvas,
+            place,
+            radius,
+            best.map(|best| best.is_inlier[index]),
+        );
         if candidate.is_some_and(|candidate| candidate.is_inlier[index]) {
             canvas.circle(place, radius + 2.5, Stroke::solid(Role::Candidate, 1.25));
         }
-        if fits.sample().contains(&index) {
+        if sample.contains(&index) {
             canvas.circle(place, radius + 5.5, Stroke::solid(Role::Candidate, 3.0));
         }
     }
@@ -119,9 +99,9 @@ fn draw_points(canvas: &mut Canvas, plane: &Panel, model: &RansacRace) {
 
 /// How the vote stands.
 fn standing(model: &RansacRace) -> String {
-    let (fits, num_points) = (model.fits(), model.points().len());
-    let votes = |consensus: &Option<Consensus>| consensus.as_ref().map_or(0, Consensus::num_votes);
-    let best = votes(&fits.best);
+    let (fits, num_points) = (&model.fits, model.points.len());
+    let votes = |consensus: Option<&Consensus>| consensus.map_or(0, Consensus::num_votes);
+    let best = votes(fits.best());
     match (fits.ending(), fits.num_samples()) {
         (_, 0) => "No sample yet: press Run or Step".to_owned(),
         (Some(Ending::Right), count) => {
@@ -132,7 +112,7 @@ fn standing(model: &RansacRace) -> String {
             format!("A wrong line has won: {best} votes, hidden line {truth}")
         }
         (None, count) => {
-            let now = votes(&fits.candidate);
+            let now = votes(fits.candidate());
             format!("Sample {count}: {now} votes. Best so far: {best} of {num_points}")
         }
     }

@@ -3,86 +3,63 @@
 use super::fits::Ending;
 use super::model::RansacRace;
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::line_points::Consensus;
+use crate::kit::samples::Drawn;
 
 impl Words for RansacRace {
     fn readouts(&self) -> Vec<Readout> {
-        let fits = self.fits();
-        let of = |count: usize| format!("{count} of {}", self.points().len());
-        let votes = |consensus: Option<usize>| consensus.map_or_else(|| "none yet".to_owned(), of);
-        let angle = |id, label, angle: Option<f64>| match angle {
-            Some(degrees) => Readout::number(id, label, degrees, 1, "°"),
-            None => Readout::words(id, label, "no line"),
+        let fits = &self.fits;
+        let votes = |id, label, consensus: Option<&Consensus>| {
+            let of = |count: usize| format!("{count} of {}", self.points.len());
+            let votes = consensus.map(Consensus::num_votes);
+            Readout::words(id, label, votes.map_or("none yet".to_owned(), of))
         };
+        let angle =
+            |id, label, angle: Option<f64>| Readout::number(id, label, angle, 1, "°").or("no line");
         let angles = fits.angles_deg();
-        let [drawn, needed] = fits.samples.as_ref().map_or_else(
-            || {
-                [
-                    ("iterations", "Samples drawn"),
-                    ("budget", "Samples needed"),
-                ]
-                .map(|(id, label)| Readout::words(id, label, "none"))
-            },
-            |samples| samples.drawn().readouts(),
-        );
+        let least_squares = angles.least_squares;
+        let [drawn, needed] = Drawn::readouts(fits.drawn(), "none");
         vec![
             angle("ransac-error", "RANSAC error", angles.ransac).main(),
-            angle(
-                "least-squares-error",
-                "Least-squares error",
-                angles.least_squares,
-            )
-            .main(),
+            angle("least-squares-error", "Least-squares error", least_squares).main(),
             drawn.main(),
             needed.main(),
-            Readout::words(
-                "inliers",
-                "Votes now",
-                votes(fits.candidate.as_ref().map(|line| line.num_votes())),
-            ),
-            Readout::words(
-                "best",
-                "Best votes",
-                votes(fits.best.as_ref().map(|line| line.num_votes())),
-            ),
-            Readout::words("truth-votes", "Hidden line", of(fits.truth.num_votes())),
+            votes("inliers", "Votes now", fits.candidate()),
+            votes("best", "Best votes", fits.best()),
+            votes("truth-votes", "Hidden line", Some(&fits.truth)),
             angle("between", "Angle between", angles.between),
         ]
     }
 
     fn describe(&self) -> String {
-        let fits = self.fits();
+        let fits = &self.fits;
         if let Some(problem) = &fits.problem {
             return problem.clone();
         }
-        let angles = fits.angles_deg();
-        let degrees = |angle: Option<f64>| format_number(angle.unwrap_or(0.0), 1);
-        let least_squares = degrees(angles.least_squares);
-        let (Some(samples), Some(best)) = (&fits.samples, &fits.best) else {
+        let (angles, count) = (fits.angles_deg(), self.points.len());
+        let [least_squares, ransac] = [angles.least_squares, angles.ransac]
+            .map(|angle| format_number(angle.unwrap_or(0.0), 1));
+        let (Some(drawn), Some(best)) = (fits.drawn(), fits.best()) else {
             return format!(
-                "{} points, no sample drawn yet. Least squares is {least_squares}° from the hidden \
-                 line.",
-                self.points().len()
+                "{count} points, no sample drawn yet. Least squares is {least_squares}° from the hidden line."
             );
         };
+        let truth = fits.truth.num_votes();
         let end = match fits.ending() {
-            Some(Ending::Outvoted) => format!(
-                "A wrong line has won: the hidden one has only {} votes.",
-                fits.truth.num_votes()
-            ),
+            Some(Ending::Outvoted) => {
+                format!("A wrong line has won: the hidden one has only {truth} votes.")
+            }
             Some(Ending::Missed) => format!(
-                "A wrong line has won: no sample came near the hidden one, which has {} votes.",
-                fits.truth.num_votes()
+                "A wrong line has won: no sample came near the hidden one, which has {truth} votes."
             ),
-            _ => samples.drawn().outlook(),
+            _ => drawn.outlook(),
         };
         format!(
-            "After {}, the best line has {} of {} points within {} px and is {}° from the hidden \
+            "After {}, the best line has {} of {count} points within {} px and is {ransac}° from the hidden \
              line; least squares is {least_squares}° off. {end}",
-            samples.drawn().count_words(),
+            drawn.count_words(),
             best.num_votes(),
-            self.points().len(),
             format_number(self.epsilon_px(), 0),
-            degrees(angles.ransac),
         )
     }
 }

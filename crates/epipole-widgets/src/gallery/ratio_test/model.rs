@@ -4,7 +4,7 @@ use super::question::{Answer, Candidate, Question};
 use super::tally::{Rules, Tally};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
-    Slider, Toggle,
+    Slider, Toggle, knobs,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -15,7 +15,7 @@ pub(super) const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
     .at(0.8)
     .digits(2);
 const MUTUAL: Toggle = Toggle::new("mutual", "Mutual check");
-const KNOBS: &[Knob] = &[Knob::Slider(&RATIO), Knob::Toggle(&MUTUAL)];
+const KNOBS: &[Knob] = knobs![RATIO, MUTUAL];
 /// So little below τ, a match is the next to go.
 const BRINK: f32 = 0.05;
 /// Where the probe is at first: on the fringe of the cloth.
@@ -26,8 +26,8 @@ pub(crate) struct RatioTest {
     settings: Settings,
     pub(super) asked: Asked<Question>,
     probe: Probe,
-    /// Precision against recall for every τ, without and with the mutual check.
-    curves: [Vec<Tally>; 2],
+    /// Precision against recall, from the smallest τ to the largest; without the mutual check, then with it.
+    pub(super) curves: [Vec<Tally>; 2],
 }
 
 impl RatioTest {
@@ -46,11 +46,6 @@ impl RatioTest {
     /// Whether a match goes as soon as τ falls a little.
     pub(super) fn is_on_the_brink(&self, candidate: &Candidate) -> bool {
         candidate.ratio >= self.rules().max_ratio - BRINK
-    }
-
-    /// Without the mutual check, then with it; from the smallest τ to the largest.
-    pub(super) fn curves(&self) -> &[Vec<Tally>; 2] {
-        &self.curves
     }
 
     pub(super) fn probe_place(&self) -> (f64, f64) {
@@ -75,16 +70,11 @@ impl RatioTest {
 fn curve(answer: &Answer, is_mutual: bool) -> Vec<Tally> {
     let num_steps = ((RATIO.max - RATIO.min) / RATIO.step).round() as usize;
     let ratios = (0..=num_steps).map(|k| RATIO.snap(RATIO.min + RATIO.step * k as f64) as f32);
-    let tallies = ratios.map(|max_ratio| {
-        Tally::of(
-            answer,
-            Rules {
-                max_ratio,
-                is_mutual,
-            },
-        )
+    let rules = ratios.map(|max_ratio| Rules {
+        max_ratio,
+        is_mutual,
     });
-    tallies.collect()
+    rules.map(|rules| Tally::of(answer, rules)).collect()
 }
 
 impl Declared for RatioTest {
@@ -238,7 +228,7 @@ mod tests {
             assert!((tally.precision().unwrap() - precision).abs() < 1e-6);
             assert!((tally.recall() - recall).abs() < 1e-6);
             // The point lies on the curve that is drawn.
-            assert!(model.curves()[usize::from(is_mutual)].contains(&tally));
+            assert!(model.curves[usize::from(is_mutual)].contains(&tally));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Two photographs and their matches, the curve of all settings, and the patches under the probe.
 
 use super::model::RatioTest;
-use super::question::{Answer, Candidate, Question};
+use super::question::{Answer, Candidate};
 use super::tally::Tally;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
@@ -11,19 +11,27 @@ use crate::kit::labels::Labels;
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::patch::{self, Cuts};
 use crate::kit::plot::{self, Ruler};
-use crate::kit::question::Question as _;
 use crate::theme::Role;
 
 /// One in so many right matches has its line drawn: more would hide the photographs.
 const EVERY: usize = 3;
 /// Room for the words below a patch.
 const BELOW: f64 = 20.0;
-const NAMES: [&str; 3] = ["feature", "nearest", "second"];
 /// The marks of the three patches, in the photographs and beside them.
 const MARKS: [(Role, Shape); 3] = [
     (Role::Grip, Shape::Ring),
     (Role::Series(0), Shape::Disk),
     (Role::Series(3), Shape::Square),
+];
+
+const RIGHT: Stroke = Stroke::solid(Role::Inlier, 1.25);
+const WRONG: Stroke = Stroke::solid(Role::Outlier, 1.5).dashed();
+/// Of a match that goes next, as it looks in the legend.
+const FAINT: Stroke = Stroke::solid(Role::Muted, 0.75);
+const LEGEND: [Entry; 3] = [
+    (Swatch::Line(RIGHT), "right"),
+    (Swatch::Line(WRONG), "wrong"),
+    (Swatch::Line(FAINT), "next to go"),
 ];
 
 /// Draws [`RatioTest`].
@@ -37,31 +45,6 @@ fn rulers() -> [Ruler; 2] {
     [
         percent(Ruler::linear(0.2, 0.6)).named("recall"),
         percent(Ruler::linear(0.2, 1.0)),
-    ]
-}
-
-fn right_stroke() -> Stroke {
-    Stroke::solid(Role::Inlier, 1.25)
-}
-
-fn wrong_stroke() -> Stroke {
-    Stroke::solid(Role::Outlier, 1.5).dashed()
-}
-
-/// The stroke of a match that goes next.
-fn faint(stroke: Stroke) -> Stroke {
-    Stroke {
-        role: Role::Muted,
-        width: 0.75,
-        ..stroke
-    }
-}
-
-fn legend_entries() -> Vec<Entry> {
-    vec![
-        (Swatch::Line(right_stroke()), "right"),
-        (Swatch::Line(wrong_stroke()), "wrong"),
-        (Swatch::Line(faint(right_stroke())), "next to go"),
     ]
 }
 
@@ -85,46 +68,30 @@ impl View for RatioTestView {
             let height = if grid::is_narrow(width) { 128.0 } else { 172.0 };
             [curve, patches] = grid.shares([1.0, 1.0], height);
         }
-        let [mut first, second] = [("first", photographs[0]), ("second", photographs[1])]
-            .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
-        first.clickable = true;
-        grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
-        let mut panels = vec![first, second, plot::panel("curve", curve, &x, &y)];
-        for (id, rect) in ["feature", "nearest", "second-nearest"]
-            .into_iter()
-            .zip(squares(patches))
-        {
-            panels.push(Panel::photograph(id, rect, 1, 1));
-        }
+        grid.strip(legend::height(&LEGEND, width, 0.0) + 4.0);
+        let mut panels = vec![
+            Panel::photograph("first", photographs[0], SIZE).clickable(),
+            Panel::photograph("second", photographs[1], SIZE),
+            plot::panel("curve", curve, &x, &y),
+        ];
+        let names = ["feature", "nearest", "second-nearest"].into_iter();
+        let patches = names.zip(squares(patches));
+        panels.extend(patches.map(|(id, rect)| Panel::photograph(id, rect, (1, 1))));
         grid.layout(panels)
     }
 
     fn draw(&mut self, model: &RatioTest, layout: &Layout, canvas: &mut Canvas) {
-        let [first, second, curve] = layout.panels_named(["first", "second", "curve"]);
-        let photographs = [first, second];
-        grid::open(
-            canvas,
-            first,
-            &["Photograph 1: click a feature", "Photograph 1"],
-        );
-        grid::open(
-            canvas,
-            second,
-            &["Photograph 2: its two nearest", "Photograph 2"],
-        );
-        grid::fitting_title(
-            canvas,
-            curve.rect,
-            &["Precision against recall", "Precision"],
-        );
-        let [x, y] = rulers();
-        plot::draw_axes(canvas, curve, &x, &y);
-        let bottom = layout.height - 1.0 - legend::height(&legend_entries(), layout.width, 0.0);
-        legend::draw(canvas, &legend_entries(), layout.width, 0.0, bottom);
+        let titles: [(_, &[_]); 2] = [
+            ("first", &["Photograph 1: click a feature", "Photograph 1"]),
+            ("second", &["Photograph 2: its two nearest", "Photograph 2"]),
+        ];
+        let photographs = grid::open_all(canvas, layout, titles);
+        let titles = ["Precision against recall", "Precision"];
+        let curve = plot::open(canvas, layout, "curve", &titles, &rulers());
+        let bottom = layout.height - 1.0 - legend::height(&LEGEND, layout.width, 0.0);
+        legend::draw(canvas, &LEGEND, layout.width, 0.0, bottom);
         let Some(answer) = model.asked.answer() else {
-            let notice = model.asked.problem().unwrap_or(Question::LABEL);
-            grid::notice(canvas, photographs[0].rect, notice);
-            return;
+            return grid::notice(canvas, photographs[0].rect, model.asked.words());
         };
         for (panel, photograph) in photographs.into_iter().zip(&answer.photographs) {
             canvas.photograph(panel.rect, photograph.image());
@@ -149,9 +116,10 @@ fn squares(rect: Rect) -> [Rect; 3] {
 fn ends(answer: &Answer, index1: usize, found: &Candidate, panels: [&Panel; 2]) -> [Place; 2] {
     let [u, v] = answer.spots[0][index1].place;
     let [x, y] = answer.spots[1][found.nearest[0] as usize].place;
+    let [first, second] = panels;
     [
-        panels[0].canvas_from_world((u, v)),
-        panels[1].canvas_from_world((x, y)),
+        first.canvas_from_world((u, v)),
+        second.canvas_from_world((x, y)),
     ]
 }
 
@@ -173,10 +141,15 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
                 continue;
             }
             let (stroke, shape) = match found.is_right {
-                true => (right_stroke(), Shape::Disk),
-                false => (wrong_stroke(), Shape::Cross),
+                true => (RIGHT, Shape::Disk),
+                false => (WRONG, Shape::Cross),
             };
-            let stroke = if is_faint { faint(stroke) } else { stroke };
+            let dash = stroke.dash;
+            let stroke = if is_faint {
+                Stroke { dash, ..FAINT }
+            } else {
+                stroke
+            };
             let [from, to] = ends(answer, index1, found, panels);
             // The same ones whatever τ is, so that nothing flickers.
             if !found.is_right && !is_small || index1 % every == 0 {
@@ -192,11 +165,10 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
 fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
     let place = |tally: &Tally| Some((tally.recall(), tally.precision()?));
     let is_mutual = model.rules().is_mutual;
-    let [without, with] = model.curves();
-    let (now, other) = if is_mutual {
-        (with, without)
-    } else {
-        (without, with)
+    let [without, with] = &model.curves;
+    let (now, other) = match is_mutual {
+        true => (with, without),
+        false => (without, with),
     };
     let style = |is_now| match is_now {
         true => Stroke::solid(Role::Best, 2.0),
@@ -216,12 +188,13 @@ fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
             labels.keep_free(panel.canvas_from_world(place), 2.0);
         }
     }
-    let text = format!(
-        "τ = {}",
-        format_number(f64::from(model.rules().max_ratio), 2)
+    let ratio = format_number(f64::from(model.rules().max_ratio), 2);
+    labels.name(
+        canvas,
+        (at, 8.0),
+        &format!("τ = {ratio}"),
+        (Role::Ink, SMALL),
     );
-    let style = TextStyle::new(Role::Ink, SMALL).cased();
-    labels.draw(canvas, &Labels::around(at, 8.0), &text, style);
 }
 
 impl RatioTestView {
@@ -243,40 +216,25 @@ impl RatioTestView {
             (near, 1, "second", "nearest"),
             (far, 1, "second", "second-nearest"),
         ];
-        let distances = found.distances.map(|d| format_number(f64::from(d), 2));
-        let texts = [
-            String::new(),
-            format!("d₁ = {}", distances[0]),
-            format!("d₂ = {}", distances[1]),
-        ];
+        let [d1, d2] = found.distances.map(|d| format_number(f64::from(d), 2));
+        let texts = [&*format!("d₁ = {d1}"), &format!("d₂ = {d2}")];
+        let texts = ["feature", texts[0], texts[1]];
         let patches = layout.panel("feature").rect;
-        let is_small = patches.width < 70.0;
-        let verdict = if model.rules().keep(found) {
-            "keep"
-        } else {
-            "reject"
-        };
-        let ratio = format!(
-            "d₁/d₂ = {}: {verdict}",
-            format_number(f64::from(found.ratio), 3)
-        );
-        grid::title(canvas, patches, &ratio);
+        let is_kept = model.rules().keep(found);
+        let verdict = if is_kept { "keep" } else { "reject" };
+        let ratio = format_number(f64::from(found.ratio), 3);
+        grid::title(canvas, patches, &format!("d₁/d₂ = {ratio}: {verdict}"));
         for (k, (spot, photograph, panel, id)) in three.into_iter().enumerate() {
             let (role, shape) = MARKS[k];
             let panel = layout.panel(panel);
             patch::draw_window(canvas, panel, &spot, Stroke::solid(role, 2.0).cased());
             let rect = layout.panel(id).rect;
             let picture = &answer.photographs[photograph];
-            self.cuts
-                .draw(canvas, rect, picture, &spot, version + photograph as u64);
+            let version = version + photograph as u64;
+            self.cuts.draw(canvas, rect, picture, &spot, version);
             canvas.stroke_rect(rect, Stroke::solid(role, 2.0));
-            let text = if k == 0 || is_small && texts[k].is_empty() {
-                NAMES[k]
-            } else {
-                &texts[k]
-            };
             let place = (rect.center().0, rect.bottom() + BELOW / 2.0 + 1.0);
-            canvas.label(place, text, TextStyle::new(Role::Ink, SMALL).middle());
+            canvas.label(place, texts[k], TextStyle::new(Role::Ink, SMALL).middle());
             if k > 0 {
                 let corner = (rect.x + 9.0, rect.y + 9.0);
                 canvas.marker(corner, 4.5, shape, role, true);

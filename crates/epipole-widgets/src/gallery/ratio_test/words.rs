@@ -1,12 +1,14 @@
 //! What `ratio-test` says.
 
 use super::model::RatioTest;
-use super::question::Question;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::question::Question as _;
 
 /// Stands for a number until there is one.
 const WAITING: &str = "none yet";
+
+fn kept_or_not(is_kept: bool) -> &'static str {
+    if is_kept { "kept" } else { "rejected" }
+}
 
 impl Words for RatioTest {
     fn readouts(&self) -> Vec<Readout> {
@@ -23,25 +25,23 @@ impl Words for RatioTest {
             return names.map(waiting).into();
         };
         let [kept, right, precision, recall] = names;
-        let percent = |(id, label), share: Option<f64>| match share {
-            Some(share) => Readout::number(id, label, 100.0 * share, 0, "%"),
-            None => Readout::words(id, label, "no match"),
+        let percent = |(id, label), share: Option<f64>| {
+            let percent = share.map(|share| 100.0 * share);
+            Readout::number(id, label, percent, 0, "%")
+                .or("no match")
+                .main()
         };
         let [near, far] = found.distances.map(f64::from);
-        let is_kept = self.rules().keep(found);
-        let verdict = match (found.is_right, is_kept) {
-            (true, true) => "right, kept",
-            (true, false) => "right, rejected",
-            (false, true) => "wrong, kept",
-            (false, false) => "wrong, rejected",
-        };
+        let is_right = if found.is_right { "right" } else { "wrong" };
+        let is_kept = kept_or_not(self.rules().keep(found));
+        let verdict = format!("{is_right}, {is_kept}");
         let [u, v] = answer.spots[0][index].place;
         let place = format!("({}, {})", format_number(u, 0), format_number(v, 0));
         vec![
             Readout::count(kept.0, kept.1, tally.num_kept).main(),
             Readout::count(right.0, right.1, tally.num_right).main(),
-            percent(precision, tally.precision()).main(),
-            percent(recall, Some(tally.recall())).main(),
+            percent(precision, tally.precision()),
+            percent(recall, Some(tally.recall())),
             Readout::number("nearest", "Nearest d₁", near, 2, ""),
             Readout::number("second", "Second d₂", far, 2, ""),
             Readout::number("probed-ratio", "d₁ / d₂", f64::from(found.ratio), 3, ""),
@@ -53,27 +53,19 @@ impl Words for RatioTest {
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked.problem() {
-            return problem.to_owned();
-        }
         let (Some(tally), Some((_, found))) = (self.tally(), self.probed()) else {
-            return format!("{}.", Question::LABEL);
+            return self.asked.sentence();
         };
         let rules = self.rules();
         let test = match rules.max_ratio {
             1.0 => "Without the ratio test".to_owned(),
             ratio => format!("With τ = {}", format_number(f64::from(ratio), 2)),
         };
-        let mutual = if rules.is_mutual {
-            " and the mutual check"
-        } else {
-            ""
+        let mutual = match rules.is_mutual {
+            true => " and the mutual check",
+            false => "",
         };
-        let verdict = if rules.keep(found) {
-            "kept"
-        } else {
-            "rejected"
-        };
+        let verdict = kept_or_not(rules.keep(found));
         format!(
             "{test}{mutual}, {} matches are kept and {} of them are right: precision {} %, recall {} %. \
              The feature at the probe has its two nearest at the distances {} and {}, a ratio of {}: \

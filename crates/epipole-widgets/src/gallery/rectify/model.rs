@@ -3,7 +3,7 @@
 use super::turned::{Turned, Way};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, Symbol,
-    Value,
+    Value, knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{in_picture, still_life};
@@ -35,14 +35,7 @@ const MATCH: Slider = Slider::new("match", "Match p")
     .range(1.0, NUM_MATCHES as f64, 1.0)
     .at(8.0)
     .more();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&PARALLEL),
-    Knob::Slider(&ALONG),
-    Knob::Slider(&TURN),
-    Knob::Slider(&FORWARD),
-    Knob::Choice(&FRAME),
-    Knob::Slider(&MATCH),
-];
+const KNOBS: &[Knob] = knobs![PARALLEL, ALONG, TURN, FORWARD, FRAME, MATCH];
 
 const NUM_MATCHES: usize = 8;
 /// Pixels of photograph 1 whose matches are followed, spread over the things and the walls.

@@ -50,9 +50,7 @@ impl View for RectifyView {
         };
         let mut panels = vec![plan::panel("top", top, (0.22, 0.7), 1.06)];
         for (id, rect) in ["first", "second"].into_iter().zip(pictures) {
-            let mut panel = Panel::photograph(id, rect, PHOTO_SIZE.0, PHOTO_SIZE.1);
-            panel.clickable = true;
-            panels.push(panel);
+            panels.push(Panel::photograph(id, rect, PHOTO_SIZE).clickable());
         }
         grid.layout(panels)
     }
@@ -112,7 +110,7 @@ fn draw_picture(
     let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)];
     let places = corners.map(|(u, v)| {
         let shown = transfer(shown_from_taken, &Point2::new(u, v));
-        shown.map(|shown| panel.canvas_from_world((shown.x, shown.y)))
+        shown.map(|shown| panel.place_of(&shown))
     });
     let ([Some(a), Some(b), Some(c), Some(d)], Some(taken_from_shown)) =
         (places, shown_from_taken.try_inverse())
@@ -135,7 +133,7 @@ fn draw_picture(
 
 /// The epipolar lines with the matches on them, and in the end what the photograph fills.
 fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canvas: &mut Canvas) {
-    let at = |pixel: &Point2<f64>| panel.canvas_from_world((pixel.x, pixel.y));
+    let at = |pixel: &Point2<f64>| panel.place_of(pixel);
     let chosen = model.selected().map(|(chosen, _)| chosen);
     let mut labels = Labels::new(panel.rect.inset(2.0));
     if model.is_rectified() {
@@ -193,7 +191,7 @@ fn draw_row(model: &Rectify, [first, second]: [&Panel; 2], canvas: &mut Canvas) 
     }
     let stroke = Stroke::solid(Role::Ink, 1.25).dashed().cased();
     canvas.line((first.rect.x, row), (second.rect.right(), row), stroke);
-    let place = second.canvas_from_world((shown.pixels[1].x, shown.pixels[1].y));
+    let place = second.place_of(&shown.pixels[1]);
     if shown.is_seen && (place.1 - row).abs() > 3.0 {
         let off = Stroke::solid(Role::Outlier, 2.5).cased();
         canvas.clipped(second.rect, |canvas| {
@@ -205,7 +203,7 @@ fn draw_row(model: &Rectify, [first, second]: [&Panel; 2], canvas: &mut Canvas) 
 fn draw_top(model: &Rectify, state: &State, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let mut labels = Labels::new(panel.rect.inset(3.0));
-    let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let at = |point: Point2<f64>| panel.place_of(&point);
     let cameras = [0, 1].map(|index| state.turned.seen_from_above(index));
     let along = cameras[1].0 - cameras[0].0;
     let dashed = Stroke::solid(Role::Muted, 1.25).dashed();

@@ -6,37 +6,21 @@ use crate::contract::{Readout, Words, format_number};
 impl Words for Rectify {
     fn readouts(&self) -> Vec<Readout> {
         let state = self.state().ok();
-        let number = |id, label, get: &dyn Fn(&State) -> f64, digits, unit| match state {
-            Some(state) => Readout::number(id, label, get(state), digits, unit),
-            None => Readout::words(id, label, "no pair"),
+        let turned = state.map(|state| &state.turned);
+        let number = |id, label, value: Option<f64>, digits, unit| {
+            Readout::number(id, label, value, digits, unit).or("no pair")
         };
-        let own = match self.selected() {
-            Some((_, shown)) if shown.is_seen => {
-                Readout::number("own", "Row p′ − row p", shown.rows_px(), 1, "px")
-            }
-            _ => Readout::words("own", "Row p′ − row p", "not seen"),
-        };
-        let valid = |state: &State| 100.0 * state.turned.valid_share();
+        let apart = turned.map(|turned| turned.apart_deg());
+        let off = turned.map(|turned| turned.off_baseline_deg());
+        let valid = turned.map(|turned| 100.0 * turned.valid_share());
+        let seen = self.selected().filter(|(_, shown)| shown.is_seen);
+        let own_px = seen.map(|(_, shown)| shown.rows_px());
         vec![
-            number("rows", "Row offset", &|state| state.worst_px(), 1, "px").main(),
-            number(
-                "apart",
-                "Headings apart",
-                &|state| state.turned.apart_deg(),
-                1,
-                "°",
-            )
-            .main(),
-            number(
-                "off",
-                "Off baseline",
-                &|state| state.turned.off_baseline_deg(),
-                1,
-                "°",
-            )
-            .main(),
-            own,
-            number("valid", "Valid region", &valid, 0, "%"),
+            number("rows", "Row offset", state.map(State::worst_px), 1, "px").main(),
+            number("apart", "Headings apart", apart, 1, "°").main(),
+            number("off", "Off baseline", off, 1, "°").main(),
+            Readout::number("own", "Row p′ − row p", own_px, 1, "px").or("not seen"),
+            number("valid", "Valid region", valid, 0, "%"),
         ]
     }
 

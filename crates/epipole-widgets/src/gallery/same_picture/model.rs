@@ -3,7 +3,7 @@
 
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Symbol,
-    format_number,
+    format_number, knobs,
 };
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
 use epipole::synthetic::Scene;
@@ -32,23 +32,19 @@ const GROWTH: Choice = Choice::new(
         ("stays", "Stays 0.30 m tall"),
     ],
 );
-const KNOBS: &[Knob] = &[Knob::Choice(&GROWTH)];
+const KNOBS: &[Knob] = knobs![GROWTH];
 
 /// The model of `same-picture`.
 pub(crate) struct SamePicture {
     settings: Settings,
-    distance_m: f64,
+    /// From camera 1, along its optical axis.
+    pub(super) distance_m: f64,
 }
 
 impl SamePicture {
     /// Whether the mug grows with its distance.
     pub(super) fn grows(&self) -> bool {
         self.settings.chosen(&GROWTH) == 0
-    }
-
-    /// From camera 1, along its optical axis.
-    pub(super) fn distance_m(&self) -> f64 {
-        self.distance_m
     }
 
     pub(super) fn height_m(&self) -> f64 {
@@ -121,19 +117,10 @@ impl Model for SamePicture {
 
     fn handles(&self) -> Vec<Handle> {
         let meters = format_number(self.distance_m, 2);
-        vec![Handle {
-            id: "mug".to_owned(),
-            panel: "top",
-            label: "The mug".to_owned(),
-            value_text: format!("{meters} m away"),
-            x: RIGHT * self.distance_m,
-            y: self.distance_m,
-            x_range: RANGE_M.map(|z| RIGHT * z),
-            y_range: RANGE_M,
-            step: [0.1, 0.05],
-            digits: 3,
-            removable: false,
-        }]
+        let place = (RIGHT * self.distance_m, self.distance_m);
+        let ranges = [RANGE_M.map(|z| RIGHT * z), RANGE_M];
+        let handle = Handle::new("mug", "top", "The mug", place, ranges);
+        vec![handle.told(format!("{meters} m away")).step([0.1, 0.05], 3)]
     }
 
     fn symbols(&self) -> Vec<Symbol> {
@@ -195,7 +182,7 @@ mod tests {
         let mut photographs = Vec::new();
         for z in [0.5, 1.13, 2.5] {
             model.update(&Event::moved("mug", RIGHT * z, z)).unwrap();
-            assert_eq!(model.distance_m(), z);
+            assert_eq!(model.distance_m, z);
             assert!((model.picture_px().unwrap() - 160.0).abs() < 1e-9);
             let scene = model.scene().unwrap();
             let render = |camera: &Camera| scene.render(camera, SIZE.0, SIZE.1, Sampling::Full);
@@ -213,7 +200,7 @@ mod tests {
         model.update(&Event::moved("mug", 0.25, 1.0)).unwrap();
         let Handle { x, y, .. } = model.handles().remove(0);
         assert!((x - RIGHT * y).abs() < 1e-12);
-        assert_eq!(model.distance_m(), 1.01);
+        assert_eq!(model.distance_m, 1.01);
         model.update(&Event::set(&GROWTH, "stays")).unwrap();
         assert_eq!(model.height_m(), OWN_HEIGHT_M);
     }

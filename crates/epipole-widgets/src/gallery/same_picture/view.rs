@@ -49,7 +49,7 @@ impl View for SamePictureView {
         };
         let mut panels = vec![plan::panel("top", top, (0.95, 1.3), 1.6)];
         for (id, rect) in ["first", "second"].into_iter().zip(photographs) {
-            panels.push(Panel::photograph(id, rect, SIZE.0, SIZE.1));
+            panels.push(Panel::photograph(id, rect, SIZE));
         }
         grid.layout(panels)
     }
@@ -94,7 +94,7 @@ impl View for SamePictureView {
 impl SamePictureView {
     /// What the photographs are to show; forgets those of anything else.
     fn shown(&mut self, model: &SamePicture) -> [f64; 3] {
-        let shown = [model.distance_m(), model.height_m(), 0.0];
+        let shown = [model.distance_m, model.height_m(), 0.0];
         if self.rendered != Some(shown) {
             (self.photos, self.rendered) = (Default::default(), Some(shown));
         }
@@ -137,7 +137,7 @@ impl SamePictureView {
 fn draw_height(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut Canvas) {
     let at = |share: f64| {
         let pixel = camera.project(&model.on_axis(share)).unwrap_or_default();
-        panel.canvas_from_world((pixel.x, pixel.y))
+        panel.place_of(&pixel)
     };
     let (foot, middle, rim) = (at(0.0), at(0.5), at(1.0));
     let x = foot.0 - ROUND * (foot.1 - rim.1) - 12.0;
@@ -155,10 +155,10 @@ fn draw_height(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut
 
 /// The ray of that pixel as camera 2 sees it, and the mug on it.
 fn draw_ray(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut Canvas) {
-    let along = model.on_axis(0.5).coords / model.distance_m();
+    let along = model.on_axis(0.5).coords / model.distance_m;
     let at = |z: f64| {
         let pixel = camera.project(&Point3::from(along * z)).unwrap_or_default();
-        panel.canvas_from_world((pixel.x, pixel.y))
+        panel.place_of(&pixel)
     };
     let role = CAMERAS[0].0;
     let stroke = Stroke::solid(role, 1.75).dashed().cased();
@@ -167,7 +167,7 @@ fn draw_ray(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut Ca
     let style = TextStyle::new(role, TEXT).cased();
     let end = (panel.rect.right() - 6.0, at(RANGE_M[1] + 0.2).1 - 14.0);
     labels.draw(canvas, &[(end, Align::End)], "the ray of p", style);
-    draw_pixel(canvas, &mut labels, at(model.distance_m()), 1, "p′");
+    draw_pixel(canvas, &mut labels, at(model.distance_m), 1, "p′");
 }
 
 fn draw_pixel(
@@ -191,7 +191,7 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let mut labels = Labels::new(panel.rect.inset(3.0));
     let at = |x: f64, z: f64| panel.canvas_from_world((x, z));
-    let z = model.distance_m();
+    let z = model.distance_m;
     let mug = at(RIGHT * z, z);
     let radius = ROUND * model.height_m() * panel.scale_x();
     let half_widths = FOCALS_PX.map(|focal_px| f64::from(SIZE.0) / 2.0 / focal_px);
@@ -233,7 +233,7 @@ fn draw_cone(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
         }
         return;
     }
-    let share = ROUND * model.height_m() / model.distance_m();
+    let share = ROUND * model.height_m() / model.distance_m;
     let axis = Vector2::new(RIGHT, 1.0);
     let tilt = libm::asin((share / axis.norm()).min(1.0));
     for side in [-1.0, 1.0] {

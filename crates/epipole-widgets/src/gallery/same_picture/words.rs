@@ -10,7 +10,7 @@ impl Words for SamePicture {
         vec![
             Readout::number("picture", "Pixel height", picture_px, 0, "px").main(),
             Readout::number("height", "Height H", self.height_m(), 2, "m").main(),
-            Readout::number("distance", "Distance Z", self.distance_m(), 2, "m").main(),
+            Readout::number("distance", "Distance Z", self.distance_m, 2, "m").main(),
             Readout::number("column2", "Photo 2 column", column2_px, 0, "px"),
         ]
     }
@@ -24,7 +24,7 @@ impl Words for SamePicture {
             "A mug {} m tall stands {} m from camera 1, which sees it {} px tall. {size} Photograph \
              2, from the side, shows it in column {}.",
             format_number(self.height_m(), 2),
-            format_number(self.distance_m(), 2),
+            format_number(self.distance_m, 2),
             format_number(self.picture_px().unwrap_or(0.0), 0),
             format_number(self.column2_px().unwrap_or(0.0), 0),
         )

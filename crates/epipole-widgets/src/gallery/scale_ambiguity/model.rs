@@ -3,6 +3,7 @@
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Space,
+    knobs,
 };
 use crate::kit::house::House;
 use crate::kit::orbit::{Orbit, SPACE};
@@ -24,7 +25,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .at(2.0)
     .digits(2)
     .unit("×");
-const KNOBS: &[Knob] = &[Knob::Slider(&HOUSE), Knob::Slider(&BASELINE)];
+const KNOBS: &[Knob] = knobs![HOUSE, BASELINE];
 
 /// The house of some size, and the cameras before it.
 pub(super) struct World {
@@ -111,9 +112,7 @@ impl Declared for ScaleAmbiguity {
 
 impl Model for ScaleAmbiguity {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.extend(self.orbit.controls());
-        controls
+        self.settings.controls_and(self.orbit.controls())
     }
 
     fn handles(&self) -> Vec<Handle> {

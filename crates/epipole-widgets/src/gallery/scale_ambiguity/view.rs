@@ -19,23 +19,12 @@ const PHOTOS: [&str; 2] = ["first", "second"];
 /// The picture that a camera's frustum carries stands so far before it, in widths of the house.
 const PICTURE_DEPTH: f64 = 0.55;
 
-fn before() -> Stroke {
-    Stroke::solid(Role::Reference, 1.5).dashed()
-}
-
-fn now() -> Stroke {
-    Stroke::solid(Role::Best, 2.0)
-}
-
-fn legend_entries() -> [Entry; 2] {
-    [
-        (Swatch::Line(before()), "before"),
-        (Swatch::Line(now()), "now"),
-    ]
-}
+const BEFORE: Stroke = Stroke::solid(Role::Reference, 1.5).dashed();
+const NOW: Stroke = Stroke::solid(Role::Best, 2.0);
+const LEGEND: [Entry; 2] = [(Swatch::Line(BEFORE), "before"), (Swatch::Line(NOW), "now")];
 
 fn legend_height(width: f64) -> f64 {
-    legend::height(&legend_entries(), width, 0.0) + 4.0
+    legend::height(&LEGEND, width, 0.0) + 4.0
 }
 
 /// Draws [`ScaleAmbiguity`].
@@ -58,7 +47,7 @@ impl View for ScaleAmbiguityView {
             (space, grid.row([aspect; 2], 160.0))
         };
         grid.strip(legend_height(width));
-        let photograph = |(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1);
+        let photograph = |(id, rect)| Panel::photograph(id, rect, SIZE);
         let mut panels = vec![Orbit::panel(space)];
         panels.extend(PHOTOS.into_iter().zip(photos).map(photograph));
         grid.layout(panels)
@@ -71,7 +60,7 @@ impl View for ScaleAmbiguityView {
             grid::open(canvas, layout.panel(id), &[title]);
         }
         let top = layout.height - legend_height(layout.width);
-        legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
+        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
         let worlds = (
             model.house(),
             model.world([1.0, 1.0]),
@@ -84,7 +73,7 @@ impl View for ScaleAmbiguityView {
         for (index, id) in PHOTOS.into_iter().enumerate() {
             let panel = layout.panel(id);
             canvas.clipped(panel.rect.inset(1.0), |canvas| {
-                for (world, stroke) in [(&was, before()), (&is, now())] {
+                for (world, stroke) in [(&was, BEFORE), (&is, NOW)] {
                     draw_photograph(house, world, index, panel, stroke, canvas);
                 }
             });
@@ -108,7 +97,7 @@ fn draw_space(
         return;
     };
     space.ground(&subject.middle, 0.4, 1.0, 8);
-    for (world, stroke) in [(was, before()), (is, now())] {
+    for (world, stroke) in [(was, BEFORE), (is, NOW)] {
         for wire in &house.wires {
             for pair in wire.windows(2) {
                 space.line(&world.points[pair[0]], &world.points[pair[1]], stroke);
@@ -149,7 +138,7 @@ fn draw_photograph(
     canvas: &mut Canvas,
 ) {
     let places: Vec<Place> = (world.pixels[camera].iter())
-        .map(|pixel| panel.canvas_from_world((pixel.x, pixel.y)))
+        .map(|pixel| panel.place_of(pixel))
         .collect();
     for wire in &house.wires {
         let wire: Vec<Place> = wire.iter().map(|&index| places[index]).collect();

@@ -6,9 +6,9 @@ use crate::contract::{Readout, Words, format_number};
 impl Words for ScaleAmbiguity {
     fn readouts(&self) -> Vec<Readout> {
         let changes = self.changes_px();
-        let change = |id, label, index: usize| match changes {
-            Some(changes) => Readout::number(id, label, changes[index], 1, "px"),
-            None => Readout::words(id, label, "not seen"),
+        let change = |id, label, index: usize| {
+            let change_px = changes.map(|changes| changes[index]);
+            Readout::number(id, label, change_px, 1, "px").or("not seen")
         };
         let from = self.orbit.seen_from();
         vec![

@@ -4,7 +4,7 @@ use super::drive::{self, Drive, Errors};
 use super::question::{Answer, Judged, Kind, Question};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Toggle,
+    Settings, Slider, Toggle, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -38,14 +38,7 @@ const STEPS: Slider = Slider::new("steps", "Steps around")
     .at(80.0)
     .more();
 const SEED: Slider = Slider::seed(7.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&CLOSURE),
-    Knob::Slider(&DRIFT),
-    Knob::Toggle(&STEREO),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&STEPS),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![CLOSURE, DRIFT, STEREO, NOISE, STEPS, SEED];
 
 /// The handle that goes back and forth along the way.
 const TRAVELED: &str = "traveled";
@@ -57,23 +50,14 @@ pub(crate) struct ScaleDrift {
     settings: Settings,
     /// Steps that the reader has gone back to; `None` all the way home, however long that is.
     stop: Option<usize>,
-    drive: Drive,
+    /// All of the drive, however far the camera has come.
+    pub(super) drive: Drive,
     /// What odometry believes, as far as the camera has come.
-    before: Judged,
+    pub(super) before: Judged,
     pub(super) asked: Asked<Question>,
 }
 
 impl ScaleDrift {
-    /// All of the drive, however far the camera has come.
-    pub(super) fn drive(&self) -> &Drive {
-        &self.drive
-    }
-
-    /// What odometry believes. Its error is the last that is known.
-    pub(super) fn before(&self) -> &Judged {
-        &self.before
-    }
-
     /// What closing the loop made of it; while the question is out, of the last drive.
     pub(super) fn after(&self) -> Option<&Judged> {
         let answer = self.asked.answer().filter(|_| self.is_home())?;
@@ -180,32 +164,23 @@ impl Declared for ScaleDrift {
 
 impl Model for ScaleDrift {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        for control in &mut controls {
-            // A rig that measures the scale has none that drifts.
-            control.enabled = control.id != DRIFT.id || !self.is_metric();
-        }
-        controls
+        // A rig that measures the scale has none that drifts.
+        let drifts = !self.is_metric();
+        (self.settings).controls_enabled(|id| id != DRIFT.id || drifts)
     }
 
     fn handles(&self) -> Vec<Handle> {
         let (traveled, all) = (self.traveled(), self.num_steps());
-        vec![Handle {
-            id: TRAVELED.to_owned(),
-            panel: "track",
-            label: "Steps traveled".to_owned(),
-            value_text: match self.is_home() {
-                true => format!("all {all} steps, home again"),
-                false => format!("{traveled} of {all} steps"),
-            },
-            x: traveled as f64,
-            y: 0.0,
-            x_range: [FEWEST as f64, all as f64],
-            y_range: [0.0, 0.0],
-            step: [1.0, 0.0],
-            digits: 0,
-            removable: false,
-        }]
+        let told = match self.is_home() {
+            true => format!("all {all} steps, home again"),
+            false => format!("{traveled} of {all} steps"),
+        };
+        let (place, ranges) = (
+            (traveled as f64, 0.0),
+            [[FEWEST as f64, all as f64], [0.0; 2]],
+        );
+        let handle = Handle::new(TRAVELED, "track", "Steps traveled", place, ranges);
+        vec![handle.told(told).step([1.0, 0.0], 0)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
@@ -290,7 +265,7 @@ mod tests {
     #[test]
     fn the_default_shows_what_closing_the_loop_repairs() {
         let model: ScaleDrift = settled(&[]);
-        let before = model.before();
+        let before = &model.before;
         assert!((2.0..2.6).contains(&before.scale_at_end()));
         let (before, after) = (before.error.unwrap(), model.error_after().unwrap());
         assert!(after < 0.1 * before, "{before} to {after}");
@@ -333,7 +308,7 @@ mod tests {
         let back = [Event::set(&DRIFT, 1.0), stop_at(80.0)];
         let model: ScaleDrift = settled(&[there, back].concat());
         let fresh: ScaleDrift = settled(&[]);
-        assert_eq!(model.before(), fresh.before());
+        assert_eq!(model.before, fresh.before);
         assert_eq!(model.after(), fresh.after());
         assert_eq!(model.readouts(), fresh.readouts());
     }

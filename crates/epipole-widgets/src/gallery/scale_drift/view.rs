@@ -23,31 +23,20 @@ const LEGEND_GAP: f64 = 4.0;
 #[derive(Default)]
 pub(crate) struct ScaleDriftView;
 
-fn truth_stroke() -> Stroke {
-    Stroke::solid(Role::Truth, 1.75).dotted()
-}
-
-fn before_stroke() -> Stroke {
-    Stroke::solid(Role::Series(1), 1.75).dashed()
-}
-
-fn after_stroke() -> Stroke {
-    Stroke::solid(Role::Best, 2.25)
-}
-
-fn legend_entries() -> [Entry; 3] {
-    [
-        (Swatch::Line(truth_stroke()), "truth"),
-        (Swatch::Line(before_stroke()), "odometry"),
-        (Swatch::Line(after_stroke()), "loop closed"),
-    ]
-}
+const TRUTH: Stroke = Stroke::solid(Role::Truth, 1.75).dotted();
+const BEFORE: Stroke = Stroke::solid(Role::Series(1), 1.75).dashed();
+const AFTER: Stroke = Stroke::solid(Role::Best, 2.25);
+const LEGEND: [Entry; 3] = [
+    (Swatch::Line(TRUTH), "truth"),
+    (Swatch::Line(BEFORE), "odometry"),
+    (Swatch::Line(AFTER), "loop closed"),
+];
 
 /// The axes of the plot: frames, and the scale in powers of ten, where an even drift is a straight
 /// line.
 fn rulers(model: &ScaleDrift) -> [Ruler; 2] {
     // All of the drive, so that the axes stay while the camera moves.
-    let scales = model.drive().scale.iter();
+    let scales = model.drive.scale.iter();
     let closed = model.after().into_iter().flat_map(|after| &after.scale);
     let least = decade(LEAST);
     let (low, high) = (scales.chain(closed).map(|scale| decade(*scale)))
@@ -73,13 +62,10 @@ impl View for ScaleDriftView {
         };
         let mut grid = Grid::new(width);
         let [left, right] = grid.shares(shares, height);
-        grid.strip(LEGEND_GAP + legend::height(&legend_entries(), width, 0.0));
+        grid.strip(LEGEND_GAP + legend::height(&LEGEND, width, 0.0));
         let cell = Rect::new(right.x, right.y, right.width, right.height - TRACK);
         let [x, y] = rulers(model);
-        let plot = Panel {
-            clickable: true,
-            ..plot::panel("plot", cell, &x, &y)
-        };
+        let plot = plot::panel("plot", cell, &x, &y).clickable();
         // Below the numbers, out of the way of the curves.
         let track = Panel {
             id: "track",
@@ -104,7 +90,7 @@ impl View for ScaleDriftView {
         map::draw(model, map, canvas);
         draw_plot(model, [plot, track], canvas);
         let top = map.rect.bottom() + LEGEND_GAP;
-        legend::draw(canvas, &legend_entries(), layout.width, 0.0, top);
+        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
         if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, map.rect, problem);
         }
@@ -131,17 +117,12 @@ fn draw_plot(model: &ScaleDrift, [plot, track]: [&Panel; 2], canvas: &mut Canvas
     let traveled = model.traveled() as f64;
     plot::draw_now(canvas, plot, traveled);
     if let Some(after) = model.after() {
-        plot::draw_curve(canvas, plot, places(&after.scale), after_stroke());
+        plot::draw_curve(canvas, plot, places(&after.scale), AFTER);
     }
-    let before = places(&model.before().scale);
+    let before = places(&model.before.scale);
     let end = before.last().copied();
-    plot::draw_curve(canvas, plot, before, before_stroke());
-    plot::draw_curve(
-        canvas,
-        plot,
-        [(0.0, 0.0), (plot.x_axis.end, 0.0)],
-        truth_stroke(),
-    );
+    plot::draw_curve(canvas, plot, before, BEFORE);
+    plot::draw_curve(canvas, plot, [(0.0, 0.0), (plot.x_axis.end, 0.0)], TRUTH);
     if let Some(end) = end {
         canvas.marker(
             plot.canvas_from_world(end),

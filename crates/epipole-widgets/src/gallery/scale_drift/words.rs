@@ -30,7 +30,7 @@ fn error(model: &ScaleDrift, judged: &Judged) -> String {
 }
 
 fn readouts(model: &ScaleDrift) -> Vec<Readout> {
-    let before = model.before();
+    let before = &model.before;
     // What there is no value of keeps its place.
     let missing = if model.asked.is_waiting() {
         "…"
@@ -69,7 +69,7 @@ fn readouts(model: &ScaleDrift) -> Vec<Readout> {
 }
 
 fn describe(model: &ScaleDrift) -> String {
-    let before = model.before();
+    let before = &model.before;
     let who = match model.is_metric() {
         true => "A stereo rig".to_owned(),
         false => format!(

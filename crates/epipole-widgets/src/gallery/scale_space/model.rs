@@ -3,7 +3,7 @@
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
-    Slider,
+    Slider, knobs,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
@@ -14,7 +14,7 @@ const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .at(4.0)
     .digits(1)
     .unit("px");
-const KNOBS: &[Knob] = &[Knob::Slider(&SIGMA)];
+const KNOBS: &[Knob] = knobs![SIGMA];
 /// Where the probe is at first: on the shaded side of an orange.
 const PROBE: (f64, f64) = (186.0, 275.0);
 

@@ -1,7 +1,7 @@
 //! The photograph, the difference of Gaussians of the present blur, all layers small, and the curve.
 
 use super::model::ScaleSpace;
-use super::question::{Answer, Layer, NUM_LAYERS, NUM_OCTAVES, Question};
+use super::question::{Answer, Layer, NUM_LAYERS, NUM_OCTAVES};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::features::SIZE;
@@ -9,7 +9,6 @@ use crate::kit::grid::{self, GAP, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
 use crate::kit::labels::Labels;
 use crate::kit::plot::{self, Ruler, decade};
-use crate::kit::question::Question as _;
 use crate::theme::{Role, Theme, mix};
 use image::{Rgb, RgbImage};
 
@@ -55,51 +54,46 @@ impl View for ScaleSpaceView {
             let height = if grid::is_narrow(width) { 100.0 } else { 140.0 };
             [curve] = grid.shares([1.0], height);
         }
-        let [mut photograph, difference] =
-            [("photograph", pictures[0]), ("difference", pictures[1])]
-                .map(|(id, rect)| Panel::photograph(id, rect, SIZE.0, SIZE.1));
-        photograph.clickable = true;
         let first = if grid::is_narrow(width) { 37.0 } else { 84.0 };
         let [layers] = grid.shares([1.0], first * aspect + 2.0);
         grid.strip(LEGEND);
         grid.layout(vec![
-            photograph,
-            difference,
+            Panel::photograph("photograph", pictures[0], SIZE).clickable(),
+            Panel::photograph("difference", pictures[1], SIZE),
             plot::panel("curve", curve, &x, &y),
-            Panel::photograph("layers", layers, 1, 1),
+            Panel::photograph("layers", layers, (1, 1)),
         ])
     }
 
     fn draw(&mut self, model: &ScaleSpace, layout: &Layout, canvas: &mut Canvas) {
-        let [photograph, difference, curve, layers] =
-            layout.panels_named(["photograph", "difference", "curve", "layers"]);
         let sigma = format_number(model.sigma_px(), 1);
         let title = format!("Difference of Gaussians, σ = {sigma} px");
         let short = format!("Difference, σ = {sigma}");
-        grid::open(
+        let [photograph, difference] = grid::open_all(
             canvas,
-            photograph,
-            &["Photograph: drag the probe", "Photograph"],
+            layout,
+            [
+                ("photograph", &["Photograph: drag the probe", "Photograph"]),
+                ("difference", &[&title, &short]),
+            ],
         );
-        grid::open(canvas, difference, &[&*title, &*short]);
-        let titles = [
-            "Difference at the probe, gray levels",
-            "Difference, gray levels",
-        ];
-        grid::fitting_title(canvas, curve.rect, &titles);
+        let (answers, titles) = (
+            model.answers(),
+            [
+                "Difference at the probe, gray levels",
+                "Difference, gray levels",
+            ],
+        );
+        let curve = plot::open(canvas, layout, "curve", &titles, &rulers(&answers));
+        let layers = layout.panel("layers");
         let titles = [
             "Four octaves of three layers, each octave half as wide",
             "Four octaves",
         ];
         grid::fitting_title(canvas, layers.rect, &titles);
-        let answers = model.answers();
-        let [x, y] = rulers(&answers);
-        plot::draw_axes(canvas, curve, &x, &y);
         draw_legend(canvas, layout);
         let Some(answer) = model.asked.answer() else {
-            let notice = model.asked.problem().unwrap_or(Question::LABEL);
-            grid::notice(canvas, photograph.rect, notice);
-            return;
+            return grid::notice(canvas, photograph.rect, model.asked.words());
         };
         canvas.photograph(photograph.rect, answer.photograph.image());
         let theme = canvas.theme();
@@ -204,23 +198,16 @@ fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canva
 }
 
 fn draw_legend(canvas: &mut Canvas, layout: &Layout) {
-    let y = layout.height - LEGEND / 2.0;
-    let mut x = 0.0;
-    for (role, opacity, label, short) in [
-        (
-            Role::Candidate,
-            0.7,
+    let [bright, dark] = match grid::is_narrow(layout.width) {
+        true => ["bright", "dark"],
+        false => [
             "negative: something bright (striped)",
-            "bright",
-        ),
-        (Role::Outlier, 0.9, "positive: something dark", "dark"),
-    ] {
-        let label = if grid::is_narrow(layout.width) {
-            short
-        } else {
-            label
-        };
-        heat::swatch(canvas, (x, y), Fill::Role(role, opacity), label);
-        x += 36.0 + crate::canvas::text_width(label, SMALL);
-    }
+            "positive: something dark",
+        ],
+    };
+    let entries = [
+        (Fill::Role(Role::Candidate, 0.7), bright),
+        (Fill::Role(Role::Outlier, 0.9), dark),
+    ];
+    heat::swatches(canvas, (0.0, layout.height - LEGEND / 2.0), 22.0, &entries);
 }

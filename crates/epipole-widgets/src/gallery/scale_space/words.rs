@@ -1,9 +1,7 @@
 //! What `scale-space` says.
 
 use super::model::ScaleSpace;
-use super::question::Question;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::question::Question as _;
 
 impl Words for ScaleSpace {
     fn readouts(&self) -> Vec<Readout> {
@@ -16,30 +14,22 @@ impl Words for ScaleSpace {
             Some(false) => "dark",
             None => "nothing",
         };
+        let peak_px = extremum.map(|found| found.sigma_px);
+        let strongest = extremum.map_or(0.0, |found| found.value);
+        let levels = |id, label, value: f64| Readout::number(id, label, value, 1, "levels");
         vec![
-            match extremum {
-                Some(found) => Readout::number("peak", "Extremum σ", found.sigma_px, 1, "px"),
-                None => Readout::words("peak", "Extremum σ", "none"),
-            }
-            .main(),
+            Readout::number("peak", "Extremum σ", peak_px, 1, "px")
+                .or("none")
+                .main(),
             Readout::words("kind", "Found there", kind).main(),
-            Readout::number("now", "Difference", now, 1, "levels").main(),
-            Readout::number(
-                "strongest",
-                "Strongest answer",
-                extremum.map_or(0.0, |found| found.value),
-                1,
-                "levels",
-            ),
+            levels("now", "Difference", now).main(),
+            levels("strongest", "Strongest answer", strongest),
         ]
     }
 
     fn describe(&self) -> String {
-        if let Some(problem) = self.asked.problem() {
-            return problem.to_owned();
-        }
         let Some(now) = self.now() else {
-            return format!("{}.", Question::LABEL);
+            return self.asked.sentence();
         };
         let (u, v) = self.place();
         let peak = self.extremum().map_or_else(

@@ -2,7 +2,7 @@
 
 use super::blocks::Blocks;
 use crate::contract::{
-    Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
+    Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, knobs,
 };
 
 const CAMERAS: Slider = Slider::new("cameras", "Cameras")
@@ -14,23 +14,15 @@ const POINTS: Slider = Slider::new("points", "Points")
 const VIEWS: Slider = Slider::new("views", "Views of each")
     .range(2.0, 12.0, 1.0)
     .at(3.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&CAMERAS),
-    Knob::Slider(&POINTS),
-    Knob::Slider(&VIEWS),
-];
+const KNOBS: &[Knob] = knobs![CAMERAS, POINTS, VIEWS];
 
 /// The model of `schur`.
 pub(crate) struct Schur {
     settings: Settings,
-    blocks: Blocks,
+    pub(super) blocks: Blocks,
 }
 
 impl Schur {
-    pub(super) fn blocks(&self) -> &Blocks {
-        &self.blocks
-    }
-
     /// Cameras that see each point.
     pub(super) fn num_views(&self) -> usize {
         self.settings.count(&VIEWS).min(self.blocks.num_cameras)

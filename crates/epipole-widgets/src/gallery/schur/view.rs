@@ -3,7 +3,7 @@
 use super::blocks::{PER_CAMERA, PER_POINT};
 use super::model::Schur;
 use crate::canvas::{Align, Canvas, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, View};
+use crate::contract::{Layout, Panel, Rect, View};
 use crate::kit::grid::{self, GAP, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
@@ -19,17 +19,8 @@ const BOTH: Role = Role::Series(2);
 pub(crate) struct SchurView;
 
 fn panel(id: &'static str, rect: Rect, size: usize) -> Panel {
-    let axis = Axis {
-        start: 0.0,
-        end: size.max(1) as f64,
-    };
-    Panel {
-        id,
-        rect,
-        x_axis: axis,
-        y_axis: axis,
-        clickable: false,
-    }
+    let axis = [0.0, size.max(1) as f64];
+    Panel::new(id, rect, axis, axis)
 }
 
 impl View for SchurView {
@@ -37,7 +28,7 @@ impl View for SchurView {
 
     fn layout(&self, model: &Schur, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let [cameras, points] = model.blocks().unknowns();
+        let [cameras, points] = model.blocks.unknowns();
         // Beside the larger one there is room for half of it.
         let side = ((width - GAP) / 1.55).min(LARGEST);
         let [row] = grid.shares([1.0], side);
@@ -53,7 +44,7 @@ impl View for SchurView {
 
     fn draw(&mut self, model: &Schur, layout: &Layout, canvas: &mut Canvas) {
         let (all, left) = (layout.panel("all"), layout.panel("cameras"));
-        let blocks = model.blocks();
+        let blocks = &model.blocks;
         let [cameras, _] = blocks.unknowns();
         grid::fitting_title(canvas, all.rect, &["Everything at once", "All"]);
         let place = (left.rect.x, all.rect.y - grid::TITLE / 2.0);

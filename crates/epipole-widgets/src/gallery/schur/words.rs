@@ -5,7 +5,7 @@ use crate::contract::{Readout, Words, format_number};
 
 impl Words for Schur {
     fn readouts(&self) -> Vec<Readout> {
-        let blocks = self.blocks();
+        let blocks = &self.blocks;
         let [cameras, points] = blocks.unknowns();
         let percent = |share: f64| 100.0 * share;
         vec![
@@ -24,7 +24,7 @@ impl Words for Schur {
     }
 
     fn describe(&self) -> String {
-        let blocks = self.blocks();
+        let blocks = &self.blocks;
         let [cameras, points] = blocks.unknowns();
         format!(
             "{} cameras and {} points, each seen by {}: {} unknowns, and {} % of their matrix is not zero. With the \

@@ -5,11 +5,11 @@ use super::prints::Change;
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
-    Slider, Toggle,
+    Slider, Toggle, knobs,
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, Question as _, carry_out};
+use crate::kit::question::{Asked, carry_out};
 use image::RgbImage;
 
 const TURN: Slider = Slider::new("turn", "Turn")
@@ -31,14 +31,7 @@ const CONTRAST: Slider = Slider::new("contrast", "Contrast")
     .more();
 const DIRECTION: Toggle = Toggle::new("direction", "Turn the window").on();
 const SCALE: Toggle = Toggle::new("scale", "Scale the window").on();
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&TURN),
-    Knob::Slider(&ZOOM),
-    Knob::Slider(&BRIGHTER),
-    Knob::Slider(&CONTRAST),
-    Knob::Toggle(&DIRECTION),
-    Knob::Toggle(&SCALE),
-];
+const KNOBS: &[Knob] = knobs![TURN, ZOOM, BRIGHTER, CONTRAST, DIRECTION, SCALE];
 /// Where the keypoint is at first.
 const PLACE: (f64, f64) = (348.0, 244.0);
 /// The model of `sift-descriptor`.
@@ -57,7 +50,7 @@ impl SiftDescriptor {
     pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
         match self.photograph.answer() {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),
-            _ => Err(self.photograph.problem().unwrap_or(Question::LABEL)),
+            _ => Err(self.photograph.words()),
         }
     }
 

@@ -5,7 +5,7 @@ use super::model::SiftDescriptor;
 use super::prints::{MIDDLE, SIGMA_PX, WAYS};
 use super::question::Question;
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::features::SIZE;
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::heat::Heat;
@@ -47,8 +47,8 @@ impl View for SiftDescriptorView {
             (photograph, ratios) = (left, right);
             squares = grid.row([1.0; 4], 200.0);
         }
-        let mut panels = vec![Panel::photograph("photograph", photograph, SIZE.0, SIZE.1)];
-        panels[0].clickable = true;
+        let photograph = Panel::photograph("photograph", photograph, SIZE).clickable();
+        let mut panels = vec![photograph];
         let around = f64::from(SHOWN_PX) + 0.5;
         for (id, rect) in ["before", "before-sift", "after", "after-sift"]
             .into_iter()
@@ -56,19 +56,13 @@ impl View for SiftDescriptorView {
         {
             let side = rect.width.min(rect.height);
             let square = Rect::new(rect.x, rect.y, side, side);
-            let (start, end) = match id {
-                "before" | "after" => (MIDDLE - around, MIDDLE + around),
-                _ => (-1.0, 1.0),
+            let axis = match id {
+                "before" | "after" => [MIDDLE - around, MIDDLE + around],
+                _ => [-1.0, 1.0],
             };
-            panels.push(Panel {
-                id,
-                rect: square,
-                x_axis: Axis { start, end },
-                y_axis: Axis { start, end },
-                clickable: false,
-            });
+            panels.push(Panel::new(id, square, axis, axis));
         }
-        panels.push(Panel::photograph("ratios", ratios, 1, 1));
+        panels.push(Panel::photograph("ratios", ratios, (1, 1)));
         grid.layout(panels)
     }
 

@@ -2,7 +2,7 @@
 
 use super::rig::{Measured, Rig};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
 };
 use crate::kit::scenes::PHOTO_WIDTH;
 
@@ -15,7 +15,7 @@ const FOCAL: Slider = Slider::new("focal", "Focal length")
     .range(400.0, 1000.0, 20.0)
     .at(700.0)
     .unit("px");
-const KNOBS: &[Knob] = &[Knob::Slider(&BASELINE), Knob::Slider(&FOCAL)];
+const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
 
 /// The smallest and largest distance of the ball from the line between the cameras, meters.
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
@@ -57,23 +57,11 @@ impl StereoSlider {
 
     fn handle(&self) -> Handle {
         let side = if self.x_m < 0.0 { "left" } else { "right" };
-        Handle {
-            id: "object".to_owned(),
-            panel: "top",
-            label: "Ball".to_owned(),
-            value_text: format!(
-                "{:.2} m away, {:.2} m to the {side}",
-                self.z_m,
-                self.x_m.abs()
-            ),
-            x: self.x_m,
-            y: self.z_m,
-            x_range: SIDE_RANGE_M,
-            y_range: DEPTH_RANGE_M,
-            step: [0.05, 0.05],
-            digits: DIGITS,
-            removable: false,
-        }
+        let (x_m, z_m) = (self.x_m, self.z_m);
+        let ranges = [SIDE_RANGE_M, DEPTH_RANGE_M];
+        Handle::new("object", "top", "Ball", (x_m, z_m), ranges)
+            .told(format!("{z_m:.2} m away, {:.2} m to the {side}", x_m.abs()))
+            .step([0.05; 2], DIGITS)
     }
 
     /// Whether the sliders are where they were, and the pair measures something of this kind.

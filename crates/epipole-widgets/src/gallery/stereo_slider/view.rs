@@ -57,11 +57,7 @@ impl View for StereoSliderView {
 
     fn layout(&self, _model: &StereoSlider, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let photo = |id, rect| {
-            let mut panel = Panel::photograph(id, rect, PHOTO_WIDTH, PHOTO_HEIGHT);
-            panel.clickable = true;
-            panel
-        };
+        let photo = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE).clickable();
         // Side by side on every page: that both are on the same row is the point.
         if grid::is_narrow(width) {
             let [left, right] = grid.row([PHOTO_ASPECT; 2], f64::INFINITY);
@@ -158,10 +154,10 @@ impl StereoSliderView {
         for index in 0..2 {
             let panel = panels[index];
             let (role, shape) = CAMERAS[index];
-            let place = panel.canvas_from_world((pixels[index].x, pixels[index].y));
+            let place = panel.place_of(&pixels[index]);
             canvas.clipped(panel.rect, |canvas| {
                 if index == 1 && sights[1] != Sight::Outside {
-                    let left = panel.canvas_from_world((pixels[0].x, pixels[0].y));
+                    let left = panel.place_of(&pixels[0]);
                     draw_disparity(canvas, panel.rect, left, place, rig.measured());
                 }
                 match sights[index] {
@@ -173,7 +169,7 @@ impl StereoSliderView {
         }
         // Of the right photograph, which is the last.
         if let Some(magnifier) = magnifier.filter(|_| rig.measured().is_some()) {
-            let place = panels[1].canvas_from_world((pixels[1].x, pixels[1].y));
+            let place = panels[1].place_of(&pixels[1]);
             magnifier.draw(panels[1].rect, place, canvas);
         }
     }

@@ -19,9 +19,8 @@ impl Words for StereoSlider {
         let measured = rig.measured();
         let interval = measured.map(|measured| measured.interval);
         let digits = interval.map_or(2, |interval| depth_digits(&interval));
-        let say = |id, label, value: Option<f64>, digits, unit, otherwise: &str| match value {
-            Some(value) => Readout::number(id, label, value, digits, unit),
-            None => Readout::words(id, label, otherwise),
+        let say = |id, label, value: Option<f64>, digits, unit, otherwise: &str| {
+            Readout::number(id, label, value, digits, unit).or(otherwise)
         };
         let column = |index: usize| pixels.map(|pixels| pixels[index].x);
         let disparity_px = pixels.map(|[left, right]| left.x - right.x);

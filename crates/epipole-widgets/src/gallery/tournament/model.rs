@@ -3,7 +3,7 @@
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
-    Problem, Settings, Slider, Value,
+    Problem, Settings, Slider, Value, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -22,18 +22,13 @@ const THRESHOLD: Slider = Slider::new("threshold", "Threshold")
     .digits(1)
     .unit("σ");
 const SEED: Slider = Slider::seed(1.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SUBJECT),
-    Knob::Slider(&RATIO),
-    Knob::Slider(&THRESHOLD),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![SUBJECT, RATIO, THRESHOLD, SEED];
 const AGAIN: Button = Button::new("again", "Run again", ButtonRole::Restart);
 
 /// The model of `tournament`.
 pub(crate) struct Tournament {
     settings: Settings,
-    asked: Asked<Question>,
+    pub(super) asked: Asked<Question>,
     wins: Wins,
     num_batches: usize,
 }
@@ -53,11 +48,6 @@ impl Tournament {
             0 => Subject::Line,
             _ => Subject::Fundamental,
         }
-    }
-
-    /// Why there are no more runs.
-    pub(super) fn problem(&self) -> Option<&str> {
-        self.asked.problem()
     }
 
     /// The ratio that the numbers are about, and its index.
@@ -121,17 +111,13 @@ impl Declared for Tournament {
 
 impl Model for Tournament {
     fn controls(&self) -> Vec<Control> {
-        let mut controls = self.settings.controls();
-        controls.push(AGAIN.control(self.num_batches > 0, false));
-        controls
+        let again = AGAIN.control(self.num_batches > 0, false);
+        self.settings.controls_and([again])
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self
-            .settings
-            .update(event)?
-            .is_some_and(|id| id != RATIO.id)
-        {
+        let changed = self.settings.update(event)?;
+        if changed.is_some_and(|id| id != RATIO.id) {
             self.start();
         }
         match event {
@@ -222,7 +208,7 @@ mod tests {
         let before = model.share(LOCAL, 5);
         model.job_done(Err(Error::Canceled.into()));
         assert_eq!((model.share(LOCAL, 5), model.num_runs()), (before, 60));
-        assert!(model.job().is_none() && model.problem().is_some());
+        assert!(model.job().is_none() && model.asked.problem().is_some());
         model.update(&Event::press(AGAIN.id)).unwrap();
         assert_eq!(model.num_runs(), 0);
         assert!(model.job().is_some());

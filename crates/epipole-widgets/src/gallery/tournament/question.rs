@@ -1,6 +1,6 @@
 //! Some runs of all rivals at every outlier ratio.
 
-use super::rivals::{NUM_RIVALS, Pair, Successes, fit_lines};
+use super::rivals::{NUM_RIVALS, Pair, fit_lines};
 use crate::contract::{Problem, Progress};
 use crate::kit::question::{self, tell};
 use serde::{Deserialize, Serialize};
@@ -45,16 +45,9 @@ impl Wins {
     }
 
     pub(super) fn add(&mut self, more: &Self) {
-        for (sums, counts) in self.0.iter_mut().zip(&more.0) {
-            for (sum, count) in sums.iter_mut().zip(counts) {
-                *sum += count;
-            }
-        }
-    }
-
-    fn count(&mut self, ratio: usize, successes: Successes) {
-        for (sum, success) in self.0[ratio].iter_mut().zip(successes) {
-            *sum += usize::from(success);
+        let counts = more.0.as_flattened();
+        for (sum, count) in self.0.as_flattened_mut().iter_mut().zip(counts) {
+            *sum += count;
         }
     }
 }
@@ -83,7 +76,9 @@ impl question::Question for Question {
                     Some(pair) => pair.fit(outliers, self.threshold),
                     None => fit_lines(seed, outliers, self.threshold),
                 };
-                wins.count(ratio, successes);
+                for (sum, success) in wins.0[ratio].iter_mut().zip(successes) {
+                    *sum += usize::from(success);
+                }
             }
         }
         Ok(wins)

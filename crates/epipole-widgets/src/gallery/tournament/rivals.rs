@@ -1,30 +1,31 @@
 //! The rivals, on a line and on F: from the same data, how far off is each?
 
-use crate::kit::line_points::{angle_between_deg, scatter};
+use crate::kit::line_points::{angle_between_deg, places_of, scatter};
 use crate::kit::matches::{MAX_USED, Match, Matches};
+use crate::kit::samples::{Rules, inliers_of};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
 use epipole::epipolar::{
     FundamentalEstimator, epipolar_line2, fundamental_8point, refine_fundamental,
 };
-use epipole::math::random::Random;
+use epipole::math::{Line2, random::Random};
 use epipole::optim::RobustLoss;
 use epipole::robust::{
-    Budget, LeastMedianOptions, LineEstimator, MatchSet, RansacOptions, ScoreKind, fit_line_huber,
-    fit_line_total_least_squares, least_median, ransac,
+    Estimator, LeastMedianOptions, LineEstimator, MatchSet, fit_line_huber,
+    fit_line_total_least_squares, least_median,
 };
 use nalgebra::{Matrix3, Point2};
 
-/// How many rivals there are; [`NAMES`] has them in order.
+/// How many rivals there are.
 pub(super) const NUM_RIVALS: usize = 6;
-/// What the reader reads.
-pub(super) const NAMES: [&str; NUM_RIVALS] = [
-    "Least squares",
-    "Huber",
-    "Least median",
-    "RANSAC",
-    "MSAC",
-    "MSAC + LO",
+/// Their names, for permalinks and for readers, and whether their numbers are always there.
+pub(super) const RIVALS: [(&str, &str, bool); NUM_RIVALS] = [
+    ("least-squares", "Least squares", true),
+    ("huber", "Huber", false),
+    ("least-median", "Least median", true),
+    ("ransac", "RANSAC", true),
+    ("msac", "MSAC", false),
+    ("msac-lo", "MSAC + LO", true),
 ];
 /// A line within so many degrees of the hidden one is a success.
 pub(super) const WITHIN_DEG: f64 = 2.0;
@@ -43,35 +44,32 @@ const HUBER: f64 = 1.345;
 /// Which rivals are near enough to the truth.
 pub(super) type Successes = [bool; NUM_RIVALS];
 
-/// How the three that vote are told to do it.
-fn voting(threshold_px: f64, seed: u64) -> [RansacOptions; 3] {
-    let plain = RansacOptions {
-        max_error_px: threshold_px,
-        confidence: 0.99,
-        min_iterations: 1,
-        max_iterations: MAX_SAMPLES,
-        seed,
-        score: ScoreKind::InlierCount,
-        budget: Budget::WithReplacement,
-        local_optimization: false,
-        ..RansacOptions::default()
+/// The model by those that draw samples: the least median, and the three that vote.
+fn sampled<E: Estimator>(
+    estimator: impl Fn() -> Result<E, Error>,
+    refit: impl Fn(&[bool]) -> Result<E::Model, Error>,
+    epsilon_px: f64,
+    seed: u64,
+) -> [Result<E::Model, Error>; 4] {
+    let num_samples = MAX_SAMPLES;
+    let options = LeastMedianOptions { num_samples, seed };
+    let vote = |msac, local_optimization| {
+        let rules = Rules {
+            epsilon_px,
+            seed,
+            max_samples: MAX_SAMPLES,
+            msac,
+            local_optimization,
+        };
+        Ok(rules.run(estimator()?, &refit)?.0)
     };
-    let msac = RansacOptions {
-        score: ScoreKind::Msac,
-        ..plain
-    };
-    let local = RansacOptions {
-        local_optimization: true,
-        ..msac
-    };
-    [plain, msac, local]
-}
-
-fn medians(seed: u64) -> LeastMedianOptions {
-    LeastMedianOptions {
-        num_samples: MAX_SAMPLES,
-        seed,
-    }
+    let median = estimator().and_then(|estimator| least_median(estimator, &options));
+    [
+        median.map(|found| found.model),
+        vote(false, false),
+        vote(true, false),
+        vote(true, true),
+    ]
 }
 
 /// A hidden line with points and outliers of this seed, fitted by all.
@@ -79,30 +77,14 @@ fn medians(seed: u64) -> LeastMedianOptions {
 /// * `threshold`: of those that vote, in standard deviations of the noise
 pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Successes {
     let scattered = scatter(seed, NUM_POINTS, outlier_ratio);
-    let points: Vec<Point2<f64>> = scattered.points.iter().map(|point| point.place).collect();
+    let points = places_of(&scattered.points);
     let estimator = || LineEstimator::new(&points);
-    let vote = |options: &RansacOptions| -> Result<_, Error> {
-        let report = ransac(estimator()?, options)?;
-        if options.local_optimization {
-            return Ok(report.model);
-        }
-        // The last step of the plain loop: once more, to all inliers.
-        let inliers = points.iter().zip(&report.inliers).filter(|(_, is)| **is);
-        let inliers: Vec<_> = inliers.map(|(place, _)| *place).collect();
-        Ok(fit_line_total_least_squares(&inliers).unwrap_or(report.model))
-    };
-    let [plain, msac, local] = voting(threshold * LINE_SIGMA_PX, seed);
-    let median = estimator().and_then(|estimator| least_median(estimator, &medians(seed)));
-    let lines = [
-        fit_line_total_least_squares(&points),
-        fit_line_huber(&points, HUBER * LINE_SIGMA_PX),
-        median.map(|found| found.model),
-        vote(&plain),
-        vote(&msac),
-        vote(&local),
-    ];
-    lines
-        .map(|line| line.is_ok_and(|line| angle_between_deg(&line, &scattered.truth) <= WITHIN_DEG))
+    let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(&points, is));
+    let [median, plain, msac, local] = sampled(estimator, refit, threshold * LINE_SIGMA_PX, seed);
+    let squares = fit_line_total_least_squares(&points);
+    let huber = fit_line_huber(&points, HUBER * LINE_SIGMA_PX);
+    let is_near = |line: Line2| angle_between_deg(&line, &scattered.truth) <= WITHIN_DEG;
+    [squares, huber, median, plain, msac, local].map(|line| line.is_ok_and(is_near))
 }
 
 /// Matches of the still life's pair, some of them sent anywhere, and F by all.
@@ -137,32 +119,15 @@ impl Pair {
     pub(super) fn fit(&self, outlier_ratio: f64, threshold: f64) -> Successes {
         let (first, second) = self.disturbed(outlier_ratio);
         let estimator = || FundamentalEstimator::new(MatchSet::new(&first, &second)?);
-        let vote = |options: &RansacOptions| -> Result<Matrix3<f64>, Error> {
-            let report = ransac(estimator()?, options)?;
-            if options.local_optimization {
-                return Ok(report.model);
-            }
-            let keep = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-                let inliers = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
-                inliers.map(|(pixel, _)| *pixel).collect()
-            };
-            Ok(fundamental_8point(&keep(&first), &keep(&second)).unwrap_or(report.model))
-        };
-        let [plain, msac, local] = voting(threshold * MATCH_SIGMA_PX, self.seed);
+        let refit =
+            |is: &[bool]| fundamental_8point(&inliers_of(&first, is), &inliers_of(&second, is));
+        let epsilon_px = threshold * MATCH_SIGMA_PX;
+        let [median, plain, msac, local] = sampled(estimator, refit, epsilon_px, self.seed);
         let squares = fundamental_8point(&first, &second);
-        let huber = RobustLoss::Huber {
-            width: HUBER * MATCH_SIGMA_PX,
-        };
+        let width = HUBER * MATCH_SIGMA_PX;
+        let huber = RobustLoss::Huber { width };
         let huber = (squares.clone()).and_then(|f| refine_fundamental(&f, &first, &second, huber));
-        let median = estimator().and_then(|estimator| least_median(estimator, &medians(self.seed)));
-        let found = [
-            squares,
-            huber,
-            median.map(|found| found.model),
-            vote(&plain),
-            vote(&msac),
-            vote(&local),
-        ];
+        let found = [squares, huber, median, plain, msac, local];
         found.map(|f| f.is_ok_and(|f| self.mean_px(&f) <= WITHIN_PX))
     }
 
@@ -222,7 +187,7 @@ mod tests {
                 }
             }
             assert_eq!(theirs.len(), NUM_RIVALS);
-            for ((name, ours), theirs) in NAMES.iter().zip(wins).zip(theirs) {
+            for (((_, name, _), ours), theirs) in RIVALS.iter().zip(wins).zip(theirs) {
                 let num_ours = f64::from(NUM_RUNS);
                 let (ours, sum) = (f64::from(ours), f64::from(ours) + theirs);
                 let share = sum / (num_ours + num_theirs);

@@ -2,7 +2,7 @@
 
 use super::model::Tournament;
 use super::question::{NUM_RATIOS, outlier_ratio};
-use super::rivals::{NAMES, NUM_RIVALS};
+use super::rivals::{NUM_RIVALS, RIVALS};
 use super::words::success;
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Layout, View};
@@ -27,21 +27,15 @@ fn rulers() -> [Ruler; 2] {
 /// Rivals differ in hue, in shape and in dash.
 fn look(rival: usize) -> (Role, Shape, Stroke) {
     let (role, shape) = (Role::Series(rival as u8), Shape::of_series(rival));
-    let stroke = Stroke::solid(role, 2.25);
-    let stroke = match rival % 3 {
-        0 => stroke,
-        1 => stroke.dashed(),
-        _ => stroke.dotted(),
-    };
-    (role, shape, stroke)
+    (role, shape, Stroke::of_series(rival, 2.25))
 }
 
 fn entries() -> Vec<Entry> {
-    let entry = |rival: usize| {
-        let (role, shape, _) = look(rival);
-        (Swatch::Marker(shape, role), NAMES[rival])
-    };
-    (0..NUM_RIVALS).map(entry).collect()
+    let swatch = |(role, shape, _)| Swatch::Marker(shape, role);
+    let names = RIVALS.iter().enumerate();
+    names
+        .map(|(rival, (_, name, _))| (swatch(look(rival)), *name))
+        .collect()
 }
 
 impl View for TournamentView {
@@ -53,18 +47,14 @@ impl View for TournamentView {
         grid.strip(legend::height(&entries(), width, plot::LEFT));
         let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
         let [x, y] = rulers();
-        let mut plot = plot::panel("plot", cell, &x, &y);
-        plot.clickable = true;
-        grid.layout(vec![plot])
+        grid.layout(vec![plot::panel("plot", cell, &x, &y).clickable()])
     }
 
     fn draw(&mut self, model: &Tournament, layout: &Layout, canvas: &mut Canvas) {
-        let plot = layout.panel("plot");
-        let [x, y] = rulers();
         let runs = format!("{} runs", model.num_runs());
         let full = format!("{runs}: fits {}", success(model.subject()));
-        grid::fitting_title(canvas, plot.rect, &[&full, &format!("Successes, {runs}")]);
-        plot::draw_axes(canvas, plot, &x, &y);
+        let titles = [&*full, &format!("Successes, {runs}")];
+        let plot = plot::open(canvas, layout, "plot", &titles, &rulers());
         let (_, ratio) = model.ratio();
         plot::draw_now(canvas, plot, ratio);
         for rival in 0..NUM_RIVALS {
@@ -78,7 +68,7 @@ impl View for TournamentView {
             }
         }
         legend::draw(canvas, &entries(), layout.width, plot::LEFT, 0.0);
-        if let Some(problem) = model.problem() {
+        if let Some(problem) = model.asked.problem() {
             grid::notice(canvas, plot.rect, problem);
         }
     }

@@ -2,31 +2,14 @@
 
 use super::model::Tournament;
 use super::question::Subject;
-use super::rivals::{NAMES, NUM_RIVALS, WITHIN_DEG, WITHIN_PX};
+use super::rivals::{NUM_RIVALS, RIVALS, WITHIN_DEG, WITHIN_PX};
 use crate::contract::{Readout, Words, format_number};
-
-const IDS: [&str; NUM_RIVALS] = [
-    "least-squares",
-    "huber",
-    "least-median",
-    "ransac",
-    "msac",
-    "msac-lo",
-];
-/// Those whose numbers are always there.
-const MAIN: [bool; NUM_RIVALS] = [true, false, true, true, false, true];
 
 /// What counts as a success.
 pub(super) fn success(subject: Subject) -> String {
     match subject {
-        Subject::Line => format!(
-            "within {}° of the hidden line",
-            format_number(WITHIN_DEG, 0)
-        ),
-        Subject::Fundamental => format!(
-            "within {} px of unseen matches on average",
-            format_number(WITHIN_PX, 0)
-        ),
+        Subject::Line => format!("within {WITHIN_DEG}° of the hidden line"),
+        Subject::Fundamental => format!("within {WITHIN_PX} px of unseen matches on average"),
     }
 }
 
@@ -34,15 +17,10 @@ impl Words for Tournament {
     fn readouts(&self) -> Vec<Readout> {
         let (ratio, _) = self.ratio();
         let share = |rival: usize| {
-            let (id, name) = (IDS[rival], NAMES[rival]);
-            let readout = match self.share(rival, ratio) {
-                Some(share) => Readout::number(id, name, 100.0 * share, 0, "%"),
-                None => Readout::words(id, name, "no runs yet"),
-            };
-            match MAIN[rival] {
-                true => readout.main(),
-                false => readout,
-            }
+            let (id, name, is_main) = RIVALS[rival];
+            let percent = self.share(rival, ratio).map(|share| 100.0 * share);
+            let readout = Readout::number(id, name, percent, 0, "%").or("no runs yet");
+            readout.main_if(is_main)
         };
         let mut readouts: Vec<Readout> = (0..NUM_RIVALS).map(share).collect();
         readouts.push(Readout::count("runs", "Runs", self.num_runs()));
@@ -52,22 +30,20 @@ impl Words for Tournament {
     fn describe(&self) -> String {
         let (index, ratio) = self.ratio();
         if self.num_runs() == 0 {
-            let problem = self.problem().unwrap_or("The first runs are on their way.");
-            return problem.to_owned();
+            let waiting = "The first runs are on their way.";
+            return self.asked.problem().unwrap_or(waiting).to_owned();
         }
         let share = |rival: usize| {
             let share = 100.0 * self.share(rival, index).unwrap_or(0.0);
-            format!("{} {} %", NAMES[rival], format_number(share, 0))
+            format!("{} {} %", RIVALS[rival].1, format_number(share, 0))
         };
         let shares: Vec<String> = (0..NUM_RIVALS).map(share).collect();
         let thing = match self.subject() {
             Subject::Line => "Lines",
             Subject::Fundamental => "Fundamental matrices",
         };
-        let stopped = match self.problem() {
-            Some(problem) => format!(" {problem}"),
-            None => String::new(),
-        };
+        let stopped = self.asked.problem();
+        let stopped = stopped.map_or_else(String::new, |problem| format!(" {problem}"));
         format!(
             "{thing} {}, at an outlier ratio of {} over {} runs: {}.{stopped}",
             success(self.subject()),

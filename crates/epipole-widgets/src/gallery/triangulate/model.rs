@@ -3,7 +3,7 @@
 use super::estimates::{Estimates, METHODS};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Space, Symbol, Value,
+    Settings, Slider, Space, Symbol, Value, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::pin::Pin;
@@ -30,11 +30,7 @@ const SHOW: Choice = Choice::new(
     ],
 );
 const SEED: Slider = Slider::seed(6.0);
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&SHOW),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&SEED),
-];
+const KNOBS: &[Knob] = knobs![SHOW, NOISE, SEED];
 const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
 
 /// What stands beside the region about the point.
@@ -54,14 +50,10 @@ pub(crate) struct Triangulate {
     pub(super) orbit: Orbit,
     point: Pin,
     second: Pin,
-    estimates: Result<Estimates, String>,
+    pub(super) estimates: Result<Estimates, String>,
 }
 
 impl Triangulate {
-    pub(super) fn estimates(&self) -> &Result<Estimates, String> {
-        &self.estimates
-    }
-
     pub(super) fn show(&self) -> Show {
         [Show::Misses, Show::Angle, Show::Distance][self.settings.chosen(&SHOW)]
     }

@@ -69,7 +69,7 @@ impl View for TriangulateView {
         let top_of_legend = layout.height - legend_height(layout.width);
         legend::draw(canvas, &legend_entries(), layout.width, 0.0, top_of_legend);
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
-        match model.estimates() {
+        match &model.estimates {
             Ok(estimates) => region::draw(model, estimates, space, canvas),
             Err(sentence) => grid::notice(canvas, space.rect, sentence),
         }

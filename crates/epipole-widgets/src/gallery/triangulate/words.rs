@@ -8,10 +8,8 @@ const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
 
 /// A length of any size in centimeters.
 fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Readout {
-    match meters.map(|meters| 100.0 * meters) {
-        Some(cm) if cm < 9_999.0 => Readout::number(id, label, cm, 1, "cm"),
-        _ => Readout::words(id, label, "no limit"),
-    }
+    let cm = meters.map(|meters| 100.0 * meters);
+    Readout::number(id, label, cm.filter(|cm| *cm < 9_999.0), 1, "cm").or("no limit")
 }
 
 /// What stands beside the region, in words.
@@ -48,7 +46,7 @@ fn beside(show: Show, estimates: &Estimates) -> String {
 
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
-        let Ok(estimates) = self.estimates() else {
+        let Ok(estimates) = &self.estimates else {
             return vec![Readout::words("state", "State", self.describe()).main()];
         };
         let predicted = estimates.uncertainty_m();
@@ -58,12 +56,9 @@ impl Words for Triangulate {
             centimeters("scatter", "Scatter", estimates.scatter_m()),
         ];
         for (index, (id, label)) in IDS.into_iter().zip(LABELS).enumerate() {
-            let readout = match estimates.reprojection_px(index) {
-                Some(error_px) => Readout::number(id, label, error_px, 3, "px"),
-                None => Readout::words(id, label, "no point"),
-            };
-            let is_main = matches!(id, "midpoint" | "optimal");
-            readouts.push(if is_main { readout.main() } else { readout });
+            let error_px = estimates.reprojection_px(index);
+            let readout = Readout::number(id, label, error_px, 3, "px").or("no point");
+            readouts.push(readout.main_if(matches!(id, "midpoint" | "optimal")));
         }
         let from = self.orbit.seen_from();
         readouts.push(Readout::words("view", "Seen from", from));
@@ -71,7 +66,7 @@ impl Words for Triangulate {
     }
 
     fn describe(&self) -> String {
-        let estimates = match self.estimates() {
+        let estimates = match &self.estimates {
             Ok(estimates) => estimates,
             Err(sentence) => return sentence.clone(),
         };
@@ -82,11 +77,10 @@ impl Words for Triangulate {
             Err(error) => return format!("The rays meet at {angle}°. There is no point: {error}."),
         };
         let off_cm = 100.0 * (best - estimates.truth).norm();
-        let sigma = estimates
-            .uncertainty_m()
-            .map_or("no limit".to_owned(), |meters| {
-                format!("{} cm", format_number(100.0 * meters, 1))
-            });
+        let sigma = estimates.uncertainty_m();
+        let sigma = sigma.map_or("no limit".to_owned(), |meters| {
+            format!("{} cm", format_number(100.0 * meters, 1))
+        });
         format!(
             "The rays meet at {angle}°. The optimal estimate is {} cm off; one standard deviation along \
              the rays is {sigma}. {}",

@@ -2,7 +2,7 @@
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
-    Toggle,
+    Toggle, knobs,
 };
 use crate::kit::pin::Pin;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -23,7 +23,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline B")
     .digits(2)
     .unit("m");
 const WRONG: Toggle = Toggle::new("wrong", "Take Q for P");
-const KNOBS: &[Knob] = &[Knob::Slider(&BASELINE), Knob::Toggle(&WRONG)];
+const KNOBS: &[Knob] = knobs![BASELINE, WRONG];
 /// Where the balls may be, meters to the right and meters away.
 const RANGES_M: [[f64; 2]; 2] = [[-1.2, 1.6], [0.7, 3.2]];
 

@@ -32,7 +32,7 @@ impl View for TwoCamerasView {
         let (top, photographs) = grid.beside_photographs(aspect, 430.0);
         let mut panels = vec![plan::panel("top", top, (0.2, 1.35), 2.0)];
         for (id, rect) in ["left", "right"].into_iter().zip(photographs) {
-            panels.push(Panel::photograph(id, rect, SIZE.0, SIZE.1));
+            panels.push(Panel::photograph(id, rect, SIZE));
         }
         grid.layout(panels)
     }
@@ -56,7 +56,7 @@ impl View for TwoCamerasView {
 fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let mut labels = Labels::new(panel.rect.inset(3.0));
-    let at = |point: Point2<f64>| panel.canvas_from_world((point.x, point.y));
+    let at = |point: Point2<f64>| panel.place_of(&point);
     let ink = TextStyle::new(Role::Ink, TEXT).cased();
     let columns = model.columns().unwrap_or_default();
     let centers = [0.0, model.baseline_m()].map(|x| Point2::new(x, 0.0));
@@ -130,7 +130,7 @@ fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mu
         let Ok(pixel) = model.pixel(camera, ball) else {
             continue;
         };
-        let place = panel.canvas_from_world((pixel.x, pixel.y));
+        let place = panel.place_of(&pixel);
         let radius = RADIUS_M * FOCAL_PX / depth_m * panel.scale_x();
         canvas.disk(place, radius, Role::Candidate, 0.55);
         let above = (place.0 + radius + 2.0, place.1 - radius - 7.0);
@@ -198,7 +198,7 @@ mod tests {
         ] {
             let (shown, told) = phantom(found, &plan);
             assert_eq!(told, text);
-            let (x, y) = plan.canvas_from_world((shown.x, shown.y));
+            let (x, y) = plan.place_of(&shown);
             assert!((1.0..399.0).contains(&x) && (1.0..399.0).contains(&y));
             // Still on the ray from the left camera.
             assert!((shown.x / shown.y - found.x / found.y).abs() < 1e-12);

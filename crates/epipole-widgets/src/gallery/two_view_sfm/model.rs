@@ -4,7 +4,7 @@ use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
     FileOffer, Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, Value,
-    format_number,
+    format_number, knobs,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, SPACE};
@@ -62,14 +62,7 @@ const KNOCK: Slider = Slider::new("knock", "Knock camera 2")
     .unit("°");
 /// What most telephones' main cameras have: 27 mm, in units of 36 mm.
 const USUAL_FOCAL: f64 = 0.75;
-const KNOBS: &[Knob] = &[
-    Knob::Choice(&STAGE),
-    Knob::Choice(&PAIR),
-    Knob::Slider(&RATIO),
-    Knob::Slider(&THRESHOLD),
-    Knob::Slider(&KNOCK),
-    Knob::Slider(&FOCAL),
-];
+const KNOBS: &[Knob] = knobs![STAGE, PAIR, RATIO, THRESHOLD, KNOCK, FOCAL];
 
 const SLOTS: &[PhotoSlot] = &pair_slots(800);
 /// Smaller pictures have no room for features.

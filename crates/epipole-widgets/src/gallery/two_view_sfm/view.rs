@@ -60,12 +60,8 @@ impl View for TwoViewSfmView {
             let cell = photos[index];
             let scale = (cell.width / f64::from(columns)).min(cell.height / f64::from(rows));
             let size = (scale * f64::from(columns), scale * f64::from(rows));
-            Panel::photograph(
-                PHOTOS[index],
-                Rect::new(cell.x, cell.y, size.0, size.1),
-                columns,
-                rows,
-            )
+            let rect = Rect::new(cell.x, cell.y, size.0, size.1);
+            Panel::photograph(PHOTOS[index], rect, (columns, rows))
         };
         grid.layout(vec![photo(0), photo(1), Orbit::panel(space)])
     }
@@ -144,7 +140,7 @@ fn size(model: &TwoViewSfm, index: usize) -> (u32, u32) {
 fn draw_features(stage: Stage, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
     let panels = PHOTOS.map(|id| layout.panel(id));
     let radius = (panels[0].rect.width / 230.0).clamp(0.7, 1.6);
-    let place = |index: usize, at: &Point2<f64>| panels[index].canvas_from_world((at.x, at.y));
+    let place = |index: usize, at: &Point2<f64>| panels[index].place_of(at);
     let role = role_of(stage);
     let color = canvas.theme().color(role);
     if stage == Stage::Detect {

@@ -3,8 +3,9 @@
 use super::measure::{Found, LARGEST_HALF, REACH, SHOWN, Verdict, find, take_picture};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number,
+    format_number, knobs,
 };
+use crate::kit::probe::place_words;
 use epipole::imaging::GrayImage32;
 use image::RgbImage;
 
@@ -19,11 +20,7 @@ const NOISE: Slider = Slider::new("noise", "Noise σ")
 const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .range(20.0, 600.0, 20.0)
     .at(100.0);
-const KNOBS: &[Knob] = &[
-    Knob::Slider(&WINDOW),
-    Knob::Slider(&NOISE),
-    Knob::Slider(&THRESHOLD),
-];
+const KNOBS: &[Knob] = knobs![WINDOW, NOISE, THRESHOLD];
 
 /// Where the window is at the start, on a corner of the square, and the shift to try.
 const PLACE: (f64, f64) = (151.0, 143.0);
@@ -35,37 +32,21 @@ const PLAIN_FROM: f64 = 190.0;
 pub struct WindowShift {
     settings: Settings,
     /// The middle of the window: column and row, whole pixels.
-    window: (f64, f64),
+    pub(super) window: (f64, f64),
     /// Columns to the right and rows down, whole pixels.
-    shift: (f64, f64),
+    pub(super) shift: (f64, f64),
     /// What is shown.
-    picture: RgbImage,
+    pub(super) picture: RgbImage,
     /// Gray levels of the whole picture.
     gray: GrayImage32,
     found: Result<Found, epipole::Error>,
     /// Counts pictures and places, so that the view knows when to color the map anew.
-    version: u64,
+    pub(super) version: u64,
 }
 
 impl WindowShift {
-    pub(super) fn picture(&self) -> &RgbImage {
-        &self.picture
-    }
-
-    pub(super) fn version(&self) -> u64 {
-        self.version
-    }
-
     pub(super) fn window_px(&self) -> usize {
         self.settings.count(&WINDOW)
-    }
-
-    pub(super) fn window(&self) -> (f64, f64) {
-        self.window
-    }
-
-    pub(super) fn shift(&self) -> (f64, f64) {
-        self.shift
     }
 
     /// What is found there.
@@ -126,39 +107,14 @@ impl Model for WindowShift {
             [from + LARGEST_HALF, from + size - 1 - LARGEST_HALF].map(f64::from)
         };
         let reach = REACH as f64;
-        let (u, v) = self.window;
-        let (du, dv) = self.shift;
+        let ranges = [range(left, width), range(top, height)];
+        let [du, dv] = [self.shift.0, self.shift.1].map(|shift| format_number(shift, 0));
         vec![
-            Handle {
-                id: "place".to_owned(),
-                panel: "picture",
-                label: "Window".to_owned(),
-                value_text: format!("column {u}, row {v}"),
-                x: u,
-                y: v,
-                x_range: range(left, width),
-                y_range: range(top, height),
-                step: [2.0, 2.0],
-                digits: 0,
-                removable: false,
-            },
-            Handle {
-                id: "shift".to_owned(),
-                panel: "map",
-                label: "Shift".to_owned(),
-                value_text: format!(
-                    "{} columns right, {} rows down",
-                    format_number(du, 0),
-                    format_number(dv, 0)
-                ),
-                x: du,
-                y: dv,
-                x_range: [-reach, reach],
-                y_range: [-reach, reach],
-                step: [1.0, 1.0],
-                digits: 0,
-                removable: false,
-            },
+            Handle::new("place", "picture", "Window", self.window, ranges)
+                .told(place_words(self.window, 0))
+                .step([2.0; 2], 0),
+            Handle::new("shift", "map", "Shift", self.shift, [[-reach, reach]; 2])
+                .told(format!("{du} columns right, {dv} rows down")),
         ]
     }
 
@@ -171,28 +127,16 @@ impl Model for WindowShift {
                 self.look();
             }
         }
-        match event {
-            Event::HandleMoved { id, x, y } if id == "shift" => self.shift = (*x, *y),
-            Event::HandleMoved { x, y, .. } => {
-                self.window = (*x, *y);
+        for handle in self.handles() {
+            let Some(place) = handle.moved_by(event) else {
+                continue;
+            };
+            if handle.id == "shift" {
+                self.shift = place;
+            } else {
+                self.window = place;
                 self.look();
             }
-            Event::Clicked { panel, x, y } => {
-                let handles = self.handles();
-                let Some(handle) = handles.iter().find(|handle| handle.panel == panel) else {
-                    return Ok(());
-                };
-                let Some(place) = handle.admit(*x, *y) else {
-                    return Ok(());
-                };
-                if handle.id == "shift" {
-                    self.shift = place;
-                } else {
-                    self.window = place;
-                    self.look();
-                }
-            }
-            _ => {}
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ mod surface;
 use super::measure::{CHANGE, Found, REACH, SHOWN};
 use super::model::WindowShift;
 use crate::canvas::{Canvas, Place, Stroke, TextStyle, text_width};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
 use crate::theme::{Rgb, Role, Theme, mix};
@@ -42,49 +42,36 @@ impl View for WindowShiftView {
             [picture, map, surface] = grid.row([aspect, 1.0, 1.0], f64::INFINITY);
             grid.strip(LEGEND);
         }
-        let axis = |from: u32, size: u32| Axis {
-            start: f64::from(from) - 0.5,
-            end: f64::from(from + size) - 0.5,
-        };
+        let axis = |from: u32, size: u32| [from, from + size].map(|edge| f64::from(edge) - 0.5);
         let reach = REACH as f64 + 0.5;
-        let around = Axis {
-            start: -reach,
-            end: reach,
-        };
-        let panel = |id, rect, x_axis, y_axis, clickable| Panel {
-            id,
-            rect,
-            x_axis,
-            y_axis,
-            clickable,
-        };
+        let around = [-reach, reach];
         let (columns, rows) = (axis(left, width_px), axis(top, height_px));
         grid.layout(vec![
-            panel("picture", picture, columns, rows, true),
-            panel("map", map, around, around, true),
-            panel("surface", surface, around, around, false),
+            Panel::new("picture", picture, columns, rows).clickable(),
+            Panel::new("map", map, around, around).clickable(),
+            Panel::new("surface", surface, around, around),
         ])
     }
 
     fn draw(&mut self, model: &WindowShift, layout: &Layout, canvas: &mut Canvas) {
-        let panels = layout.panels_named(["picture", "map", "surface"]);
-        let titles = ["Image", "Change by shift", "The same as a surface"];
-        for (panel, text) in panels.into_iter().zip(titles) {
-            grid::open(canvas, panel, &[text]);
-        }
-        let [picture, map, surface] = panels;
+        let titles: [(_, &[_]); 3] = [
+            ("picture", &["Image"]),
+            ("map", &["Change by shift"]),
+            ("surface", &["The same as a surface"]),
+        ];
+        let [picture, map, surface] = grid::open_all(canvas, layout, titles);
         let found = match model.found() {
             Ok(found) => found,
             Err(problem) => return grid::notice(canvas, picture.rect, &problem),
         };
-        canvas.photograph(picture.rect, model.picture());
+        canvas.photograph(picture.rect, &model.picture);
         canvas.clipped(picture.rect, |canvas| windows(canvas, picture, model));
         let theme = canvas.theme();
-        let [colors] = (self.map).maps(model.version(), theme, || [colored(found, theme)]);
+        let [colors] = (self.map).maps(model.version, theme, || [colored(found, theme)]);
         canvas.photograph(map.rect, colors);
         canvas.clipped(map.rect, |canvas| ellipse(canvas, map, model, found));
         canvas.clipped(surface.rect, |canvas| {
-            surface::draw(canvas, surface.rect, model.shift(), found);
+            surface::draw(canvas, surface.rect, model.shift, found);
         });
         draw_legend(canvas, layout, model, found);
     }
@@ -93,19 +80,14 @@ impl View for WindowShiftView {
 /// The window where it is, and where the shift takes it.
 fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     let side = model.window_px() as f64 * panel.scale_x();
-    let place = model.window();
-    let shifted = (place.0 + model.shift().0, place.1 + model.shift().1);
+    let place = model.window;
+    let shifted = (place.0 + model.shift.0, place.1 + model.shift.1);
     let [still, moved] = [place, shifted].map(|place| panel.canvas_from_world(place));
-    let square = |(x, y): Place| Rect::new(x - side / 2.0, y - side / 2.0, side, side);
+    let [still_square, moved] = [still, moved].map(|place| Rect::around(place, side / 2.0));
     let stroke = Stroke::solid(Role::Candidate, 2.0).cased();
-    canvas.polygon_outline(&outline(square(moved)), stroke.dashed());
-    canvas.stroke_rect(square(still), Stroke::solid(Role::Grip, 2.0).cased());
+    canvas.polygon_outline(&moved.corners(), stroke.dashed());
+    canvas.stroke_rect(still_square, Stroke::solid(Role::Grip, 2.0).cased());
     canvas.grip(still, Role::Grip);
-}
-
-fn outline(rect: Rect) -> [Place; 4] {
-    let (left, top, right, bottom) = (rect.x, rect.y, rect.right(), rect.bottom());
-    [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
 /// Where Taylor expects the change of the legend, its half axes, and the shift to try.
@@ -116,12 +98,11 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
         panel.canvas_from_world((a * across.0 - b * across.1, a * across.1 + b * across.0))
     };
     const CORNERS: usize = 120;
-    let round: Vec<Place> = (0..CORNERS)
-        .map(|corner| {
-            let turn = std::f64::consts::TAU * corner as f64 / CORNERS as f64;
-            place(short * libm::cos(turn), long * libm::sin(turn))
-        })
-        .collect();
+    let corner = |index: usize| {
+        let turn = std::f64::consts::TAU * index as f64 / CORNERS as f64;
+        place(short * libm::cos(turn), long * libm::sin(turn))
+    };
+    let round: Vec<Place> = (0..CORNERS).map(corner).collect();
     let middle = place(0.0, 0.0);
     let reach = REACH as f64;
     let style = TextStyle::new(Role::Ink, SMALL).middle().cased();
@@ -138,7 +119,7 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
         canvas.label(place(beyond(short), 0.0), "λ₁", style);
         canvas.label(place(0.0, -beyond(long)), "λ₂", style);
     }
-    let shift = panel.canvas_from_world(model.shift());
+    let shift = panel.canvas_from_world(model.shift);
     let stroke = Stroke::solid(Role::Grip, 2.0).cased();
     canvas.line(middle, shift, stroke);
     canvas.grip(shift, Role::Grip);
@@ -183,10 +164,9 @@ fn colored(found: &Found, theme: Theme) -> RgbImage {
     let colors: Vec<[Rgb; 2]> = (0..=most)
         .map(|level| {
             let change = level as f64 * LEVEL;
-            let share = if change < CHANGE {
-                0.0
-            } else {
-                0.3 + 0.6 * (change / 150.0).min(1.0)
+            let share = match change < CHANGE {
+                true => 0.0,
+                false => 0.3 + 0.6 * (change / 150.0).min(1.0),
             };
             let color = mix(pale, strong, share as f32);
             [color, mix(color, line, 0.45)]

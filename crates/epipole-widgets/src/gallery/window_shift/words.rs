@@ -21,19 +21,16 @@ impl Words for WindowShift {
             return vec![Readout::words("state", "State", self.describe()).main()];
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift();
+        let (du, dv) = self.shift;
         let change = found.change(du as i32, dv as i32);
-        let number = |id, label, value| Readout::number(id, label, value, 0, "");
+        let estimate = found.estimate(self.shift);
+        let number = |id, label, value: f64| Readout::number(id, label, value, 0, "");
         vec![
             Readout::words("verdict", "Verdict", self.verdict(found).word()).main(),
             number("lambda1", "λ₁ per pixel", large).main(),
             number("lambda2", "λ₂ per pixel", small).main(),
             number("change", "Squared change", change).main(),
-            number(
-                "estimate",
-                "Taylor's estimate",
-                found.estimate(self.shift()),
-            ),
+            number("estimate", "Taylor's estimate", estimate),
         ]
     }
 
@@ -48,18 +45,15 @@ impl Words for WindowShift {
             Verdict::Corner => "a corner: every shift changes it",
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift();
+        let (du, dv) = self.shift;
+        let change = found.change(du as i32, dv as i32);
+        let numbers = [large, small, self.threshold(), du, dv, change];
+        let [large, small, threshold, du, dv, change] =
+            numbers.map(|number| format_number(number, 0));
+        let (column, row) = self.window;
         format!(
-            "The window at column {}, row {} is on {what}. Per pixel λ₁ is {} and λ₂ is {}; {} and \
-             more counts as large. A shift by {} columns and {} rows changes it by {}.",
-            self.window().0,
-            self.window().1,
-            format_number(large, 0),
-            format_number(small, 0),
-            format_number(self.threshold(), 0),
-            format_number(du, 0),
-            format_number(dv, 0),
-            format_number(found.change(du as i32, dv as i32), 0),
+            "The window at column {column}, row {row} is on {what}. Per pixel λ₁ is {large} and λ₂ is {small}; \
+             {threshold} and more counts as large. A shift by {du} columns and {dv} rows changes it by {change}."
         )
     }
 }

@@ -3,7 +3,7 @@
 use super::super::drive::centers;
 use super::super::model::ScaleDrift;
 use super::super::question::Judged;
-use super::{after_stroke, before_stroke, truth_stroke};
+use super::{AFTER, BEFORE, TRUTH};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
 use crate::contract::{Panel, Rect, format_number};
 use crate::kit::grid::{SMALL, TEXT};
@@ -35,7 +35,7 @@ pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
         high = (high.0.max(x), high.1.max(y));
     };
     // All of the drive, however far it has come, so that the map stays while the camera moves.
-    let drive = model.drive();
+    let drive = &model.drive;
     centers(&drive.truth)
         .iter()
         .map(from_above)
@@ -63,20 +63,20 @@ pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
 pub(super) fn draw(model: &ScaleDrift, map: &Panel, canvas: &mut Canvas) {
     let at = |center: &Point3<f64>| map.canvas_from_world(from_above(center));
     let places = |path: &[RigidTransform]| -> Vec<Place> { centers(path).iter().map(at).collect() };
-    let truth = places(&model.drive().truth);
-    let before = places(&model.before().poses);
+    let truth = places(&model.drive.truth);
+    let before = places(&model.before.poses);
     let after = model.after();
     let rect = map.rect.inset(1.0);
     let (start, end) = (truth[0], before[before.len() - 1]);
     canvas.clipped(rect, |canvas| {
         canvas.polygon(&truth, Role::Grid, 0.7);
-        draw_cameras(model.before(), model, Role::Series(1), map, canvas);
+        draw_cameras(&model.before, model, Role::Series(1), map, canvas);
         if let Some(after) = after {
             draw_cameras(after, model, Role::Best, map, canvas);
-            canvas.polyline(&places(&after.poses), after_stroke());
+            canvas.polyline(&places(&after.poses), AFTER);
         }
-        canvas.polyline(&before, before_stroke());
-        canvas.polyline(&truth, truth_stroke());
+        canvas.polyline(&before, BEFORE);
+        canvas.polyline(&truth, TRUTH);
         if model.is_home() {
             canvas.line(end, start, Stroke::solid(Role::Ink, 1.25));
         }
@@ -120,7 +120,7 @@ fn draw_labels(
     canvas: &mut Canvas,
 ) {
     let (start, end) = (truth[0], before[before.len() - 1]);
-    let path = model.before();
+    let path = &model.before;
     let mut labels = Labels::new(map.rect.inset(4.0));
     for path in [truth, before, after] {
         for pair in path.windows(2) {

@@ -6,7 +6,7 @@ use super::super::rig::{Measured, Rig};
 use super::super::words::reach;
 use super::{CAMERAS, UNCERTAIN};
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
-use crate::contract::{Axis, Panel, Rect, format_number};
+use crate::contract::{Panel, Rect, format_number};
 use crate::kit::grid::{self, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::plan::{self, draw_span};
@@ -31,19 +31,8 @@ const SMALL: f64 = 300.0;
 /// The panel; it is stretched sideways, so that the baseline can be seen.
 pub(super) fn panel(rect: Rect) -> Panel {
     let far = DEPTH_RANGE_M[1] + BEYOND_M;
-    Panel {
-        id: "top",
-        rect,
-        x_axis: Axis {
-            start: -SIDE_M,
-            end: SIDE_M,
-        },
-        y_axis: Axis {
-            start: far,
-            end: -far * BELOW / (rect.height - BELOW).max(1.0),
-        },
-        clickable: true,
-    }
+    let below = -far * BELOW / (rect.height - BELOW).max(1.0);
+    Panel::new("top", rect, [-SIDE_M, SIDE_M], [far, below]).clickable()
 }
 
 pub(super) fn draw(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {

@@ -67,7 +67,7 @@ impl Magnifier {
         let from = (place.0 + clear * across, place.1 + clear * down);
         canvas.line(from, corner, frame);
         canvas.photograph(glass, &self.squares);
-        let panel = Panel::photograph("magnifier", glass, COLUMNS, ROWS);
+        let panel = Panel::photograph("magnifier", glass, (COLUMNS, ROWS));
         let column = |off: f64| panel.canvas_from_world((self.at.x + off, self.at.y)).0;
         let [low, high] = [column(-ERROR_PX), column(ERROR_PX)];
         canvas.clipped(glass, |canvas| {
@@ -83,7 +83,7 @@ impl Magnifier {
                 canvas.line((x, glass.y), (x, glass.bottom()), edge);
             }
             let (role, shape) = CAMERAS[1];
-            let middle = panel.canvas_from_world((self.at.x, self.at.y));
+            let middle = panel.place_of(&self.at);
             canvas.marker(middle, 3.0, shape, role, true);
         });
         canvas.stroke_rect(glass, frame);

@@ -2,7 +2,7 @@
 
 use super::{CAMERAS, METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
-use crate::contract::{Axis, Layout, Panel, Rect, format_number};
+use crate::contract::{Layout, Panel, Rect, format_number};
 use crate::gallery::triangulate::estimates::{Estimates, METHODS};
 use crate::gallery::triangulate::model::{Show, Triangulate};
 use crate::gallery::triangulate::uncertainty::{ANGLES_DEG, DISTANCES};
@@ -46,7 +46,7 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
         let [x, y] = rulers(model.show());
         return vec![plot::panel("plot", cell, &x, &y)];
     }
-    let estimates = model.estimates().as_ref().ok();
+    let estimates = model.estimates.as_ref().ok();
     let rects = if cell.width > cell.height {
         grid::columns(cell, [1.0; 2])
     } else {
@@ -55,17 +55,13 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     let patch = |(camera, rect): (usize, Rect)| {
         let half_px = estimates.map_or(LEAST_PX, |estimates| half_px(estimates, camera));
         let per_px = 0.5 * rect.width.min(rect.height) / half_px;
-        let axis = |length: f64| Axis {
-            start: -0.5 * length / per_px,
-            end: 0.5 * length / per_px,
-        };
-        Panel {
-            id: PATCHES[camera],
+        let around = |length: f64| [-0.5 * length / per_px, 0.5 * length / per_px];
+        Panel::new(
+            PATCHES[camera],
             rect,
-            x_axis: axis(rect.width),
-            y_axis: axis(rect.height),
-            clickable: false,
-        }
+            around(rect.width),
+            around(rect.height),
+        )
     };
     rects.into_iter().enumerate().map(patch).collect()
 }
@@ -88,7 +84,7 @@ fn half_px(estimates: &Estimates, camera: usize) -> f64 {
 }
 
 pub(super) fn draw(model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
-    let estimates = model.estimates().as_ref().ok();
+    let estimates = model.estimates.as_ref().ok();
     if model.show() == Show::Misses {
         for (camera, id) in PATCHES.into_iter().enumerate() {
             let panel = layout.panel(id);

@@ -1,4 +1,4 @@
-//! The loop so far, with the votes of every sample.
+//! The RANSAC loop on points near a hidden line, with the votes of every sample.
 
 use crate::kit::line_points::Consensus;
 use crate::kit::samples::{Rules, Samples};
@@ -9,22 +9,22 @@ use nalgebra::Point2;
 
 /// What one sample came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Vote {
-    pub(super) num_votes: usize,
+pub(crate) struct Vote {
+    pub(crate) num_votes: usize,
     /// Whether the loop kept its line.
-    pub(super) is_best: bool,
+    pub(crate) is_best: bool,
 }
 
 /// Some samples, and what they came to.
-pub(super) struct Tally {
-    pub(super) samples: Samples<LineEstimator<'static>>,
-    pub(super) votes: Vec<Vote>,
+pub(crate) struct Tally {
+    pub(crate) samples: Samples<LineEstimator<'static>>,
+    pub(crate) votes: Vec<Vote>,
     /// The line of the last sample, with its voters.
-    pub(super) candidate: Option<Consensus>,
+    pub(crate) candidate: Option<Consensus>,
     /// The best line so far, fitted to its voters.
-    pub(super) best: Option<Consensus>,
+    pub(crate) best: Option<Consensus>,
     /// The hidden line, with its own.
-    pub(super) truth: Consensus,
+    pub(crate) truth: Consensus,
 }
 
 impl Tally {
@@ -32,7 +32,7 @@ impl Tally {
     ///
     /// # Errors
     /// As [`Samples::new`].
-    pub(super) fn new(
+    pub(crate) fn new(
         places: &[Point2<f64>],
         truth: Line2,
         rules: Rules,
@@ -64,7 +64,7 @@ impl Tally {
     }
 
     /// The points of the last sample, as indices.
-    pub(super) fn sample(&self) -> &[usize] {
+    pub(crate) fn sample(&self) -> &[usize] {
         self.samples.last().map_or(&[], |last| &last.sample)
     }
 }
