@@ -110,9 +110,13 @@ impl egui::Plugin for Mirror {
             let widgets = lines(&update);
             let again = self.told(|told| {
                 // A widget that got another number in this very pass has heard nothing.
-                let is_drawn = |id: NodeId| update.nodes.iter().any(|(drawn, _)| *drawn == id);
+                let has_heard = |id: NodeId, role: &str| {
+                    let known = format!("{}\t{role}\t", id.0);
+                    widgets.lines().any(|line| line.starts_with(&known))
+                };
                 let sent = std::mem::take(&mut told.sent).into_iter();
-                let missed = sent.filter(|(id, wish)| !is_drawn(*id) && wish.missed < PATIENCE);
+                let missed =
+                    sent.filter(|(id, wish)| !has_heard(*id, &wish.role) && wish.missed < PATIENCE);
                 let missed = missed.map(|(_, mut wish)| {
                     wish.missed += 1;
                     wish
