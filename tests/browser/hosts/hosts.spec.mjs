@@ -103,7 +103,7 @@ test("viewers without widgets", async ({ page, strangers }) => {
   const folder = join(work, "made/viewers");
   mkdirSync(folder, { recursive: true });
   const cell = (source) => ({ cell_type: "code", id: `cell-${source.length}`, metadata: {}, execution_count: null, outputs: [], source });
-  const cells = ["from epipole_figures import Figure\nFigure('ransac-race')", "Figure('disparity-map', baseline=0.2)"].map(cell);
+  const cells = ["from epipole_figures import Figure\nFigure('ransac-race')", "Figure('ransac-race', outliers=0.4)"].map(cell);
   const metadata = { kernelspec: { name: "python3", display_name: "Python 3", language: "python" } };
   writeFileSync(join(folder, "figures.ipynb"), JSON.stringify({ cells, metadata, nbformat: 4, nbformat_minor: 5 }));
   const settings = ["--execute", "--ExecutePreprocessor.store_widget_state=False", "--to", "html", "--template", "basic", "figures.ipynb"];
@@ -113,7 +113,7 @@ test("viewers without widgets", async ({ page, strangers }) => {
   const pictures = page.getByRole("img");
   await expect(pictures).toHaveCount(2);
   await expect(pictures.first()).toHaveAttribute("alt", /^Interactive figure ransac-race\. /);
-  await expect(pictures.last()).toHaveAttribute("alt", /^Interactive figure disparity-map, baseline=0\.2\. At its defaults: /);
+  await expect(pictures.last()).toHaveAttribute("alt", /^Interactive figure ransac-race, outliers=0\.4\. At its defaults: /);
   for (const picture of await pictures.all()) {
     const wide = await picture.evaluate(async (image) => (await image.decode(), image.naturalWidth));
     expect(wide).toBeGreaterThan(300);
