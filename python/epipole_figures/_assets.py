@@ -1,4 +1,5 @@
-"""What the page needs: the script of the elements, that of their worker, and the two modules."""
+"""What the page needs: the script of the elements, that of their worker, and the two modules; and pictures of the
+figures for viewers that show none of that."""
 
 import base64
 import functools
@@ -31,3 +32,19 @@ def inline_source() -> str:
     inside = {key: base64.b64encode(content).decode() for key, content in contents().items()}
     glue = (STATIC.parent / "glue.js").read_text(encoding="utf-8")
     return f"const INSIDE = {json.dumps(inside)};\n{glue}"
+
+
+@functools.cache
+def _words() -> dict[str, str]:
+    try:
+        return json.loads((STATIC / "stills/words.json").read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+
+
+def still(name: str) -> tuple[bytes | None, str]:
+    """A small picture of a figure at its defaults, a PNG, and what it shows; nothing of a figure that there is not."""
+    words = _words().get(name)
+    if words is None:
+        return None, ""
+    return (STATIC / "stills" / f"{name}.png").read_bytes(), words

@@ -91,13 +91,25 @@ class Figure(anywidget.AnyWidget):
         return self._shown[1]
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        """As of any widget, with the picture for viewers that show no widgets."""
+        """As of any widget, with picture and words for viewers that show no widgets.
+
+        Until the figure has been on a page, both are of its defaults, and the words say so where it has other parameters.
+        """
         bundle = super()._repr_mimebundle_(**kwargs)
-        picture = self.picture
-        if bundle and picture is not None:
-            data = bundle[0] if isinstance(bundle, tuple) else bundle
+        if not bundle:
+            return bundle
+        data, metadata = bundle if isinstance(bundle, tuple) else (bundle, {})
+        picture, words = self.picture, self.description
+        if picture is None:
+            picture, shown = _assets.still(self.name)
+            # What a figure told in another state is of no use here either.
+            words = f"At its defaults: {shown}" if shown and self.state else shown
+        setting = "".join(f", {key}={value}" for key, value in self.state.items())
+        data["text/plain"] = f"Interactive figure {self.name}{setting}." + (f" {words}" if words else "")
+        if picture is not None:
             data["image/png"] = base64.b64encode(picture).decode()
-        return bundle
+            metadata = {**metadata, "image/png": {"alt": data["text/plain"]}}
+        return data, metadata
 
     @traitlets.validate("state")
     def _validate_state(self, proposal: Any) -> dict[str, str]:

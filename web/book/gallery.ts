@@ -10,6 +10,8 @@ interface Living extends HTMLElement {
 const CHOSEN = "epipole-host";
 const lists: HTMLSelectElement[] = [];
 const updates: (() => void)[] = [];
+/** Words are written once they are about to be seen: each asks how tall its figure is, and there are many. */
+const SOON = "50%";
 
 function remembered(): string {
   try {
@@ -45,7 +47,15 @@ function startSection(section: HTMLElement): void {
     code.textContent = HOSTS.find(({ name }) => name === list.value)?.write(wish) ?? "";
     page.search = new URLSearchParams(wish.state).toString();
   };
-  updates.push(update);
+  const seen = new IntersectionObserver(
+    ([entry]) => {
+      if (!entry?.isIntersecting) return;
+      seen.disconnect();
+      updates.push(update);
+      update();
+    },
+    { rootMargin: SOON },
+  );
   figure.addEventListener("epipole-ready", update);
   figure.addEventListener("epipole-change", update);
   list.addEventListener("change", () => {
@@ -57,7 +67,7 @@ function startSection(section: HTMLElement): void {
       // Not remembered, but done.
     }
   });
-  update();
+  seen.observe(section);
 }
 
 export function start(): void {

@@ -39,6 +39,8 @@ pub struct Assets {
     pub frame_css: String,
     /// Fonts that every page needs at once.
     pub preload: Vec<String>,
+    /// The italic font.
+    pub italic: Option<String>,
     /// The icon.
     pub icon: String,
     /// Path → content.

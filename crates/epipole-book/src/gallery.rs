@@ -63,12 +63,17 @@ fn entry(renderer: &mut Renderer, name: &str, place: &Place) -> Result<String, S
     });
     let root = path_to_root(&renderer.page.path);
     let frame = frames::path(name);
+    // As in chapters: the first may be in sight at once.
+    let loading = match renderer.page.figures.len() {
+        1 => "fetchpriority=\"high\"",
+        _ => "loading=\"lazy\"",
+    };
     Ok(format!(
         "<section class=\"gallery\" data-name=\"{name}\">\n\
          <h2 id=\"{name}\"><a href=\"#{name}\">{title}</a></h2>\n\
          <figure class=\"epipole\" id=\"{id}\">\n\
          <epipole-figure name=\"{name}\">{panel}<picture>{sources}<img src=\"{src}\" alt=\"{alt}\" \
-         loading=\"lazy\" decoding=\"async\"></picture></epipole-figure>\n\
+         {loading} decoding=\"async\"></picture></epipole-figure>\n\
          <figcaption><code>{name}</code> {alt}</figcaption>\n</figure>\n\
          <p>{help} Its own page, for frames: <a class=\"own-page\" href=\"{root}{frame}\">{frame}</a>.</p>\n\
          {snippet}{settings}{readouts}{buttons}{keys}</section>\n",

@@ -44,5 +44,6 @@ pub mod site;
 mod small;
 pub mod source;
 mod stand_ins;
+pub mod stills;
 mod symbols;
 pub mod template;

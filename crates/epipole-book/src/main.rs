@@ -6,6 +6,7 @@ use epipole_book::assets::make_lab;
 use epipole_book::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
+use epipole_book::stills;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -51,6 +52,11 @@ enum Command {
     Check,
     /// Write the notebooks of the chapters only.
     Notebooks {
+        /// Where they go.
+        folder: PathBuf,
+    },
+    /// Write a small picture of each figure, and its words, for pages that show no widgets.
+    Stills {
         /// Where they go.
         folder: PathBuf,
     },
@@ -110,6 +116,11 @@ fn run(cli: &Cli) -> Result<bool> {
             check: true,
             notebooks: Some(folder.clone()),
         }),
+        Command::Stills { folder } => {
+            let count = stills::write(&Widgets, folder)?;
+            println!("{count} pictures in {}", folder.display());
+            Ok(true)
+        }
         Command::Serve { port, no_watch } => {
             let options = Options {
                 project,

@@ -55,6 +55,8 @@ struct Data<'a> {
     page_class: &'a str,
     assets: &'a Assets,
     has_figures: bool,
+    /// Titles of works are in italics everywhere on their page, so nothing should move when those come.
+    has_references: bool,
     search: &'a str,
     live: bool,
     #[serde(flatten)]
@@ -217,6 +219,7 @@ impl<'a> Template<'a> {
             page_class: class,
             assets: self.assets,
             has_figures: !page.figures.is_empty() && self.assets.elements.is_some(),
+            has_references: page.has_references,
             search: self.search,
             live: self.live,
             nav,

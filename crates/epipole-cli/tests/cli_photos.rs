@@ -4,27 +4,16 @@
 
 mod common;
 
-use common::{Folder, epipole, fails, json, moved, numbers, path};
+use common::{Folder, epipole, exif, fails, json, moved, numbers, path};
 use epipole::camera::RigidTransform;
-use image::{ExtendedColorType, ImageEncoder, RgbImage, imageops};
+use image::{RgbImage, imageops};
 use nalgebra::Vector3;
 use std::path::PathBuf;
 
 /// A PNG file with an EXIF orientation.
 fn oriented(folder: &Folder, name: &str, image: &RgbImage, orientation: u16) -> PathBuf {
-    let mut exif = b"II\x2a\0\x08\0\0\0\x01\0".to_vec();
-    for part in [0x0112_u16, 3, 1, 0, orientation, 0, 0, 0] {
-        exif.extend(part.to_le_bytes());
-    }
-    let mut bytes = Vec::new();
-    let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-    encoder.set_exif_metadata(exif).unwrap();
-    let (width, height) = image.dimensions();
-    encoder
-        .write_image(image.as_raw(), width, height, ExtendedColorType::Rgb8)
-        .unwrap();
     let file = folder.file(name);
-    std::fs::write(&file, bytes).unwrap();
+    exif::write_png(&file, image, exif::orientation(orientation));
     file
 }
 

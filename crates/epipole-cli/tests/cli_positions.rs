@@ -4,10 +4,9 @@
 
 mod common;
 
-use common::{Folder, fails, json, motion, moved, path};
+use common::{Folder, exif, fails, json, motion, moved, path};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::math::{Geodetic, local_from_geodetic};
-use image::ImageEncoder;
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -190,41 +189,6 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     fails(&folder, &silent, 1, "no photograph says where it was taken");
 }
 
-/// An EXIF block with a place, its minutes in millionths.
-fn exif(place: &Geodetic) -> Vec<u8> {
-    let mut data = b"II\x2a\0\x08\0\0\0\x01\0".to_vec();
-    let entry = |data: &mut Vec<u8>, tag: u16, kind: u16, count: u32, value: u32| {
-        data.extend(tag.to_le_bytes());
-        data.extend(kind.to_le_bytes());
-        data.extend(count.to_le_bytes());
-        data.extend(value.to_le_bytes());
-    };
-    entry(&mut data, 0x8825, 4, 1, 26);
-    data.extend([0; 4]);
-    data.extend(6u16.to_le_bytes());
-    let first = 26 + 2 + 6 * 12 + 4;
-    let letter =
-        |plus: u8, minus: u8, value: f64| u32::from(if value < 0.0 { minus } else { plus });
-    entry(&mut data, 1, 2, 2, letter(b'N', b'S', place.latitude_deg));
-    entry(&mut data, 2, 5, 3, first);
-    entry(&mut data, 3, 2, 2, letter(b'E', b'W', place.longitude_deg));
-    entry(&mut data, 4, 5, 3, first + 24);
-    entry(&mut data, 5, 1, 1, 0);
-    entry(&mut data, 6, 5, 1, first + 48);
-    data.extend([0; 4]);
-    let mut ratio = |value: f64, unit: u32| {
-        data.extend(((value * f64::from(unit)).round() as u32).to_le_bytes());
-        data.extend(unit.to_le_bytes());
-    };
-    for degrees in [place.latitude_deg.abs(), place.longitude_deg.abs()] {
-        ratio(degrees.floor(), 1);
-        ratio(degrees.fract() * 60.0, 10_000_000);
-        ratio(0.0, 1);
-    }
-    ratio(place.height_m, 1000);
-    data
-}
-
 /// Photographs of a garden in Sydney say where they were taken, some meters apart; the still life is its model.
 #[test]
 fn photographs_say_where_they_were_taken() {
@@ -250,18 +214,7 @@ fn photographs_say_where_they_were_taken() {
         };
         let file = photos.join(format!("{n}.png"));
         let image = image::open(&file).unwrap().to_rgb8();
-        let mut bytes = Vec::new();
-        let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-        encoder.set_exif_metadata(exif(&place)).unwrap();
-        encoder
-            .write_image(
-                image.as_raw(),
-                SIZE.0,
-                SIZE.1,
-                image::ExtendedColorType::Rgb8,
-            )
-            .unwrap();
-        std::fs::write(&file, bytes).unwrap();
+        exif::write_png(&file, &image, exif::place(&place));
         text += &format!(
             "{n}.png {} {} {}\n",
             place.latitude_deg, place.longitude_deg, place.height_m

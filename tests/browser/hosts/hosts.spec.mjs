@@ -97,6 +97,30 @@ test("the packages are small, and say rightly what is in them", async () => {
   await tool(work, npx("attw"), packed, "--profile", "esm-only", "--no-color", "--no-emoji");
 });
 
+test("viewers without widgets", async ({ page, strangers }) => {
+  await tool(join(root, "python/tests"), join(python, "python"), "-m", "unittest", "--quiet");
+  // As whoever exports a notebook that ran where nobody looked.
+  const folder = join(work, "made/viewers");
+  mkdirSync(folder, { recursive: true });
+  const cell = (source) => ({ cell_type: "code", id: `cell-${source.length}`, metadata: {}, execution_count: null, outputs: [], source });
+  const cells = ["from epipole_figures import Figure\nFigure('ransac-race')", "Figure('ransac-race', outliers=0.4)"].map(cell);
+  const metadata = { kernelspec: { name: "python3", display_name: "Python 3", language: "python" } };
+  writeFileSync(join(folder, "figures.ipynb"), JSON.stringify({ cells, metadata, nbformat: 4, nbformat_minor: 5 }));
+  const settings = ["--execute", "--ExecutePreprocessor.store_widget_state=False", "--to", "html", "--template", "basic", "figures.ipynb"];
+  await toolIn({ PATH: `${python}:${process.env.PATH}` }, folder, join(python, "jupyter"), "nbconvert", ...settings);
+  const server = await fileServer(folder);
+  await visit(page, `${server.origin}/figures.html`, strangers);
+  const pictures = page.getByRole("img");
+  await expect(pictures).toHaveCount(2);
+  await expect(pictures.first()).toHaveAttribute("alt", /^Interactive figure ransac-race\. /);
+  await expect(pictures.last()).toHaveAttribute("alt", /^Interactive figure ransac-race, outliers=0\.4\. At its defaults: /);
+  for (const picture of await pictures.all()) {
+    const wide = await picture.evaluate(async (image) => (await image.decode(), image.naturalWidth));
+    expect(wide).toBeGreaterThan(300);
+  }
+  await server.close();
+});
+
 const bundlers = {
   vite: async (folder) => (await tool(folder, npx("vite"), "build"), join(folder, "dist")),
   webpack: async (folder) => (await tool(folder, npx("webpack"), "--mode", "production", "--entry", "./main.js"), folder),
@@ -361,16 +385,16 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   await expect(both.last()).toHaveAttribute("data-ready", "", { timeout: 60_000 });
   const told = (index) => both.nth(index).evaluate((element) => (element.flush(), [element.state, element.readouts]));
   expect(await told(1)).toEqual(await told(0));
-  // What a viewer without widgets is given: the picture, once the figure has rested.
+  // What a viewer without widgets is given: the picture as it is, once the figure has rested.
   await expect
     .poll(
       async () => {
-        await type("import base64; data, _ = race._repr_mimebundle_(); print(base64.b64decode(data.get('image/png', ''))[1:4])");
+        await type("import base64; data, _ = race._repr_mimebundle_(); shown = base64.b64decode(data['image/png']); print(shown == race.picture, shown[1:4])");
         return page.locator(".jp-OutputArea-output pre").last().textContent();
       },
       { timeout: 60_000, intervals: [2000] },
     )
-    .toBe("b'PNG'\n");
+    .toBe("True b'PNG'\n");
   const modules = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm")).length);
   expect(modules, "modules come through the kernel").toBe(0);
   // A page that is left asks nothing of a server that goes.

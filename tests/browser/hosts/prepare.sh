@@ -11,5 +11,6 @@ tar -xzf "$work"/*.tgz -C "$work"
 rm -rf python/epipole_figures/static
 mkdir -p python/epipole_figures/static
 cp web/dist/{index.js,worker.js,epipole-figures.wasm,epipole-jobs.wasm,THIRD-PARTY.txt} python/epipole_figures/static/
+cargo run --locked --quiet --bin epipole-book -- stills python/epipole_figures/static/stills >/dev/null
 "$work/python/bin/python" -m build --quiet --wheel --no-isolation --outdir "$work/wheel" python
 "$work/python/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$work"/wheel/*.whl

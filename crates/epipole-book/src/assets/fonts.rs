@@ -42,8 +42,10 @@ pub(super) fn add(tools: &Tools, letters: &Letters, assets: &mut Assets) -> Resu
             "woff2",
             bytes,
         );
-        if *name == "text-regular" {
-            assets.preload.push(path);
+        match *name {
+            "text-regular" => assets.preload.push(path),
+            "text-italic" => assets.italic = Some(path),
+            _ => {}
         }
     }
     Ok(())

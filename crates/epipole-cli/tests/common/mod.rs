@@ -6,6 +6,8 @@
 )]
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+pub(crate) mod exif;
+
 use epipole::camera::{Camera, RigidTransform};
 use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};

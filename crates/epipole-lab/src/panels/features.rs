@@ -125,7 +125,8 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
 
 /// A descriptor as bars.
 fn descriptor(ui: &mut Ui, values: &[u8]) {
-    let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 64.0), egui::Sense::hover());
+    let size = egui::vec2(ui.available_width().min(280.0), 64.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     response.widget_info(|| {
         let words = format!("Descriptor of {} numbers", values.len());
         egui::WidgetInfo::labeled(egui::Role::Image, true, words)

@@ -87,9 +87,11 @@ pub(super) fn choose(
     let mut chosen = None;
     ui.horizontal(|ui| {
         let label = ui.label(name);
+        // On a phone there is less room than it would like.
         let combo = egui::ComboBox::from_id_salt(name)
             .selected_text(text)
-            .width(190.0);
+            .truncate()
+            .width(ui.available_width().min(190.0));
         let shown = combo.show_ui(ui, |ui| {
             for photo in &project.document().photos {
                 let other = Some(photo.id) != but;

@@ -8,8 +8,9 @@ use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project, Step}
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
-/// Width of a small picture, points.
+/// Width of a small picture where there is room for more than two, points, and the least.
 const SMALL: f32 = 176.0;
+const SMALLEST: f32 = 96.0;
 /// Height of its name, points.
 const NAME: f32 = 24.0;
 
@@ -23,9 +24,12 @@ pub(super) fn picture(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // Room for the frame around the one that is looked at.
         Frame::new().inner_margin(4.0).show(ui, |ui| {
+            // Two in a row at least: phones have no room for two large ones.
+            let half = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
+            let width = half.floor().clamp(SMALLEST, SMALL);
             ui.horizontal_wrapped(|ui| {
                 for photo in &project.document().photos {
-                    card(project, memory, ui, photo, events);
+                    card(project, memory, ui, photo, width, events);
                 }
             });
         });
@@ -37,11 +41,12 @@ fn card(
     memory: &mut Memory,
     ui: &mut Ui,
     photo: &Given,
+    width: f32,
     events: &mut Vec<Event>,
 ) {
     let selected = project.view().photo == photo.id;
     let (whole, response) =
-        ui.allocate_exact_size(vec2(SMALL, 0.75 * SMALL + NAME), Sense::click());
+        ui.allocate_exact_size(vec2(width, 0.75 * width + NAME), Sense::click());
     let (rect, below) = whole.split_top_bottom_at_y(whole.bottom() - NAME);
     let fate = project.fate(photo);
     let words = format!("{}: {}", photo.name, project.fate_words(photo));
@@ -73,7 +78,7 @@ fn card(
     };
     let font = egui::FontId::proportional(13.0);
     let mut job = egui::text::LayoutJob::simple_singleline(name, font, look::color(ui, role));
-    job.wrap = egui::text::TextWrapping::truncate_at_width(SMALL);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(width);
     let text = ui.painter().layout_job(job);
     let at = below.left_top() + vec2(0.0, 5.0);
     ui.painter().galley(at, text, look::color(ui, role));

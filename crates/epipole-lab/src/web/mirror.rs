@@ -15,15 +15,23 @@ pub(super) struct Told {
     widgets: String,
     is_new: bool,
     wishes: Vec<Wish>,
+    /// What this pass was told to do, and to whom.
+    sent: Vec<(NodeId, Wish)>,
 }
 
+/// Passes in which a widget is looked for: numbers shift while a panel fills, and not in each of them.
+const PATIENCE: u8 = 5;
+
 /// A widget to be operated, as the page has seen it.
+#[derive(Clone)]
 pub(super) struct Wish {
     pub(super) widget: u64,
     pub(super) role: String,
     pub(super) name: String,
     /// The number that it gets; else it is clicked.
     pub(super) value: Option<f64>,
+    /// Passes that did not reach it.
+    pub(super) missed: u8,
 }
 
 impl Wish {
@@ -78,12 +86,13 @@ impl egui::Plugin for Mirror {
     }
 
     fn input_hook(&mut self, _context: &egui::Context, input: &mut egui::RawInput) {
-        let wishes = self.told(|told| {
+        let sent = self.told(|told| {
             let wishes = std::mem::take(&mut told.wishes);
-            let found = |wish: Wish| Some((wish.find(&told.widgets)?, wish.value));
-            wishes.into_iter().filter_map(found).collect::<Vec<_>>()
+            let found = |wish: Wish| Some((wish.find(&told.widgets)?, wish));
+            told.sent = wishes.into_iter().filter_map(found).collect();
+            told.sent.clone()
         });
-        for (target_node, value) in wishes {
+        for (target_node, Wish { value, .. }) in sent {
             let request = ActionRequest {
                 action: value.map_or(Action::Click, |_| Action::SetValue),
                 target_tree: TreeId::ROOT,
@@ -96,15 +105,32 @@ impl egui::Plugin for Mirror {
         }
     }
 
-    fn output_hook(&mut self, _context: &egui::Context, output: &mut egui::FullOutput) {
+    fn output_hook(&mut self, context: &egui::Context, output: &mut egui::FullOutput) {
         if let Some(update) = output.platform_output.accesskit_update.take() {
             let widgets = lines(&update);
-            self.told(|told| {
+            let again = self.told(|told| {
+                // A widget that got another number in this very pass has heard nothing.
+                let has_heard = |id: NodeId, role: &str| {
+                    let known = format!("{}\t{role}\t", id.0);
+                    widgets.lines().any(|line| line.starts_with(&known))
+                };
+                let sent = std::mem::take(&mut told.sent).into_iter();
+                let missed =
+                    sent.filter(|(id, wish)| !has_heard(*id, &wish.role) && wish.missed < PATIENCE);
+                let missed = missed.map(|(_, mut wish)| {
+                    wish.missed += 1;
+                    wish
+                });
+                told.wishes.extend(missed);
                 if told.widgets != widgets {
                     told.widgets = widgets;
                     told.is_new = true;
                 }
+                !told.wishes.is_empty()
             });
+            if again {
+                context.request_repaint();
+            }
         }
     }
 }

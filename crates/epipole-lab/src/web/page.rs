@@ -358,6 +358,7 @@ impl Lab {
             role,
             name,
             value,
+            missed: 0,
         });
         self.receive(|_| {});
     }
