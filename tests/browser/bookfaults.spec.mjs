@@ -63,7 +63,9 @@ for (const [what, spoil] of Object.entries(STORES)) {
     await expect(form.locator(".verdict")).toHaveText(/^Right. This browser keeps nothing/);
 
     await page.goto(`${site.origin}/course/progress.html`);
-    for (const cell of await page.locator(".progress .solved").all()) await expect(cell).toHaveText("0");
+    for (const cell of await page.locator(".progress .solved").all()) await expect(cell).toHaveText(/^0 of \d+$/);
+    for (const cell of await page.locator(".progress .reached").all()) await expect(cell).toHaveText(/^0 of \d+$/);
+    await expect(page.locator(".progress .kept")).toContainText("keep nothing");
     await page.locator(".reset-progress").click();
     await site.close();
   });

@@ -64,3 +64,33 @@ test("points in space are saved as a PLY file, as many as the figure says", asyn
   await figure.evaluate((element) => element.apply({ stage: "match" }));
   await expect(save).toHaveCount(0);
 });
+
+test("goals that were reached are remembered, count on the page of progress, and can be forgotten", async ({ page, library }) => {
+  const progress = async (chapter) => {
+    await page.goto(`${library}/progress.html`);
+    return page.locator(`.progress tr[data-quiz="${chapter}"] .reached`).textContent();
+  };
+  expect(await progress("eight-point")).toMatch(/^0 of \d+$/);
+  await page.goto(`${library}/eight-point.html`);
+  const figure = page.locator('epipole-figure[name="column-sizes"]').first();
+  await ready(figure);
+  expect(await figure.evaluate((element) => element.solved)).toEqual([]);
+  await figure.evaluate((element) => element.apply({ width: 4000 }));
+  await figure.evaluate((element) => element.flush());
+  const [reached] = await figure.evaluate((element) => element.solved);
+  expect(reached).toBeTruthy();
+  expect(await progress("eight-point")).toMatch(/^1 of \d+$/);
+
+  // The figure knows it the next time, and stands where the page has it.
+  await page.goto(`${library}/eight-point.html`);
+  await ready(figure);
+  await expect.poll(() => figure.evaluate((element) => element.solved)).toEqual([reached]);
+  expect((await told(figure)).state).toEqual({});
+  await page.goto(`${library}/index.html`);
+  await expect(page.locator('.small .solved[data-quiz="eight-point"]').first()).toHaveText(/^1 of \d+ goals reached$/);
+
+  await page.goto(`${library}/progress.html`);
+  await page.locator(".reset-progress").click();
+  await expect(page.locator('.progress tr[data-quiz="eight-point"] .reached')).toHaveText(/^0 of \d+$/);
+  expect(await page.evaluate(() => Object.keys(localStorage))).toEqual([]);
+});

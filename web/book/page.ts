@@ -1,5 +1,6 @@
 // What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
+import { startGoals } from "./goals";
 import { startListings } from "./listings";
 import { startOperating } from "./operate";
 import { startPlaying } from "./play";
@@ -19,6 +20,7 @@ makeScrollersReachable();
 startOperating();
 startPlaying();
 startSmall();
+startGoals();
 startListings();
 startSymbols();
 startHandingOn();

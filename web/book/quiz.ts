@@ -2,6 +2,8 @@
 // remembers, in this browser only, what was solved. An answer given to an earlier wording of a
 // question (another data-hash) does not count.
 
+import { countReached, forget, goalsOf } from "./goals";
+
 const PREFIX = "epipole-quiz:";
 
 type Solved = Record<string, string>;
@@ -98,15 +100,42 @@ function prepare(form: HTMLFormElement, quiz: string): void {
   });
 }
 
+/** Where questions have been taken out, or something else has come there, more may be stored than there is. */
+function share(count: number, all: number): string {
+  return `${Math.min(count, all)} of ${all}`;
+}
+
+/** Whether this browser lets the page remember anything. */
+function canRemember(): boolean {
+  try {
+    localStorage.setItem(`${PREFIX}?`, "");
+    localStorage.removeItem(`${PREFIX}?`);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
 /** The table on the page about progress. */
 function showProgress(progress: HTMLElement): void {
   const update = () => {
     for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
-      const cell = row.querySelector(".solved");
-      if (cell) cell.textContent = String(Object.keys(load(row.dataset.quiz ?? "")).length);
+      const [solved, reached] = [".solved", ".reached"].map((cell) => row.querySelector<HTMLElement>(cell));
+      const answers = Object.keys(load(row.dataset.quiz ?? "")).length;
+      if (solved) solved.textContent = share(answers, Number(solved.dataset.questions));
+      if (reached) reached.textContent = share(countReached(goalsOf(reached)), goalsOf(reached).length);
     }
   };
   update();
+  if (!canRemember()) {
+    const words = document.createElement("p");
+    words.className = "kept";
+    words.setAttribute("role", "status");
+    words.textContent =
+      "This browser lets the page keep nothing, so what you solve is forgotten when you leave. Allow it to store " +
+      "data for this site, and it will be remembered.";
+    progress.prepend(words);
+  }
   const reset = progress.querySelector<HTMLButtonElement>(".reset-progress");
   if (!reset) return;
   reset.hidden = false;
@@ -114,6 +143,7 @@ function showProgress(progress: HTMLElement): void {
     for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
       try {
         localStorage.removeItem(PREFIX + (row.dataset.quiz ?? ""));
+        for (const cell of row.querySelectorAll<HTMLElement>(".reached")) forget(goalsOf(cell));
       } catch {
         // Nothing was stored then.
       }
@@ -126,8 +156,13 @@ function showProgress(progress: HTMLElement): void {
 function showSolved(mark: HTMLElement): void {
   const solved = Object.keys(load(mark.dataset.quiz ?? "")).length;
   const questions = Number(mark.dataset.questions);
-  mark.hidden = solved === 0;
-  mark.textContent = solved < questions ? `${solved} of ${questions} questions solved` : "Quiz solved";
+  const goals = goalsOf(mark);
+  const reached = countReached(goals);
+  const words = [];
+  if (solved > 0) words.push(solved < questions ? `${solved} of ${questions} questions solved` : "Quiz solved");
+  if (reached > 0) words.push(`${reached} of ${goals.length} goals reached`);
+  mark.hidden = words.length === 0;
+  mark.textContent = words.join(", ");
 }
 
 export function start(): void {

@@ -218,6 +218,11 @@ export class EpipoleFigure extends Base {
     shell.recall(solved);
   }
 
+  /** Takes these goals for reached: the reader has reached them another time. Wants a figure that is ready. */
+  recall(solved: string[]): void {
+    this.#life.shell.recall(solved);
+  }
+
   /**
    * What the figure shows, as a PNG: once it has computed what it shows, `scale` pixels to a CSS pixel of its layout.
    * Null while there is no picture.

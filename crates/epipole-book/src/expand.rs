@@ -17,7 +17,7 @@
 //! | `{{#quiz name}}` | the quiz `quizzes/name.toml` |
 //! | `{{#references}}` | the list of all cited works |
 //! | `{{#gallery}}` | every figure, with what can be set and read, and words to copy for other pages |
-//! | `{{#progress}}` | the reader's quiz results, kept in their own browser |
+//! | `{{#progress}}` | which questions the reader has solved and which goals reached, kept in their own browser |
 //! | `{{#include file}}`, `{{#include file:anchor}}` | the text of a file, or of its part between `ANCHOR: name` and `ANCHOR_END: name`; also in listings |
 
 use crate::blocks::{Kind, Opening};
@@ -242,6 +242,9 @@ fn figure(
         what_is_shown(directive, &facts).map_err(|error| format!("figure {name}: {error}"))?;
     if let Some(claim) = setting(directive, "claim") {
         claims::check(claim, &facts)?;
+    }
+    if setting(directive, "goals") != Some("none") {
+        shared.add_goals(&renderer.page.path, &name, &facts.ids("challenges"));
     }
     let number = renderer.page.next_figure_number();
     let entry = FigureEntry {

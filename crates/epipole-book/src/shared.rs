@@ -9,7 +9,7 @@ use crate::problems::{Place, Problems};
 use crate::references::References;
 use crate::source::Source;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -67,6 +67,8 @@ struct Collected {
     panels: Vec<PanelRequest>,
     files: BTreeMap<String, Vec<u8>>,
     quizzes: Vec<QuizEntry>,
+    /// For each page, the goals of its figures that it shows, each `figure/goal`.
+    goals: BTreeMap<String, BTreeSet<String>>,
     wanted_figures: Vec<(String, Place)>,
     wanted_references: Option<Place>,
 }
@@ -224,6 +226,22 @@ impl<'a> Shared<'a> {
 
     pub(crate) fn quizzes(&self) -> Vec<QuizEntry> {
         self.with(|all| all.quizzes.clone())
+    }
+
+    /// Remembers that a page shows these goals of a figure.
+    pub(crate) fn add_goals(&self, page: &str, figure: &str, goals: &[&str]) {
+        self.with(|all| {
+            let known = all.goals.entry(page.to_owned()).or_default();
+            known.extend(goals.iter().map(|goal| format!("{figure}/{goal}")));
+        });
+    }
+
+    /// The goals that the figures of a page show, each `figure/goal`.
+    pub(crate) fn goals_of(&self, page: &str) -> Vec<String> {
+        self.with(|all| {
+            let goals = all.goals.get(page).into_iter().flatten();
+            goals.cloned().collect()
+        })
     }
 
     /// Remembers that a page refers to a figure.

@@ -440,32 +440,38 @@ fn solved_mark(shared: &Shared, file: &str) -> String {
     let quiz = quizzes.find(|quiz| Path::new(&quiz.page) == path);
     quiz.map_or_else(String::new, |quiz| {
         format!(
-            "<span class=\"solved\" data-quiz=\"{}\" data-questions=\"{}\" hidden></span>",
+            "<span class=\"solved\" data-quiz=\"{}\" data-questions=\"{}\" data-goals=\"{}\" hidden></span>",
             escape(&quiz.name),
-            quiz.questions
+            quiz.questions,
+            escape(&shared.goals_of(&quiz.page).join(" "))
         )
     })
 }
 
-/// A table of all quizzes; the script of the page fills in the results.
+/// A table of all quizzes, and of the goals of the figures beside them; the script of the page fills in the results.
 fn progress_table(shared: &Shared) -> String {
     let mut html = String::from(
         "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
-         </th><th scope=\"col\">Questions</th><th scope=\"col\">Solved</th></tr></thead>\n<tbody>\n",
+         </th><th scope=\"col\">Questions solved</th><th scope=\"col\">Goals reached</th></tr></thead>\n<tbody>\n",
     );
     for quiz in shared.quizzes() {
+        let goals = shared.goals_of(&quiz.page);
         html.push_str(&format!(
-            "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td><td>{}</td>\
-             <td class=\"solved\">–</td></tr>\n",
+            "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td>\
+             <td class=\"solved\" data-questions=\"{}\">– of {}</td>\
+             <td class=\"reached\" data-goals=\"{}\">– of {}</td></tr>\n",
             escape(&quiz.name),
             quiz.page,
             escape(&quiz.title),
-            quiz.questions
+            quiz.questions,
+            quiz.questions,
+            escape(&goals.join(" ")),
+            goals.len()
         ));
     }
     html.push_str(
         "</tbody>\n</table></div>\n<p><button type=\"button\" class=\"reset-progress\" hidden>\
-         Forget my answers</button></p>\n</div>\n",
+         Forget my progress</button></p>\n</div>\n",
     );
     html
 }

@@ -803,7 +803,10 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
         "[[question]]\nid = \"a\"\nprompt = \"What is $x$?\"\nanswer = 7\nexplanation = \"So.\"\n";
     let book = Book::new(&[
         ("SUMMARY.md", "- [One](one.md)\n\n[Progress](progress.md)\n"),
-        ("one.md", "# One\n\n{{#quiz one}}\n"),
+        (
+            "one.md",
+            "# One\n\n{{#figure dot | First.}}\n\n{{#figure dot goals=none size=4 | Second.}}\n\n{{#quiz one}}\n",
+        ),
         (
             "progress.md",
             "# Progress\n\n{{#progress}}\n\n{{#small dot page=one.md#one | One.}}\n{{#small dot | No page.}}\n",
@@ -821,10 +824,17 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
     );
     let progress = book.article("progress.html");
     assert!(
-        progress.contains("<tr data-quiz=\"one\"><td><a href=\"one.html\">One</a></td><td>1</td>")
+        progress.contains(
+            "<tr data-quiz=\"one\"><td><a href=\"one.html\">One</a></td>\
+             <td class=\"solved\" data-questions=\"1\">– of 1</td>"
+        ),
+        "{progress}"
     );
+    // The goals of its figures are counted, too.
+    let goals = "<td class=\"reached\" data-goals=\"dot/large\">– of 1</td>";
+    assert!(progress.contains(goals), "{progress}");
     // A picture that leads to a chapter has room for what is solved there.
-    let mark = "<span class=\"solved\" data-quiz=\"one\" data-questions=\"1\" hidden></span></a>";
+    let mark = "<span class=\"solved\" data-quiz=\"one\" data-questions=\"1\" data-goals=\"dot/large\" hidden></span></a>";
     assert_eq!(progress.matches(mark).count(), 1, "{progress}");
     assert_eq!(progress.matches("class=\"solved\" data-quiz").count(), 1);
 

@@ -219,7 +219,7 @@ const UNIT: &str = "1 0 0 1 0 1";
 #[test]
 fn contradicting_measurements_meet_in_the_middle() {
     let folder = Folder::new("posegraph");
-    // One says a metre, the other two: 1.5 is best, and leaves 0.25 twice.
+    // One says a meter, the other two: 1.5 is best, and leaves 0.25 twice.
     let text = format!(
         "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 5 1 0.3\n\
          EDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 2 0 0 {UNIT}\n"

@@ -668,7 +668,7 @@ fn one_camera_is_followed_up_to_scale() {
     assert!(result.lost.is_empty());
     assert_eq!(result.world_from_cam[0], Some(RigidTransform::identity()));
     let (distance, angle_deg) = errors(&world, &result.reconstruction.cameras);
-    // Half a percent of the ten metres.
+    // Half a percent of the ten meters.
     assert!(distance < 0.05 && angle_deg < 0.2, "{distance} {angle_deg}");
 }
 
@@ -717,7 +717,7 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
 }
 
 #[test]
-fn a_stereo_rig_is_followed_in_metres() {
+fn a_stereo_rig_is_followed_in_meters() {
     let making = Making {
         noise_px: 0.2,
         wrong: 0.1,
@@ -771,7 +771,7 @@ fn a_stereo_rig_is_followed_in_metres() {
     };
     let result = run(&right_from_left, &left_right).expect("a path");
     assert!(result.lost.is_empty());
-    // No alignment: the frame is that of the first camera, the unit is the metre.
+    // No alignment: the frame is that of the first camera, the unit is the meter.
     for (got, want) in result.world_from_cam.iter().zip(&left.cameras) {
         let got = got.expect("a pose").translation.vector;
         let error = (got - want.center_in_world().coords).norm();

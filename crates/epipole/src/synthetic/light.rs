@@ -17,10 +17,10 @@ pub(crate) use baking::{Baking, Detail, Shading};
 pub(crate) use maps::{Decal, LightMap};
 pub(crate) use proxy::Proxy;
 
-/// Offset that lifts a surface point off its own surface, metres.
+/// Offset that lifts a surface point off its own surface, meters.
 const LIFT_M: f64 = 2e-4;
 
-/// Heights above a surface at which the room's openness is probed, metres, and their weights.
+/// Heights above a surface at which the room's openness is probed, meters, and their weights.
 const PROBES: [(f64, f32); 5] = [
     (0.006, 0.16),
     (0.02, 0.20),
@@ -58,7 +58,7 @@ pub(crate) struct Mirror {
 }
 
 impl Lighting {
-    /// * `center`, `half_u`, `half_v`: the rectangle, metres; u × v points into the room
+    /// * `center`, `half_u`, `half_v`: the rectangle, meters; u × v points into the room
     /// * `reference_m`: where it has full strength; `None` if far away
     /// * `sides`: soft light on surfaces that face −x, +x, −y (up), +y, −z, +z
     pub(crate) fn new(

@@ -35,19 +35,19 @@ pub enum MovableKind {
 pub struct MovableObject {
     /// What it is.
     pub kind: MovableKind,
-    /// Sideways place of its axis, metres, positive to the right, in [−0.8, 0.8]. The lane
+    /// Sideways place of its axis, meters, positive to the right, in [−0.8, 0.8]. The lane
     /// |x| ≤ 0.35 is free of other things.
     pub x_m: f64,
-    /// Depth of its axis from the first camera, metres, in [0.6, 11].
+    /// Depth of its axis from the first camera, meters, in [0.6, 11].
     pub z_m: f64,
 }
 
 impl Scene {
-    /// A hall with a table of eleven metres, marked every decimetre, and one thing that stands on
+    /// A hall with a table of eleven meters, marked every decimeter, and one thing that stands on
     /// it at a given place.
     ///
     /// The world's origin is the center of [`long_table_camera`]`(0.0, …)`: x right, y down, z
-    /// along the table, metres. The table's top is y = 0.25, from z = 0.35 to 11.35, its metres
+    /// along the table, meters. The table's top is y = 0.25, from z = 0.35 to 11.35, its meters
     /// numbered; the wall behind is z = 12.
     ///
     /// Only the first photograph of each kind of thing computes textures and light; moving the
@@ -76,14 +76,14 @@ impl Scene {
         for (what, requirement, value, low, high) in [
             (
                 "the thing's place across the table",
-                "between -0.8 and 0.8 metres",
+                "between -0.8 and 0.8 meters",
                 object.x_m,
                 -0.8,
                 0.8,
             ),
             (
                 "the thing's depth",
-                "between 0.6 and 11 metres",
+                "between 0.6 and 11 meters",
                 object.z_m,
                 0.6,
                 11.0,
@@ -194,7 +194,7 @@ fn build_movable(kind: MovableKind) -> Movable {
     Movable::new(bodies, slab.boxed(), TABLE_TOP)
 }
 
-/// The table with its numbered metres; its top comes first.
+/// The table with its numbered meters; its top comes first.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let name = "the table";
@@ -210,7 +210,7 @@ fn table() -> Vec<Body> {
             paint,
         )
     };
-    // On the chart, t runs toward the camera from the far end; whole t are whole metres.
+    // On the chart, t runs toward the camera from the far end; whole t are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
         .shifted(0.0, (1.0 - TABLE_FAR_Z.fract()) as f32)
@@ -236,14 +236,14 @@ fn table() -> Vec<Body> {
             .boxed(),
         );
     }
-    for metres in 1..=11 {
-        let plate = Paint::new(&Arc::new(paint::number(wares.noise, metres)))
+    for meters in 1..=11 {
+        let plate = Paint::new(&Arc::new(paint::number(wares.noise, meters)))
             .glossy(0.6)
             .lit(2, 2);
         for side in [-1.0, 1.0] {
             bodies.push(cuboid(
                 [0.100, 0.0004, 0.100],
-                [side * 0.345, TABLE_Y - 0.0002, f64::from(metres)],
+                [side * 0.345, TABLE_Y - 0.0002, f64::from(meters)],
                 &plate,
             ));
         }

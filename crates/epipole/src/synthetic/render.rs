@@ -39,7 +39,7 @@ pub enum Sampling {
 pub struct Photograph {
     /// The picture, sRGB.
     pub image: RgbImage,
-    /// Depth along the optical axis at every pixel center, metres; finite everywhere, since a
+    /// Depth along the optical axis at every pixel center, meters; finite everywhere, since a
     /// room has walls.
     pub depth_m: ImageBuffer<Luma<f32>, Vec<f32>>,
 }

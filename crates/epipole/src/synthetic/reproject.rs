@@ -17,14 +17,14 @@ use std::ops::Range;
 /// A thing that has moved since a photograph was taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
-    /// Its middle at that time, in the world, metres.
+    /// Its middle at that time, in the world, meters.
     pub center: Point3<f64>,
-    /// It is the surface within this distance of its middle, metres.
+    /// It is the surface within this distance of its middle, meters.
     pub radius_m: f64,
     /// Within this distance of where it was and of where it is, nothing else looks as it did, because
-    /// its shade has moved along, metres.
+    /// its shade has moved along, meters.
     pub stale_m: f64,
-    /// How far it has moved, metres.
+    /// How far it has moved, meters.
     pub by: Vector3<f64>,
 }
 

@@ -19,7 +19,7 @@ const TEXELS_PER_STEP: usize = 16_384;
 /// The first surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Where, in the world, metres.
+    /// Where, in the world, meters.
     pub point: Point3<f64>,
     /// Unit normal toward the outside of the surface; on round bodies the smooth one that
     /// shading uses.
@@ -118,7 +118,7 @@ struct Look {
     decal: Decal,
 }
 
-/// Side of the square that the shade of a movable thing covers, metres.
+/// Side of the square that the shade of a movable thing covers, meters.
 const SHADE_M: f64 = 1.1;
 
 impl Movable {

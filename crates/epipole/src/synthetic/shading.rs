@@ -15,7 +15,7 @@ fn log2(x: f32) -> f32 {
 pub(crate) struct Look {
     pub(crate) x_in_world: [f32; 3],
     pub(crate) direction_in_world: [f32; 3],
-    /// Width of a pixel at this depth, metres of the body as it was built.
+    /// Width of a pixel at this depth, meters of the body as it was built.
     pub(crate) pixel_m: f32,
     /// Light on the table where a movable thing stands: window and soft.
     pub(crate) decal: Option<[f32; 2]>,

@@ -12,7 +12,7 @@ use crate::camera::{Camera, Intrinsics, look_at};
 use nalgebra::{Point3, Vector3};
 use std::sync::{Arc, OnceLock};
 
-/// The room: middle and sides, metres. The table's top is y = 0.
+/// The room: middle and sides, meters. The table's top is y = 0.
 const ROOM_CENTER: [f64; 3] = [0.1, -0.6, -1.1];
 const ROOM_SIZE: [f64; 3] = [3.6, 2.7, 4.3];
 const BACK_WALL_Z: f64 = ROOM_CENTER[2] + ROOM_SIZE[2] / 2.0;
@@ -24,7 +24,7 @@ impl Scene {
     /// by a window; pictures on a plastered wall.
     ///
     /// The world's origin is on the table's top in the middle of the things; x points right,
-    /// y **down** and z away from the viewer of [`still_life_camera`], metres. The room reaches
+    /// y **down** and z away from the viewer of [`still_life_camera`], meters. The room reaches
     /// from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05; every camera inside of it
     /// (and outside of the things) gets a photograph without holes.
     ///

@@ -29,11 +29,11 @@ impl Scene {
     /// A mug on a long table in even light, at any distance and of any size.
     ///
     /// * `foot_m`: where the middle of its foot stands on the table's top, x to the right and z away,
-    ///   metres; z in [0.4, 3.4] and |x| ≤ 0.7
+    ///   meters; z in [0.4, 3.4] and |x| ≤ 0.7
     /// * `height_m`: its height, in [0.05, 1]
     ///
     /// The world's origin lies in the plane of the table's top, y = 0, in front of its near edge at
-    /// z = 0.4; x points right, y **down** and z along the table, metres. The room reaches from
+    /// z = 0.4; x points right, y **down** and z along the table, meters. The room reaches from
     /// x = −1.7 to 3.1, y = −1.9 to 0.8 and z = −1.2 to 4.4.
     ///
     /// A mug whose foot and height grow by one factor is the same mug scaled about the origin. So a
@@ -65,21 +65,21 @@ impl Scene {
         for (what, requirement, value, low, high) in [
             (
                 "the mug's place across the table",
-                "between -0.7 and 0.7 metres",
+                "between -0.7 and 0.7 meters",
                 x_m,
                 -0.7,
                 0.7,
             ),
             (
                 "the mug's distance",
-                "between 0.4 and 3.4 metres",
+                "between 0.4 and 3.4 meters",
                 z_m,
                 TABLE_NEAR_Z,
                 TABLE_FAR_Z,
             ),
             (
                 "the mug's height",
-                "between 0.05 and 1 metre",
+                "between 0.05 and 1 meter",
                 height_m,
                 0.05,
                 1.0,
@@ -150,7 +150,7 @@ fn build_room() -> Fixed {
     Fixed::new(bodies, lighting())
 }
 
-/// The table, a cloth that hangs down in front, and a number at every metre.
+/// The table, a cloth that hangs down in front, and a number at every meter.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let name = "the table";
@@ -169,7 +169,7 @@ fn table() -> Vec<Body> {
             paint,
         )
     };
-    // On the chart, t runs toward the camera from the far end; whole t are whole metres.
+    // On the chart, t runs toward the camera from the far end; whole t are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
         .shifted(0.0, (1.0 - TABLE_FAR_Z.fract()) as f32)
@@ -197,11 +197,11 @@ fn table() -> Vec<Body> {
         )
         .painted(FRONT, &Paint::new(&cloth).lit(4, 4)),
     ];
-    for metres in 1..=3 {
-        let plate = Paint::new(&Arc::new(paint::number(wares.noise, metres))).lit(2, 2);
+    for meters in 1..=3 {
+        let plate = Paint::new(&Arc::new(paint::number(wares.noise, meters))).lit(2, 2);
         let plate = cuboid(
             [0.12, 0.0004, 0.12],
-            [TABLE_WIDTH / 2.0 - 0.16, -0.0002, f64::from(metres)],
+            [TABLE_WIDTH / 2.0 - 0.16, -0.0002, f64::from(meters)],
             &plate,
         );
         bodies.push(plate.turned(std::f64::consts::FRAC_PI_2));

@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 /// Side of the squares of pixels that share a list of candidates.
 pub(super) const TILE: u32 = 8;
 const NEAR: f64 = 1e-9;
-/// Depth beyond which things are in front of the camera, metres.
+/// Depth beyond which things are in front of the camera, meters.
 const FRONT_M: f64 = 1e-6;
 
 /// A body as one camera sees it.

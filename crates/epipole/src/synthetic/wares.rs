@@ -43,13 +43,13 @@ pub(super) struct Wares {
     plain: Arc<Texture>,
 }
 
-/// Sizes of the pictures on the walls, metres.
+/// Sizes of the pictures on the walls, meters.
 pub(super) const LANDSCAPE_M: [f64; 2] = [0.62, 0.46];
 pub(super) const GEOMETRIC_M: [f64; 2] = [0.38, 0.46];
 pub(super) const STAR_CHART_M: [f64; 2] = [0.40, 0.52];
-/// How far a picture stands out from its wall, metres.
+/// How far a picture stands out from its wall, meters.
 pub(super) const PICTURE_DEPTH_M: f64 = 0.028;
-/// Side of the square of wall that the plaster covers before it repeats, metres.
+/// Side of the square of wall that the plaster covers before it repeats, meters.
 pub(super) const PLASTER_M: f64 = 1.7;
 
 impl Wares {

@@ -1,18 +1,22 @@
 //! Two views, whatever they show: a scene with depth, a plane, or a turn of the camera.
 
 mod choice;
+mod degeneracy;
 mod motion;
 mod options;
 mod pairs;
 mod rotation;
 mod search;
 mod turn;
+mod turn_and_focal;
 
 pub use choice::{
     Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
     estimate_two_view_calibrated_with, estimate_two_view_with,
 };
+pub use degeneracy::{Degeneracy, find_degeneracy};
 pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
 pub use rotation::{RotationEstimator, estimate_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};
+pub use turn_and_focal::{TurnAndFocal, find_turn_and_focal};

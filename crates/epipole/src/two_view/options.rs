@@ -98,7 +98,12 @@ impl TwoViewOptions {
         p1: &Point2<f64>,
         p2: &Point2<f64>,
     ) -> bool {
-        let reach_px = TWO_DIMENSIONS * self.ransac.max_error_px;
+        let reach_px = self.reach_in_two_dimensions_px();
         homography_sampson_sq(h, p1, p2) < reach_px * reach_px
+    }
+
+    /// How far a match may be from a homography, pixels, by the Sampson error.
+    pub(super) fn reach_in_two_dimensions_px(&self) -> f64 {
+        TWO_DIMENSIONS * self.ransac.max_error_px
     }
 }

@@ -68,22 +68,28 @@ impl RotationEstimator {
         }
     }
 
-    /// The rotation that aligns the rays of image 1 with those of image 2 best.
     fn align(&self, indices: &[usize]) -> Option<Matrix3<f64>> {
-        let mut sum = Matrix3::zeros();
-        for &i in indices {
-            let [r1, r2] = &self.rays[i];
-            sum += r2 * r1.transpose();
-        }
-        let svd = svd3(&sum);
-        // One direction alone leaves the turn about it open.
-        if svd.singular_values[1] <= 1e-12 * svd.singular_values[0] {
-            return None;
-        }
-        let sign = (svd.u * svd.v.transpose()).determinant();
-        let flip = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign));
-        Some(svd.u * flip * svd.v.transpose())
+        align_rays(indices.iter().map(|&i| &self.rays[i]))
     }
+}
+
+/// The rotation that aligns the first ray of each pair, of length 1, with the second best. `None` if they leave it
+/// open.
+pub(super) fn align_rays<'a>(
+    pairs: impl Iterator<Item = &'a [Vector3<f64>; 2]>,
+) -> Option<Matrix3<f64>> {
+    let mut sum = Matrix3::zeros();
+    for [r1, r2] in pairs {
+        sum += r2 * r1.transpose();
+    }
+    let svd = svd3(&sum);
+    // One direction alone leaves the turn about it open.
+    if svd.singular_values[1] <= 1e-12 * svd.singular_values[0] {
+        return None;
+    }
+    let sign = (svd.u * svd.v.transpose()).determinant();
+    let flip = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign));
+    Some(svd.u * flip * svd.v.transpose())
 }
 
 impl Estimator for RotationEstimator {

@@ -107,6 +107,29 @@ pub fn find_explaining_turn(
     options: &TwoViewOptions,
 ) -> Result<Option<ExplainingTurn>> {
     options.check()?;
+    let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
+    let ransac = RansacOptions {
+        max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
+        ..options.in_two_dimensions()
+    };
+    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac) {
+        Ok(report) => report,
+        Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    let pairs = in1.iter().zip(&in2);
+    Ok(ExplainingTurn::new(&report, [k1, k2], pairs, options))
+}
+
+/// Both pixels of the matches of a mask.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] if the lists differ in length.
+pub(super) fn inliers_of(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    inliers: &[bool],
+) -> Result<[Vec<Point2<f64>>; 2]> {
     for (first, second) in [
         (pixels1.len(), pixels2.len()),
         (pixels1.len(), inliers.len()),
@@ -119,20 +142,8 @@ pub fn find_explaining_turn(
             });
         }
     }
-    let among = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+    Ok([pixels1, pixels2].map(|pixels| {
         let kept = pixels.iter().zip(inliers).filter(|(_, is)| **is);
         kept.map(|(pixel, _)| *pixel).collect()
-    };
-    let (in1, in2) = (among(pixels1), among(pixels2));
-    let ransac = RansacOptions {
-        max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
-        ..options.in_two_dimensions()
-    };
-    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac) {
-        Ok(report) => report,
-        Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
-        Err(error) => return Err(error),
-    };
-    let pairs = in1.iter().zip(&in2);
-    Ok(ExplainingTurn::new(&report, [k1, k2], pairs, options))
+    }))
 }

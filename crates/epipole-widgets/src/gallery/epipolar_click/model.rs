@@ -255,7 +255,7 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
         goal: "Bring the epipole e′ into photograph 2.",
         hint: "The epipole is where camera 2 sees camera 1, before or behind it. Which motion puts one \
                in front of the other?",
-        why: "Moving forward turns the baseline towards the optical axis, and the epipole is where the \
+        why: "Moving forward turns the baseline toward the optical axis, and the epipole is where the \
               baseline meets the image.",
         check: |model| {
             let geometry = model.geometry();

@@ -64,11 +64,16 @@ impl View for HarrisView {
 
 fn draw_corners(canvas: &mut Canvas, panel: &Panel, model: &Harris) {
     let corners = model.corners();
-    let is_crowded = corners.len() > 60 || panel.rect.width < 300.0;
-    let radius = if is_crowded { 3.5 } else { 7.0 };
+    let (is_crowded, is_small) = (corners.len() > 60, panel.rect.width < 300.0);
+    // On a phone the circles of many corners would hide what they are around.
+    let (radius, width) = match (is_crowded, is_small) {
+        (true, true) => (1.75, 1.25),
+        (false, false) => (7.0, 2.0),
+        _ => (3.5, 2.0),
+    };
     for &(u, v) in corners {
         let place = panel.canvas_from_world((f64::from(u), f64::from(v)));
-        canvas.circle(place, radius, Stroke::solid(Role::Inlier, 2.0).cased());
+        canvas.circle(place, radius, Stroke::solid(Role::Inlier, width).cased());
     }
 }
 

@@ -4,7 +4,7 @@
 //! the settings; the loop is deterministic, so a permalink replays it.
 
 use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
-use super::votes::{Best, Moment, Voters, Votes};
+use super::votes::{Best, LeftOpen, Moment, Voters, Votes};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
     Problem, Settings, Slider, Symbol, Toggle, Value, knobs,
@@ -134,6 +134,12 @@ impl RansacEpipolar {
     /// The F with the most votes so far.
     pub(super) fn best(&self) -> Option<&Best> {
         self.moment()?.best
+    }
+
+    /// What the votes do not determine, once all are in.
+    pub(super) fn left_open(&self) -> Option<LeftOpen> {
+        let votes = self.votes().filter(|_| self.is_finished())?;
+        votes.left_open
     }
 
     pub(super) fn show(&self) -> Show {
@@ -342,6 +348,8 @@ mod tests {
     use crate::contract::Words;
     use crate::kit::question::settle;
     use crate::kit::scenes::{photograph, still_life_pair};
+    use epipole::camera::RigidTransform;
+    use nalgebra::Vector3;
     use std::ops::ControlFlow;
 
     #[test]
@@ -381,10 +389,38 @@ mod tests {
         settle(&mut model);
         assert!(model.best().unwrap().num_votes > 20);
         assert_eq!(model.num_right(), None, "nobody knows the truth");
+        assert_eq!(model.left_open(), None);
         // A gray card has no features, and that is no reason to fail.
         model.take_photo("first", RgbImage::new(64, 64)).unwrap();
         settle(&mut model);
         assert!(model.problem().unwrap().starts_with("There is no F"));
         assert!(model.take_photo("first", RgbImage::new(3, 64)).is_err());
+    }
+
+    #[test]
+    fn one_photograph_twice_and_a_turn_say_that_f_is_not_determined() {
+        let size = (240, 180);
+        let [first, _] = still_life_pair(size, 0.15, 0.0, 4.0);
+        let mut turned = first;
+        turned.cam_from_world =
+            RigidTransform::rotation(Vector3::new(0.0, 0.08, 0.0)) * first.cam_from_world;
+        let [first, turned] = [first, turned]
+            .map(|camera| photograph(&camera, size, &mut |_| ControlFlow::Continue(())).unwrap());
+        for (second, expected) in [
+            (&first, "the camera did not move"),
+            (&turned, "the camera only turned, or"),
+        ] {
+            let mut model = RansacEpipolar::new();
+            model.take_photo("first", first.clone()).unwrap();
+            model.take_photo("second", second.clone()).unwrap();
+            settle(&mut model);
+            let words = model.describe();
+            assert!(words.contains(expected), "{words}");
+            assert!(words.contains("Take a step aside"), "{words}");
+            // Before the last sample nobody can say so.
+            model.update(&Event::press("restart")).unwrap();
+            model.update(&Event::press("step")).unwrap();
+            assert!(model.is_finished() || !model.describe().contains(expected));
+        }
     }
 }

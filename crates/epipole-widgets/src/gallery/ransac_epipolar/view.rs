@@ -1,6 +1,7 @@
 //! Two photographs, their matches from one to the other, and what the votes make of them.
 
 use super::model::{RansacEpipolar, Show};
+use super::words;
 use crate::canvas::{Canvas, Place, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
@@ -84,7 +85,7 @@ impl View for RansacEpipolarView {
             grid::fitting_title(canvas, panel.rect, wordings);
         }
         if let Some(notice) = notice(model) {
-            grid::notice(canvas, panels[0].rect, notice);
+            grid::notice(canvas, panels[0].rect, &notice);
         }
         let top = panels[0].rect.bottom().max(panels[1].rect.bottom()) + GAP / 2.0;
         legend::draw(canvas, &legend_of(model), layout.width, 0.0, top);
@@ -212,8 +213,12 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
     canvas.grip(first.place_of(&probe), Role::Grip);
 }
 
-/// What the reader should know or do before there is an F to see.
-fn notice(model: &RansacEpipolar) -> Option<&str> {
+/// What the reader should know or do before there is an F to see, or of one that means nothing.
+fn notice(model: &RansacEpipolar) -> Option<String> {
     let is_untouched = model.num_samples() == 0;
-    (model.problem().or(model.label())).or(is_untouched.then_some("Press Run or Step."))
+    let before = model.problem().or(model.label());
+    let before = before.or(is_untouched.then_some("Press Run or Step."));
+    before
+        .map(str::to_owned)
+        .or_else(|| words::left_open(model))
 }

@@ -8,6 +8,7 @@ use epipole::Error;
 use epipole::epipolar::{FundamentalEstimator, refine_fundamental, sampson_px};
 use epipole::optim::RobustLoss;
 use epipole::robust::MatchSet;
+use epipole::two_view::{Degeneracy, TwoViewOptions, find_degeneracy};
 use nalgebra::{Matrix3, Point2};
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,8 @@ pub(super) struct Voters {
     /// No match has a larger ratio.
     pub(super) most_ratio: f32,
     pub(super) rules: Rules,
+    /// Whether nobody knows the truth: then it is asked what the votes leave open.
+    pub(super) is_own: bool,
 }
 
 /// An election from its first sample to its last.
@@ -29,6 +32,17 @@ pub(super) struct Votes {
     bests: Vec<Best>,
     /// Why there is none, as a sentence.
     pub(super) refusal: Option<String>,
+    /// What the voters of the last of them do not determine.
+    pub(super) left_open: Option<LeftOpen>,
+}
+
+/// Why an F is one of many, and how many of its voters say so.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) enum LeftOpen {
+    /// They are at one place in both photographs.
+    Unmoved(usize),
+    /// One homography explains them.
+    Homography(usize),
 }
 
 /// One sample and what came of it.
@@ -59,6 +73,7 @@ pub(super) struct Best {
 impl Voters {
     pub(super) fn new(matches: &[&Match], most_ratio: f32, rules: Rules) -> Self {
         Self {
+            is_own: matches.iter().all(|found| found.is_right.is_none()),
             places: matches.iter().map(|found| found.places).collect(),
             most_ratio,
             rules,
@@ -99,7 +114,21 @@ impl Voters {
                 tell(progress, count as f64 / self.rules.max_samples as f64)?;
             }
         }
+        if let (Some(best), true) = (votes.bests.last(), self.is_own) {
+            votes.left_open = self.left_open(best)?;
+        }
         Ok(votes)
+    }
+
+    /// What the voters of an F do not determine.
+    fn left_open(&self, best: &Best) -> Result<Option<LeftOpen>, Error> {
+        let [pixels1, pixels2] = [0, 1].map(|side| self.pixels(side).collect::<Vec<_>>());
+        let options = TwoViewOptions::default().within(self.rules.epsilon_px);
+        let found = find_degeneracy(&pixels1, &pixels2, &best.is_inlier, &options)?;
+        Ok(found.map(|found| match found {
+            Degeneracy::Unmoved { num_unmoved, .. } => LeftOpen::Unmoved(num_unmoved),
+            Degeneracy::Homography { num_explained, .. } => LeftOpen::Homography(num_explained),
+        }))
     }
 
     fn begin(&self) -> Result<Samples<FundamentalEstimator>, Error> {

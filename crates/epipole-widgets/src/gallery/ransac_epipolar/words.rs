@@ -1,6 +1,7 @@
 //! What `ransac-epipolar` says.
 
 use super::model::{RansacEpipolar, Show};
+use super::votes::LeftOpen;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::samples::Drawn;
 use crate::kit::words;
@@ -8,6 +9,23 @@ use epipole::epipolar::epipolar_line2;
 
 /// Stands for a number until there is one.
 const WAITING: &str = "none yet";
+
+/// Why the F that was elected means nothing, and what helps.
+pub(super) fn left_open(model: &RansacEpipolar) -> Option<String> {
+    let num_votes = model.best()?.num_votes;
+    let why = match model.left_open()? {
+        LeftOpen::Unmoved(count) => format!(
+            "{count} of its {num_votes} inliers are where they were in photograph 1: the camera did not move"
+        ),
+        LeftOpen::Homography(count) => format!(
+            "one homography explains {count} of its {num_votes} inliers: the camera only turned, or all is in one \
+             plane"
+        ),
+    };
+    Some(format!(
+        "This F is one of many: {why}. Take a step aside, and photograph things at different distances."
+    ))
+}
 
 impl Words for RansacEpipolar {
     fn readouts(&self) -> Vec<Readout> {
@@ -74,9 +92,10 @@ impl Words for RansacEpipolar {
             Show::Outliers => " Outliers are shown.",
             Show::Lines => " Epipolar lines are shown.",
         };
+        let open = left_open(self).map_or_else(String::new, |sentence| format!(" {sentence}"));
         format!(
             "After {}, {} of {num_matches} matches agree on one F within {} px{right}. Their mean \
-             Sampson distance is {} px. {}{show}",
+             Sampson distance is {} px. {}{show}{open}",
             last.drawn.count_words(),
             best.num_votes,
             format_number(self.epsilon_px(), 1),

@@ -5,6 +5,7 @@ use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
+    find_turn_and_focal,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -29,6 +30,13 @@ pub(super) enum Verdict {
     NoConsensus,
     /// The camera only turned, by this angle in degrees.
     Turned(f64),
+    /// The camera only turned, if its focal length is another one.
+    TurnedOtherwise {
+        /// By this angle, degrees.
+        angle_deg: f64,
+        /// The focal length is so many times the one given.
+        focal_factor: f64,
+    },
     /// The camera moved, but so little that rays meet at this angle in degrees.
     Narrow(f64),
 }
@@ -83,7 +91,19 @@ pub(super) fn judge(
     let turn_deg =
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
     let fundamental_won = matches!(report.model, TwoViewModel::Fundamental(_));
-    let verdict = match report.configuration {
+    // Under a wrong focal length a turn passes for a plane.
+    let otherwise = match report.configuration {
+        Configuration::Planar => {
+            let [k1, k2] = lenses;
+            find_turn_and_focal(pixels1, pixels2, k1, k2, &report.inliers, &options)?
+        }
+        _ => None,
+    };
+    let otherwise = otherwise.map(|turn| Verdict::TurnedOtherwise {
+        angle_deg: turn.cam2_from_cam1.rotation.angle().to_degrees(),
+        focal_factor: turn.focal_factor,
+    });
+    let seen = match report.configuration {
         // A model that next to nobody supports has no inliers worth showing.
         Configuration::Degenerate => return Ok(nothing(Verdict::NoConsensus)),
         Configuration::Panoramic => Verdict::Turned(turn_deg),
@@ -92,6 +112,7 @@ pub(super) fn judge(
         Configuration::General if fundamental_won => Verdict::Lens,
         Configuration::General => Verdict::Good,
     };
+    let verdict = otherwise.unwrap_or(seen);
     let has_depth = matches!(verdict, Verdict::Good | Verdict::Plane | Verdict::Lens);
     Ok(Judged {
         verdict,

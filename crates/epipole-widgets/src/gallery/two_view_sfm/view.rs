@@ -87,7 +87,7 @@ impl View for TwoViewSfmView {
         }
         draw_handles(canvas, space, &model.orbit);
         draw_titles(model, layout, canvas);
-        let failed = model.answer().and_then(words::failure);
+        let failed = asked.answered().and_then(words::failure);
         let failed = failed.filter(|_| model.stage() >= Stage::Ransac);
         let sparse = model.answer().and_then(words::no_surface);
         let sparse = sparse.filter(|_| model.stage() == Stage::Surface);

@@ -11,7 +11,7 @@ fn degrees(value: f64) -> String {
 }
 
 /// What went wrong, if there is no cloud.
-pub(super) fn failure(answer: &Answer) -> Option<String> {
+pub(super) fn failure((question, answer): (&Question, &Answer)) -> Option<String> {
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     Some(match answer.verdict {
         Verdict::TooFew => {
@@ -38,6 +38,15 @@ pub(super) fn failure(answer: &Answer) -> Option<String> {
              matches. Without a step aside there is no depth, and no cloud.",
             degrees(angle_deg)
         ),
+        Verdict::TurnedOtherwise {
+            angle_deg,
+            focal_factor,
+        } => format!(
+            "The camera only turned, by {}, if its focal length is near {}: then a rotation alone explains \
+             {inliers} of {matches} matches. Without a step aside there is no depth, and no cloud.",
+            degrees(angle_deg),
+            focal_text(question.focal * focal_factor)
+        ),
         Verdict::Narrow(angle_deg) => format!(
             "The camera hardly moved: {inliers} of {matches} matches agree, but their rays meet at \
              only {}. That is too narrow for depth.",
@@ -50,7 +59,10 @@ pub(super) fn failure(answer: &Answer) -> Option<String> {
 /// What the reader should know of a cloud that is there.
 fn caution(answer: &Answer) -> &'static str {
     match answer.verdict {
-        Verdict::Plane => " Most matches lie in one plane, so the motion is less certain.",
+        Verdict::Plane => {
+            " One homography explains most matches: they lie in one plane, or the camera only turned. The \
+             motion is uncertain."
+        }
         Verdict::Lens => " F fits more matches than any E: the focal length may be wrong.",
         _ => "",
     }
@@ -118,7 +130,7 @@ fn describe(model: &TwoViewSfm) -> String {
     if let Some(problem) = model.asked.problem() {
         return problem.to_owned();
     }
-    let Some(answer) = model.answer() else {
+    let Some((question, answer)) = model.asked.answered() else {
         return format!("{}.", Question::LABEL);
     };
     let stage = model.stage();
@@ -126,7 +138,7 @@ fn describe(model: &TwoViewSfm) -> String {
     let counts = answer.keypoints.each_ref().map(Vec::len);
     let turn = degrees(model.turn_deg().unwrap_or(0.0));
     let (before, ago) = knocks(model.knock_deg());
-    match (stage, failure(answer), &answer.motion) {
+    match (stage, failure((question, answer)), &answer.motion) {
         (Stage::Detect, ..) => format!(
             "{} features in the first photograph and {} in the second.",
             counts[0], counts[1]

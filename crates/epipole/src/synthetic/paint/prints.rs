@@ -77,7 +77,7 @@ pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
 
 /// The frame around a picture; `None` where the picture itself is seen, else the color.
 ///
-/// (x, y) and the picture's size are in metres.
+/// (x, y) and the picture's size are in meters.
 fn frame(
     noise: &Noise,
     x: f32,

@@ -5,7 +5,7 @@ use super::with_gloss;
 use crate::synthetic::noise::{Noise, blend, dim, mix, split, step};
 use crate::synthetic::texture::Texture;
 
-/// The color of oak at (x, y) metres, the grain along x.
+/// The color of oak at (x, y) meters, the grain along x.
 fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3]) -> [f32; 3] {
     let shift = board * 7.31;
     let bend = noise.octaves(x * 1.9 + shift, y * 9.0 + shift, 2);
@@ -84,7 +84,7 @@ pub(crate) fn floor(noise: &'static Noise) -> Texture {
     })
 }
 
-/// The top of the long table: one metre along t with marks every decimetre, to be repeated.
+/// The top of the long table: one meter along t with marks every decimeter, to be repeated.
 pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
     let (light, dark) = ([0.44, 0.262, 0.132], [0.22, 0.112, 0.05]);
     let (pale, ebony) = ([0.60, 0.48, 0.32], [0.045, 0.033, 0.027]);
@@ -94,11 +94,11 @@ pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
         let mut color = oak_tile(noise, [s, t], board, light, dark);
         color = dim(color, mix(0.35, 1.0, step(0.0, 0.004, joint_m)));
         // Inlaid squares in two rows, dark and light by turns, as on a measuring rod; a line
-        // across at every metre.
-        let (decimetre, part) = split(t * 10.0);
+        // across at every meter.
+        let (decimeter, part) = split(t * 10.0);
         let side = (2.0 * s - 1.0).abs();
         if (0.44..0.49).contains(&side) {
-            let inlay = if decimetre % 2 == 0 { pale } else { ebony };
+            let inlay = if decimeter % 2 == 0 { pale } else { ebony };
             color = dim(inlay, 1.0 + 0.12 * noise.tile(s, t, [256, 64]));
             let seam_m =
                 (part.min(1.0 - part) * 0.1).min((side - 0.44).min(0.49 - side) * width_m / 2.0);
@@ -112,11 +112,11 @@ pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
 }
 
 /// A brass plate with a number of one or two digits.
-pub(crate) fn number(noise: &'static Noise, metres: u32) -> Texture {
-    let line = Line::new(&metres.to_string());
+pub(crate) fn number(noise: &'static Noise, meters: u32) -> Texture {
+    let line = Line::new(&meters.to_string());
     Texture::paint(64, 64, false, move |s, t| {
         let rim = s.min(1.0 - s).min(t.min(1.0 - t));
-        let brushed = 1.0 + 0.12 * noise.value(s * 6.0, t * 90.0 + metres as f32);
+        let brushed = 1.0 + 0.12 * noise.value(s * 6.0, t * 90.0 + meters as f32);
         let brass = dim([0.62, 0.44, 0.17], brushed);
         let ink = line.at((s - 0.5) / 0.62 + line.width() / 2.0, (t - 0.19) / 0.62);
         let color = blend(brass, [0.05, 0.035, 0.02], ink);

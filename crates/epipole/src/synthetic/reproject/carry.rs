@@ -10,7 +10,7 @@ use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Nothing nearer than this to the other camera is carried over, metres.
+/// Nothing nearer than this to the other camera is carried over, meters.
 pub(super) const NEAR_M: f32 = 0.02;
 /// A pixel never becomes a larger square than this, pixels.
 const LARGEST: f32 = 6.0;

@@ -43,7 +43,7 @@ pub(crate) struct Place {
     pub(crate) t: f64,
     /// Unit, outward.
     pub(crate) normal: Vector3<f64>,
-    /// How much s and t grow per metre here.
+    /// How much s and t grow per meter here.
     pub(crate) per_m: [f64; 2],
 }
 

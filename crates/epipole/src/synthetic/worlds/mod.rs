@@ -17,20 +17,20 @@ use nalgebra::{Point2, Point3};
 /// Where the points of a world lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Structure {
-    /// Anywhere in a cube of this half side, metres.
+    /// Anywhere in a cube of this half side, meters.
     Cube {
-        /// Half of its side, metres.
+        /// Half of its side, meters.
         half_side_m: f64,
     },
     /// On one square plane, tilted by half a radian about the vertical: the case in which a
     /// homography explains everything.
     Plane {
-        /// Half of the square's side, metres.
+        /// Half of the square's side, meters.
         half_side_m: f64,
     },
     /// On two planes that meet in a vertical edge at right angles, like the corner of a house.
     Corner {
-        /// Width and half height of each wall, metres.
+        /// Width and half height of each wall, meters.
         half_side_m: f64,
     },
 }

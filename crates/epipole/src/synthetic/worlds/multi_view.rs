@@ -11,16 +11,16 @@ use nalgebra::{Point2, Point3, Vector3};
 pub enum Path {
     /// On an arc around the world's origin, looking at it; `span_rad` = 2π closes the circle.
     Arc {
-        /// Distance from the origin, metres.
+        /// Distance from the origin, meters.
         radius_m: f64,
         /// Angle from the first to the last camera (for 2π: to the first again), radians.
         span_rad: f64,
     },
     /// On a straight line along x at a distance in front of the points, all looking along +z.
     Line {
-        /// Distance from the origin, metres.
+        /// Distance from the origin, meters.
         distance_m: f64,
-        /// From one camera to the next, metres.
+        /// From one camera to the next, meters.
         spacing_m: f64,
     },
 }
@@ -118,7 +118,7 @@ impl MultiViewProblem {
         let half = options.structure.half_side_m();
         check(
             "the half side of the structure",
-            "between 0.001 and 1000 metres",
+            "between 0.001 and 1000 meters",
             half,
             1e-3,
             1e3,
@@ -216,7 +216,7 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
             let circle = std::f64::consts::TAU;
             check(
                 "the radius of the path",
-                "between 0.001 and 10 000 metres",
+                "between 0.001 and 10 000 meters",
                 radius_m,
                 1e-3,
                 1e4,
@@ -248,14 +248,14 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
         } => {
             check(
                 "the distance of the path",
-                "between 0.001 and 10 000 metres",
+                "between 0.001 and 10 000 meters",
                 distance_m,
                 1e-3,
                 1e4,
             )?;
             check(
                 "the spacing of the cameras",
-                "between 0 and 1000 metres",
+                "between 0 and 1000 meters",
                 spacing_m,
                 0.0,
                 1e3,

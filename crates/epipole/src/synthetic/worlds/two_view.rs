@@ -13,9 +13,9 @@ pub struct TwoViewProblemOptions {
     pub num_points: usize,
     /// Where the points lie, around the world's origin.
     pub structure: Structure,
-    /// Distance between the camera centers, metres; 0 for a camera that only turns.
+    /// Distance between the camera centers, meters; 0 for a camera that only turns.
     pub baseline_m: f64,
-    /// Distance of the first camera from the world's origin, metres.
+    /// Distance of the first camera from the world's origin, meters.
     pub distance_m: f64,
     /// Standard deviation of the Gaussian error of each coordinate of each pixel, pixels.
     pub noise_px: f64,
@@ -80,21 +80,21 @@ impl TwoViewProblem {
         let half = options.structure.half_side_m();
         check(
             "the half side of the structure",
-            "between 0.001 and 1000 metres",
+            "between 0.001 and 1000 meters",
             half,
             1e-3,
             1e3,
         )?;
         check(
             "the baseline",
-            "between 0 and 1000 metres",
+            "between 0 and 1000 meters",
             options.baseline_m,
             0.0,
             1e3,
         )?;
         check(
             "the distance",
-            "between 0.001 and 10 000 metres",
+            "between 0.001 and 10 000 meters",
             options.distance_m,
             1e-3,
             1e4,

@@ -1,0 +1,147 @@
+//! What the inliers of F leave open.
+
+use super::TwoViewOptions;
+use super::turn::inliers_of;
+use crate::homography::estimate_homography;
+use crate::robust::RansacOptions;
+use crate::{Error, Result};
+use nalgebra::Point2;
+
+/// Samples of four matches, at most: where a homography explains nearly all, a tenth is plenty.
+const MAX_SAMPLES: usize = 500;
+
+/// Why a fundamental matrix that fits its inliers is one of many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Degeneracy {
+    /// Nearly all inliers are where they were in image 1, but for noise: the camera hardly moved, or the matches are
+    /// of something that moves with it.
+    Unmoved {
+        /// How many of them.
+        num_unmoved: usize,
+        /// How many inliers there are.
+        num_inliers: usize,
+    },
+    /// A homography explains nearly all inliers: they show a plane, or the camera only turned.
+    Homography {
+        /// How many of them it explains.
+        num_explained: usize,
+        /// How many inliers there are.
+        num_inliers: usize,
+    },
+}
+
+/// Why the inliers of F do not determine it, if they do not: F fits a camera that never moved, one that only turned,
+/// and a plane, and means nothing there.
+///
+/// * `pixels1`, `pixels2`: the matches that F was found from
+/// * `inliers`: for each match, whether it is an inlier of F
+/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and [`RansacOptions::max_error_px`]
+///   should be that of F. Matches have to fit a homography in two dimensions, with the noise of both images: they are
+///   given 1.25 √2 times as much
+///
+/// # Errors
+/// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN, and as
+/// [`TwoViewOptions::check`].
+///
+/// Source: Hartley & Zisserman 2004, §11.9 (degenerate configurations).
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::two_view::{Degeneracy, TwoViewOptions, find_degeneracy};
+/// use nalgebra::Point2;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let (all, options) = ([true; 60], TwoViewOptions::default());
+/// let unmoved = Degeneracy::Unmoved { num_unmoved: 60, num_inliers: 60 };
+/// assert_eq!(find_degeneracy(&p1, &p1, &all, &options)?, Some(unmoved));
+/// // A step to the right past a wall that stands straight ahead: everything moves by 12 pixels.
+/// let wall: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
+/// let plane = Degeneracy::Homography { num_explained: 60, num_inliers: 60 };
+/// assert_eq!(find_degeneracy(&p1, &wall, &all, &options)?, Some(plane));
+/// // With depth, near things move more than far ones.
+/// let depth: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
+/// assert_eq!(find_degeneracy(&p1, &depth, &all, &options)?, None);
+/// # Ok(()) }
+/// ```
+pub fn find_degeneracy(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    inliers: &[bool],
+    options: &TwoViewOptions,
+) -> Result<Option<Degeneracy>> {
+    options.check()?;
+    let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
+    let num_inliers = in1.len();
+    let needed = options.max_homography_share * num_inliers as f64;
+    let nearly_all = |count: usize| num_inliers > 0 && count as f64 >= needed;
+    let in_two_dimensions = options.in_two_dimensions();
+    let reach_px = in_two_dimensions.max_error_px;
+    let pairs = in1.iter().zip(&in2);
+    let num_unmoved = pairs
+        .filter(|(p1, p2)| (*p1 - *p2).norm() < reach_px)
+        .count();
+    if nearly_all(num_unmoved) {
+        return Ok(Some(Degeneracy::Unmoved {
+            num_unmoved,
+            num_inliers,
+        }));
+    }
+    let ransac = RansacOptions {
+        max_iterations: in_two_dimensions.max_iterations.min(MAX_SAMPLES),
+        ..in_two_dimensions
+    };
+    let num_explained = match estimate_homography(&in1, &in2, &ransac) {
+        Ok(report) => report.num_inliers,
+        Err(Error::TooFew { .. } | Error::NoConsensus { .. } | Error::Degenerate { .. }) => 0,
+        Err(error) => return Err(error),
+    };
+    Ok(nearly_all(num_explained).then_some(Degeneracy::Homography {
+        num_explained,
+        num_inliers,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_matches_and_none_determine_nothing_and_say_nothing() {
+        let options = TwoViewOptions::default();
+        let at = |i: usize| Point2::new((i * 97 % 800) as f64, (i * 61 % 600) as f64);
+        let [p1, p2]: [Vec<_>; 2] = [0, 7].map(|by| (0..20).map(|i| at(i + by * i)).collect());
+        assert_eq!(find_degeneracy(&[], &[], &[], &options), Ok(None));
+        assert_eq!(find_degeneracy(&p1, &p2, &[false; 20], &options), Ok(None));
+        let few = find_degeneracy(&p1[..3], &p2[..3], &[true; 3], &options);
+        assert_eq!(few, Ok(None));
+        let error = find_degeneracy(&p1, &p2[1..], &[true; 20], &options).unwrap_err();
+        assert!(matches!(error, Error::SizeMismatch { .. }));
+        let mut broken = p2.clone();
+        broken[2].y = f64::NAN;
+        let error = find_degeneracy(&p1, &broken, &[true; 20], &options).unwrap_err();
+        assert!(matches!(error, Error::NotFinite { .. }));
+    }
+
+    /// Some inliers that did move do not make it a motion; many do.
+    #[test]
+    fn nearly_all_is_a_share() {
+        let options = TwoViewOptions::default();
+        let p1: Vec<_> = (0..100)
+            .map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480)))
+            .collect();
+        for (num_moved, expected) in [(10, true), (40, false)] {
+            let mut p2 = p1.clone();
+            for (index, p) in p2.iter_mut().enumerate().take(num_moved) {
+                p.x += 10.0 + (index * 13 % 31) as f64;
+            }
+            let found = find_degeneracy(&p1, &p2, &[true; 100], &options).unwrap();
+            let unmoved = matches!(
+                found,
+                Some(Degeneracy::Unmoved {
+                    num_unmoved: 90,
+                    ..
+                })
+            );
+            assert_eq!(unmoved, expected, "{num_moved}: {found:?}");
+        }
+    }
+}
