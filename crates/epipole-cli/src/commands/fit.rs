@@ -190,7 +190,7 @@ fn fit(
                 &found.inliers,
                 false,
                 &robust.options(context).within(found.max_error_px),
-            );
+            )?;
             Ok(told(of_matrix(found, &h, errors), open, context))
         }
         Model::Fundamental => {
@@ -203,7 +203,7 @@ fn fit(
                 &found.inliers,
                 true,
                 &robust.options(context).within(found.max_error_px),
-            );
+            )?;
             Ok(told(of_matrix(found, &f, errors), open, context))
         }
         Model::Essential => {

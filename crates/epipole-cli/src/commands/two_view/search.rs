@@ -82,7 +82,9 @@ pub(super) fn estimate(
             arguments
                 .robust
                 .warn_of_stop(report.stop, drawn, required, context);
-            Ok(of_report(report, pixels1, pixels2))
+            let found = of_report(report, pixels1, pixels2);
+            warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
+            Ok(found)
         }
         Model::Fundamental => {
             let estimator = FundamentalEstimator::new(set()?)?;
@@ -153,9 +155,31 @@ pub(super) fn estimate(
                 found.configuration = "panoramic";
                 found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
             }
+            warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
             Ok(found)
         }
     }
+}
+
+/// Of a plane that may be a turn by another focal length than the one given, read or guessed.
+fn warn_of_turn(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    [pixels1, pixels2]: [&[Point2<f64>]; 2],
+    found: &Found,
+) -> Result<(), Failure> {
+    if found.configuration != "planar" {
+        return Ok(());
+    }
+    let (intrinsics, _) = arguments.camera.or_guess(photos)?;
+    let options = arguments.options(context).within(found.max_error_px);
+    let inliers = &found.inliers;
+    let sentence = turn::sentence_of_other_focal(pixels1, pixels2, &intrinsics, inliers, &options)?;
+    if let Some(sentence) = sentence {
+        context.warn(&sentence);
+    }
+    Ok(())
 }
 
 /// Whether no more matches agree than wrong ones might.
