@@ -29,11 +29,11 @@ pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
 /// Where the middle of the long table's ball is below the cameras, meters.
 pub(crate) const BALL_Y_M: f64 = 0.14;
 
-/// The ball itself, with a hair of margin, metres; and how far around it its shade is to be seen.
+/// The ball itself, with a hair of margin, meters; and how far around it its shade is to be seen.
 const BALL_RADIUS_M: f64 = 0.112;
 const BALL_SHADE_M: f64 = 0.3;
 
-/// The long table's ball, if it has moved from one place of its middle to another, metres.
+/// The long table's ball, if it has moved from one place of its middle to another, meters.
 pub(crate) fn moved_ball(from: [f64; 3], to: [f64; 3]) -> Option<Moved> {
     let (from, to) = (Point3::from(from), Point3::from(to));
     (from != to).then_some(Moved {
