@@ -5,11 +5,9 @@
 use crate::facts::Facts;
 use crate::figures::{Gallery, Poster, Room};
 use anyhow::{Context, Result, anyhow};
-use flate2::write::ZlibEncoder;
-use flate2::{Compression, Crc};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::Path;
 
 /// Pixels in a row of a still. A figure is laid out for a column and reduced.
@@ -128,7 +126,8 @@ fn small(picture: &Picture) -> Result<Vec<u8>, String> {
     for (colors, tolerance) in LADDER {
         let palette = Palette::of(picture, colors);
         let indices = indices(picture, &palette, tolerance);
-        made = png(picture.width, &palette.colors, &indices).map_err(|error| error.to_string())?;
+        made =
+            encode(picture.width, &palette.colors, &indices).map_err(|error| error.to_string())?;
         if made.len() <= BYTES {
             break;
         }
@@ -262,58 +261,44 @@ fn indices(picture: &Picture, palette: &Palette, tolerance: i32) -> Vec<u8> {
 }
 
 /// A PNG with a palette of at most 256 colors.
-fn png(width: usize, palette: &[Color], indices: &[u8]) -> std::io::Result<Vec<u8>> {
+fn encode(width: usize, palette: &[Color], indices: &[u8]) -> Result<Vec<u8>, EncodingError> {
     // As few bits a pixel as the palette needs.
     let depth = match palette.len() {
-        0..=2 => 1,
-        3..=4 => 2,
-        5..=16 => 4,
-        _ => 8_usize,
+        0..=2 => BitDepth::One,
+        3..=4 => BitDepth::Two,
+        5..=16 => BitDepth::Four,
+        _ => BitDepth::Eight,
     };
-    let mut packed = ZlibEncoder::new(Vec::new(), Compression::best());
-    for row in indices.chunks(width) {
-        // No filter: neighbors in a palette are no neighbors in color.
-        packed.write_all(&[0])?;
-        let bytes: Vec<u8> = row
-            .chunks(8 / depth)
-            .map(|together| {
-                let places = together.iter().enumerate();
-                places.fold(0, |byte, (place, index)| {
-                    byte | index << (8 - depth * (place + 1))
-                })
+    let bits = depth as usize;
+    let packed: Vec<u8> = indices
+        .chunks(width)
+        .flat_map(|row| row.chunks(8 / bits))
+        .map(|together| {
+            let places = together.iter().enumerate();
+            places.fold(0, |byte, (place, index)| {
+                byte | index << (8 - bits * (place + 1))
             })
-            .collect();
-        packed.write_all(&bytes)?;
-    }
-    let height = indices.len() / width;
-    let mut header = Vec::new();
-    for size in [width, height] {
-        header.extend((size as u32).to_be_bytes());
-    }
-    header.extend([depth as u8, 3, 0, 0, 0]);
-    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
-    chunk(&mut file, b"IHDR", &header);
-    chunk(&mut file, b"PLTE", palette.as_flattened());
-    chunk(&mut file, b"IDAT", &packed.finish()?);
-    chunk(&mut file, b"IEND", &[]);
+        })
+        .collect();
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width as u32, (indices.len() / width) as u32);
+    encoder.set_color(ColorType::Indexed);
+    encoder.set_depth(depth);
+    encoder.set_palette(palette.as_flattened());
+    encoder.set_deflate_compression(DeflateCompression::Level(9));
+    // Neighbors in a palette are no neighbors in color.
+    encoder.set_filter(Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&packed)?;
+    writer.finish()?;
     Ok(file)
-}
-
-fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], content: &[u8]) {
-    file.extend((content.len() as u32).to_be_bytes());
-    let mut sum = Crc::new();
-    for part in [&kind[..], content] {
-        sum.update(part);
-        file.extend(part);
-    }
-    file.extend(sum.sum().to_be_bytes());
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flate2::read::ZlibDecoder;
-    use std::io::Read;
+    use png::{Decoder, Transformations};
+    use std::io::Cursor;
 
     const WHITE: Color = [255; 3];
     const INK: Color = [11, 22, 33];
@@ -337,38 +322,15 @@ mod tests {
         }
     }
 
-    /// The palette and the colors of all pixels.
-    fn read(png: &[u8]) -> (Vec<Color>, Vec<Color>) {
-        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
-        let mut chunks = BTreeMap::new();
-        let mut rest = &png[8..];
-        while let Some((length, after)) = rest.split_first_chunk::<4>() {
-            let length = u32::from_be_bytes(*length) as usize;
-            let mut sum = Crc::new();
-            sum.update(&after[..length + 4]);
-            assert_eq!(sum.sum().to_be_bytes(), after[length + 4..length + 8]);
-            chunks.insert(after[..4].to_vec(), after[4..length + 4].to_vec());
-            rest = &after[length + 8..];
-        }
-        let header = &chunks[&b"IHDR"[..]];
-        let number = |at: usize| u32::from_be_bytes(*header[at..].first_chunk().unwrap()) as usize;
-        let (width, height, depth) = (number(0), number(4), usize::from(header[8]));
-        let palette: Vec<Color> = chunks[&b"PLTE"[..]].as_chunks().0.to_vec();
-        let mut rows = Vec::new();
-        ZlibDecoder::new(&chunks[&b"IDAT"[..]][..])
-            .read_to_end(&mut rows)
-            .unwrap();
-        let stride = (width * depth).div_ceil(8) + 1;
-        assert_eq!(rows.len(), stride * height);
-        let mut pixels = Vec::new();
-        for row in rows.chunks(stride) {
-            for u in 0..width {
-                let byte = row[1 + u * depth / 8];
-                let index = byte >> (8 - depth - u * depth % 8) & (u8::MAX >> (8 - depth));
-                pixels.push(palette[usize::from(index)]);
-            }
-        }
-        (palette, pixels)
+    /// The size of the palette and the colors of all pixels.
+    fn read(file: &[u8]) -> (usize, Vec<Color>) {
+        let mut decoder = Decoder::new(Cursor::new(file));
+        decoder.set_transformations(Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        let palette = reader.info().palette.as_ref().unwrap();
+        (palette.len() / 3, pixels.as_chunks().0.to_vec())
     }
 
     #[test]
@@ -376,7 +338,7 @@ mod tests {
         let picture = page();
         let png = small(&picture).unwrap();
         let (palette, pixels) = read(&png);
-        assert!(palette.len() <= 32);
+        assert!(palette <= 32);
         assert_eq!(pixels.len(), picture.pixels.len());
         let drawn = 80 * picture.width;
         assert_eq!(pixels[..drawn], picture.pixels[..drawn]);
