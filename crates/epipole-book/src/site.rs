@@ -456,17 +456,21 @@ fn progress_table(shared: &Shared) -> String {
     );
     for quiz in shared.quizzes() {
         let goals = shared.goals_of(&quiz.page);
+        let reached = match goals.len() {
+            0 => "<td>no goals</td>".to_owned(),
+            count => format!(
+                "<td class=\"reached\" data-goals=\"{}\">– of {count}</td>",
+                escape(&goals.join(" "))
+            ),
+        };
         html.push_str(&format!(
             "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td>\
-             <td class=\"solved\" data-questions=\"{}\">– of {}</td>\
-             <td class=\"reached\" data-goals=\"{}\">– of {}</td></tr>\n",
+             <td class=\"solved\" data-questions=\"{}\">– of {}</td>{reached}</tr>\n",
             escape(&quiz.name),
             quiz.page,
             escape(&quiz.title),
             quiz.questions,
-            quiz.questions,
-            escape(&goals.join(" ")),
-            goals.len()
+            quiz.questions
         ));
     }
     html.push_str(
