@@ -52,11 +52,13 @@ export async function press(page, role, name) {
   await control.dispatchEvent("click");
 }
 
-/** The same with an item of the menu of the project, which may be open. */
+/** The same with an item of the menu of the project, which is closed before and after. */
 export async function choose(page, role, name) {
   const item = page.locator("#widgets").getByRole(role, { name, exact: true });
-  if ((await item.count()) === 0) await press(page, "button", "Project");
-  await item.first().dispatchEvent("click");
+  await expect(item).toHaveCount(0);
+  await press(page, "button", "Project");
+  await item.dispatchEvent("click");
+  await expect(item).toHaveCount(0);
 }
 
 export async function solved(page) {

@@ -113,6 +113,16 @@ test("one's own files take the place of the sample; what is no photograph is tol
   await solved(lab);
 });
 
+test("the menu of the project closes with what assistive technology chooses, and opens again", async ({ lab }) => {
+  await solved(lab);
+  for (let round = 0; round < 3; round += 1) {
+    await choose(lab, "button", "Remove all photographs");
+    await expect(said(lab)).toContainText("No photographs yet");
+    await press(lab, "button", "Undo");
+    await expect(said(lab)).toContainText("9 photographs.");
+  }
+});
+
 test("a link opens a step with its knobs, and tells what it does not know", async ({ lab, library }) => {
   await lab.goto(`${library}/lab/index.html?step=matches&ratio=0.7&color=red`);
   await expect(said(lab)).toContainText('The Lab knows no "color".', { timeout: 30_000 });

@@ -1,6 +1,7 @@
 //! The bar above all steps: photographs, samples, projects, back and forth, what is under way.
 
 use super::host::Host;
+use super::menu::{item, menu};
 use super::work::{Errand, Work};
 use crate::project::{Event, Project, Step};
 use crate::tasks::Sample;
@@ -25,22 +26,22 @@ pub(super) fn bar(
         if ui.button(add).clicked() && !host.ask_for_photographs() {
             work.news = Some("Drop photographs onto this window.".to_owned());
         }
-        ui.menu_button("Samples", |ui| {
+        menu(ui, "Samples", |ui| {
             for sample in Sample::ALL {
-                if ui.button(sample.title()).clicked() {
+                if item(ui, sample.title()) {
                     events.push(Event::OpenSample(sample));
                 }
             }
         });
-        ui.menu_button("Project", |ui| {
-            if ui.button("Open…").clicked() && !host.ask_for_project() {
+        menu(ui, "Project", |ui| {
+            if item(ui, "Open…") && !host.ask_for_project() {
                 work.news = Some("Drop a project onto this window.".to_owned());
             }
-            if ui.button("Save").clicked() {
+            if item(ui, "Save") {
                 let request = project.save_request();
                 work.run(Errand::Save, &request, host);
             }
-            if ui.button("Remove all photographs").clicked() {
+            if item(ui, "Remove all photographs") {
                 events.push(Event::Clear);
             }
             if host.can_keep() {

@@ -1,6 +1,7 @@
 //! A project that the reader chose to keep in the browser: when it is put there, how it comes back, how it is forgotten.
 
 use super::host::{Host, Kept};
+use super::menu;
 use super::work::{Errand, Work};
 use crate::project::{Event, Key, Project, Step};
 use crate::tasks::{Answer, Request, Sample};
@@ -54,12 +55,12 @@ impl Work {
         ui.separator();
         let state = self.keeping.state;
         if state == State::Aside {
-            if ui.button("Open the kept project").clicked() {
+            if menu::item(ui, "Open the kept project") {
                 host.ask_for_kept();
             }
         } else {
             let mut is_on = state == State::Open;
-            if ui.checkbox(&mut is_on, "Keep in this browser").changed() {
+            if menu::toggle(ui, &mut is_on, "Keep in this browser") {
                 match is_on {
                     true => {
                         self.keeping.state = State::Open;
@@ -69,7 +70,7 @@ impl Work {
                 }
             }
         }
-        if state != State::Nothing && ui.button("Forget it").clicked() {
+        if state != State::Nothing && menu::item(ui, "Forget it") {
             self.forget_kept(host);
         }
         if state != State::Aside {

@@ -1,6 +1,7 @@
 //! What the knobs of all steps share.
 
 use super::app::Memory;
+use super::menu;
 use crate::project::{Event, Project, Settings, Step};
 use egui::{Slider, Ui};
 
@@ -92,18 +93,16 @@ pub(super) fn choose(
             .selected_text(text)
             .truncate()
             .width(ui.available_width().min(190.0));
-        let shown = combo.show_ui(ui, |ui| {
+        let mut photos = |ui: &mut Ui| {
             for photo in &project.document().photos {
                 let other = Some(photo.id) != but;
-                if other
-                    && ui
-                        .selectable_label(photo.id == current, &photo.name)
-                        .clicked()
-                {
+                if other && menu::choice(ui, photo.id == current, &photo.name) {
                     chosen = Some(photo.id);
                 }
             }
-        });
+        };
+        let shown = combo.show_ui(ui, |ui| menu::offer(ui, &mut photos));
+        menu::go_on(&shown);
         shown.response.labelled_by(label.id);
     });
     chosen

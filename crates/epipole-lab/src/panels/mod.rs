@@ -17,6 +17,7 @@ mod look;
 mod marks;
 mod matches;
 mod measure;
+mod menu;
 mod photo;
 mod photographs;
 mod reconstruction;
