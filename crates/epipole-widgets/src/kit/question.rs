@@ -131,7 +131,7 @@ impl<Q: Question> Asked<Q> {
     }
 
     /// What stands in the place of an answer: why there is none, or what is under way.
-    pub(crate) fn words(&self) -> &str {
+    pub(crate) fn stand_in(&self) -> &str {
         self.problem().unwrap_or(Q::LABEL)
     }
 

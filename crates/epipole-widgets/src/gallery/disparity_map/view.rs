@@ -79,7 +79,7 @@ impl View for DisparityMapView {
         let asked = &model.asked;
         let found = layout.panel("found").rect;
         let Some(answer) = asked.answer() else {
-            let words = asked.words();
+            let words = asked.stand_in();
             grid::notice(canvas, layout.panel("left").rect, words);
             return draw_legend(canvas, layout, None);
         };

@@ -46,7 +46,7 @@ pub struct EightPoint {
 impl EightPoint {
     /// The photographs, or why there are none.
     pub(super) fn photographs(&self) -> Result<&Answer, &str> {
-        let why = || self.asked.words();
+        let why = || self.asked.stand_in();
         self.asked.answer().ok_or_else(why)
     }
 

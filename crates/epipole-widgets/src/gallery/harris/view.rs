@@ -39,7 +39,7 @@ impl View for HarrisView {
         draw_legend(canvas, layout.width, response.rect);
         let asked = &model.asked;
         let Some((question, answer)) = asked.answered() else {
-            return grid::notice(canvas, picture.rect, asked.words());
+            return grid::notice(canvas, picture.rect, asked.stand_in());
         };
         canvas.photograph(picture.rect, answer.picture.image());
         let theme = canvas.theme();

@@ -60,7 +60,7 @@ impl View for PatchMatchView {
         };
         grid::fitting_title(canvas, all, &wordings);
         let Some(answer) = model.asked.answer() else {
-            let notice = model.asked.words();
+            let notice = model.asked.stand_in();
             let whole = Rect::new(0.0, first.y, layout.width, layout.height - first.y);
             canvas.panel(whole);
             return grid::notice(canvas, whole, notice);

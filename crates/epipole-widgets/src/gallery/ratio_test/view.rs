@@ -91,7 +91,7 @@ impl View for RatioTestView {
         let bottom = layout.height - 1.0 - legend::height(&LEGEND, layout.width, 0.0);
         legend::draw(canvas, &LEGEND, layout.width, 0.0, bottom);
         let Some(answer) = model.asked.answer() else {
-            return grid::notice(canvas, photographs[0].rect, model.asked.words());
+            return grid::notice(canvas, photographs[0].rect, model.asked.stand_in());
         };
         for (panel, photograph) in photographs.into_iter().zip(&answer.photographs) {
             canvas.photograph(panel.rect, photograph.image());

@@ -93,7 +93,7 @@ impl View for ScaleSpaceView {
         grid::fitting_title(canvas, layers.rect, &titles);
         draw_legend(canvas, layout);
         let Some(answer) = model.asked.answer() else {
-            return grid::notice(canvas, photograph.rect, model.asked.words());
+            return grid::notice(canvas, photograph.rect, model.asked.stand_in());
         };
         canvas.photograph(photograph.rect, answer.photograph.image());
         let theme = canvas.theme();

@@ -50,7 +50,7 @@ impl SiftDescriptor {
     pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
         match self.photograph.answer() {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),
-            _ => Err(self.photograph.words()),
+            _ => Err(self.photograph.stand_in()),
         }
     }
 
