@@ -22,6 +22,7 @@ test("photographs and knobs are there again at the next visit, until they are fo
   expect(await kept(lab)).toEqual([]);
   await press(lab, "button", "Project");
   await expect(lab.locator("#widgets")).toContainText("on this machine. Nothing is uploaded");
+  await press(lab, "button", "Project");
   await choose(lab, "checkbox", "Keep in this browser");
   await expect(said(lab)).toContainText("This browser keeps the project", { timeout: 30_000 });
   expect(await kept(lab)).toEqual([KEPT]);
