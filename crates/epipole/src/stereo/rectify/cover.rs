@@ -1,20 +1,38 @@
 //! What a photograph covers once it is rectified, and the zoom that follows from it.
 
-use super::{PixelRect, StereoCamera};
+use super::slanted::inscribed;
+use super::{LARGEST_CROP, PixelRect, StereoCamera};
 use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
 /// What a photograph covers in the rectified frame, in units of the focal length.
 pub(crate) struct Outline {
-    /// The largest rectangle inside, whose corners need not be the photograph's.
+    /// The rectangle between the innermost points of the four sides; of a photograph that stands slanted it may be
+    /// empty, its end before its begin.
     pub(crate) inner: PixelRect,
     /// The smallest rectangle around.
     pub(crate) outer: PixelRect,
+    /// Points of its border, one after the other, all around.
+    pub(super) border: Vec<Vector2<f64>>,
     /// The mean of the photograph's corners.
     pub(crate) center: Vector2<f64>,
 }
 
 impl PixelRect {
+    pub(super) fn of([u_min, u_max]: [f64; 2], [v_min, v_max]: [f64; 2]) -> Self {
+        Self {
+            u_min,
+            v_min,
+            u_max,
+            v_max,
+        }
+    }
+
+    /// From where to where it reaches along x (0) or y (1).
+    pub(super) fn range(&self, axis: usize) -> [f64; 2] {
+        [[self.u_min, self.u_max], [self.v_min, self.v_max]][axis]
+    }
+
     pub(crate) fn scaled(&self, factor: f64, offset: &Vector2<f64>) -> Self {
         Self {
             u_min: self.u_min * factor + offset.x,
@@ -48,6 +66,7 @@ pub(crate) fn outline(
         u_max: -around,
         v_max: -around,
     };
+    let mut sides: [Vec<Vector2<f64>>; 4] = Default::default();
     for k in 0..=STEPS {
         let share = f64::from(k) / f64::from(STEPS);
         let (u, v) = (share * last_u, share * last_v);
@@ -57,11 +76,12 @@ pub(crate) fn outline(
         inner.u_max = inner.u_max.min(right.x);
         inner.v_min = inner.v_min.max(top.y);
         inner.v_max = inner.v_max.min(bottom.y);
-        for p in [left, right, top, bottom] {
+        for (side, p) in sides.iter_mut().zip([top, right, bottom, left]) {
             outer.u_min = outer.u_min.min(p.x);
             outer.u_max = outer.u_max.max(p.x);
             outer.v_min = outer.v_min.min(p.y);
             outer.v_max = outer.v_max.max(p.y);
+            side.push(p);
         }
     }
     let corners = [
@@ -71,9 +91,13 @@ pub(crate) fn outline(
         place(last_u, last_v)?,
     ];
     let center = corners.iter().sum::<Vector2<f64>>() / 4.0;
+    // Clockwise: the lower side runs back, and so does the left one.
+    sides[2].reverse();
+    sides[3].reverse();
     Ok(Outline {
         inner,
         outer,
+        border: sides.concat(),
         center,
     })
 }
@@ -138,36 +162,40 @@ pub(super) fn around_principal_points(
     Some((focal_px * zoom, *centers))
 }
 
+/// What is shown, and how much of what it shows its camera saw.
+pub(super) struct Shown {
+    pub(super) framing: Framing,
+    /// For each photograph, a rectangle inside of it, in units of the focal length.
+    pub(super) inner: [PixelRect; 2],
+}
+
 /// What is shown is the middle of what the cameras cover, wherever the principal points come to lie: of a
 /// baseline far from the image plane they are outside of the results.
 ///
+/// * `inner`: rectangles inside the photographs
 /// * `is_shared`: whether both results show the same part along x, and along y
 ///
-/// # Errors
-/// [`Error::Degenerate`] if the cameras cover nothing in common.
-pub(super) fn around_what_is_seen(
+/// `None` if the rectangles have nothing in common.
+fn around_rectangles(
+    inner: &[PixelRect; 2],
     outlines: &[Outline; 2],
     is_shared: [bool; 2],
     new_size: &Vector2<f64>,
     alpha: f64,
-) -> Result<Framing> {
-    let range = |r: &PixelRect, axis: usize| [[r.u_min, r.u_max], [r.v_min, r.v_max]][axis];
+) -> Option<Framing> {
     let mut all_valid: f64 = 0.0;
     let mut all_shown = f64::INFINITY;
     let mut middles = [Vector2::zeros(); 2];
     for (axis, is_shared) in is_shared.into_iter().enumerate() {
-        let mut inner = outlines.each_ref().map(|o| range(&o.inner, axis));
-        let mut outer = outlines.each_ref().map(|o| range(&o.outer, axis));
+        let mut inner = inner.each_ref().map(|rect| rect.range(axis));
+        let mut outer = outlines.each_ref().map(|o| o.outer.range(axis));
         if is_shared {
             inner = [[inner[0][0].max(inner[1][0]), inner[0][1].min(inner[1][1])]; 2];
             outer = [[outer[0][0].min(outer[1][0]), outer[0][1].max(outer[1][1])]; 2];
         }
         for i in 0..2 {
             if inner[i][1] <= inner[i][0] {
-                return Err(Error::Degenerate {
-                    what: "a rectification",
-                    why: "the photographs hardly overlap after it",
-                });
+                return None;
             }
             let room = new_size[axis] - 1.0;
             all_valid = all_valid.max(room / (inner[i][1] - inner[i][0]));
@@ -179,5 +207,32 @@ pub(super) fn around_what_is_seen(
     }
     let focal_px = all_valid * (1.0 - alpha) + all_shown * alpha;
     let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
-    Ok((focal_px, middles.map(|seen| middle - seen * focal_px)))
+    Some((focal_px, middles.map(|seen| middle - seen * focal_px)))
+}
+
+/// What is shown around what the cameras cover: between the innermost points of the photographs' sides, or, of
+/// photographs that stand slanted, in a rectangle that leaves parts of the sides out.
+///
+/// * `is_shared`: whether both results show the same part along x, and along y
+///
+/// # Errors
+/// [`Error::Degenerate`] if the cameras cover nothing in common.
+pub(super) fn around_what_is_seen(
+    outlines: &[Outline; 2],
+    is_shared: [bool; 2],
+    new_size: &Vector2<f64>,
+    alpha: f64,
+) -> Result<Shown> {
+    let shown = |inner: [PixelRect; 2], alpha: f64| {
+        let framing = around_rectangles(&inner, outlines, is_shared, new_size, alpha)?;
+        Some(Shown { framing, inner })
+    };
+    let simple = outlines.each_ref().map(|outline| outline.inner);
+    let enlarged = |inner: [PixelRect; 2]| shown(inner, 0.0).map_or(f64::INFINITY, |s| s.framing.0);
+    let slanted = inscribed(outlines, is_shared, new_size)
+        .filter(|slanted| enlarged(simple) > LARGEST_CROP * enlarged(*slanted));
+    shown(slanted.unwrap_or(simple), alpha).ok_or(Error::Degenerate {
+        what: "a rectification",
+        why: "the photographs hardly overlap after it",
+    })
 }

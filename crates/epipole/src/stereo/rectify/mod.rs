@@ -2,6 +2,7 @@
 
 mod cover;
 mod q_matrix;
+mod slanted;
 #[cfg(test)]
 mod tests;
 mod turn;
@@ -26,7 +27,8 @@ pub struct StereoCamera {
     pub distortion: Distortion,
 }
 
-/// With principal points in the middle the results may be enlarged so many times as much as they have to be.
+/// The results may be enlarged so many times as much as they have to be, for principal points in the middle and for what
+/// is shown reaching from side to side.
 const LARGEST_CROP: f64 = 2.0;
 
 /// Choices of [`rectify_calibrated`].
@@ -90,7 +92,7 @@ pub struct Rectification {
     pub width: u32,
     /// See `width`.
     pub height: u32,
-    /// The largest rectangle in each rectified picture that its camera saw whole.
+    /// A large rectangle in each rectified picture that its camera saw whole.
     pub valid: [PixelRect; 2],
 }
 
@@ -170,8 +172,8 @@ pub fn rectify_calibrated(
     // The principal points stay where they are, as is usual, unless that costs too much of the view.
     let (focal_px, centers) =
         around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
-            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.0)
-            .unwrap_or(seen);
+            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.framing.0)
+            .unwrap_or(seen.framing);
     let new_intrinsics = |c: &Vector2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y);
     let intrinsics = [new_intrinsics(&centers[0])?, new_intrinsics(&centers[1])?];
     let homographies = [0, 1].map(|i| {
@@ -179,7 +181,7 @@ pub fn rectify_calibrated(
         intrinsics[i].matrix() * rect_from_cam[i].matrix() * k_inverse
     });
     let valid = [0, 1].map(|i| {
-        let rect = outlines[i].inner.scaled(focal_px, &centers[i]);
+        let rect = seen.inner[i].scaled(focal_px, &centers[i]);
         PixelRect {
             u_min: rect.u_min.max(0.0),
             v_min: rect.v_min.max(0.0),

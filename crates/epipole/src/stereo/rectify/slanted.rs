@@ -1,0 +1,90 @@
+//! Photographs that stand slanted once they are rectified, as those of a baseline that runs askew through the picture.
+
+use super::PixelRect;
+use super::cover::Outline;
+use nalgebra::Vector2;
+
+/// Lines across the photographs that are tried as ends of what is shown.
+const NUM_LEVELS: usize = 97;
+
+/// The rectangles inside both photographs that have to be enlarged least to fill the results. `None` if there are none.
+///
+/// The rectangle between the innermost points of the four sides, [`Outline::inner`], shrinks to nothing as a picture
+/// of 4 : 3 is turned by 37°. One that may leave parts of the sides out stays some 40 % as large.
+///
+/// * `is_shared`: whether both have the same range along x, and along y; one of them at least
+/// * `new_size`: of the results, pixels
+pub(super) fn inscribed(
+    outlines: &[Outline; 2],
+    is_shared: [bool; 2],
+    new_size: &Vector2<f64>,
+) -> Option<[PixelRect; 2]> {
+    // Levels are shared, and each of them crosses the photographs.
+    let along = usize::from(is_shared[1]);
+    let across = 1 - along;
+    let ends = outlines
+        .each_ref()
+        .map(|outline| outline.outer.range(along));
+    let low = ends[0][0].max(ends[1][0]);
+    let high = ends[0][1].min(ends[1][1]);
+    let level = |k: usize| low + (high - low) * k as f64 / (NUM_LEVELS - 1) as f64;
+    let crossed: Vec<[[f64; 2]; 2]> = (0..NUM_LEVELS)
+        .map(|k| {
+            let both = outlines
+                .each_ref()
+                .map(|outline| outline.crossed(along, level(k)));
+            match is_shared[across] {
+                true => [common(both[0], both[1]); 2],
+                false => both,
+            }
+        })
+        .collect();
+    let mut best = (0.0, None);
+    for first in 0..NUM_LEVELS {
+        let mut ranges = crossed[first];
+        for last in first + 1..NUM_LEVELS {
+            ranges = [0, 1].map(|i| common(ranges[i], crossed[last][i]));
+            let narrowest = (ranges.iter())
+                .map(|r| r[1] - r[0])
+                .fold(f64::INFINITY, f64::min);
+            if narrowest <= 0.0 {
+                break;
+            }
+            let tall = level(last) - level(first);
+            let share = (narrowest / (new_size[across] - 1.0)).min(tall / (new_size[along] - 1.0));
+            if share > best.0 {
+                let levels = [level(first), level(last)];
+                best = (share, Some((levels, ranges)));
+            }
+        }
+    }
+    let (levels, ranges) = best.1?;
+    Some(ranges.map(|range| match along {
+        0 => PixelRect::of(levels, range),
+        _ => PixelRect::of(range, levels),
+    }))
+}
+
+/// What two ranges share; its end may lie before its begin.
+fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].min(b[1])]
+}
+
+impl Outline {
+    /// The part of the line at a level of one axis that is inside, as a range along the other. Its end lies before its
+    /// begin if the line misses the photograph.
+    fn crossed(&self, along: usize, level: f64) -> [f64; 2] {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for (k, from) in self.border.iter().enumerate() {
+            let to = &self.border[(k + 1) % self.border.len()];
+            let (before, after) = (from[along] - level, to[along] - level);
+            if before * after > 0.0 || before == after {
+                continue;
+            }
+            let share = before / (before - after);
+            let at = from[1 - along] + share * (to[1 - along] - from[1 - along]);
+            range = [range[0].min(at), range[1].max(at)];
+        }
+        range
+    }
+}
