@@ -5,6 +5,7 @@
 use crate::facts::Facts;
 use crate::figures::{Gallery, Poster, Room};
 use anyhow::{Context, Result, anyhow};
+use epipole::imaging::{GrayImage32, gray_from_values, resize};
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -63,7 +64,8 @@ fn still(gallery: &dyn Gallery, name: &str) -> Result<(String, Vec<u8>), String>
     let figure = gallery.open(name, &[])?;
     let facts = Facts::parse(&figure.snapshot()?)?;
     let [light, _] = figure.posters(Room::Column, 1)?;
-    let png = small(&Picture::reduced(&light, WIDTH))?;
+    let picture = Picture::reduced(&light, WIDTH).map_err(|error| error.to_string())?;
+    let png = small(&picture)?;
     Ok((facts.description().to_owned(), png))
 }
 
@@ -73,51 +75,29 @@ struct Picture {
 }
 
 impl Picture {
-    /// The mean of what each of fewer pixels covers, on white.
-    fn reduced(poster: &Poster, width: u32) -> Picture {
+    /// A poster on white, reduced.
+    fn reduced(poster: &Poster, width: u32) -> epipole::Result<Picture> {
         let width = width.min(poster.width);
         let height = (poster.height * width / poster.width).max(1);
-        let (across, down) = (weights(poster.width, width), weights(poster.height, height));
-        let mut pixels = Vec::with_capacity((width * height) as usize);
-        for rows in &down {
-            for columns in &across {
-                let (mut sum, mut all) = ([0.0; 3], 0.0);
-                for &(v, tall) in rows {
-                    for &(u, broad) in columns {
-                        let start = (v * poster.width as usize + u) * 4;
-                        let alpha = f64::from(poster.rgba[start + 3]) / 255.0;
-                        for (channel, sum) in sum.iter_mut().enumerate() {
-                            let level = f64::from(poster.rgba[start + channel]);
-                            *sum += tall * broad * (level * alpha + 255.0 * (1.0 - alpha));
-                        }
-                        all += tall * broad;
-                    }
-                }
-                pixels.push(sum.map(|sum| (sum / all).round() as u8));
-            }
-        }
-        Picture {
+        let channel = |channel: usize| {
+            let on_white = |rgba: &[u8; 4]| {
+                let alpha = f32::from(rgba[3]) / 255.0;
+                f32::from(rgba[channel]) * alpha + 255.0 * (1.0 - alpha)
+            };
+            let levels = poster.rgba.as_chunks().0.iter().map(on_white).collect();
+            let whole = gray_from_values(poster.width, poster.height, levels)?;
+            resize(&whole, width, height)
+        };
+        let [red, green, blue] = [channel(0)?, channel(1)?, channel(2)?];
+        let level = |plane: &GrayImage32, at: usize| plane.as_raw()[at].round() as u8;
+        let pixels = (0..(width * height) as usize)
+            .map(|at| [level(&red, at), level(&green, at), level(&blue, at)])
+            .collect();
+        Ok(Picture {
             width: width as usize,
             pixels,
-        }
-    }
-}
-
-/// For each of fewer places which of the many it covers, and how much of each.
-fn weights(many: u32, few: u32) -> Vec<Vec<(usize, f64)>> {
-    let step = f64::from(many) / f64::from(few);
-    (0..few)
-        .map(|place| {
-            let (from, to) = (f64::from(place) * step, f64::from(place + 1) * step);
-            (from as u32..many)
-                .map(|index| {
-                    let covered = to.min(f64::from(index + 1)) - from.max(f64::from(index));
-                    (index as usize, covered)
-                })
-                .take_while(|(_, covered)| *covered > 1e-9)
-                .collect()
         })
-        .collect()
+    }
 }
 
 /// The first PNG of the ladder that is small enough, or the last.
@@ -375,8 +355,8 @@ mod tests {
                 .collect(),
         };
         // Three columns on two: each new one covers one and a half.
-        let picture = Picture::reduced(&poster, 2);
+        let picture = Picture::reduced(&poster, 2).unwrap();
         assert_eq!(picture.pixels, vec![[30; 3], [190; 3]]);
-        assert_eq!(Picture::reduced(&poster, 9).pixels.len(), 6);
+        assert_eq!(Picture::reduced(&poster, 9).unwrap().pixels.len(), 6);
     }
 }
