@@ -35,6 +35,7 @@ pub mod page;
 mod panels;
 mod posters;
 pub mod problems;
+mod progress;
 pub mod quiz;
 pub mod references;
 pub mod rhythm;
