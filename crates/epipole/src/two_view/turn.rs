@@ -44,16 +44,21 @@ impl ExplainingTurn {
             num_explained += usize::from(options.fits_homography(&homography, p1, p2));
         }
         let needed = options.max_homography_share * num_inliers as f64;
-        let rotation = Rotation3::from_matrix_unchecked(turn.model);
         (num_explained as f64 >= needed).then(|| Self {
-            cam2_from_cam1: RigidTransform::from_parts(
-                Translation3::identity(),
-                UnitQuaternion::from_rotation_matrix(&rotation),
-            ),
+            cam2_from_cam1: motion_of_turn(&turn.model),
             num_explained,
             num_inliers,
         })
     }
+}
+
+/// The motion of a camera that only turns.
+pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
+    let rotation = Rotation3::from_matrix_unchecked(*rotation);
+    RigidTransform::from_parts(
+        Translation3::identity(),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    )
 }
 
 /// What a turn does to pixels: `K2 R K1⁻¹`.

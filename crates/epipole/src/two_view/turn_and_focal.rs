@@ -2,13 +2,13 @@
 
 use super::TwoViewOptions;
 use super::rotation::align_rays;
-use super::turn::{homography_of_turn, inliers_of};
+use super::turn::{homography_of_turn, inliers_of, motion_of_turn};
 use crate::Result;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::homography::{fit_homography, homography_sampson_sq, refine_homography};
 use crate::optim::RobustLoss;
 use crate::robust::MatchSet;
-use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Focal lengths are looked for from the given one over this to the given one times this.
 const WIDEST: f64 = 4.0;
@@ -150,12 +150,8 @@ impl Search<'_> {
         let num_explained = explained(&found);
         let rms = |cost: f64| (cost / count).sqrt();
         let most = MAX_RMS_RATIO * rms(cost) + RMS_SLACK * self.options.ransac.max_error_px;
-        let rotation = Rotation3::from_matrix_unchecked(found.rotation);
         (num_explained as f64 >= needed && rms(found.cost) <= most).then(|| TurnAndFocal {
-            cam2_from_cam1: RigidTransform::from_parts(
-                Translation3::identity(),
-                UnitQuaternion::from_rotation_matrix(&rotation),
-            ),
+            cam2_from_cam1: motion_of_turn(&found.rotation),
             focal_factor,
             num_explained,
             num_inliers: self.pairs.len(),
