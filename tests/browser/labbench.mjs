@@ -93,7 +93,7 @@ if (folder) {
     await page.locator("#photographs").setInputFiles(files.slice(0, count));
     await until(new RegExp(`${count} photographs`));
     await press("button", count === 2 ? "Two views" : "Reconstruction");
-    await until(count === 2 ? /agree\. / : new RegExp(`of ${count} photographs have a camera`));
+    await until(count === 2 ? /agree\. / : new RegExp(`${count} of ${count} photographs have a camera`));
     say(`${count} photographs, to ${count === 2 ? "their geometry" : "all cameras"}`, `${((performance.now() - from) / 1e3).toFixed(1)} s ${load()}`);
     tell(await frames(), "meanwhile");
     say("memory of the page and its workers, at most", `${most.toFixed(0)} MB`);

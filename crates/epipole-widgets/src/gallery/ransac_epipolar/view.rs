@@ -46,6 +46,7 @@ fn legend_of(model: &RansacEpipolar) -> Vec<Entry> {
 const INLIER: Stroke = Stroke::solid(Role::Inlier, 1.25);
 const OUTLIER: Stroke = Stroke::solid(Role::Outlier, 1.25).dashed();
 const SAMPLE: Stroke = Stroke::solid(Role::Candidate, 2.75);
+
 impl View for RansacEpipolarView {
     type Model = RansacEpipolar;
 
