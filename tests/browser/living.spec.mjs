@@ -192,6 +192,24 @@ test.describe("gliding", () => {
     await expect(figure.locator(".notice")).toContainText('no parameter "nothing"');
   });
 
+  test("a goal that the beginning meets is reached once the reader has left it and come back", async ({ page, open }) => {
+    const figure = await open(page, ["sift-descriptor turn=0 zoom=1 brighter=60"]);
+    await hear(figure, "epipole-challenge");
+    await settled(figure);
+    const solved = () => figure.evaluate((element) => element.goals.filter(({ solved }) => solved).map(({ id }) => id));
+    expect(await solved()).toEqual([]);
+    await expect(figure.locator(".goal-line")).not.toHaveAttribute("data-solved", "");
+    for (const brighter of [50, 0]) {
+      await figure.evaluate((element, value) => element.apply({ brighter: value }), brighter);
+      await settled(figure);
+      expect(await solved()).toEqual([]);
+    }
+    await figure.evaluate((element) => element.apply({ brighter: 60 }));
+    await settled(figure);
+    expect(await solved()).toEqual(["light-only"]);
+    expect((await heard(figure)).map(([, { id }]) => id)).toEqual(["light-only"]);
+  });
+
   test("a goal is shown step by step, and ends when the reader takes over", async ({ page, open }) => {
     const figure = await open(page, ["ransac-race"]);
     await hear(figure, "epipole-change", "epipole-challenge");

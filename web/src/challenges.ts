@@ -1,7 +1,7 @@
 /** Goals for the reader, one at a time, and which are reached. A goal once reached stays reached. */
 
 import type { Choice } from "./choice.js";
-import type { Challenge } from "./contract.js";
+import type { Challenge, Snapshot } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";
 
 /** What a page may know of a goal. */
@@ -29,6 +29,8 @@ export class Challenges {
   readonly #list = make("ol", { hidden: true });
   #rows: { row: HTMLElement; mark: HTMLElement }[] = [];
   readonly #solved = new Set<string>();
+  /** Met by how the figure began, and ever since: the reader has not reached them. */
+  readonly #given = new Set<string>();
   #known: Challenge[] = [];
   #goals: Choice["goals"] = "one";
   #at = 0;
@@ -55,9 +57,19 @@ export class Challenges {
     });
   }
 
-  /** Shows the goals and returns those that have just been reached for the first time. */
-  update(challenges: Challenge[], goals: Choice["goals"]): Challenge[] {
-    const news = challenges.filter(({ id, solved }) => solved && !this.#solved.has(id));
+  /**
+   * Shows the goals and returns those that have just been reached for the first time: by somebody, if the figure
+   * has been `touched`. While it is `waiting`, it may not know what it meets.
+   */
+  update(
+    { challenges, waiting }: Snapshot,
+    { goals, touched }: { goals: Choice["goals"]; touched: boolean },
+  ): Challenge[] {
+    for (const { id, solved } of challenges) {
+      if (solved && !touched) this.#given.add(id);
+      else if (!solved && waiting === null) this.#given.delete(id);
+    }
+    const news = challenges.filter(({ id, solved }) => solved && !this.#given.has(id) && !this.#solved.has(id));
     for (const { id } of news) this.#solved.add(id);
     if (this.#known.length !== challenges.length) this.#listAll(challenges);
     const same = goals === this.#goals && news.length === 0 && this.#known.length > 0;

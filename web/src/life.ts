@@ -202,7 +202,7 @@ export class Life {
   choose(): void {
     this.#shell.choose(choiceOf((name) => this.#owner.getAttribute(name)));
     if (!this.#session || !this.#snapshot) return;
-    this.#shell.update(this.#snapshot);
+    this.#shell.update(this.#snapshot, this.#touched);
     this.#extent.fit();
     this.#shell.speaker.warn([]);
     this.#shell.speaker.complain(this.#shell.misnamed(this.#snapshot));

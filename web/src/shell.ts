@@ -168,7 +168,7 @@ export class Shell {
   }
 
   /** Brings everything up to date. Returns the goals that have just been reached. */
-  update(snapshot: Snapshot, touched = true): Challenge[] {
+  update(snapshot: Snapshot, touched: boolean): Challenge[] {
     if (touched || snapshot.waiting === null) this.#borrowed = undefined;
     setAttribute(this.root, "data-aspect", snapshot.aspect);
     this.#controls.update(snapshot.controls, this.#choice.controls);
@@ -182,7 +182,7 @@ export class Shell {
     this.#waiting = snapshot.waiting !== null;
     this.#tellBusy();
     setText(this.#description, snapshot.description);
-    const solved = this.#challenges.update(snapshot.challenges, this.#choice.goals);
+    const solved = this.#challenges.update(snapshot, { goals: this.#choice.goals, touched });
     this.#under.hidden = this.#controls.buttons.hidden;
     return solved;
   }
