@@ -35,9 +35,9 @@ impl Words for EpipolarPlane {
         let from = self.orbit.seen_from();
         vec![
             number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
+            pixel("p1", "Image p", 0),
             pixel("p2", "Image p′", 1).main(),
             number("residual", "Residual", of(Scenery::residual_px), 3, "px").main(),
-            pixel("p1", "Image p", 0),
             Readout::words("lit", "Lit up", self.meaning()),
             number(
                 "before",

@@ -14,6 +14,8 @@ use serde::{Deserialize, Serialize};
 pub(super) const MIN_NUM_MATCHES: usize = 15;
 /// Half of the inliers should have rays that meet at a larger angle.
 const MIN_MEDIAN_ANGLE_DEG: f64 = 0.75;
+/// Another focal length is worth telling if a turn then explains so many times the matches.
+const MIN_GAIN: f64 = 1.05;
 
 /// What the pair turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -91,18 +93,6 @@ pub(super) fn judge(
     let turn_deg =
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
     let fundamental_won = matches!(report.model, TwoViewModel::Fundamental(_));
-    // Under a wrong focal length a turn passes for a plane.
-    let otherwise = match report.configuration {
-        Configuration::Planar => {
-            let [k1, k2] = lenses;
-            find_turn_and_focal(pixels1, pixels2, k1, k2, &report.inliers, &options)?
-        }
-        _ => None,
-    };
-    let otherwise = otherwise.map(|turn| Verdict::TurnedOtherwise {
-        angle_deg: turn.cam2_from_cam1.rotation.angle().to_degrees(),
-        focal_factor: turn.focal_factor,
-    });
     let seen = match report.configuration {
         // A model that next to nobody supports has no inliers worth showing.
         Configuration::Degenerate => return Ok(nothing(Verdict::NoConsensus)),
@@ -112,12 +102,52 @@ pub(super) fn judge(
         Configuration::General if fundamental_won => Verdict::Lens,
         Configuration::General => Verdict::Good,
     };
-    let verdict = otherwise.unwrap_or(seen);
+    let otherwise = turned_otherwise([pixels1, pixels2], lenses, &report, &options)?;
+    let (verdict, inliers) = otherwise.unwrap_or((seen, report.inliers));
     let has_depth = matches!(verdict, Verdict::Good | Verdict::Plane | Verdict::Lens);
     Ok(Judged {
         verdict,
-        inliers: report.inliers,
+        inliers,
         cam2_from_cam1: report.cam2_from_cam1.filter(|_| has_depth),
         median_angle_deg,
     })
+}
+
+/// What is said of a camera that only turned, with the inliers, if that goes better with another focal length: under
+/// a wrong one a turn passes for a plane, or for another turn that explains less.
+fn turned_otherwise(
+    [pixels1, pixels2]: [&[Point2<f64>]; 2],
+    lenses: &[Intrinsics; 2],
+    report: &TwoViewReport,
+    options: &TwoViewOptions,
+) -> Result<Option<(Verdict, Vec<bool>)>, Error> {
+    let is_turn = match report.configuration {
+        Configuration::Planar => false,
+        Configuration::Panoramic => true,
+        Configuration::General | Configuration::Degenerate => return Ok(None),
+    };
+    let [k1, k2] = lenses;
+    let found = find_turn_and_focal(pixels1, pixels2, k1, k2, &report.inliers, options)?;
+    let Some(turn) = found else {
+        return Ok(None);
+    };
+    let verdict = |motion: &RigidTransform| Verdict::TurnedOtherwise {
+        angle_deg: motion.rotation.angle().to_degrees(),
+        focal_factor: turn.focal_factor,
+    };
+    if !is_turn {
+        return Ok(Some((
+            verdict(&turn.cam2_from_cam1),
+            report.inliers.clone(),
+        )));
+    }
+    let other = |k: &Intrinsics| {
+        let (center, factor) = (k.principal_point(), turn.focal_factor);
+        Intrinsics::new(factor * k.fu_px(), factor * k.fv_px(), center.x, center.y)
+    };
+    let better = estimate_two_view_calibrated(pixels1, pixels2, &other(k1)?, &other(k2)?, options)?;
+    let count = |inliers: &[bool]| inliers.iter().filter(|inlier| **inlier).count() as f64;
+    let gain = count(&better.inliers) / count(&report.inliers);
+    let motion = better.cam2_from_cam1.filter(|_| gain > MIN_GAIN);
+    Ok(motion.map(|motion| (verdict(&motion), better.inliers)))
 }
