@@ -199,6 +199,7 @@ mod tests {
             k: None,
             full_size: (width, height),
             sensor_size: (width, height),
+            is_as_stored: true,
         }
     }
 

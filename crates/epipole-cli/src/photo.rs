@@ -42,6 +42,8 @@ pub(crate) struct Photo {
     pub(crate) full_size: (u32, u32),
     /// Width and height before it was turned upright, too.
     pub(crate) sensor_size: (u32, u32),
+    /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
+    pub(crate) is_as_stored: bool,
 }
 
 impl Photo {
@@ -75,6 +77,7 @@ impl Photo {
             k: photo.intrinsics,
             full_size: photo.full_size,
             sensor_size: photo.sensor_size,
+            is_as_stored: photo.is_as_stored,
         })
     }
 

@@ -1,6 +1,7 @@
 //! Pictures of results: marks on photographs.
 
 use epipole::feature::Keypoint;
+use image::codecs::jpeg::JpegEncoder;
 use image::{Rgb, RgbImage};
 
 /// Colors that differ for every kind of color vision (Okabe & Ito 2008).
@@ -24,6 +25,18 @@ pub(crate) fn png(picture: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure
             &mut std::io::Cursor::new(&mut bytes),
             image::ImageFormat::Png,
         )
+        .map_err(|error| crate::failure::Failure::new("write", error.to_string()))?;
+    Ok(bytes)
+}
+
+/// The JPEG file of a photograph, of a quality at which one hardly sees that it is one.
+///
+/// # Errors
+/// If the photograph has no pixels, or more to a side than JPEG can count.
+pub(crate) fn jpeg(photograph: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure> {
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, 95)
+        .encode_image(photograph)
         .map_err(|error| crate::failure::Failure::new("write", error.to_string()))?;
     Ok(bytes)
 }

@@ -197,3 +197,66 @@ fn of_each_part_of_a_video_the_sharpest_frame_is_taken() {
         "there is no such file",
     );
 }
+
+#[test]
+fn photographs_are_written_as_the_model_speaks_of_them() {
+    let folder = Folder::new("images");
+    let files = three(&folder, (480, 360));
+    let out = folder.file("out");
+    let sfm = |files: &[PathBuf], out: &PathBuf, more: &[&str]| {
+        let mut arguments = vec!["sfm"];
+        arguments.extend(files.iter().map(|file| path(file)));
+        arguments.extend(["--images", "--focal-px", "600", "-o", path(out)]);
+        arguments.extend(more);
+        arguments.into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let run = |arguments: &[String]| json(&arguments.iter().map(|a| &**a).collect::<Vec<_>>());
+    let listed = |out: &PathBuf| std::fs::read_to_string(out.join("images.txt")).unwrap();
+
+    // As they are: the same bytes.
+    let result = run(&sfm(&files, &out, &[]));
+    assert_eq!(result["num_registered"], 3);
+    for (n, file) in files.iter().enumerate() {
+        let written = out.join(format!("images/{n}.png"));
+        assert_eq!(
+            std::fs::read(written).unwrap(),
+            std::fs::read(file).unwrap()
+        );
+        assert!(listed(&out).contains(&format!(" {n}.png\n")));
+    }
+    // Reduced: as large as the camera, under another name; the result names those given.
+    let result = run(&sfm(&files, &out, &["--max-megapixels", "0.0432"]));
+    assert_eq!(result["images"][0]["name"], "0.png");
+    for (n, file) in files.iter().enumerate() {
+        let written = image::open(out.join(format!("images/{n}.jpg")))
+            .unwrap()
+            .into_rgb8();
+        assert_eq!(written.dimensions(), (240, 180));
+        assert!(listed(&out).contains(&format!(" {n}.jpg\n")));
+        let small = image::open(file).unwrap().into_rgb8();
+        let small = imageops::resize(&small, 240, 180, imageops::FilterType::Triangle);
+        let off = written
+            .iter()
+            .zip(small.iter())
+            .map(|(a, b)| f64::from(a.abs_diff(*b)));
+        assert!(off.sum::<f64>() / (240.0 * 180.0 * 3.0) < 4.0);
+    }
+    // Not over what was given, and not over each other.
+    let given: Vec<PathBuf> = (0..3)
+        .map(|n| out.join(format!("images/{n}.jpg")))
+        .collect();
+    let refused = |arguments: &[String], why: &str| {
+        let arguments: Vec<&str> = arguments.iter().map(|a| &**a).collect();
+        fails(&folder, &arguments, 2, why);
+    };
+    let before = std::fs::read(&given[0]).unwrap();
+    let smaller = ["--max-megapixels", "0.03"];
+    refused(&sfm(&given, &out, &smaller), "would write over it");
+    assert_eq!(std::fs::read(&given[0]).unwrap(), before);
+    let twice = [files[0].clone(), given[0].clone()];
+    let other = folder.file("other");
+    refused(
+        &sfm(&twice, &other, &smaller),
+        "two photographs would be written to ",
+    );
+}

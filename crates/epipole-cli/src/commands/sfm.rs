@@ -2,17 +2,18 @@
 
 mod growth;
 mod input;
+mod output;
 pub(crate) mod positions;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;
 pub(crate) use self::input::{name, photos};
+use self::output::{Pictures, write_model};
 use self::positions::{PositionArguments, rms_m};
 use crate::camera::{sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
-use crate::files;
 use crate::interrupt;
 use crate::matrices::Motion;
 use crate::progress::Progress;
@@ -27,7 +28,7 @@ use epipole::sfm::{
 };
 use serde::Serialize;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Reconstruct cameras and points from photographs of one thing.
 #[derive(Debug, Args)]
@@ -37,7 +38,8 @@ use std::path::{Path, PathBuf};
          for each pair from the noise of its matches"
     ).default_value(PHOTO_MAX_ERROR)),
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
-    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply.\n\n\
+    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply, with --images also the\n\
+    photographs, in images/.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
     begin, and one factor for all focal lengths is refined.\n\n\
     JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px and\n\
@@ -62,6 +64,10 @@ pub(crate) struct Arguments {
     growth: GrowthArguments,
     #[command(flatten)]
     positions: PositionArguments,
+    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, without distortion), into OUT/images,
+    /// for programs that go on from there. Files that were changed become JPEGs, also by name.
+    #[arg(long, help_heading = "Options")]
+    images: bool,
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT", help_heading = "Options")]
     output: PathBuf,
@@ -73,7 +79,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         intrinsics,
         places,
         guesses,
+        used,
     } = arguments.input.read(context)?;
+    let pictures = match arguments.images {
+        true => Some(Pictures::within(&arguments.output, &used)?),
+        false => None,
+    };
     let positions = arguments.positions.give(&mut photos, &places)?;
     (arguments.growth).give_lenses(&mut photos, &intrinsics);
     let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
@@ -90,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let progress = Progress::new(context, "structure from motion");
     let watch = &mut |status| progress.show(status);
-    let (input, result) =
+    let (mut input, result) =
         reconstruct_photos_with_progress(&photos, &intrinsics, &photo_options, &options, watch)?;
     drop(progress);
     let Some(largest) = result.components.first() else {
@@ -104,13 +115,6 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     if result.canceled {
         context.warn(interrupt::ENDED_EARLY);
-    }
-    files::make_folder(&arguments.output)?;
-    let mut written = write(&arguments.output, largest, &input.images)?;
-    for (index, component) in result.components.iter().enumerate().skip(1) {
-        let folder = arguments.output.join(format!("component{}", index + 1));
-        files::make_folder(&folder)?;
-        written.extend(write(&folder, component, &input.images)?);
     }
     let unregistered = unregistered(&input, &options, &result)?;
     let errors: f64 = largest
@@ -134,6 +138,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             })
             .collect()
     };
+    let registered = registered(largest);
+    if let Some(pictures) = &pictures {
+        pictures.write(&photos)?;
+        for (image, name) in input.images.iter_mut().zip(&pictures.names) {
+            image.name.clone_from(name);
+        }
+    }
+    let mut written = write_model(&arguments.output, largest, &input.images)?;
+    for (index, component) in result.components.iter().enumerate().skip(1) {
+        let folder = arguments.output.join(format!("component{}", index + 1));
+        written.extend(write_model(&folder, component, &input.images)?);
+    }
     let components: Vec<serde_json::Value> = result
         .components
         .iter()
@@ -181,7 +197,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("num_images", photos.len())
         .field("num_points", largest.points.len())
         .field("mean_reprojection_px", mean_px)
-        .field("images", registered(largest))
+        .field("images", registered)
         .field("unregistered", &unregistered)
         .field("components", components)
         .field("complete", !result.canceled)
@@ -231,25 +247,4 @@ fn unregistered(
         reason,
     });
     Ok(named.collect())
-}
-
-fn write(
-    folder: &Path,
-    reconstruction: &Reconstruction,
-    images: &[epipole::sfm::SfmImage],
-) -> Result<Vec<String>, Failure> {
-    let model = reconstruction.to_colmap(images);
-    let files = [
-        ("cameras.txt", model.cameras.into_bytes()),
-        ("images.txt", model.images.into_bytes()),
-        ("points3D.txt", model.points.into_bytes()),
-        ("points.ply", reconstruction.to_ply()),
-    ];
-    let mut written = Vec::new();
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        files::write(&path, &bytes)?;
-        written.push(path.display().to_string());
-    }
-    Ok(written)
 }

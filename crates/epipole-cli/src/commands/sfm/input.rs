@@ -51,6 +51,14 @@ pub(super) struct Input {
     pub(super) places: Vec<Option<Geodetic>>,
     /// Of the focal lengths that nobody gave.
     pub(super) guesses: Vec<Guess>,
+    pub(super) used: Vec<Used>,
+}
+
+/// The file of a photograph.
+pub(super) struct Used {
+    pub(super) path: PathBuf,
+    /// Whether it shows just the pixels that were used: neither turned nor redrawn nor reduced.
+    pub(super) is_as_stored: bool,
 }
 
 impl InputArguments {
@@ -78,6 +86,7 @@ impl InputArguments {
             intrinsics: Vec::new(),
             places: Vec::new(),
             guesses: Vec::new(),
+            used: Vec::new(),
         };
         let (mut sizes, mut others) = (Vec::new(), Vec::new());
         for (index, path) in paths.iter().enumerate() {
@@ -93,6 +102,10 @@ impl InputArguments {
             input.guesses.extend(guess);
             input.intrinsics.push(k);
             input.places.push(photo.place);
+            input.used.push(Used {
+                path: path.clone(),
+                is_as_stored: photo.is_as_stored,
+            });
             input.photos.push(SfmPhoto {
                 name: name(path),
                 image: photo.color,
