@@ -19,6 +19,12 @@ function generator(seed) {
   return () => (state = (state * 48271) % 2147483647) / 2147483647;
 }
 
+/** Makes the window another size: keys may have led to full screen, where it has the screen's. */
+async function resize(page, width, height) {
+  await page.evaluate(() => (document.fullscreenElement ? document.exitFullscreen() : undefined));
+  await page.setViewportSize({ width, height });
+}
+
 /** What hands can do to a figure, each with how often. */
 function deeds(page, figure, random) {
   const pick = (list) => list[Math.floor(random() * list.length)];
@@ -55,7 +61,7 @@ function deeds(page, figure, random) {
       },
     ],
     [2, "wheel", async () => page.mouse.wheel(random() * 200 - 100, random() * 400 - 200)],
-    [1, "size", async () => page.setViewportSize(Object.fromEntries(["width", "height"].map((key, at) => [key, pick(SIZES)[at]])))],
+    [1, "size", () => resize(page, pick(SIZES)[0], pick(SIZES)[1])],
     [
       3,
       "attribute",
@@ -137,7 +143,7 @@ for (const [index, { name }] of figures.entries()) {
     const { p99, longest } = await tasks.end();
     await page.mouse.up();
     test.info().annotations.push({ type: "deeds", description: String(done.length) });
-    await page.setViewportSize({ width: 1000, height: 900 });
+    await resize(page, 1000, 900);
     await expect(figure, done.slice(-12).join(", ")).toHaveAttribute("data-ready", "");
     await expect(figure.locator(".notice")).not.toContainText("mistake of ours");
     // Whatever runs is brought to rest before the two are compared.
