@@ -4,9 +4,10 @@ use crate::kit::scenes::{
     PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life, still_life_pair,
 };
 use epipole::camera::Camera;
+use epipole::epipolar::epipolar_line2;
 use epipole::math::random::Random;
 use epipole::synthetic::Transfer;
-use nalgebra::Point2;
+use nalgebra::{Matrix3, Point2};
 
 /// The most matches that F can be estimated from.
 pub(crate) const MAX_USED: usize = 60;
@@ -38,6 +39,13 @@ pub(crate) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
         Transfer::Visible { pixel2, .. } if in_picture(&pixel2) => Some(pixel2),
         _ => None,
     }
+}
+
+/// How far the second pixel of a match is from the line of the first, pixels; `None` for a pixel that has no
+/// line: it is the epipole.
+pub(crate) fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> Option<f64> {
+    let line = epipolar_line2(fundamental, pixel1).ok()?;
+    Some(line.signed_distance(pixel2).abs())
 }
 
 /// Matches to estimate F from, and matches to judge it by.

@@ -12,6 +12,11 @@ use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use nalgebra::{Point2, Vector2};
 
+/// Each of two cameras has a hue and a shape, in its photograph, from above and in space.
+pub(crate) const CAMERAS: [(Role, Shape); 2] = [
+    (Role::Series(0), Shape::Disk),
+    (Role::Series(1), Shape::Square),
+];
 /// Farther than any pixel from the middle of the picture, so that a line's ends are outside.
 const FAR_PX: f64 = 2000.0;
 

@@ -25,6 +25,9 @@ const DOWN: f64 = 30.0;
 /// Least distance of names along an axis that counts things.
 const NAMES: f64 = 20.0;
 
+/// The names of nine singular values.
+pub(crate) const SIGMAS: &[&str] = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
+
 /// How values are spread along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {
@@ -230,6 +233,17 @@ pub(crate) fn open<'a>(
     fitting_title(canvas, panel.rect, titles);
     draw_axes(canvas, panel, x, y);
     panel
+}
+
+/// The title of a plot, in the first wording that fits, from where the numbers of its vertical axis begin.
+pub(crate) fn title_from_left(canvas: &mut Canvas, panel: &Panel, titles: &[&str]) {
+    let Rect { x, width, .. } = panel.rect;
+    let above = Rect {
+        x: x - LEFT,
+        width: width + LEFT,
+        ..panel.rect
+    };
+    fitting_title(canvas, above, titles);
 }
 
 /// The surface, the ticks and their numbers.

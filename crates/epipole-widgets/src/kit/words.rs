@@ -73,6 +73,20 @@ pub(crate) fn line(line: &Line2) -> String {
     )
 }
 
+/// A sentence behind others, if there is one.
+pub(crate) fn after(sentence: Option<&str>) -> String {
+    sentence.map_or_else(String::new, |sentence| format!(" {sentence}"))
+}
+
+/// A number with as few decimals as it needs, two at most.
+pub(crate) fn short(value: f64) -> String {
+    let digits = (0..2).find(|&digits| {
+        let times = [1.0, 10.0][digits];
+        ((value * times).round() - value * times).abs() < 1e-4
+    });
+    format_number(value, digits.unwrap_or(2))
+}
+
 /// A matrix of very different entries, row by row; lines break between rows only.
 pub(crate) fn matrix(matrix: &Matrix3<f64>) -> String {
     let rows: Vec<String> = (0..3)
@@ -154,6 +168,12 @@ mod tests {
         assert_eq!(magnitude(0.0217, 1.0), "0.022");
         assert_eq!(magnitude(3e-9, 1.0), "3.00·10⁻⁹");
         assert_eq!(magnitude(3e-9, 1e6), "0");
+    }
+
+    #[test]
+    fn short_numbers_have_the_decimals_that_they_need() {
+        let all = [-3.0, 0.5, 1.0 / 3.0, 12.000_01].map(short);
+        assert_eq!(all, ["−3", "0.5", "0.33", "12"]);
     }
 
     #[test]

@@ -8,6 +8,7 @@ use crate::gallery::two_view_sfm::question::{Answer, Motion, Question};
 use crate::gallery::two_view_sfm::view::{draw_surface, spread};
 use crate::kit::grid::{self, Grid};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::CAMERAS;
 use crate::kit::question::Question as _;
 use crate::kit::scenes::PHOTO_SIZE;
 use crate::kit::space::{Space, Subject, draw_handles};
@@ -31,10 +32,6 @@ const MOST_DOTS: usize = 400;
 /// Shares of the first step: the second camera leaves, and arrives.
 const LEAVES: f64 = 0.3;
 const ARRIVES: f64 = 0.85;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 
 /// Draws [`Cover`].
 #[derive(Default)]

@@ -1,6 +1,6 @@
 //! F from matches by the core's eight-point algorithm, and what can be said about it.
 
-use crate::kit::matches::Match;
+use crate::kit::matches::{Match, distance_px};
 use epipole::epipolar::{
     EightPoint, epipolar_line2, fundamental_8point_explained, fundamental_8point_unnormalized,
 };
@@ -86,10 +86,10 @@ pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<
 
 /// Mean distance of the second pixels from the lines of the first, pixels.
 fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
-    let distances: Vec<f64> = matches
+    let distances = matches
         .iter()
-        .filter_map(|(x1, x2)| Some(line2(fundamental, x1)?.signed_distance(x2).abs()))
-        .collect();
+        .filter_map(|found| distance_px(fundamental, found));
+    let distances: Vec<f64> = distances.collect();
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 

@@ -3,10 +3,11 @@
 use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Symbol, Value, knobs,
+    Settings, Slider, Symbol, knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
-use crate::kit::probe::{place_words, ranges};
+use crate::kit::points::{Points, number_of};
+use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_SIZE, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
@@ -48,9 +49,12 @@ const PLACES_PX: [(f64, f64); MAX_POINTS] = [
     (291.0, 332.0),
 ];
 const NUM_AT_START: usize = 4;
-const POINT_IDS: [&str; MAX_POINTS] = ["p1", "p2", "p3", "p4", "p5", "p6"];
-/// Digits that a point's place is kept with.
-const DIGITS: usize = 1;
+/// What the handles of all points have in common.
+const POINT: Probe = Probe::new("p", "first", "Point # in photograph 1")
+    .over(PHOTO_SIZE)
+    .step(4.0)
+    .digits(1)
+    .told(|place| place_words(place, 1));
 /// Two points on one epipolar line are no farther from it than this, pixels; and they are at least so
 /// far from each other.
 const SAME_LINE_PX: f64 = 2.0;
@@ -59,7 +63,7 @@ const APART_PX: f64 = 60.0;
 /// The model of `epipolar-click`.
 pub(crate) struct EpipolarClick {
     settings: Settings,
-    points: [Option<Point2<f64>>; MAX_POINTS],
+    points: Points,
 }
 
 impl EpipolarClick {
@@ -85,8 +89,8 @@ impl EpipolarClick {
 
     /// The points with their index.
     pub(super) fn points(&self) -> impl Iterator<Item = (usize, Point2<f64>)> {
-        let points = self.points.iter().enumerate();
-        points.filter_map(|(index, point)| Some((index, (*point)?)))
+        let points = self.points.iter();
+        points.map(|point| (point.number - 1, point.place))
     }
 
     /// The point that the readouts speak of, with its index.
@@ -118,43 +122,21 @@ impl EpipolarClick {
         })
     }
 
-    fn select(&mut self, index: usize) {
-        // A number within the slider's range is accepted.
-        let chosen = Value::Number((index + 1) as f64);
-        let _ = self.settings.set(SELECTED.id, &chosen);
+    /// Says the selection in full, so that a permalink restores it.
+    fn keep_selection(&mut self) {
+        let index = self.selected().map_or(0, |(index, _)| index);
+        self.settings.slide(&SELECTED, (index + 1) as f64);
     }
 
-    fn handle(&self, index: usize, point: Point2<f64>) -> Handle {
-        let (id, place) = (POINT_IDS[index], (point.x, point.y));
-        let label = format!("Point {} in photograph 1", index + 1);
-        Handle::new(id, "first", label, place, ranges(PHOTO_SIZE))
-            .told(place_words(place, DIGITS))
-            .step([4.0; 2], DIGITS)
-            .removable_if(true)
+    fn put(&mut self, number: usize, x: f64, y: f64) {
+        self.points.put(number, x, y);
+        self.settings.slide(&SELECTED, number as f64);
     }
 
-    fn put(&mut self, index: usize, x: f64, y: f64) {
-        let wanted = Point2::new(x, y);
-        if let Some((x, y)) = self.handle(index, wanted).admit(x, y) {
-            self.points[index] = Some(Point2::new(x, y));
-            self.select(index);
-        }
-    }
-
+    /// The smallest number that no point has.
     fn free(&self) -> Option<usize> {
-        self.points.iter().position(Option::is_none)
+        (1..=MAX_POINTS).find(|number| !self.points.has(*number))
     }
-
-    fn remove(&mut self, index: usize) {
-        self.points[index] = None;
-        // The selection is said in full from now on, so that a permalink restores it.
-        let next = self.selected().map_or(0, |(index, _)| index);
-        self.select(next);
-    }
-}
-
-fn index_of(id: &str) -> Option<usize> {
-    POINT_IDS.iter().position(|known| *known == id)
 }
 
 impl Declared for EpipolarClick {
@@ -166,29 +148,25 @@ impl Declared for EpipolarClick {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        let place = |index: usize| {
-            let (u, v) = PLACES_PX[index];
-            (index < NUM_AT_START).then(|| Point2::new(u, v))
-        };
+        let places = PLACES_PX[..NUM_AT_START].iter();
+        let places = places.map(|&(u, v)| Point2::new(u, v));
         Self {
             settings: Settings::new(KNOBS),
-            points: std::array::from_fn(place),
+            points: Points::new(POINT, 0, places),
         }
     }
 }
 
 impl Model for EpipolarClick {
     fn controls(&self) -> Vec<Control> {
-        let count = self.points().count();
+        let count = self.points.len();
         let add = ADD.control(count < MAX_POINTS, false);
         self.settings
             .controls_and([add, REMOVE.control(count > 0, false)])
     }
 
     fn handles(&self) -> Vec<Handle> {
-        self.points()
-            .map(|(index, point)| self.handle(index, point))
-            .collect()
+        self.points.handles()
     }
 
     /// Those of the selected point.
@@ -199,53 +177,44 @@ impl Model for EpipolarClick {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        self.settings.update(event)?;
         match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-                if id == SELECTED.id {
-                    let effective = self.selected().map_or(0, |(index, _)| index);
-                    self.select(effective);
-                }
-            }
+            Event::Set { id, .. } if id == SELECTED.id => self.keep_selection(),
             Event::Press { id } if id == ADD.id => {
-                if let Some(index) = self.free() {
-                    let (u, v) = PLACES_PX[index];
-                    self.put(index, u, v);
+                if let Some(number) = self.free() {
+                    let (u, v) = PLACES_PX[number - 1];
+                    self.put(number, u, v);
                 }
             }
             Event::Press { id } if id == REMOVE.id => {
                 if let Some((index, _)) = self.points().last() {
-                    self.remove(index);
-                }
-            }
-            Event::HandleMoved { id, x, y } => {
-                if let Some(index) = index_of(id) {
-                    self.put(index, *x, *y);
-                }
-            }
-            Event::HandleRemoved { id } => {
-                if let Some(index) = index_of(id) {
-                    self.remove(index);
+                    self.points.remove(index + 1);
+                    self.keep_selection();
                 }
             }
             // With every point in use, a click moves the selected one.
             Event::Clicked { x, y, .. } => {
-                let selected = self.selected().map(|(index, _)| index);
-                if let Some(index) = self.free().or(selected) {
-                    self.put(index, *x, *y);
+                let selected = self.selected().map(|(index, _)| index + 1);
+                if let Some(number) = self.free().or(selected) {
+                    self.put(number, *x, *y);
                 }
             }
-            _ => {}
+            _ => {
+                if let Some(number) = self.points.update(event) {
+                    self.settings.slide(&SELECTED, number as f64);
+                    self.keep_selection();
+                }
+            }
         }
         Ok(())
     }
 
     fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
-        let Some(index) = index_of(id) else {
-            return false;
-        };
-        self.put(index, x, y);
-        true
+        let number = number_of(id).filter(|number| (1..=MAX_POINTS).contains(number));
+        if let Some(number) = number {
+            self.put(number, x, y);
+        }
+        number.is_some()
     }
 }
 
@@ -376,7 +345,7 @@ mod tests {
             model.update(&Event::clicked("first", x, 33.333)).unwrap();
         }
         assert_eq!(model.points().count(), MAX_POINTS);
-        assert_eq!(model.points[5], Some(Point2::new(30.0, 33.3)));
+        assert_eq!(model.points.places()[5], Point2::new(30.0, 33.3));
         assert_eq!(model.selected().unwrap().0, 5);
         model.update(&Event::press(REMOVE.id)).unwrap();
         assert_eq!(model.selected().unwrap().0, 4);

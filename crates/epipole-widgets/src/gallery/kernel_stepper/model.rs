@@ -31,7 +31,7 @@ const ALONG: Choice = Choice::new(
     "Along",
     &[("u", "u, to the right"), ("v", "v, down")],
 );
-const BORDER: Choice = Choice::new(
+pub(super) const BORDER: Choice = Choice::new(
     "border",
     "Beyond the border",
     &[
@@ -62,12 +62,15 @@ static KNOBS: &[Knob] = knobs![
     KERNEL, ALONG, BORDER, PIXELS, WEIGHTS[0], WEIGHTS[1], WEIGHTS[2], WEIGHTS[3], WEIGHTS[4],
     WEIGHTS[5], WEIGHTS[6], WEIGHTS[7], WEIGHTS[8], DIVIDE,
 ];
+const WINDOW: Probe = Probe::new("window", "pixels", "Window")
+    .over(SIZE)
+    .at(3.0, 2.0);
 const NEXT: Button = Button::new("next", "Next pixel", ButtonRole::Step);
 
 /// The model of `kernel-stepper`.
 pub(crate) struct KernelStepper {
-    settings: Settings,
-    window: Probe,
+    pub(super) settings: Settings,
+    pub(super) window: Probe,
     image: GrayImage32,
     /// The sum of products at every pixel.
     sums: Result<GrayImage32, String>,
@@ -95,26 +98,19 @@ impl KernelStepper {
 
     /// The label of the kernel, and the axis along which it measures, if it does.
     pub(super) fn names(&self) -> (&'static str, Option<&'static str>) {
-        let kernel = self.settings.chosen(&KERNEL);
-        let along = ALONG.options[self.settings.chosen(&ALONG)].0;
-        (KERNEL.options[kernel].1, (kernel < 3).then_some(along))
+        let measures = self.settings.chosen(&KERNEL) < 3;
+        let along = ["u", "v"][self.settings.chosen(&ALONG)];
+        (self.settings.label(&KERNEL), measures.then_some(along))
     }
 
     pub(super) fn border(&self) -> Border {
-        match self.settings.chosen(&BORDER) {
-            0 => Border::Replicate,
-            1 => Border::Reflect101,
-            _ => Border::Constant(0.0),
-        }
-    }
-
-    pub(super) fn border_name(&self) -> &'static str {
-        BORDER.options[self.settings.chosen(&BORDER)].1
+        let borders = [Border::Replicate, Border::Reflect101, Border::Constant(0.0)];
+        borders[self.settings.chosen(&BORDER)]
     }
 
     /// The pixel in the middle of the window: column and row.
     pub(super) fn pixel(&self) -> (u32, u32) {
-        self.window.pixel(SIZE)
+        self.window.pixel()
     }
 
     /// The gray level at a place of the image or beyond its border.
@@ -167,7 +163,7 @@ impl Declared for KernelStepper {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            window: Probe::new("window", "pixels", "Window").at(3.0, 2.0),
+            window: WINDOW,
             image: pixels::image(false),
             sums: Err(String::new()),
         };
@@ -190,11 +186,11 @@ impl Model for KernelStepper {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.window.handle(SIZE, 1.0)]
+        vec![self.window.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.window.update(event, SIZE) {
+        if self.window.update(event) {
             return Ok(());
         }
         if let Some(id) = self.settings.update(event)? {

@@ -29,8 +29,7 @@ pub(crate) struct OutlierDragView {
 }
 
 fn value_rulers() -> [Ruler; 2] {
-    let names = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
-    [Ruler::things(names), Ruler::decades(-3.0, 1.3)]
+    [Ruler::things(plot::SIGMAS), Ruler::decades(-3.0, 1.3)]
 }
 
 fn led_rulers() -> [Ruler; 2] {

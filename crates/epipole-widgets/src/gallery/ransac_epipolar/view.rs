@@ -54,13 +54,11 @@ impl View for RansacEpipolarView {
 
     fn layout(&self, model: &RansacEpipolar, width: f64) -> Layout {
         let sizes = model.sizes();
-        let aspect = |(columns, rows): (u32, u32)| f64::from(rows) / f64::from(columns);
         let mut grid = Grid::new(width);
-        let [left, right] = grid.row(sizes.map(aspect), TALLEST);
+        let [left, right] = grid.row(sizes.map(grid::aspect), TALLEST);
         grid.strip(GAP / 2.0 + legend::height(&legend_of(model), width, 0.0));
-        let [(width1, height1), (width2, height2)] = sizes;
-        let first = Panel::photograph("first", left, (width1, height1)).clickable();
-        let second = Panel::photograph("second", right, (width2, height2));
+        let first = Panel::photograph("first", left, sizes[0]).clickable();
+        let second = Panel::photograph("second", right, sizes[1]);
         grid.layout(vec![first, second])
     }
 

@@ -92,7 +92,7 @@ impl Words for RansacEpipolar {
             Show::Outliers => " Outliers are shown.",
             Show::Lines => " Epipolar lines are shown.",
         };
-        let open = left_open(self).map_or_else(String::new, |sentence| format!(" {sentence}"));
+        let open = words::after(left_open(self).as_deref());
         format!(
             "After {}, {} of {num_matches} matches agree on one F within {} px{right}. Their mean \
              Sampson distance is {} px. {}{show}{open}",

@@ -26,10 +26,7 @@ impl Words for RatioTest {
         };
         let [kept, right, precision, recall] = names;
         let percent = |(id, label), share: Option<f64>| {
-            let percent = share.map(|share| 100.0 * share);
-            Readout::number(id, label, percent, 0, "%")
-                .or("no match")
-                .main()
+            Readout::percent(id, label, share, 0).or("no match").main()
         };
         let [near, far] = found.distances.map(f64::from);
         let is_right = if found.is_right { "right" } else { "wrong" };

@@ -3,7 +3,7 @@
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
-    Problem, Settings, Slider, Value, knobs,
+    Problem, Settings, Slider, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -122,10 +122,7 @@ impl Model for Tournament {
         }
         match event {
             Event::Press { id } if id == AGAIN.id => self.start(),
-            Event::Clicked { x, .. } => {
-                let ratio = Value::Number(x.clamp(RATIO.min, RATIO.max));
-                self.settings.set(RATIO.id, &ratio)?;
-            }
+            Event::Clicked { x, .. } => self.settings.slide(&RATIO, *x),
             _ => {}
         }
         Ok(())

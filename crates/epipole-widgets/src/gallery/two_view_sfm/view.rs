@@ -7,6 +7,7 @@ use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid, TEXT, TITLE};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::CAMERAS;
 use crate::kit::question::Question as _;
 use crate::kit::scenes::PHOTO_SIZE;
 use crate::kit::space::{Space, Subject, draw_handles};
@@ -17,11 +18,6 @@ use nalgebra::{Point2, Point3};
 const MOST_LINES: usize = 32;
 /// Rays of more points than this hide the points.
 const MOST_RAYS: usize = 24;
-/// Each camera has a hue and a shape, above its photograph and in space.
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const PHOTOS: [&str; 2] = ["first", "second"];
 
 /// Draws [`TwoViewSfm`].

@@ -36,8 +36,8 @@ pub(super) struct Found {
 
 impl Found {
     /// The squared change under a shift by whole pixels; none beyond the reach.
-    pub(super) fn change(&self, du: i32, dv: i32) -> f64 {
-        self.surface.at(du, dv).unwrap_or(0.0) / self.pixels
+    pub(super) fn change(&self, (du, dv): (f64, f64)) -> f64 {
+        self.surface.at(du as i32, dv as i32).unwrap_or(0.0) / self.pixels
     }
 
     /// Taylor's estimate of the squared change under a shift.
@@ -88,10 +88,9 @@ pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
 /// As the core's functions; places within the handle's range are never refused.
 pub(super) fn find(
     gray: &GrayImage32,
-    (u, v): (f64, f64),
+    (u, v): (u32, u32),
     window_px: usize,
 ) -> epipole::Result<Found> {
-    let (u, v) = (u as u32, v as u32);
     let surface = shift_surface(gray, (u, v), window_px / 2, REACH, Border::Reflect101)?;
     let options = StructureTensorOptions {
         window: Window::Box(window_px),
