@@ -15,6 +15,7 @@
 //! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
 //! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
 //! | [`standing`] | photographs that stand among them |
+//! | [`reconstruction`] | two photographs to cameras and points in space, stage by stage |
 //! | [`geometry`] | the epipolar geometry of two cameras |
 //! | [`grid`] | titled panels in rows, one breakpoint, notices |
 //! | [`plot`] | axes, linear or logarithmic, and curves |
@@ -47,6 +48,7 @@ pub(crate) mod plot;
 pub(crate) mod points;
 pub(crate) mod probe;
 pub(crate) mod question;
+pub(crate) mod reconstruction;
 pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;

@@ -47,6 +47,12 @@ impl Photos {
     }
 }
 
+/// Some of many, evenly, no more than `most`: all would hide the photographs.
+pub(crate) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let stride = all.len().div_ceil(most.max(1)).max(1);
+    all.iter().step_by(stride)
+}
+
 /// The color and the shape of one of several points, in both photographs.
 pub(crate) fn series(index: usize) -> (Role, Shape) {
     (Role::Series(index as u8), Shape::of_series(index))
@@ -154,4 +160,19 @@ fn beside_arrow(from: Place, to: Place) -> [(Place, Align); 4] {
         ((x, middle.1 - 30.0), align),
         ((x, middle.1 + 31.0), align),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_are_spread_over_all() {
+        let all: Vec<usize> = (0..1000).collect();
+        let some: Vec<&usize> = spread(&all, 32).collect();
+        assert!(some.len() <= 32 && *some[some.len() - 1] >= 960);
+        assert_eq!(spread(&all[..5], 32).count(), 5);
+        assert_eq!(spread(&all[..0], 32).count(), 0);
+        assert_eq!(spread(&all, 0).count(), 1);
+    }
 }

@@ -15,6 +15,20 @@ pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
     )
 }
 
+/// A pixel, whole, such as "(320, 240)".
+pub(crate) fn whole_pixel(pixel: &Point2<f64>) -> String {
+    let [u, v] = [pixel.x, pixel.y].map(|x| format_number(x, 0));
+    format!("({u}, {v})")
+}
+
+/// An epipole, such as "(1273, 240)".
+pub(crate) fn short_epipole(epipole: &Epipole) -> String {
+    match epipole {
+        Epipole::Finite(place) => whole_pixel(place),
+        Epipole::AtInfinity(_) => "at infinity".to_owned(),
+    }
+}
+
 /// On which side of the picture a pixel is.
 pub(crate) fn side(pixel: &Point2<f64>) -> &'static str {
     let beyond = [

@@ -4,9 +4,9 @@ use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob,
     Model, Problem, Settings, Slider, Space, knobs,
 };
-use crate::gallery::two_view_sfm::question::{Answer, Question, Source};
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::question::{Asked, carry_out};
+use crate::kit::reconstruction::{Answer, Question, Source};
 
 const STEP: Choice = Choice::new(
     "step",

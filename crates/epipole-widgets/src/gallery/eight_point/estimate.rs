@@ -1,8 +1,8 @@
 //! F from matches by the core's eight-point algorithm, and what can be said about it.
 
-use crate::kit::matches::{Match, distance_px};
+use crate::kit::matches::{Match, distance_px, line2};
 use epipole::epipolar::{
-    EightPoint, epipolar_line2, fundamental_8point_explained, fundamental_8point_unnormalized,
+    EightPoint, fundamental_8point_explained, fundamental_8point_unnormalized,
 };
 use epipole::math::Line2;
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
@@ -77,11 +77,6 @@ impl Estimate {
             &self.raw
         }
     }
-}
-
-/// The epipolar line of a pixel of photograph 1; `None` if it has none.
-pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
-    epipolar_line2(fundamental, pixel1).ok()
 }
 
 /// Mean distance of the second pixels from the lines of the first, pixels.

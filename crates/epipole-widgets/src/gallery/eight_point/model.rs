@@ -3,14 +3,14 @@
 //! The state is the settings and the place of the probe. Matches are drawn when they are first
 //! needed; the photographs come from a worker, and nothing waits for them.
 
-use super::estimate::{Estimate, line2};
+use super::estimate::Estimate;
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
     Slider, Symbol, Toggle, knobs,
 };
 use crate::kit::geometry::match_symbols;
-use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
+use crate::kit::matches::{MAX_USED, Matches, cameras, distance_px, exact_match, line2};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::scenes::PHOTO_SIZE;
@@ -116,8 +116,8 @@ impl EightPoint {
 
     /// How far the match of the probe is from its line.
     pub(super) fn probe_px(&self) -> Option<f64> {
-        let line = line2(&self.estimate().ok()?.fundamental, &self.probe())?;
-        Some(line.signed_distance(&self.probe_match()?).abs())
+        let found = (self.probe(), self.probe_match()?);
+        distance_px(&self.estimate().ok()?.fundamental, &found)
     }
 }
 

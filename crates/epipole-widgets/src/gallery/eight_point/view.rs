@@ -1,12 +1,13 @@
 //! Both photographs with the matches and their lines; below, the place where the lines meet, much
 //! enlarged, and the singular values.
 
-use super::estimate::{Estimate, line2};
+use super::estimate::Estimate;
 use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::matches::line2;
 use crate::kit::pair::{border_arrow, draw_line, series};
 use crate::kit::plan;
 use crate::kit::plot::{self, List, Ruler};

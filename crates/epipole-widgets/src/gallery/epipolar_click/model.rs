@@ -1,6 +1,5 @@
 //! Points of one photograph, and where the camera of the other one stands.
 
-use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Symbol, knobs,
@@ -8,7 +7,7 @@ use crate::contract::{
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::points::{Points, number_of};
 use crate::kit::probe::{Probe, place_words};
-use crate::kit::scenes::{PHOTO_SIZE, in_picture};
+use crate::kit::scenes::{PHOTO_SIZE, Seen, in_picture, still_life_pair};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use nalgebra::Point2;
@@ -68,7 +67,8 @@ pub(crate) struct EpipolarClick {
 
 impl EpipolarClick {
     pub(super) fn cameras(&self) -> [Camera; 2] {
-        geometry::cameras(self.motion())
+        let (right_m, forward_m, left_deg) = self.motion();
+        still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
     }
 
     /// Camera 2 in the frame of camera 1: meters to the right, meters forward, and degrees to the
@@ -101,8 +101,9 @@ impl EpipolarClick {
             .or_else(|| self.points().last())
     }
 
-    pub(super) fn find_match(&self, pixel1: &Point2<f64>) -> Match {
-        find_match(&self.cameras(), pixel1)
+    /// How camera 2 sees what is at a pixel of photograph 1.
+    pub(super) fn seen(&self, pixel1: &Point2<f64>) -> Seen {
+        Seen::of(&self.cameras(), pixel1)
     }
 
     /// Whether some point lies on the line of another one, apart from it.
@@ -172,7 +173,7 @@ impl Model for EpipolarClick {
     /// Those of the selected point.
     fn symbols(&self) -> Vec<Symbol> {
         let pixel1 = self.selected().map(|(_, point)| point);
-        let pixel2 = pixel1.and_then(|point| self.find_match(&point).pixel());
+        let pixel2 = pixel1.and_then(|point| self.seen(&point).pixel());
         symbols([pixel1, pixel2], self.geometry().as_ref())
     }
 
@@ -258,7 +259,7 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
               different places from different cameras.",
         check: |model| {
             let mut points = model.points();
-            points.any(|(_, point)| matches!(model.find_match(&point), Match::Hidden(..)))
+            points.any(|(_, point)| matches!(model.seen(&point), Seen::Hidden(..)))
         },
         solution: || vec![Event::moved("p1", 262.0, 205.0)],
     },
@@ -289,8 +290,8 @@ mod tests {
     fn every_place_to_begin_is_seen_by_both_cameras() {
         let model = EpipolarClick::new();
         for (u, v) in PLACES_PX {
-            let found = model.find_match(&Point2::new(u, v));
-            assert!(matches!(found, Match::Visible(_)), "({u}, {v}): {found:?}");
+            let found = model.seen(&Point2::new(u, v));
+            assert!(matches!(found, Seen::Visible(_)), "({u}, {v}): {found:?}");
         }
     }
 
@@ -315,7 +316,7 @@ mod tests {
         let ends = |slider: &Slider| [slider.min, 0.5 * (slider.min + slider.max), slider.max];
         for right_m in ends(&BASELINE) {
             for forward_m in ends(&FORWARD) {
-                let [_, second] = geometry::cameras((right_m, forward_m, 0.0));
+                let [_, second] = still_life_pair(PHOTO_SIZE, right_m, forward_m, 0.0);
                 let small = Camera {
                     intrinsics: second.intrinsics.scaled(0.0125).unwrap(),
                     ..second

@@ -1,6 +1,5 @@
 //! Two photographs, points in the first, lines in the second.
 
-use super::geometry::Match;
 use super::model::EpipolarClick;
 use super::words::NO_BASELINE;
 use crate::canvas::{Canvas, Place, Stroke};
@@ -9,7 +8,7 @@ use crate::kit::geometry::Geometry;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line, series};
-use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, Seen};
 use crate::theme::Role;
 
 const MARKER: f64 = 5.5;
@@ -122,14 +121,14 @@ fn draw_second(
     let mut texts = Vec::new();
     for (index, point) in model.points() {
         let (role, shape) = series(index);
-        let found = model.find_match(&point);
+        let found = model.seen(&point);
         let Some(pixel) = found.pixel() else { continue };
         let place = panel.place_of(&pixel);
         match found {
-            Match::Visible(_) | Match::Hidden(..) => {
+            Seen::Visible(_) | Seen::Hidden(..) => {
                 draw_selection(model, index, place, canvas);
                 labels.keep_free(place, MARKER + 3.0);
-                if let Match::Hidden(_, by) = found {
+                if let Seen::Hidden(_, by) = found {
                     canvas.hollow_marker(place, MARKER, shape, role, true);
                     texts.push((index, place, format!(" hidden by {by}")));
                 } else {
@@ -137,13 +136,13 @@ fn draw_second(
                     texts.push((index, place, String::new()));
                 }
             }
-            Match::Outside(_) => {
+            Seen::Outside(_) => {
                 if let Some((from, to)) = border_arrow(panel.rect, place) {
                     canvas.arrow(from, to, Stroke::solid(role, 2.5).cased());
                     texts.push((index, from, " is outside".to_owned()));
                 }
             }
-            Match::Behind | Match::Nothing => {}
+            Seen::Behind | Seen::Nothing => {}
         }
     }
     if let Some(geometry) = geometry {

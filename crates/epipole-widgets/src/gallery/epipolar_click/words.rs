@@ -1,11 +1,10 @@
 //! What `epipolar-click` says.
 
-use super::geometry::Match;
 use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::geometry::Geometry;
+use crate::kit::scenes::Seen;
 use crate::kit::words::{self, pixel, side};
-use epipole::epipolar::Epipole;
 
 /// What the figure says when both cameras stand at one place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
@@ -15,8 +14,8 @@ pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same p
 impl Words for EpipolarClick {
     fn readouts(&self) -> Vec<Readout> {
         let selected = self.selected();
-        let matched = selected.map(|(_, point)| self.find_match(&point));
-        let pixel2 = matched.and_then(Match::pixel);
+        let matched = selected.map(|(_, point)| self.seen(&point));
+        let pixel2 = matched.and_then(Seen::pixel);
         let geometry = self.geometry();
         let line = selected.zip(geometry);
         let line = line.and_then(|((_, point), geometry)| geometry.line2(&point));
@@ -27,8 +26,8 @@ impl Words for EpipolarClick {
         };
         let of = |get: fn(&Geometry) -> String| geometry.as_ref().map(get);
         let [e1, e2] = [
-            of(|all| short(&all.epipole1)),
-            of(|all| short(&all.epipole2)),
+            of(|all| words::short_epipole(&all.epipole1)),
+            of(|all| words::short_epipole(&all.epipole2)),
         ];
         let f = of(|geometry| words::matrix(&geometry.fundamental));
         let e = of(|geometry| words::matrix(&geometry.essential));
@@ -57,7 +56,7 @@ impl Words for EpipolarClick {
         let count = self.points().count();
         let seen = self
             .points()
-            .filter(|(_, point)| matches!(self.find_match(point), Match::Visible(_)))
+            .filter(|(_, point)| matches!(self.seen(point), Seen::Visible(_)))
             .count();
         let seen = match seen {
             0 => "none".to_owned(),
@@ -89,26 +88,14 @@ impl Words for EpipolarClick {
     }
 }
 
-/// An epipole, such as "(1273, 240)".
-fn short(epipole: &Epipole) -> String {
-    match epipole {
-        Epipole::Finite(place) => format!(
-            "({}, {})",
-            format_number(place.x, 0),
-            format_number(place.y, 0)
-        ),
-        Epipole::AtInfinity(_) => "at infinity".to_owned(),
-    }
-}
-
 /// Whether camera 2 sees a match, such as "no: the jug hides it".
-fn sight(found: Match) -> String {
+fn sight(found: Seen) -> String {
     match found {
-        Match::Visible(_) => "yes".to_owned(),
-        Match::Hidden(_, by) => format!("no: {by} hides it"),
-        Match::Outside(place) => format!("no: it is {}", side(&place)),
-        Match::Behind => "no: it is behind camera 2".to_owned(),
-        Match::Nothing => "no: camera 1 sees nothing there".to_owned(),
+        Seen::Visible(_) => "yes".to_owned(),
+        Seen::Hidden(_, by) => format!("no: {by} hides it"),
+        Seen::Outside(place) => format!("no: it is {}", side(&place)),
+        Seen::Behind => "no: it is behind camera 2".to_owned(),
+        Seen::Nothing => "no: camera 1 sees nothing there".to_owned(),
     }
 }
 

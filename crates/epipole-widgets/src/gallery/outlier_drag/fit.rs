@@ -3,8 +3,7 @@
 
 use crate::kit::matches::{Match, distance_px};
 use epipole::Error;
-use epipole::epipolar::{epipolar_line2, fundamental_8point_explained};
-use epipole::math::Line2;
+use epipole::epipolar::fundamental_8point_explained;
 use nalgebra::{Matrix3, Point2, Vector2};
 
 /// F, and how it treats the matches.
@@ -44,11 +43,6 @@ impl Fit {
             wrong_px,
         })
     }
-}
-
-/// The line of a pixel of photograph 1; `None` for the epipole itself.
-pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
-    epipolar_line2(fundamental, pixel1).ok()
 }
 
 /// How far the curve leads the wrong match away, pixels, and in how many steps.

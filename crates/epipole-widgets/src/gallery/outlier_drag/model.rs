@@ -1,15 +1,15 @@
 //! Matches of the still life, the first of them dragged to a wrong place.
 
-use super::fit::{Fit, led_away, line2};
+use super::fit::{Fit, led_away};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
     Toggle, format_number, knobs,
 };
 use crate::kit::geometry::match_symbols;
-use crate::kit::matches::{Match, Matches, cameras};
+use crate::kit::matches::{Match, Matches, cameras, line2};
 use crate::kit::probe::Probe;
 use crate::kit::scenes::PHOTO_SIZE;
-use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
+use epipole::epipolar::fundamental_from_cameras;
 use nalgebra::{Point2, Vector2};
 
 /// True matches; the wrong one comes on top.
@@ -166,7 +166,7 @@ fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
     let (pixel1, pixel2) = model.state.ok()?.right;
     let [first, second] = cameras();
     let fundamental = fundamental_from_cameras(&first, &second).ok()?;
-    let line = epipolar_line2(&fundamental, &pixel1).ok()?;
+    let line = line2(&fundamental, &pixel1)?;
     let on = line.nearest(&pixel2);
     let along = Vector2::new(-line.b, line.a) * away_px;
     let ends = [on + along, on - along];

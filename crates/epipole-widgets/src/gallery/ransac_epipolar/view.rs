@@ -6,7 +6,7 @@ use crate::canvas::{Canvas, Place, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
-use crate::kit::pair::draw_line;
+use crate::kit::pair::{draw_line, spread};
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
 
@@ -105,12 +105,6 @@ fn ends(model: &RansacEpipolar, [first, second]: [&Panel; 2]) -> Vec<Ends> {
     places.collect()
 }
 
-/// At most `count` of a list, evenly from all of it.
-fn thinned<T: Copy>(list: &[T], count: usize) -> Vec<T> {
-    let every = list.len().div_ceil(count.max(1)).max(1);
-    list.iter().step_by(every).copied().collect()
-}
-
 fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas: &mut Canvas) {
     let ends = ends(model, panels);
     let Some(best) = model.best() else {
@@ -138,8 +132,8 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
     let is_small = side < 250.0;
     let radius = if is_small { 1.75 } else { 2.5 };
     for (group, stroke, _) in &groups[..num_groups] {
-        for [from, to] in thinned(group, num_connected) {
-            canvas.line(from, to, *stroke);
+        for [from, to] in spread(group, num_connected) {
+            canvas.line(*from, *to, *stroke);
         }
     }
     for (group, stroke, shape) in &groups[..num_groups] {
@@ -156,7 +150,7 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
     };
     let matches = model.matches();
     let indices: Vec<usize> = (0..matches.len()).filter(|&k| best.is_inlier[k]).collect();
-    let chosen = thinned(&indices, NUM_LINES);
+    let chosen: Vec<usize> = spread(&indices, NUM_LINES).copied().collect();
     canvas.clipped(panels[1].rect, |canvas| {
         for (k, &index) in chosen.iter().enumerate() {
             if let Ok(line) = epipolar_line2(&best.fundamental, &matches[index].pixel1()) {

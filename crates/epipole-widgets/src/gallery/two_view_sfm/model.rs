@@ -1,6 +1,5 @@
 //! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
 
-use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
     FileOffer, Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, Value,
@@ -10,6 +9,7 @@ use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::picture::{Own, Picture, pair_slots};
 use crate::kit::question::{Asked, carry_out};
+use crate::kit::reconstruction::{Answer, CloudPoint, Question, Source, Stage};
 use epipole::stereo::PointCloud;
 use image::RgbImage;
 use nalgebra::Point3;
@@ -67,18 +67,6 @@ const KNOBS: &[Knob] = knobs![STAGE, PAIR, RATIO, THRESHOLD, KNOCK, FOCAL];
 const SLOTS: &[PhotoSlot] = &pair_slots(800);
 /// Smaller pictures have no room for features.
 const MIN_SIDE_PX: u32 = 64;
-
-/// How far the pipeline has come; later stages know what earlier ones do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::gallery) enum Stage {
-    Detect,
-    Match,
-    Ransac,
-    Pose,
-    Cloud,
-    Adjust,
-    Surface,
-}
 
 const STAGES: [Stage; 7] = [
     Stage::Detect,

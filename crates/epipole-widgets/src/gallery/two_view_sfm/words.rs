@@ -1,10 +1,9 @@
 //! What `two-view-sfm` says: readouts, description, sentences.
 
-use super::model::{FocalFrom, Stage, TwoViewSfm, focal_text};
-use super::question::{Answer, Question};
-use super::verdict::{MIN_NUM_MATCHES, Verdict};
+use super::model::{FocalFrom, TwoViewSfm, focal_text};
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::question::Question as _;
+use crate::kit::reconstruction::{Answer, MIN_NUM_MATCHES, Question, Stage, Verdict};
 
 fn degrees(value: f64) -> String {
     format!("{}°", format_number(value, 1))

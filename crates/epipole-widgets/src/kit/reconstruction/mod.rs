@@ -1,8 +1,11 @@
-//! What do two photographs tell? Every stage, from their pixels to points in space.
+//! What do two photographs tell? Every stage, from their pixels to points in space, as one question.
 
-use super::model::Stage;
-use super::surface::{Surface, surface};
-use super::verdict::{Judged, Verdict, judge};
+mod surface;
+mod verdict;
+
+use self::surface::{Surface, surface};
+use self::verdict::{Judged, judge};
+pub(crate) use self::verdict::{MIN_NUM_MATCHES, Verdict};
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
@@ -27,9 +30,21 @@ const FIRST: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.02, -0.16, 0.05]];
 const STEP: [[f64; 3]; 2] = [[0.22, -0.47, -1.20], [0.02, -0.16, 0.05]];
 const TURN: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.30, -0.20, 0.0]];
 
+/// How far the pipeline has come; later stages know what earlier ones do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stage {
+    Detect,
+    Match,
+    Ransac,
+    Pose,
+    Cloud,
+    Adjust,
+    Surface,
+}
+
 /// Where the two photographs come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::gallery) enum Source {
+pub(crate) enum Source {
     /// The rendered still life, from two places.
     Step,
     /// The rendered still life, from one place in two directions.
@@ -40,65 +55,65 @@ pub(in crate::gallery) enum Source {
 
 /// Everything that the answer depends on.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::gallery) struct Question {
-    pub(in crate::gallery) source: Source,
+pub(crate) struct Question {
+    pub(crate) source: Source,
     /// Focal length, in units of a photograph's longer side.
-    pub(in crate::gallery) focal: f64,
+    pub(crate) focal: f64,
     /// Of Lowe's test.
-    pub(in crate::gallery) max_ratio: f32,
+    pub(crate) max_ratio: f32,
     /// Largest distance of an inlier from its epipolar line, pixels.
-    pub(in crate::gallery) max_error_px: f64,
+    pub(crate) max_error_px: f64,
     /// How far camera 2 is turned away from its pose before points are triangulated, degrees.
-    pub(in crate::gallery) knock_deg: f64,
+    pub(crate) knock_deg: f64,
 }
 
 /// A point of the cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(in crate::gallery) struct CloudPoint {
+pub(crate) struct CloudPoint {
     /// Where it is in the frame of camera 1; the baseline has length 1.
-    pub(in crate::gallery) place: Point3<f64>,
+    pub(crate) place: Point3<f64>,
     /// Where it was before the adjustment.
-    pub(super) triangulated: Point3<f64>,
-    pub(in crate::gallery) color: [u8; 3],
+    pub(crate) triangulated: Point3<f64>,
+    pub(crate) color: [u8; 3],
 }
 
 impl CloudPoint {
     /// Where it was before the adjustment, and its color.
-    pub(super) fn before(&self) -> (Point3<f64>, [u8; 3]) {
+    pub(crate) fn before(&self) -> (Point3<f64>, [u8; 3]) {
         (self.triangulated, self.color)
     }
 }
 
 /// A motion and what follows from it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::gallery) struct Motion {
+pub(crate) struct Motion {
     /// Camera 2 in the frame of camera 1, as RANSAC found it.
-    pub(super) found: RigidTransform,
+    pub(crate) found: RigidTransform,
     /// The same, adjusted.
-    pub(in crate::gallery) cam2_from_cam1: RigidTransform,
+    pub(crate) cam2_from_cam1: RigidTransform,
     /// How many inliers each of the four poses of E puts in front of both cameras, most first.
-    pub(super) num_in_front: [usize; 4],
+    pub(crate) num_in_front: [usize; 4],
     /// Root mean square of the distances of projections from their features, pixels, before and
     /// after the adjustment of all.
-    pub(super) error_px: [f64; 2],
-    pub(in crate::gallery) points: Vec<CloudPoint>,
+    pub(crate) error_px: [f64; 2],
+    pub(crate) points: Vec<CloudPoint>,
     /// Every pixel that has a partner in its row; or why there is none.
-    pub(in crate::gallery) surface: Result<Surface, String>,
+    pub(crate) surface: Result<Surface, String>,
 }
 
 /// What the computation finds.
 #[derive(Serialize, Deserialize)]
-pub(in crate::gallery) struct Answer {
-    pub(in crate::gallery) pictures: [Picture; 2],
+pub(crate) struct Answer {
+    pub(crate) pictures: [Picture; 2],
     /// Places of all features, pixels.
-    pub(in crate::gallery) keypoints: [Vec<Point2<f64>>; 2],
+    pub(crate) keypoints: [Vec<Point2<f64>>; 2],
     /// The features of each match.
-    pub(in crate::gallery) matches: Vec<(u32, u32)>,
+    pub(crate) matches: Vec<(u32, u32)>,
     /// For each match, whether it agrees with what was found.
-    pub(super) inliers: Vec<bool>,
-    pub(super) verdict: Verdict,
+    pub(crate) inliers: Vec<bool>,
+    pub(crate) verdict: Verdict,
     /// There for the verdicts that have a cloud.
-    pub(in crate::gallery) motion: Option<Motion>,
+    pub(crate) motion: Option<Motion>,
 }
 
 impl Motion {
@@ -124,17 +139,17 @@ impl Motion {
 
 impl Answer {
     /// Where the two features of a match are, pixels.
-    pub(in crate::gallery) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
+    pub(crate) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
         [self.keypoints[0][i as usize], self.keypoints[1][j as usize]]
     }
 
     /// The matches that agree with what was found, or those that do not.
-    pub(in crate::gallery) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
+    pub(crate) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
         let matches = self.matches.iter().zip(&self.inliers);
         matches.filter_map(move |(pair, is_inlier)| (*is_inlier == agree).then_some(*pair))
     }
 
-    pub(in crate::gallery) fn num_inliers(&self) -> usize {
+    pub(crate) fn num_inliers(&self) -> usize {
         self.inliers.iter().filter(|is_inlier| **is_inlier).count()
     }
 }
@@ -145,7 +160,7 @@ impl Question {
     }
 
     /// Camera 2 in the frame of camera 1, as a stage has it.
-    pub(super) fn motion(&self, answer: &Answer, stage: Stage) -> Option<RigidTransform> {
+    pub(crate) fn motion(&self, answer: &Answer, stage: Stage) -> Option<RigidTransform> {
         let motion = answer.motion.as_ref()?;
         match stage {
             Stage::Detect | Stage::Match | Stage::Ransac => None,
@@ -156,7 +171,7 @@ impl Question {
     }
 
     /// Camera 1 of the answer, and camera 2 once a stage knows its motion.
-    pub(in crate::gallery) fn cameras(
+    pub(crate) fn cameras(
         &self,
         answer: &Answer,
         stage: Stage,
@@ -371,7 +386,7 @@ impl Source {
     }
 
     /// How far camera 2 of a rendered pair is really turned, degrees.
-    pub(super) fn true_turn_deg(&self) -> Option<f64> {
+    pub(crate) fn true_turn_deg(&self) -> Option<f64> {
         if matches!(self, Self::Own(_)) {
             return None;
         }
