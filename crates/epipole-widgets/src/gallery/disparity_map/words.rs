@@ -20,6 +20,7 @@ impl Words for DisparityMap {
             let (question, _) = answered?;
             question.depth_m(d?)
         };
+        let [found_m, true_m] = [found_px, truth_px].map(depth_m);
         let none = probed.map_or(waiting, |_| "no answer");
         let percent = |id, label, share: Option<f64>| {
             Readout::percent(id, label, share, 1).or(waiting).main()
@@ -35,15 +36,8 @@ impl Words for DisparityMap {
             number("found", "Found d", found_px.map(f64::from), 2, "px", none).main(),
             number("truth", "True d", truth_px.map(f64::from), 2, "px", waiting).main(),
             number("error", "Mean error", error_px, 2, "px", waiting),
-            number("depth", "Depth found", depth_m(found_px), 3, "m", none),
-            number(
-                "true-depth",
-                "True depth",
-                depth_m(truth_px),
-                3,
-                "m",
-                waiting,
-            ),
+            number("depth", "Depth found", found_m, 3, "m", none),
+            number("true-depth", "True depth", true_m, 3, "m", waiting),
             Readout::words("hidden", "Visibility", hidden),
         ]
     }

@@ -10,6 +10,7 @@ use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_SIZE, Seen, in_picture, still_life_pair};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
+use epipole::math::Line2;
 use nalgebra::Point2;
 
 const MAX_POINTS: usize = 6;
@@ -80,10 +81,6 @@ impl EpipolarClick {
 
     /// None while both cameras stand at the same place.
     pub(super) fn geometry(&self) -> Option<Geometry> {
-        let (right_m, forward_m, _) = self.motion();
-        if right_m == 0.0 && forward_m == 0.0 {
-            return None;
-        }
         Geometry::of(&self.cameras())
     }
 
@@ -111,15 +108,14 @@ impl EpipolarClick {
         let Some(geometry) = self.geometry() else {
             return false;
         };
-        self.points().any(|(index, point)| {
-            let line = geometry.line1(&point);
-            line.is_some_and(|line| {
-                self.points().any(|(other, place)| {
-                    other != index
-                        && (place - point).norm() >= APART_PX
-                        && line.signed_distance(&place).abs() <= SAME_LINE_PX
+        self.points().any(|(_, point)| {
+            let is_on = |line: Line2| {
+                self.points().any(|(_, other)| {
+                    (other - point).norm() >= APART_PX
+                        && line.signed_distance(&other).abs() <= SAME_LINE_PX
                 })
-            })
+            };
+            geometry.line1(&point).is_some_and(is_on)
         })
     }
 

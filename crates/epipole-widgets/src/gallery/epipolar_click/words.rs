@@ -4,7 +4,7 @@ use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::geometry::Geometry;
 use crate::kit::scenes::Seen;
-use crate::kit::words::{self, pixel, side};
+use crate::kit::words::{self, matrix, pixel, short_epipole, side};
 
 /// What the figure says when both cameras stand at one place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
@@ -21,29 +21,22 @@ impl Words for EpipolarClick {
         let line = line.and_then(|((_, point), geometry)| geometry.line2(&point));
         let distance = line.zip(pixel2);
         let distance = distance.map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
+        let residual = Readout::number("residual", "Residual", distance, 3, "px");
         let say = |id, label, text: Option<String>| {
             Readout::words(id, label, text.unwrap_or("none".to_owned()))
         };
         let of = |get: fn(&Geometry) -> String| geometry.as_ref().map(get);
-        let [e1, e2] = [
-            of(|all| words::short_epipole(&all.epipole1)),
-            of(|all| words::short_epipole(&all.epipole2)),
-        ];
-        let f = of(|geometry| words::matrix(&geometry.fundamental));
-        let e = of(|geometry| words::matrix(&geometry.essential));
         let point = selected.map(|(index, point)| format!("{} at {}", index + 1, pixel(&point)));
         vec![
             say("match", "Its match", pixel2.as_ref().map(pixel)).main(),
-            Readout::number("residual", "Residual", distance, 3, "px")
-                .or("none")
-                .main(),
-            say("e2", "Epipole e′", e2).main(),
+            residual.or("none").main(),
+            say("e2", "Epipole e′", of(|all| short_epipole(&all.epipole2))).main(),
             say("point", "Selected point", point),
             say("sight", "Visible", matched.map(sight)),
             say("line", "Line ℓ′", line.as_ref().map(words::line)),
-            say("e1", "Epipole e", e1),
-            say("f", "F, by rows", f),
-            say("e", "E, by rows", e),
+            say("e1", "Epipole e", of(|all| short_epipole(&all.epipole1))),
+            say("f", "F, by rows", of(|all| matrix(&all.fundamental))),
+            say("e", "E, by rows", of(|all| matrix(&all.essential))),
         ]
     }
 
@@ -54,11 +47,8 @@ impl Words for EpipolarClick {
         let (right_m, forward_m, left_deg) = self.motion();
         let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
         let count = self.points().count();
-        let seen = self
-            .points()
-            .filter(|(_, point)| matches!(self.seen(point), Seen::Visible(_)))
-            .count();
-        let seen = match seen {
+        let is_seen = |(_, point): &(_, _)| matches!(self.seen(point), Seen::Visible(_));
+        let seen = match self.points().filter(is_seen).count() {
             0 => "none".to_owned(),
             all if all == count => "all".to_owned(),
             some => some.to_string(),

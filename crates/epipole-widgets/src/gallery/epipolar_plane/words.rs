@@ -32,6 +32,10 @@ impl Words for EpipolarPlane {
                 });
             Readout::words(id, label, text.unwrap_or_else(|| "none".to_owned()))
         };
+        let (before, baseline) = (
+            of(Scenery::before_surface_m),
+            scenery.map(Scenery::baseline_m),
+        );
         let from = self.orbit.seen_from();
         vec![
             number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
@@ -39,20 +43,8 @@ impl Words for EpipolarPlane {
             number("residual", "Residual", of(Scenery::residual_px), 3, "px").main(),
             pixel("p1", "Image p", 0),
             Readout::words("lit", "Lit up", self.meaning()),
-            number(
-                "before",
-                "Before surface",
-                of(Scenery::before_surface_m),
-                2,
-                "m",
-            ),
-            number(
-                "baseline",
-                "Baseline",
-                scenery.map(Scenery::baseline_m),
-                2,
-                "m",
-            ),
+            number("before", "Before surface", before, 2, "m"),
+            number("baseline", "Baseline", baseline, 2, "m"),
             epipole("e1", "Epipole e", 0),
             epipole("e2", "Epipole e′", 1),
             Readout::words("seen", "Seen from", from),

@@ -108,11 +108,6 @@ impl KernelStepper {
         borders[self.settings.chosen(&BORDER)]
     }
 
-    /// The pixel in the middle of the window: column and row.
-    pub(super) fn pixel(&self) -> (u32, u32) {
-        self.window.pixel()
-    }
-
     /// The gray level at a place of the image or beyond its border.
     pub(super) fn level(&self, u: i32, v: i32) -> f32 {
         self.border().value(&self.image, u as isize, v as isize)
@@ -120,7 +115,7 @@ impl KernelStepper {
 
     /// The nine gray levels in the window, in rows.
     pub(super) fn window(&self) -> [f32; 9] {
-        let (u, v) = self.pixel();
+        let (u, v) = self.window.pixel();
         std::array::from_fn(|index| {
             let (column, row) = (index as i32 % 3 - 1, index as i32 / 3 - 1);
             self.level(u as i32 + column, v as i32 + row)
@@ -200,7 +195,7 @@ impl Model for KernelStepper {
             self.filter();
         }
         if *event == Event::press(NEXT.id) {
-            let (u, v) = self.pixel();
+            let (u, v) = self.window.pixel();
             let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
             let (u, v) = (next % SIZE.0, next / SIZE.0);
             self.window = self.window.at(f64::from(u), f64::from(v));
@@ -218,7 +213,8 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
               looks flat. Every border invents a slope.",
         check: |model| {
             let chosen = [&KERNEL, &ALONG].map(|choice| model.settings.chosen(choice));
-            chosen == [0, 0] && model.pixel().0 == 0 && model.answer(model.pixel()) == 0.0
+            let pixel = model.window.pixel();
+            chosen == [0, 0] && pixel.0 == 0 && model.answer(pixel) == 0.0
         },
         solution: || {
             vec![
@@ -314,7 +310,7 @@ mod tests {
         model.update(&Event::moved("window", 6.0, 5.0)).unwrap();
         for expected in [(7, 5), (0, 0), (1, 0)] {
             model.update(&Event::press("next")).unwrap();
-            assert_eq!(model.pixel(), expected);
+            assert_eq!(model.window.pixel(), expected);
             let products = model.window().into_iter().zip(model.kernel().weights);
             let sum: f32 = products.map(|(level, weight)| level * weight).sum();
             assert_eq!(f64::from(sum), model.sum(expected));

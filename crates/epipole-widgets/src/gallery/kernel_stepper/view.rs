@@ -117,8 +117,8 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
             canvas.stroke_rect(cell, Stroke::solid(Role::Edge, 1.0));
         }
     }
-    let (sum, answer) = (model.sum(model.pixel()), model.answer(model.pixel()));
-    let [sum, divisor, answer] = [sum, f64::from(kernel.divisor), answer].map(short);
+    let (pixel, divisor) = (model.window.pixel(), f64::from(kernel.divisor));
+    let [sum, divisor, answer] = [model.sum(pixel), divisor, model.answer(pixel)].map(short);
     let long = format!("sum {sum}, ÷ {divisor} = {answer}");
     let brief = format!("{sum} ÷ {divisor} = {answer}");
     let text = grid::fitting(rect.width, &[&long, &brief]);

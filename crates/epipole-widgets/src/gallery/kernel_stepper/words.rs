@@ -19,7 +19,7 @@ impl Kernel {
 
 impl Words for KernelStepper {
     fn readouts(&self) -> Vec<Readout> {
-        let pixel = self.pixel();
+        let pixel = self.window.pixel();
         let number = |id, label, value: f64, digits| Readout::number(id, label, value, digits, "");
         vec![
             number("sum", "Sum", self.sum(pixel), 0).main(),
@@ -33,7 +33,7 @@ impl Words for KernelStepper {
     }
 
     fn describe(&self) -> String {
-        let pixel = self.pixel();
+        let pixel = self.window.pixel();
         let (name, along) = self.names();
         let along = along.map_or(String::new(), |axis| format!(" along {axis}"));
         let remark = after(self.remark());

@@ -1,9 +1,8 @@
 //! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
 
 use crate::contract::{
-    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
-    FileOffer, Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, Value,
-    format_number, knobs,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, FileOffer,
+    Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, format_number, knobs,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, SPACE};
@@ -230,12 +229,8 @@ impl Declared for TwoViewSfm {
 impl Model for TwoViewSfm {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        for control in &mut controls {
-            if let (ControlKind::Slider { value, .. }, true) =
-                (&control.kind, control.id == FOCAL.id)
-            {
-                control.value_text = focal_text(*value);
-            }
+        for control in controls.iter_mut().filter(|control| control.id == FOCAL.id) {
+            control.value_text = focal_text(self.focal());
         }
         controls.push(NEXT.control(!self.is_last_stage(), false));
         controls.extend(self.orbit.controls());
@@ -270,8 +265,8 @@ impl Model for TwoViewSfm {
             _ => {}
         }
         if *event == Event::press(NEXT.id) && !self.is_last_stage() {
-            let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
-            self.settings.set(STAGE.id, &Value::from(next))?;
+            self.settings
+                .choose(&STAGE, self.settings.chosen(&STAGE) + 1);
         }
         Ok(())
     }
@@ -297,7 +292,7 @@ impl Model for TwoViewSfm {
         self.own.take(slot, photo)?;
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
-            self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
+            self.settings.slide(&FOCAL, USUAL_FOCAL);
             self.focal_from = FocalFrom::Guess;
             self.settings.choose(&PAIR, OWN);
         }
@@ -306,12 +301,9 @@ impl Model for TwoViewSfm {
     }
 
     fn take_focal(&mut self, _: &str, focal: f64) {
-        let focal = focal.clamp(FOCAL.min, FOCAL.max);
-        // Within its range every number is taken.
-        if self.settings.set(FOCAL.id, &Value::Number(focal)).is_ok() {
-            self.focal_from = FocalFrom::File;
-            self.ask();
-        }
+        self.settings.slide(&FOCAL, focal);
+        self.focal_from = FocalFrom::File;
+        self.ask();
     }
 }
 

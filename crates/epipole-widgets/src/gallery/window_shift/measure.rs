@@ -1,9 +1,10 @@
 //! The picture, and what is found at a place of the window: the change under every shift, and the
 //! structure tensor.
 
+use crate::kit::picture::gray_levels;
 use crate::kit::scenes::square_picture;
 use epipole::feature::{ShiftSurface, StructureTensorOptions, Window, WindowTensor, shift_surface};
-use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32};
+use epipole::imaging::{Border, GrayImage32};
 use image::RgbImage;
 use nalgebra::Vector2;
 
@@ -75,11 +76,9 @@ impl Found {
 /// The part of the picture that is shown, and all of it in gray levels.
 pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
     let whole = square_picture(noise);
-    let mut gray = rgb_to_gray_f32(&whole, &BT601_WEIGHTS);
-    gray.pixels_mut().for_each(|pixel| pixel.0[0] *= 255.0);
     let (left, top, width, height) = SHOWN;
     let shown = image::imageops::crop_imm(&whole, left, top, width, height).to_image();
-    (shown, gray)
+    (shown, gray_levels(&whole))
 }
 
 /// Measures the window of so many pixels with its middle at column u and row v.
