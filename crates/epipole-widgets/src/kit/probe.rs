@@ -122,13 +122,13 @@ impl Probe {
     }
 
     /// Its place in words.
-    pub(crate) fn words(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         (self.words)(self.place())
     }
 
     pub(crate) fn handle(&self) -> Handle {
         Handle::new(self.id, self.panel, self.label, self.place(), self.ranges)
-            .told(self.words())
+            .told(self.text())
             .step([self.step; 2], self.digits)
     }
 
@@ -187,7 +187,7 @@ mod tests {
     fn on_a_plan_it_says_where_it_is() {
         let ranges = [[-1.0, 1.0], [0.5, 3.0]];
         let mut probe = Probe::new("point", "top", "P").on_plan(ranges).at(0.3, 2.0);
-        assert_eq!(probe.words(), "2.00 m away, 0.30 m to the right");
+        assert_eq!(probe.text(), "2.00 m away, 0.30 m to the right");
         assert!(probe.update(&Event::moved("point", -0.502, 7.0)));
         assert_eq!(probe.point(), Point2::new(-0.5, 3.0));
         assert!(probe.handle().value_text.ends_with("0.50 m to the left"));

@@ -177,7 +177,7 @@ impl Model for BundleAdjustment {
 
     fn handles(&self) -> Vec<Handle> {
         let off = format_number(self.mark_off_px(), 0);
-        let told = format!("{}, {off} px from where it belongs", self.mark.words());
+        let told = format!("{}, {off} px from where it belongs", self.mark.text());
         let mut handles = vec![self.mark.handle().told(told)];
         handles.extend(self.orbit.handles());
         handles

@@ -25,7 +25,7 @@ impl Words for KernelStepper {
             number("sum", "Sum", self.sum(pixel), 0).main(),
             number("divisor", "Divisor", self.kernel().divisor.into(), 0).main(),
             number("answer", "Answer", self.answer(pixel), 2).main(),
-            Readout::words("place", "Pixel", self.window.words()),
+            Readout::words("place", "Pixel", self.window.text()),
             number("level", "Gray level", self.window()[4].into(), 0),
             Readout::words("beyond", "Border", self.settings.label(&BORDER)),
             Readout::words("own-kernel", "Your kernel", self.own().words()),
@@ -40,7 +40,7 @@ impl Words for KernelStepper {
         format!(
             "A window of 3 by 3 pixels at {}. Kernel: {name}{along}. The products add up to \
              {}; divided by {} that is {}.{remark}",
-            self.window.words(),
+            self.window.text(),
             short(self.sum(pixel)),
             short(self.kernel().divisor.into()),
             short(self.answer(pixel)),

@@ -131,7 +131,7 @@ impl Model for OutlierDrag {
             return Vec::new();
         };
         let away = format_number(self.away_px(), 0);
-        let told = format!("{}, {away} px from where it belongs", state.put.words());
+        let told = format!("{}, {away} px from where it belongs", state.put.text());
         vec![state.put.handle().told(told)]
     }
 

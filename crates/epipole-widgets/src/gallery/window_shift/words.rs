@@ -49,7 +49,7 @@ impl Words for WindowShift {
         let numbers = [large, small, self.threshold(), du, dv, change];
         let [large, small, threshold, du, dv, change] =
             numbers.map(|number| format_number(number, 0));
-        let window = self.window.words();
+        let window = self.window.text();
         format!(
             "The window at {window} is on {what}. Per pixel λ₁ is {large} and λ₂ is {small}; \
              {threshold} and more counts as large. A shift by {du} columns and {dv} rows changes it by {change}."
