@@ -7,9 +7,11 @@ use crate::kit::labels::Labels;
 use crate::kit::photo::Photo;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use crate::theme::Role;
+use epipole::Error;
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
+use image::RgbImage;
 use nalgebra::{Point2, Vector2};
 
 /// Each of two cameras has a hue and a shape, in its photograph, from above and in space.
@@ -25,11 +27,30 @@ const FAR_PX: f64 = 2000.0;
 pub(crate) struct Photos([Photo; 2]);
 
 impl Photos {
-    /// The photographs in their panels, as good as they are now.
+    /// One of the photographs, 0 or 1, as good as it is now.
+    ///
+    /// # Errors
+    /// As [`Photo::picture`].
+    pub(crate) fn picture(&mut self, index: usize, camera: &Camera) -> Result<&RgbImage, Error> {
+        self.0[index].picture(&still_life(), camera, [0.0; 3], PHOTO_SIZE)
+    }
+
+    /// Both.
+    ///
+    /// # Errors
+    /// As [`Photo::picture`].
+    pub(crate) fn pictures(&mut self, cameras: &[Camera; 2]) -> Result<[&RgbImage; 2], Error> {
+        let ([one, two], scene) = (&mut self.0, still_life());
+        Ok([
+            one.picture(&scene, &cameras[0], [0.0; 3], PHOTO_SIZE)?,
+            two.picture(&scene, &cameras[1], [0.0; 3], PHOTO_SIZE)?,
+        ])
+    }
+
+    /// The photographs in their panels.
     pub(crate) fn draw(&mut self, canvas: &mut Canvas, panels: [&Panel; 2], cameras: &[Camera; 2]) {
-        let scene = still_life();
-        for ((photo, camera), panel) in self.0.iter_mut().zip(cameras).zip(panels) {
-            match photo.picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+        for (index, panel) in panels.into_iter().enumerate() {
+            match self.picture(index, &cameras[index]) {
                 Ok(picture) => canvas.photograph(panel.rect, picture),
                 Err(error) => {
                     canvas.panel(panel.rect);

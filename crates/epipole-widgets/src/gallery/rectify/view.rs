@@ -6,10 +6,9 @@ use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::{CAMERAS, draw_line};
-use crate::kit::photo::Photo;
+use crate::kit::pair::{CAMERAS, Photos, draw_line};
 use crate::kit::plan::{self, PlanCamera};
-use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, still_life};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 use epipole::homography::transfer;
 use image::RgbImage;
@@ -24,7 +23,7 @@ const IMAGE_M: f64 = 0.42;
 /// Draws [`Rectify`].
 #[derive(Default)]
 pub(crate) struct RectifyView {
-    photos: [Photo; 2],
+    photos: Photos,
 }
 
 impl View for RectifyView {
@@ -62,10 +61,9 @@ impl View for RectifyView {
             Ok(state) => state,
             Err(sentence) => return grid::notice(canvas, panels[0].rect, sentence),
         };
-        let scene = still_life();
         for (index, panel) in panels.into_iter().enumerate() {
             let camera = &state.turned.taken[index];
-            match self.photos[index].picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+            match self.photos.picture(index, camera) {
                 Ok(picture) => canvas.clipped(panel.rect, |canvas| {
                     let homography = &state.turned.shown_from_taken[index];
                     draw_picture(canvas, panel, homography, picture);
@@ -81,12 +79,8 @@ impl View for RectifyView {
     }
 
     fn refine(&mut self, model: &Rectify) -> bool {
-        let Ok(state) = model.state() else {
-            return false;
-        };
-        let scene = still_life();
-        let mut photos = self.photos.iter_mut().zip(&state.turned.taken);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+        let state = model.state();
+        state.is_ok_and(|state| self.photos.refine(&state.turned.taken))
     }
 }
 
