@@ -3,7 +3,7 @@
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
 };
-use crate::kit::pin::Pin;
+use crate::kit::probe::Probe;
 
 const RADIUS: Slider = Slider::new("radius", "Radius")
     .range(0.1, 1.0, 0.1)
@@ -11,11 +11,14 @@ const RADIUS: Slider = Slider::new("radius", "Radius")
     .digits(1)
     .unit("m");
 const KNOBS: &[Knob] = knobs![RADIUS];
+const POINT: Probe = Probe::new("point", "plan", "Point")
+    .on_plan([[-1.0, 1.0]; 2])
+    .at(0.8, 0.2);
 
 /// The model of `new-figure`.
 pub(crate) struct NewFigure {
     settings: Settings,
-    point: Pin,
+    pub(super) point: Probe,
 }
 
 impl NewFigure {
@@ -23,12 +26,8 @@ impl NewFigure {
         self.settings.number(&RADIUS)
     }
 
-    pub(super) fn place(&self) -> (f64, f64) {
-        self.point.place()
-    }
-
     pub(super) fn distance_m(&self) -> f64 {
-        let (x, z) = self.place();
+        let (x, z) = self.point.place();
         libm::hypot(x, z)
     }
 }
@@ -49,7 +48,7 @@ impl Declared for NewFigure {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            point: Pin::new("point", "plan", "Point", (0.8, 0.2), [[-1.0, 1.0]; 2]),
+            point: POINT,
         }
     }
 }

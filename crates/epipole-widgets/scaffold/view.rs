@@ -25,6 +25,6 @@ impl View for NewFigureView {
         let middle = plan.canvas_from_world((0.0, 0.0));
         let radius = model.radius_m() * plan.scale_x();
         canvas.circle(middle, radius, Stroke::solid(Role::Best, 2.0));
-        canvas.grip(plan.canvas_from_world(model.place()), Role::Grip);
+        canvas.grip(plan.canvas_from_world(model.point.place()), Role::Grip);
     }
 }

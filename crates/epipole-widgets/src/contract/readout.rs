@@ -53,6 +53,17 @@ impl Readout {
         }
     }
 
+    /// A share in percent, as [`Readout::number`].
+    pub fn percent(
+        id: &'static str,
+        label: &'static str,
+        share: impl Into<Option<f64>>,
+        digits: usize,
+    ) -> Self {
+        let percent = share.into().map(|share| 100.0 * share);
+        Self::number(id, label, percent, digits, "%")
+    }
+
     /// A count.
     pub fn count(id: &'static str, label: &'static str, value: usize) -> Self {
         Self::number(id, label, value as f64, 0, "")

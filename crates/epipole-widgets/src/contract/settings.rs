@@ -99,6 +99,11 @@ impl Settings {
         self.raw(choice.id) as usize
     }
 
+    /// What the chosen option is called.
+    pub fn label(&self, choice: &'static Choice) -> &'static str {
+        choice.options[self.chosen(choice)].1
+    }
+
     /// The knobs with their values, in the model's order.
     pub fn controls(&self) -> Vec<Control> {
         let control = |(knob, value): (&Knob, &f64)| match knob {
@@ -189,6 +194,14 @@ impl Settings {
         Ok(knob.map(|knob| knob.id()))
     }
 
+    /// Moves a slider to a number, or as near to it as it goes. What is no number moves nothing.
+    pub fn slide(&mut self, slider: &'static Slider, number: f64) {
+        let index = self.knobs.iter().position(|knob| knob.id() == slider.id);
+        if let Some(index) = index.filter(|_| !number.is_nan()) {
+            self.values[index] = slider.snap(number);
+        }
+    }
+
     /// Chooses one of the options, by its index.
     pub fn choose(&mut self, choice: &'static Choice, option: usize) {
         let index = self.knobs.iter().position(|knob| knob.id() == choice.id);
@@ -227,11 +240,21 @@ mod tests {
         assert_eq!(settings.count(&COUNT), 7);
         assert!(!settings.flag(&NOISE));
         assert_eq!(settings.chosen(&METHOD), 0);
+        assert_eq!(settings.label(&METHOD), "Block matching");
         let more = Event::set(&COUNT, 9.0);
         assert_eq!(settings.update(&more), Ok(Some("count")));
         assert_eq!(settings.update(&more), Ok(None));
         assert_eq!(settings.update(&Event::press("count")), Ok(None));
         assert!(settings.update(&Event::set(&COUNT, 99.0)).is_err());
+    }
+
+    #[test]
+    fn a_slider_goes_as_far_as_it_can() {
+        let mut settings = Settings::new(KNOBS);
+        for (number, expected) in [(7.4, 7), (99.0, 10), (f64::NAN, 10), (-f64::INFINITY, 2)] {
+            settings.slide(&COUNT, number);
+            assert_eq!(settings.count(&COUNT), expected, "{number}");
+        }
     }
 
     #[test]

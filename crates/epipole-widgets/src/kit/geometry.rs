@@ -117,7 +117,44 @@ fn point_symbol(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::scenes::still_life_pair;
+    use crate::kit::scenes::{PHOTO_SIZE, Seen, still_life_pair};
+    use epipole::epipolar::sampson_px;
+
+    #[test]
+    fn every_match_is_on_its_line() {
+        for (right_m, forward_m, left_deg) in [(0.5, -0.4, 14.0), (0.1, 0.4, 0.0), (0.8, 0.0, 30.0)]
+        {
+            let cameras = still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg);
+            let geometry = Geometry::of(&cameras).unwrap();
+            for (u, v) in [(216.0, 60.0), (332.0, 130.0), (300.0, 410.0)] {
+                let point = Point2::new(u, v);
+                let Some(pixel2) = Seen::of(&cameras, &point).pixel() else {
+                    continue;
+                };
+                let line = geometry.line2(&point).unwrap();
+                assert!(line.signed_distance(&pixel2).abs() < 1e-6);
+                assert!(sampson_px(&geometry.fundamental, &point, &pixel2) < 1e-6);
+                let line1 = geometry.line1(&point).unwrap();
+                assert!(line1.signed_distance(&point).abs() < 1e-6);
+                // E constrains rays as F constrains pixels.
+                let [ray1, ray2] = [
+                    cameras[0].intrinsics.ray(&point),
+                    cameras[1].intrinsics.ray(&pixel2),
+                ];
+                assert!(ray2.dot(&(geometry.essential * ray1)).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn the_epipole_is_camera_1_seen_by_camera_2() {
+        let cameras = still_life_pair(PHOTO_SIZE, 0.5, -0.4, 14.0);
+        let seen = cameras[1].project(&cameras[0].center_in_world()).unwrap();
+        let Epipole::Finite(pixel) = Geometry::of(&cameras).unwrap().epipole2 else {
+            panic!("it is finite");
+        };
+        assert!((pixel - seen).norm() < 1e-6);
+    }
 
     #[test]
     fn a_match_lies_on_the_line_of_its_letter_and_what_is_nowhere_has_none() {

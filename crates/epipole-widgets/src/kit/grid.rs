@@ -32,6 +32,11 @@ pub(crate) fn is_broad(width: f64) -> bool {
     width >= BROAD
 }
 
+/// Height over width of a picture.
+pub(crate) const fn aspect((width, height): (u32, u32)) -> f64 {
+    height as f64 / width as f64
+}
+
 /// Rows of titled cells, from the top down.
 pub(crate) struct Grid {
     width: f64,
@@ -190,7 +195,7 @@ pub(crate) fn open_all<'a, const N: usize>(
 }
 
 /// The first of these wordings that is no wider, or else the last.
-fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
+pub(crate) fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
     let fits = |text: &&&str| text_width(text, TEXT) <= width;
     wordings
         .iter()

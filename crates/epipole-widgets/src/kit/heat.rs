@@ -3,7 +3,7 @@
 
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
 use crate::contract::Rect;
-use crate::theme::{Rgb, Role, Theme};
+use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
 /// Period of the stripes, pixels.
@@ -53,6 +53,39 @@ pub(crate) fn nothing(theme: Theme, u: u32, v: u32) -> Rgb {
         Role::Edge
     };
     theme.color(role)
+}
+
+/// Colors of numbers with a sign: warm where they are positive, cool where they are negative.
+pub(crate) struct Signed {
+    zero: Rgb,
+    warm: Rgb,
+    cool: Rgb,
+}
+
+impl Signed {
+    pub(crate) fn of(theme: Theme) -> Self {
+        let [zero, warm, cool] =
+            [Role::Surface, Role::Outlier, Role::Candidate].map(|role| theme.color(role));
+        Self { zero, warm, cool }
+    }
+
+    /// * `share`: how much of the color, 0 to 1
+    pub(crate) fn color(&self, is_negative: bool, share: f32) -> Rgb {
+        let full = if is_negative { self.cool } else { self.warm };
+        mix(self.zero, full, share)
+    }
+
+    /// The color at a pixel of a map, whose negative parts are striped, too.
+    ///
+    /// * `faint`: how much of it is left between the stripes, 0 to 1
+    pub(crate) fn at(&self, (u, v): (u32, u32), is_negative: bool, share: f32, faint: f32) -> Rgb {
+        let left = if is_negative && is_stripe(u, v) {
+            faint
+        } else {
+            1.0
+        };
+        self.color(is_negative, left * share)
+    }
 }
 
 /// A bar with the colors from 0 to 1, and what its ends mean; the height that both take.
@@ -137,6 +170,16 @@ mod tests {
             });
         }
         assert_eq!(count, 3);
+    }
+
+    #[test]
+    fn signs_differ_in_hue_and_negative_numbers_have_stripes() {
+        let colors = Signed::of(Theme::Light);
+        assert_eq!(colors.color(false, 0.0), colors.color(true, 0.0));
+        assert_ne!(colors.color(false, 1.0), colors.color(true, 1.0));
+        let row = |is_negative| [0, 3].map(|u| colors.at((u, 0), is_negative, 1.0, 0.5));
+        assert_eq!(row(false), [colors.color(false, 1.0); 2]);
+        assert_eq!(row(true), [0.5, 1.0].map(|share| colors.color(true, share)));
     }
 
     #[test]

@@ -110,6 +110,12 @@ impl House {
         })
     }
 
+    /// The pieces of the wires, from one point to the next.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = [usize; 2]> {
+        let wires = self.wires.iter();
+        wires.flat_map(|wire| wire.windows(2).map(|pair| [pair[0], pair[1]]))
+    }
+
     /// A camera that has come to stand elsewhere.
     pub(crate) fn camera(&self, index: usize, cam_from_world: RigidTransform) -> Camera {
         Camera {

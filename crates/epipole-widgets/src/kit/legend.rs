@@ -1,6 +1,7 @@
 //! Legends: what the lines and markers of a figure mean, in as many rows as it takes.
 
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle, text_width};
+use crate::contract::Layout;
 use crate::theme::Role;
 
 const SIZE: f64 = 13.0;
@@ -34,6 +35,18 @@ fn places(entries: &[Entry], width: f64, margin: f64) -> (Vec<(f64, f64)>, f64) 
 /// The height of a legend, CSS pixels.
 pub(crate) fn height(entries: &[Entry], width: f64, margin: f64) -> f64 {
     places(entries, width, margin).1
+}
+
+/// Draws a legend at the bottom of a picture, with this much room below it.
+pub(crate) fn draw_last(
+    canvas: &mut Canvas,
+    entries: &[Entry],
+    layout: &Layout,
+    margin: f64,
+    below: f64,
+) {
+    let top = layout.height - below - height(entries, layout.width, margin);
+    draw(canvas, entries, layout.width, margin, top);
 }
 
 /// Draws a legend from `top` down.

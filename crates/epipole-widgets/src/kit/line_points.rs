@@ -26,21 +26,11 @@ pub(crate) const COUNT: Slider = Slider::new("points", "Number of points")
     .at(60.0)
     .more();
 
-/// A point and where it came from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct DataPoint {
-    /// Number in its name, from 1.
-    pub(crate) number: usize,
-    pub(crate) place: Point2<f64>,
-    /// Whether the reader has added it.
-    pub(crate) added: bool,
-}
-
 /// Points drawn at random.
 pub(crate) struct Scatter {
     pub(crate) truth: Line2,
     /// Those near the line first.
-    pub(crate) points: Vec<DataPoint>,
+    pub(crate) points: Vec<Point2<f64>>,
     pub(crate) num_outliers: usize,
     /// Where about half of the outliers lie.
     pub(crate) region: Rect,
@@ -52,11 +42,6 @@ impl Scatter {
         let (seed, count) = (settings.count(seed) as u64, settings.count(&COUNT));
         scatter(seed, count, settings.number(ratio))
     }
-}
-
-/// Where points are.
-pub(crate) fn places_of(points: &[DataPoint]) -> Vec<Point2<f64>> {
-    points.iter().map(|point| point.place).collect()
 }
 
 /// The share of the plane that the region takes: its left and upper edge, its width and height.
@@ -107,17 +92,12 @@ pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
         };
         places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
     }
-    let point = |(index, place)| DataPoint {
-        number: index + 1,
-        place,
-        added: false,
-    };
     // The region is on the side that the line leaves free.
     let top = if sin < 0.0 { 1.0 - upper - high } else { upper };
     Scatter {
         truth,
         num_outliers,
-        points: places.into_iter().enumerate().map(point).collect(),
+        points: places,
         region: Rect::new(
             left * WIDTH_PX,
             top * HEIGHT_PX,

@@ -1,12 +1,10 @@
 //! Matches of the still life's two photographs: exact by the scene's own geometry, then disturbed.
 
-use crate::kit::scenes::{
-    PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life, still_life_pair,
-};
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, Seen, still_life_pair};
 use epipole::camera::Camera;
-use epipole::math::random::Random;
-use epipole::synthetic::Transfer;
-use nalgebra::Point2;
+use epipole::epipolar::epipolar_line2;
+use epipole::math::{Line2, random::Random};
+use nalgebra::{Matrix3, Point2};
 
 /// The most matches that F can be estimated from.
 pub(crate) const MAX_USED: usize = 60;
@@ -33,11 +31,22 @@ pub(crate) fn cameras() -> [Camera; 2] {
 
 /// The exact match of a pixel of photograph 1, if photograph 2 shows it.
 pub(crate) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
-    let [first, second] = cameras();
-    match still_life().transfer(&first, &second, pixel1) {
-        Transfer::Visible { pixel2, .. } if in_picture(&pixel2) => Some(pixel2),
+    match Seen::of(&cameras(), pixel1) {
+        Seen::Visible(pixel2) => Some(pixel2),
         _ => None,
     }
+}
+
+/// The epipolar line of a pixel of photograph 1; `None` for the epipole itself.
+pub(crate) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
+    epipolar_line2(fundamental, pixel1).ok()
+}
+
+/// How far the second pixel of a match is from the line of the first, pixels; `None` for a pixel that has no
+/// line: it is the epipole.
+pub(crate) fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> Option<f64> {
+    let line = line2(fundamental, pixel1)?;
+    Some(line.signed_distance(pixel2).abs())
 }
 
 /// Matches to estimate F from, and matches to judge it by.
@@ -95,6 +104,7 @@ impl Matches {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kit::scenes::in_picture;
     use epipole::epipolar::{fundamental_from_cameras, sampson_px};
 
     #[test]

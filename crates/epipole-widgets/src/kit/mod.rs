@@ -7,23 +7,26 @@
 //! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
 //! | [`features`] | two photographs of the still life with their features |
-//! | [`probe`] | a place that the reader drags over a photograph, or clicks |
-//! | [`pin`] | a thing that the reader moves over a view from above |
+//! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
+//! | [`points`] | points that the reader drags, adds and removes |
 //! | [`running`] | a loop that runs, steps and starts over |
 //! | [`matches`] | exact and noisy matches of the still life |
 //! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
 //! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
 //! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
 //! | [`standing`] | photographs that stand among them |
+//! | [`reconstruction`] | two photographs to cameras and points in space, stage by stage |
 //! | [`geometry`] | the epipolar geometry of two cameras |
 //! | [`grid`] | titled panels in rows, one breakpoint, notices |
 //! | [`plot`] | axes, linear or logarithmic, and curves |
 //! | [`plan`] | a view from above |
-//! | [`heat`] | numbers as colors |
+//! | [`cells`] | numbers in cells, to be read |
+//! | [`heat`], [`terrain`] | numbers as colors, and as a landscape |
 //! | [`house`] | a house of wire with cameras around it |
 //! | [`pair`] | two photographs of the still life, epipolar lines |
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
+pub(crate) mod cells;
 pub(crate) mod features;
 pub(crate) mod geometry;
 pub(crate) mod grid;
@@ -40,15 +43,17 @@ pub(crate) mod pair;
 pub(crate) mod patch;
 pub(crate) mod photo;
 pub(crate) mod picture;
-pub(crate) mod pin;
 pub(crate) mod plan;
 pub(crate) mod plot;
+pub(crate) mod points;
 pub(crate) mod probe;
 pub(crate) mod question;
+pub(crate) mod reconstruction;
 pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;
 pub(crate) mod space;
 pub(crate) mod standing;
 pub(crate) mod tally;
+pub(crate) mod terrain;
 pub(crate) mod words;

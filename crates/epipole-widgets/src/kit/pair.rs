@@ -7,11 +7,18 @@ use crate::kit::labels::Labels;
 use crate::kit::photo::Photo;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use crate::theme::Role;
+use epipole::Error;
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
+use image::RgbImage;
 use nalgebra::{Point2, Vector2};
 
+/// Each of two cameras has a hue and a shape, in its photograph, from above and in space.
+pub(crate) const CAMERAS: [(Role, Shape); 2] = [
+    (Role::Series(0), Shape::Disk),
+    (Role::Series(1), Shape::Square),
+];
 /// Farther than any pixel from the middle of the picture, so that a line's ends are outside.
 const FAR_PX: f64 = 2000.0;
 
@@ -20,11 +27,30 @@ const FAR_PX: f64 = 2000.0;
 pub(crate) struct Photos([Photo; 2]);
 
 impl Photos {
-    /// The photographs in their panels, as good as they are now.
+    /// One of the photographs, 0 or 1, as good as it is now.
+    ///
+    /// # Errors
+    /// As [`Photo::picture`].
+    pub(crate) fn picture(&mut self, index: usize, camera: &Camera) -> Result<&RgbImage, Error> {
+        self.0[index].picture(&still_life(), camera, [0.0; 3], PHOTO_SIZE)
+    }
+
+    /// Both.
+    ///
+    /// # Errors
+    /// As [`Photo::picture`].
+    pub(crate) fn pictures(&mut self, cameras: &[Camera; 2]) -> Result<[&RgbImage; 2], Error> {
+        let ([one, two], scene) = (&mut self.0, still_life());
+        Ok([
+            one.picture(&scene, &cameras[0], [0.0; 3], PHOTO_SIZE)?,
+            two.picture(&scene, &cameras[1], [0.0; 3], PHOTO_SIZE)?,
+        ])
+    }
+
+    /// The photographs in their panels.
     pub(crate) fn draw(&mut self, canvas: &mut Canvas, panels: [&Panel; 2], cameras: &[Camera; 2]) {
-        let scene = still_life();
-        for ((photo, camera), panel) in self.0.iter_mut().zip(cameras).zip(panels) {
-            match photo.picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+        for (index, panel) in panels.into_iter().enumerate() {
+            match self.picture(index, &cameras[index]) {
                 Ok(picture) => canvas.photograph(panel.rect, picture),
                 Err(error) => {
                     canvas.panel(panel.rect);
@@ -40,6 +66,12 @@ impl Photos {
         let mut photos = self.0.iter_mut().zip(cameras);
         photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
     }
+}
+
+/// Some of many, evenly, no more than `most`: all would hide the photographs.
+pub(crate) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let stride = all.len().div_ceil(most.max(1)).max(1);
+    all.iter().step_by(stride)
 }
 
 /// The color and the shape of one of several points, in both photographs.
@@ -149,4 +181,19 @@ fn beside_arrow(from: Place, to: Place) -> [(Place, Align); 4] {
         ((x, middle.1 - 30.0), align),
         ((x, middle.1 + 31.0), align),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_are_spread_over_all() {
+        let all: Vec<usize> = (0..1000).collect();
+        let some: Vec<&usize> = spread(&all, 32).collect();
+        assert!(some.len() <= 32 && *some[some.len() - 1] >= 960);
+        assert_eq!(spread(&all[..5], 32).count(), 5);
+        assert_eq!(spread(&all[..0], 32).count(), 0);
+        assert_eq!(spread(&all, 0).count(), 1);
+    }
 }

@@ -1,6 +1,7 @@
 //! Photographs: how they travel to a worker and back, and those of the reader's own.
 
 use crate::contract::{PhotoSlot, Problem};
+use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use image::RgbImage;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::rc::Rc;
@@ -33,6 +34,13 @@ impl PartialEq for Picture {
     }
 }
 
+/// Gray levels of a photograph, 0 to 255.
+pub(crate) fn gray_levels(image: &RgbImage) -> GrayImage32 {
+    let mut levels = rgb_to_gray_f32(image, &BT601_WEIGHTS);
+    levels.pixels_mut().for_each(|pixel| pixel.0[0] *= 255.0);
+    levels
+}
+
 /// Bytes as one piece: a byte at a time would take ten times as long.
 struct Bytes<'a>(&'a [u8]);
 
@@ -61,8 +69,7 @@ impl<'de> Deserialize<'de> for Picture {
 
 /// How an image of numbers travels: `#[serde(with = "picture::floats")]`.
 pub(crate) mod floats {
-    use super::{Deserialize, Deserializer, Serialize, Serializer, de};
-    use epipole::imaging::GrayImage32;
+    use super::{Deserialize, Deserializer, GrayImage32, Serialize, Serializer, de};
 
     pub(crate) fn serialize<S: Serializer>(
         image: &GrayImage32,

@@ -1,63 +1,151 @@
-//! A place that the reader drags over a photograph, or clicks.
+//! A thing that the reader moves: over a photograph, over a plan, over any panel.
+//!
+//! A figure declares it as it does its sliders:
+//!
+//! ```text
+//! const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
+//!     .over(SIZE)
+//!     .step(4.0)
+//!     .at(217.0, 324.0);
+//! ```
 
 use crate::contract::{Event, Handle, format_number};
+use nalgebra::Point2;
 
-/// A place in a photograph, whole pixels.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A handle of its own with its place. A click in its panel moves it, too.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Probe {
     id: &'static str,
     panel: &'static str,
     label: &'static str,
     place: (f64, f64),
+    ranges: [[f64; 2]; 2],
+    step: f64,
+    digits: usize,
+    words: fn((f64, f64)) -> String,
 }
 
+/// How far an arrow key moves a thing on a plan, meters, and the digits that its place is kept with.
+const ON_PLAN: (f64, usize) = (0.05, 2);
+
 impl Probe {
-    /// A handle of its own in a panel that shows a photograph.
-    pub(crate) fn new(id: &'static str, panel: &'static str, label: &'static str) -> Self {
+    /// A probe that has nowhere to go yet.
+    pub(crate) const fn new(id: &'static str, panel: &'static str, label: &'static str) -> Self {
         Self {
             id,
             panel,
             label,
             place: (0.0, 0.0),
+            ranges: [[0.0; 2]; 2],
+            step: 1.0,
+            digits: 0,
+            words: |place| place_words(place, 0),
         }
     }
 
-    /// The same probe elsewhere, pixels.
-    pub(crate) fn at(self, u: f64, v: f64) -> Self {
-        let place = (u, v);
+    /// The same probe over a photograph of this size: a place is a pixel.
+    pub(crate) const fn over(self, size: (u32, u32)) -> Self {
+        let ranges = ranges(size);
+        Self { ranges, ..self }
+    }
+
+    /// The same probe over a [`plan`](crate::kit::plan): meters to the right and away, within these ranges.
+    pub(crate) const fn on_plan(self, ranges: [[f64; 2]; 2]) -> Self {
+        let (step, digits) = ON_PLAN;
+        Self {
+            ranges,
+            step,
+            digits,
+            words: meters,
+            ..self
+        }
+    }
+
+    /// The same probe within these ranges of its panel's world.
+    pub(crate) const fn within(self, ranges: [[f64; 2]; 2]) -> Self {
+        Self { ranges, ..self }
+    }
+
+    /// The same probe, moved so far by an arrow key.
+    pub(crate) const fn step(self, step: f64) -> Self {
+        Self { step, ..self }
+    }
+
+    /// The same probe, its place kept with so many digits.
+    pub(crate) const fn digits(self, digits: usize) -> Self {
+        Self { digits, ..self }
+    }
+
+    /// The same probe, its place told in these words.
+    pub(crate) const fn told(self, words: fn((f64, f64)) -> String) -> Self {
+        Self { words, ..self }
+    }
+
+    /// The same probe elsewhere.
+    pub(crate) const fn at(self, x: f64, y: f64) -> Self {
+        let place = (x, y);
         Self { place, ..self }
     }
 
-    /// Where it is, pixels. A photograph of another size may have moved it.
-    pub(crate) fn place(&self, size: (u32, u32)) -> (f64, f64) {
-        within(self.place, size)
+    /// The same probe over the middle of a photograph of this size.
+    pub(crate) fn in_middle(self, (width, height): (u32, u32)) -> Self {
+        self.over((width, height))
+            .at(f64::from(width / 2), f64::from(height / 2))
+    }
+
+    pub(crate) const fn id(&self) -> &'static str {
+        self.id
+    }
+
+    /// Where it is, within its ranges.
+    pub(crate) fn place(&self) -> (f64, f64) {
+        let ((x, y), [across, down]) = (self.place, self.ranges);
+        let keep = |value: f64, [low, high]: [f64; 2]| value.clamp(low, high);
+        (keep(x, across), keep(y, down))
+    }
+
+    /// Puts it as near to a place as it can be, with its digits; what is no place does not move it.
+    pub(crate) fn put(&mut self, x: f64, y: f64) {
+        self.place = self.handle().admit(x, y).unwrap_or(self.place);
+    }
+
+    /// The same as a point.
+    pub(crate) fn point(&self) -> Point2<f64> {
+        let (x, y) = self.place();
+        Point2::new(x, y)
     }
 
     /// The pixel under it.
-    pub(crate) fn pixel(&self, size: (u32, u32)) -> (u32, u32) {
-        let (u, v) = self.place(size);
+    pub(crate) fn pixel(&self) -> (u32, u32) {
+        let (u, v) = self.place();
         (u as u32, v as u32)
     }
 
-    /// Its handle over a photograph of this size; an arrow key moves it by `step_px`.
-    pub(crate) fn handle(&self, size: (u32, u32), step_px: f64) -> Handle {
-        let place = self.place(size);
-        Handle::new(self.id, self.panel, self.label, place, ranges(size))
-            .told(place_words(place, 0))
-            .step([step_px; 2], 0)
+    /// Its place in words.
+    pub(crate) fn text(&self) -> String {
+        (self.words)(self.place())
+    }
+
+    pub(crate) fn handle(&self) -> Handle {
+        Handle::new(self.id, self.panel, self.label, self.place(), self.ranges)
+            .told(self.text())
+            .step([self.step; 2], self.digits)
     }
 
     /// Takes an event that moves it; whether it was one.
-    pub(crate) fn update(&mut self, event: &Event, size: (u32, u32)) -> bool {
-        let moved = self.handle(size, 1.0).moved_by(event);
+    pub(crate) fn update(&mut self, event: &Event) -> bool {
+        let moved = self.handle().moved_by(event);
         self.place = moved.unwrap_or(self.place);
         moved.is_some()
     }
 }
 
 /// The columns and the rows of a photograph of this size, for a handle over it.
-pub(crate) fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
-    [width, height].map(|size| [0.0, f64::from(size.max(1) - 1)])
+pub(crate) const fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
+    const fn range(size: u32) -> [f64; 2] {
+        [0.0, size.saturating_sub(1) as f64]
+    }
+    [range(width), range(height)]
 }
 
 /// A place in a photograph, such as "column 12, row 30".
@@ -66,9 +154,11 @@ pub(crate) fn place_words((u, v): (f64, f64), digits: usize) -> String {
     format!("column {column}, row {row}")
 }
 
-fn within((u, v): (f64, f64), size: (u32, u32)) -> (f64, f64) {
-    let [columns, rows] = ranges(size);
-    (u.clamp(columns[0], columns[1]), v.clamp(rows[0], rows[1]))
+/// A place on a plan, such as "2.00 m away, 0.30 m to the right".
+fn meters((x, z): (f64, f64)) -> String {
+    let side = if x < 0.0 { "left" } else { "right" };
+    let [away, aside] = [z, x.abs()].map(|value| format_number(value, 2));
+    format!("{away} m away, {aside} m to the {side}")
 }
 
 #[cfg(test)]
@@ -77,14 +167,29 @@ mod tests {
 
     #[test]
     fn a_probe_is_dragged_clicked_and_kept_inside() {
-        let size = (30, 20);
-        let mut probe = Probe::new("probe", "left", "Probe").at(12.0, 3.0);
-        assert!(probe.update(&Event::moved("probe", 5.0, 6.0), size));
-        assert_eq!(probe.handle(size, 2.0).value_text, "column 5, row 6");
-        assert!(probe.update(&Event::clicked("left", 29.4, -0.5), size));
-        assert_eq!(probe.pixel(size), (29, 0));
-        assert!(!probe.update(&Event::clicked("right", 1.0, 1.0), size));
-        assert!(!probe.update(&Event::moved("other", 1.0, 1.0), size));
-        assert_eq!(probe.place((10, 10)), (9.0, 0.0));
+        let mut probe = Probe::new("probe", "left", "Probe").over((30, 20));
+        assert!(probe.update(&Event::moved("probe", 5.0, 6.0)));
+        assert_eq!(probe.handle().value_text, "column 5, row 6");
+        assert!(probe.update(&Event::clicked("left", 29.4, -0.5)));
+        assert_eq!(probe.pixel(), (29, 0));
+        assert!(!probe.update(&Event::clicked("right", 1.0, 1.0)));
+        assert!(!probe.update(&Event::moved("other", 1.0, 1.0)));
+        // A smaller photograph moves it, and the larger one has it where it was.
+        assert_eq!(probe.over((10, 10)).place(), (9.0, 0.0));
+        assert_eq!(probe.over((10, 10)).over((30, 20)).place(), (29.0, 0.0));
+        assert_eq!(probe.in_middle((31, 20)).place(), (15.0, 10.0));
+        probe.put(3.3, 77.0);
+        probe.put(f64::NAN, 0.0);
+        assert_eq!(probe.place(), (3.0, 19.0));
+    }
+
+    #[test]
+    fn on_a_plan_it_says_where_it_is() {
+        let ranges = [[-1.0, 1.0], [0.5, 3.0]];
+        let mut probe = Probe::new("point", "top", "P").on_plan(ranges).at(0.3, 2.0);
+        assert_eq!(probe.text(), "2.00 m away, 0.30 m to the right");
+        assert!(probe.update(&Event::moved("point", -0.502, 7.0)));
+        assert_eq!(probe.point(), Point2::new(-0.5, 3.0));
+        assert!(probe.handle().value_text.ends_with("0.50 m to the left"));
     }
 }

@@ -141,6 +141,11 @@ impl<Q: Question> Asked<Q> {
             .map_or_else(|| format!("{}.", Q::LABEL), str::to_owned)
     }
 
+    /// What stands in the place of one number of the answer.
+    pub(crate) fn missing(&self) -> &'static str {
+        if self.is_waiting() { "…" } else { "–" }
+    }
+
     /// Why there is no answer, as a sentence.
     pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()

@@ -5,7 +5,7 @@ use epipole::Error;
 use epipole::camera::Camera;
 use epipole::math::random::Random;
 use epipole::synthetic::{
-    MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, still_life_camera,
+    MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, Transfer, still_life_camera,
 };
 use image::RgbImage;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
@@ -24,6 +24,46 @@ pub(crate) const PHOTO_ASPECT: f64 = PHOTO_HEIGHT as f64 / PHOTO_WIDTH as f64;
 pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
     (-0.5..=f64::from(PHOTO_WIDTH) - 0.5).contains(&pixel.x)
         && (-0.5..=f64::from(PHOTO_HEIGHT) - 0.5).contains(&pixel.y)
+}
+
+/// How the second of two cameras before the still life sees what is at a pixel of the first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Seen {
+    /// There it is.
+    Visible(Point2<f64>),
+    /// It would be there, but this hides it.
+    Hidden(Point2<f64>, &'static str),
+    /// It would be beyond the picture's edge.
+    Outside(Point2<f64>),
+    /// Camera 2 has gone past it.
+    Behind,
+    /// Camera 1 sees nothing there.
+    Nothing,
+}
+
+impl Seen {
+    /// By the scene's exact depth.
+    pub(crate) fn of([first, second]: &[Camera; 2], pixel1: &Point2<f64>) -> Self {
+        match still_life().transfer(first, second, pixel1) {
+            Transfer::Visible { pixel2, .. } | Transfer::Occluded { pixel2, .. }
+                if !in_picture(&pixel2) =>
+            {
+                Self::Outside(pixel2)
+            }
+            Transfer::Visible { pixel2, .. } => Self::Visible(pixel2),
+            Transfer::Occluded { pixel2, by, .. } => Self::Hidden(pixel2, by),
+            Transfer::BehindCamera { .. } => Self::Behind,
+            Transfer::Nothing => Self::Nothing,
+        }
+    }
+
+    /// The pixel of photograph 2, inside the picture or not, hidden or not.
+    pub(crate) fn pixel(self) -> Option<Point2<f64>> {
+        match self {
+            Self::Visible(pixel) | Self::Hidden(pixel, _) | Self::Outside(pixel) => Some(pixel),
+            Self::Behind | Self::Nothing => None,
+        }
+    }
 }
 
 /// Where the middle of the long table's ball is below the cameras, meters.
@@ -143,4 +183,19 @@ pub(crate) fn square_picture(noise: f64) -> RgbImage {
         }
     }
     picture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::geometry::Geometry;
+
+    #[test]
+    fn turned_left_means_that_things_move_right_in_the_picture() {
+        let point = Point2::new(300.0, 240.0);
+        let pairs = [0.0, 10.0].map(|turn| still_life_pair(PHOTO_SIZE, 0.0, 0.0, turn));
+        let [a, b] = pairs.map(|pair| Seen::of(&pair, &point).pixel().unwrap());
+        assert!(b.x > a.x + 50.0);
+        assert!(Geometry::of(&pairs[1]).is_none());
+    }
 }

@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn every_sample_has_its_votes() {
         let scattered = scatter(3, 60, 0.5);
-        let places: Vec<_> = scattered.points.iter().map(|point| point.place).collect();
+        let places = &scattered.points;
         let rules = Rules {
             epsilon_px: 10.0,
             seed: 3,
@@ -85,7 +85,7 @@ mod tests {
             msac: false,
             local_optimization: false,
         };
-        let tally = Tally::new(&places, scattered.truth, rules, 500).unwrap();
+        let tally = Tally::new(places, scattered.truth, rules, 500).unwrap();
         assert_eq!(tally.votes.len(), tally.samples.count());
         assert!(tally.samples.is_finished() && tally.votes[0].is_best);
         // The best is the first one of the most votes, and each best has more than the last.
@@ -94,7 +94,7 @@ mod tests {
         let kept = tally.votes.iter().filter(|vote| vote.is_best);
         let kept: Vec<usize> = kept.map(|vote| vote.num_votes).collect();
         assert!(kept.windows(2).all(|pair| pair[0] < pair[1]), "{kept:?}");
-        let none = Tally::new(&places, scattered.truth, rules, 0).unwrap();
+        let none = Tally::new(places, scattered.truth, rules, 0).unwrap();
         assert!(none.candidate.is_none() && none.best.is_none() && none.sample().is_empty());
         assert!(Tally::new(&places[..1], scattered.truth, rules, 5).is_err());
     }

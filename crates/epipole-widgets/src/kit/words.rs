@@ -15,6 +15,20 @@ pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
     )
 }
 
+/// A pixel, whole, such as "(320, 240)".
+pub(crate) fn whole_pixel(pixel: &Point2<f64>) -> String {
+    let [u, v] = [pixel.x, pixel.y].map(|x| format_number(x, 0));
+    format!("({u}, {v})")
+}
+
+/// An epipole, such as "(1273, 240)".
+pub(crate) fn short_epipole(epipole: &Epipole) -> String {
+    match epipole {
+        Epipole::Finite(place) => whole_pixel(place),
+        Epipole::AtInfinity(_) => "at infinity".to_owned(),
+    }
+}
+
 /// On which side of the picture a pixel is.
 pub(crate) fn side(pixel: &Point2<f64>) -> &'static str {
     let beyond = [
@@ -71,6 +85,20 @@ pub(crate) fn line(line: &Line2) -> String {
         term(line.b, 3),
         term(line.c, 1)
     )
+}
+
+/// A sentence behind others, if there is one.
+pub(crate) fn after(sentence: Option<&str>) -> String {
+    sentence.map_or_else(String::new, |sentence| format!(" {sentence}"))
+}
+
+/// A number with as few decimals as it needs, two at most.
+pub(crate) fn short(value: f64) -> String {
+    let digits = (0..2).find(|&digits| {
+        let times = [1.0, 10.0][digits];
+        ((value * times).round() - value * times).abs() < 1e-4
+    });
+    format_number(value, digits.unwrap_or(2))
 }
 
 /// A matrix of very different entries, row by row; lines break between rows only.
@@ -154,6 +182,12 @@ mod tests {
         assert_eq!(magnitude(0.0217, 1.0), "0.022");
         assert_eq!(magnitude(3e-9, 1.0), "3.00·10⁻⁹");
         assert_eq!(magnitude(3e-9, 1e6), "0");
+    }
+
+    #[test]
+    fn short_numbers_have_the_decimals_that_they_need() {
+        let all = [-3.0, 0.5, 1.0 / 3.0, 12.000_01].map(short);
+        assert_eq!(all, ["−3", "0.5", "0.33", "12"]);
     }
 
     #[test]

@@ -7,11 +7,11 @@
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, ControlKind, Declared, Event, Handle, Knob, Model,
-    Problem, Settings, Slider, Space, Value, format_number, knobs, round_to_digits,
+    Problem, Settings, Slider, Space, format_number, knobs,
 };
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::probe::{place_words, ranges};
+use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 
@@ -44,10 +44,11 @@ const SEED: Slider = Slider::seed(4.0);
 const KNOBS: &[Knob] = knobs![LOSS, WRONG, DISTURBANCE, DAMPING, STEPS, NOISE, SEED];
 
 const STEPS_PER_SECOND: f64 = 1.5;
-/// The dragged feature's place is kept to a tenth of a pixel.
-const DIGITS: usize = 1;
-/// What a feature is called that the reader drags.
-const MARK: &str = "mark";
+/// The feature that the reader drags.
+const MARK: Probe = Probe::new("mark", "photo", "Ridge feature")
+    .over(SIZE)
+    .step(4.0)
+    .digits(1);
 
 /// The model of `bundle-adjustment`.
 pub(crate) struct BundleAdjustment {
@@ -55,7 +56,7 @@ pub(crate) struct BundleAdjustment {
     pub(super) orbit: Orbit,
     house: Option<House>,
     /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
-    pub(super) mark: (f64, f64),
+    pub(super) mark: Probe,
     pub(super) asked: Asked<Question>,
     running: Running,
 }
@@ -89,8 +90,8 @@ impl BundleAdjustment {
 
     /// How far the dragged feature is from where it belongs, pixels.
     pub(super) fn mark_off_px(&self) -> f64 {
-        let at_home = home(self.house.as_ref());
-        libm::hypot(self.mark.0 - at_home.0, self.mark.1 - at_home.1)
+        let [(u, v), home] = [self.mark, home(self.house.as_ref())].map(|mark| mark.place());
+        libm::hypot(u - home.0, v - home.1)
     }
 
     fn ask(&mut self) {
@@ -98,28 +99,26 @@ impl BundleAdjustment {
             disturbance: self.settings.number(&DISTURBANCE) / 100.0,
             noise_px: self.settings.number(&NOISE),
             wrong: self.settings.number(&WRONG) / 100.0,
-            mark: self.mark,
+            mark: self.mark.place(),
             is_robust: self.is_robust(),
             log_damping: self.settings.number(&DAMPING),
             seed: self.settings.count(&SEED) as u64,
         });
     }
 
-    fn go_to(&mut self, steps: usize) -> Result<(), Problem> {
-        let value = Value::Number(steps.min(MAX_STEPS) as f64);
-        self.settings.set(STEPS.id, &value)?;
+    fn go_to(&mut self, steps: usize) {
+        self.settings.slide(&STEPS, steps as f64);
         self.running.stop_if(self.is_finished());
-        Ok(())
     }
 }
 
-/// Where the dragged feature belongs, pixels.
-fn home(house: Option<&House>) -> (f64, f64) {
-    let keep = |value| round_to_digits(value, DIGITS);
-    house.map_or((0.0, 0.0), |house| {
-        let pixel = house.mark();
-        (keep(pixel.x), keep(pixel.y))
-    })
+/// The dragged feature where it belongs.
+fn home(house: Option<&House>) -> Probe {
+    let mut mark = MARK;
+    if let Some(pixel) = house.map(House::mark) {
+        mark.put(pixel.x, pixel.y);
+    }
+    mark
 }
 
 impl Declared for BundleAdjustment {
@@ -177,10 +176,9 @@ impl Model for BundleAdjustment {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (place, off) = (self.mark, format_number(self.mark_off_px(), 0));
-        let told = format!("{}, {off} px from where it belongs", place_words(place, 0));
-        let mark = Handle::new(MARK, "photo", "Ridge feature", place, ranges(SIZE));
-        let mut handles = vec![mark.told(told).step([4.0; 2], DIGITS)];
+        let off = format_number(self.mark_off_px(), 0);
+        let told = format!("{}, {off} px from where it belongs", self.mark.text());
+        let mut handles = vec![self.mark.handle().told(told)];
         handles.extend(self.orbit.handles());
         handles
     }
@@ -198,26 +196,17 @@ impl Model for BundleAdjustment {
                     self.ask();
                 }
             }
-            Event::HandleMoved { id, x, y } if id == MARK && self.mark != (*x, *y) => {
-                self.mark = (*x, *y);
-                self.ask();
-            }
+            _ if self.mark.update(event) => self.ask(),
             Event::Clicked { panel, x, .. } if panel == "cost" || panel == "damping" => {
                 self.running.stop();
-                self.go_to(x.round().max(0.0) as usize)?;
+                self.go_to(x.round().max(0.0) as usize);
             }
-            Event::Press { id } => {
+            _ => {
                 let (taken, finished) = (self.num_taken(), self.is_finished());
-                if let Some(steps) = self.running.press(id, taken, finished) {
-                    self.go_to(steps)?;
+                if let Some(steps) = self.running.update(event, taken, finished) {
+                    self.go_to(steps);
                 }
             }
-            Event::Tick { dt_s } => {
-                if let Some(steps) = self.running.tick(*dt_s, self.num_taken()) {
-                    self.go_to(steps)?;
-                }
-            }
-            _ => {}
         }
         Ok(())
     }
@@ -248,7 +237,12 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
                 && model.is_finished()
                 && states.is_some_and(|[_, now]| now.off < 0.005)
         },
-        solution: || vec![Event::moved(MARK, 560.0, 60.0), Event::set(&LOSS, "huber")],
+        solution: || {
+            vec![
+                Event::moved(MARK.id(), 560.0, 60.0),
+                Event::set(&LOSS, "huber"),
+            ]
+        },
     },
     Challenge {
         id: "too-many",
@@ -287,7 +281,7 @@ mod tests {
 
     #[test]
     fn one_bad_feature_pulls_on_squares_and_not_on_huber() {
-        let drag = Event::moved(MARK, 620.0, 20.0);
+        let drag = Event::moved(MARK.id(), 620.0, 20.0);
         let robust = Event::set(&LOSS, "huber");
         let off = |model: &BundleAdjustment| model.states().unwrap()[1].off;
         let (honest, pulled) = (settled(&[]), settled(std::slice::from_ref(&drag)));

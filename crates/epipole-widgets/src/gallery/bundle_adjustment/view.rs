@@ -4,7 +4,7 @@ use super::model::BundleAdjustment;
 use super::question::State;
 use crate::canvas::{Canvas, Dash, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
-use crate::kit::grid::{self, GAP, Grid, SMALL, TITLE};
+use crate::kit::grid::{self, GAP, Grid, SMALL};
 use crate::kit::house::{House, MARK, SHOWN, SIZE};
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::orbit::Orbit;
@@ -72,7 +72,7 @@ impl View for BundleAdjustmentView {
 
     fn layout(&self, model: &BundleAdjustment, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let legend_height = |width| LEGEND_GAP + legend::height(&LEGEND, width, 0.0);
         let (space, photo, plots) = if grid::is_broad(width) {
             let shares = [0.385, 0.385, 0.23];
@@ -140,10 +140,8 @@ fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
     };
     space.ground(&SUBJECT.middle, GROUND, 0.6, 6);
     let wires = |space: &mut Space, points: &[Point3<f64>], stroke: Stroke| {
-        for wire in &house.wires {
-            for pair in wire.windows(2) {
-                space.line(&points[pair[0]], &points[pair[1]], stroke);
-            }
+        for [from, to] in house.pieces() {
+            space.line(&points[from], &points[to], stroke);
         }
     };
     let is_small = panel.rect.width < 300.0;
@@ -181,7 +179,7 @@ fn camera_mark(index: usize) -> (Role, Shape) {
 
 fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
     let on_page = |pixel: &Point2<f64>| panel.place_of(pixel);
-    let mark = panel.canvas_from_world(model.mark);
+    let mark = panel.canvas_from_world(model.mark.place());
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         if let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) {
             let places = |state: &State| -> Vec<Option<Place>> {
@@ -232,11 +230,9 @@ fn is_near(pixel: &Point2<f64>) -> bool {
 }
 
 fn draw_wires(house: &House, places: &[Option<Place>], stroke: Stroke, canvas: &mut Canvas) {
-    for wire in &house.wires {
-        for pair in wire.windows(2) {
-            if let (Some(a), Some(b)) = (places[pair[0]], places[pair[1]]) {
-                canvas.line(a, b, stroke);
-            }
+    for [from, to] in house.pieces() {
+        if let (Some(a), Some(b)) = (places[from], places[to]) {
+            canvas.line(a, b, stroke);
         }
     }
 }
@@ -257,10 +253,7 @@ fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
     {
         let panel = layout.panel(id);
         plot::draw_axes(canvas, panel, &x, &y);
-        let Rect { x: left, width, .. } = panel.rect;
-        let shift = left.min(plot::LEFT);
-        let above = Rect::new(left - shift, panel.rect.y, width + shift, TITLE);
-        grid::fitting_title(canvas, above, &titles[index]);
+        plot::title_from_left(canvas, panel, &titles[index]);
         let Some(answer) = model.asked.answer() else {
             continue;
         };

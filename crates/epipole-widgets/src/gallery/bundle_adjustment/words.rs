@@ -1,38 +1,13 @@
 //! What `bundle-adjustment` says: readouts and description.
 
 use super::model::BundleAdjustment;
-use super::question::Question;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::house::NUM_CAMERAS;
-use crate::kit::question::Question as _;
 use crate::kit::words::magnitude;
 
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     format_number(value, if value < 0.995 { 2 } else { 1 })
-}
-
-fn readouts(model: &BundleAdjustment) -> Vec<Readout> {
-    // Before the answer the rows are there already, so that nothing jumps when it comes.
-    let unknown = if model.asked.problem().is_some() {
-        "–"
-    } else {
-        "…"
-    };
-    let found = values(model).unwrap_or_else(|| ROWS.map(|_| unknown.to_owned()));
-    let rows = ROWS.into_iter().zip(found).enumerate();
-    let row = |(index, ((id, label), text)): (usize, ((_, _), String))| {
-        let readout = Readout::words(id, label, text);
-        if index < NUM_MAIN {
-            readout.main()
-        } else {
-            readout
-        }
-    };
-    let mut readouts: Vec<Readout> = rows.map(row).collect();
-    let from = model.orbit.seen_from();
-    readouts.push(Readout::words("viewpoint", "Seen from", from));
-    readouts
 }
 
 /// As many of the rows carry the figure's point.
@@ -69,48 +44,52 @@ fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
     ])
 }
 
-fn describe(model: &BundleAdjustment) -> String {
-    if let Some(problem) = model.asked.problem() {
-        return problem.to_owned();
-    }
-    let (Some([start, now]), Some(answer)) = (model.states(), model.asked.answer()) else {
-        return format!("{}.", Question::LABEL);
-    };
-    let pixels = |value: f64| magnitude(value, 1e3);
-    let taken = model.num_taken();
-    if taken == 0 {
-        return format!(
-            "{NUM_CAMERAS} cameras and a house of {} points, all disturbed: the points are shown \
-             {} px from their features (RMS), and the house is off by {} % of its width.",
-            answer.features.len(),
-            pixels(now.rms_px),
-            percent(now.off)
-        );
-    }
-    let num_steps = answer.num_steps();
-    let plural = if num_steps == 1 { "step" } else { "steps" };
-    let end = match (model.is_finished(), answer.converged) {
-        (true, true) => " The loop has converged.",
-        (true, false) => " The loop has not converged.",
-        _ if !now.accepted => " This step was refused, since it would have raised the cost.",
-        _ => "",
-    };
-    format!(
-        "After {taken} of {num_steps} {plural} the reprojection error is {} px (RMS) instead of {} px, \
-         and the house, which was off by {} % of its width, is off by {} %.{end}",
-        pixels(now.rms_px),
-        pixels(start.rms_px),
-        percent(start.off),
-        percent(now.off)
-    )
-}
-
 impl Words for BundleAdjustment {
     fn readouts(&self) -> Vec<Readout> {
-        readouts(self)
+        // Before the answer the rows are there already, so that nothing jumps when it comes.
+        let unknown = self.asked.missing();
+        let found = values(self).unwrap_or_else(|| ROWS.map(|_| unknown.to_owned()));
+        let rows = ROWS.into_iter().zip(found).enumerate();
+        let row = |(index, ((id, label), text)): (usize, ((_, _), String))| {
+            Readout::words(id, label, text).main_if(index < NUM_MAIN)
+        };
+        let mut readouts: Vec<Readout> = rows.map(row).collect();
+        let from = self.orbit.seen_from();
+        readouts.push(Readout::words("viewpoint", "Seen from", from));
+        readouts
     }
 
     fn describe(&self) -> String {
-        describe(self)
+        let known = (self.states(), self.asked.answer(), self.asked.problem());
+        let (Some([start, now]), Some(answer), None) = known else {
+            return self.asked.sentence();
+        };
+        let pixels = |value: f64| magnitude(value, 1e3);
+        let taken = self.num_taken();
+        if taken == 0 {
+            return format!(
+                "{NUM_CAMERAS} cameras and a house of {} points, all disturbed: the points are shown \
+                 {} px from their features (RMS), and the house is off by {} % of its width.",
+                answer.features.len(),
+                pixels(now.rms_px),
+                percent(now.off)
+            );
+        }
+        let num_steps = answer.num_steps();
+        let plural = if num_steps == 1 { "step" } else { "steps" };
+        let end = match (self.is_finished(), answer.converged) {
+            (true, true) => " The loop has converged.",
+            (true, false) => " The loop has not converged.",
+            _ if !now.accepted => " This step was refused, since it would have raised the cost.",
+            _ => "",
+        };
+        format!(
+            "After {taken} of {num_steps} {plural} the reprojection error is {} px (RMS) instead of {} px, \
+             and the house, which was off by {} % of its width, is off by {} %.{end}",
+            pixels(now.rms_px),
+            pixels(start.rms_px),
+            percent(start.off),
+            percent(now.off)
+        )
     }
 }

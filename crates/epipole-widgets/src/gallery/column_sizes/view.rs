@@ -42,14 +42,11 @@ impl View for ColumnSizesView {
     }
 
     fn draw(&mut self, model: &ColumnSizes, layout: &Layout, canvas: &mut Canvas) {
-        let plot = layout.panel("plot");
-        let [x, y] = rulers();
         let titles = [
             "Size of each column: root mean square of its entries",
             "Size of each column",
         ];
-        grid::fitting_title(canvas, plot.rect, &titles);
-        plot::draw_axes(canvas, plot, &x, &y);
+        let plot = plot::open(canvas, layout, "plot", &titles, &rulers());
         match model.both() {
             Ok(both) => {
                 draw_sizes(&both.raw, RAW, -0.13, plot, canvas);
@@ -57,8 +54,7 @@ impl View for ColumnSizesView {
             }
             Err(sentence) => grid::notice(canvas, plot.rect, sentence),
         }
-        let top = layout.height - 1.0 - legend::height(&LEGEND, layout.width, plot::LEFT);
-        legend::draw(canvas, &LEGEND, layout.width, plot::LEFT, top);
+        legend::draw_last(canvas, &LEGEND, layout, plot::LEFT, 1.0);
     }
 }
 

@@ -2,11 +2,11 @@
 
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob,
-    Model, Problem, Settings, Slider, Space, Value, knobs,
+    Model, Problem, Settings, Slider, Space, knobs,
 };
-use crate::gallery::two_view_sfm::question::{Answer, Question, Source};
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::question::{Asked, carry_out};
+use crate::kit::reconstruction::{Answer, Question, Source};
 
 const STEP: Choice = Choice::new(
     "step",
@@ -56,14 +56,11 @@ impl Cover {
     }
 
     /// Tells so many steps, the last perhaps in part.
-    fn tell(&mut self, steps: f64) -> Result<(), Problem> {
-        let steps = steps.clamp(0.0, NUM_STEPS as f64);
-        self.settings.set(TIME.id, &Value::Number(steps))?;
+    fn tell(&mut self, steps: f64) {
+        self.settings.slide(&TIME, steps);
         let told = self.settings.number(&TIME).ceil().max(1.0) as usize;
-        self.settings
-            .set(STEP.id, &Value::from(STEP.options[told - 1].0))?;
+        self.settings.choose(&STEP, told - 1);
         self.is_playing &= steps < NUM_STEPS as f64;
-        Ok(())
     }
 }
 
@@ -112,20 +109,20 @@ impl Model for Cover {
         match self.settings.update(event)? {
             Some(id) if id == STEP.id => {
                 self.is_playing = false;
-                self.tell(self.step() as f64 + 1.0)?;
+                self.tell(self.step() as f64 + 1.0);
             }
-            Some(id) if id == TIME.id => self.tell(self.settings.number(&TIME))?,
+            Some(id) if id == TIME.id => self.tell(self.settings.number(&TIME)),
             _ => {}
         }
         match event {
             Event::Press { id } if id == PLAY.id && self.answer().is_some() => {
                 self.is_playing = !self.is_playing;
                 if self.is_playing && self.settings.number(&TIME) >= NUM_STEPS as f64 {
-                    self.tell(0.0)?;
+                    self.tell(0.0);
                 }
             }
             Event::Tick { dt_s } if self.is_playing => {
-                self.tell(self.settings.number(&TIME) + dt_s * STEPS_PER_SECOND)?;
+                self.tell(self.settings.number(&TIME) + dt_s * STEPS_PER_SECOND);
             }
             _ => {}
         }

@@ -3,12 +3,11 @@
 use super::model::{Cover, NUM_STEPS};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
-use crate::gallery::two_view_sfm::model::Stage;
-use crate::gallery::two_view_sfm::question::{Answer, Motion, Question};
-use crate::gallery::two_view_sfm::view::{draw_surface, spread};
 use crate::kit::grid::{self, Grid};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::{CAMERAS, spread};
 use crate::kit::question::Question as _;
+use crate::kit::reconstruction::{Answer, Motion, Question, Stage};
 use crate::kit::scenes::PHOTO_SIZE;
 use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
@@ -31,10 +30,6 @@ const MOST_DOTS: usize = 400;
 /// Shares of the first step: the second camera leaves, and arrives.
 const LEAVES: f64 = 0.3;
 const ARRIVES: f64 = 0.85;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 
 /// Draws [`Cover`].
 #[derive(Default)]
@@ -122,7 +117,9 @@ fn draw_space(
             space.dot(&point.place, radius, point.color);
         }
     }
-    draw_surface(&mut space, motion, pixels, panel);
+    if let Ok(surface) = &motion.surface {
+        surface.draw(&mut space, pixels, panel);
+    }
     if model.share(4) >= 1.0 {
         let ends = [first.center_in_world(), second.center_in_world()];
         space.line(&ends[0], &ends[1], Stroke::solid(Role::Ink, 1.5));

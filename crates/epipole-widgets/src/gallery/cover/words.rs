@@ -2,7 +2,7 @@
 
 use super::model::Cover;
 use crate::contract::{Readout, Words, format_number};
-use crate::gallery::two_view_sfm::question::Answer;
+use crate::kit::reconstruction::Answer;
 
 fn num_points(answer: &Answer) -> usize {
     answer

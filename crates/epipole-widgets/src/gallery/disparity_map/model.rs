@@ -29,13 +29,16 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
 const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain").on();
 const KNOBS: &[Knob] = knobs![METHOD, WINDOW, RANGE, BASELINE, CHECKS];
 
-/// On the mug, where both cameras see it.
-const PROBE: (f64, f64) = (228.0, 165.0);
+/// At first on the mug, where both cameras see it.
+const PROBE: Probe = Probe::new("probe", "left", "Probe")
+    .over(SIZE)
+    .step(2.0)
+    .at(228.0, 165.0);
 
 /// The model of `disparity-map`.
 pub(crate) struct DisparityMap {
     settings: Settings,
-    probe: Probe,
+    pub(super) probe: Probe,
     pub(super) asked: Asked<Question>,
 }
 
@@ -48,13 +51,8 @@ pub(super) struct Probed {
 }
 
 impl DisparityMap {
-    /// Column and row of the probe, pixels.
-    pub(super) fn probe_place(&self) -> (f64, f64) {
-        self.probe.place(SIZE)
-    }
-
     pub(super) fn probed(&self, answer: &Answer) -> Option<Probed> {
-        let (u, v) = self.probe.pixel(SIZE);
+        let (u, v) = self.probe.pixel();
         Some(Probed {
             found_px: answer.found.get(u, v),
             truth_px: answer.truth.get(u, v)?,
@@ -97,7 +95,7 @@ impl Declared for DisparityMap {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            probe: Probe::new("probe", "left", "Probe").at(PROBE.0, PROBE.1),
+            probe: PROBE,
             asked: Asked::default(),
         };
         model.ask();
@@ -112,11 +110,11 @@ impl Model for DisparityMap {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(SIZE, 2.0)]
+        vec![self.probe.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.probe.update(event, SIZE) {
+        if self.probe.update(event) {
             return Ok(());
         }
         if self.settings.update(event)?.is_some() {

@@ -10,7 +10,7 @@ use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
 /// Height over width of the photographs.
-const ASPECT: f64 = SIZE.1 as f64 / SIZE.0 as f64;
+const ASPECT: f64 = grid::aspect(SIZE);
 /// Height of the legend below everything on a phone: the bar with its ends, two rows of swatches.
 const LEGEND: f64 = 84.0;
 /// What the smaller panels are, beside the larger ones.
@@ -132,7 +132,7 @@ fn error_color(theme: Theme, error_px: f32) -> Rgb {
 
 /// The probe, its match in the right photograph, and the window that is compared.
 fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
-    let (u, v) = model.probe_place();
+    let (u, v) = model.probe.place();
     let found = answer.found.get(u as u32, v as u32);
     for (id, ..) in NAMES {
         let panel = layout.panel(id);

@@ -20,29 +20,24 @@ impl Words for DisparityMap {
             let (question, _) = answered?;
             question.depth_m(d?)
         };
+        let [found_m, true_m] = [found_px, truth_px].map(depth_m);
         let none = probed.map_or(waiting, |_| "no answer");
-        let bad = scores.map(|scores| 100.0 * scores.bad);
-        let coverage = scores.map(|scores| 100.0 * scores.coverage);
+        let percent = |id, label, share: Option<f64>| {
+            Readout::percent(id, label, share, 1).or(waiting).main()
+        };
         let error_px = scores.map(|scores| scores.mean_error_px);
         let hidden = probed.map_or(waiting, |probed| match probed.is_hidden {
             true => "hidden on the right",
             false => "both cameras see it",
         });
         vec![
-            number("bad", "Bad answers", bad, 1, "%", waiting).main(),
-            number("coverage", "Coverage", coverage, 1, "%", waiting).main(),
+            percent("bad", "Bad answers", scores.map(|scores| scores.bad)),
+            percent("coverage", "Coverage", scores.map(|scores| scores.coverage)),
             number("found", "Found d", found_px.map(f64::from), 2, "px", none).main(),
             number("truth", "True d", truth_px.map(f64::from), 2, "px", waiting).main(),
             number("error", "Mean error", error_px, 2, "px", waiting),
-            number("depth", "Depth found", depth_m(found_px), 3, "m", none),
-            number(
-                "true-depth",
-                "True depth",
-                depth_m(truth_px),
-                3,
-                "m",
-                waiting,
-            ),
+            number("depth", "Depth found", found_m, 3, "m", none),
+            number("true-depth", "True depth", true_m, 3, "m", waiting),
             Readout::words("hidden", "Visibility", hidden),
         ]
     }

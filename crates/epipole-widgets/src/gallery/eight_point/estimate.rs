@@ -1,8 +1,8 @@
 //! F from matches by the core's eight-point algorithm, and what can be said about it.
 
-use crate::kit::matches::Match;
+use crate::kit::matches::{Match, distance_px, line2};
 use epipole::epipolar::{
-    EightPoint, epipolar_line2, fundamental_8point_explained, fundamental_8point_unnormalized,
+    EightPoint, fundamental_8point_explained, fundamental_8point_unnormalized,
 };
 use epipole::math::Line2;
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
@@ -79,17 +79,12 @@ impl Estimate {
     }
 }
 
-/// The epipolar line of a pixel of photograph 1; `None` if it has none.
-pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
-    epipolar_line2(fundamental, pixel1).ok()
-}
-
 /// Mean distance of the second pixels from the lines of the first, pixels.
 fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
-    let distances: Vec<f64> = matches
+    let distances = matches
         .iter()
-        .filter_map(|(x1, x2)| Some(line2(fundamental, x1)?.signed_distance(x2).abs()))
-        .collect();
+        .filter_map(|found| distance_px(fundamental, found));
+    let distances: Vec<f64> = distances.collect();
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 

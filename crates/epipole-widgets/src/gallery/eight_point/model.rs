@@ -3,14 +3,14 @@
 //! The state is the settings and the place of the probe. Matches are drawn when they are first
 //! needed; the photographs come from a worker, and nothing waits for them.
 
-use super::estimate::{Estimate, line2};
+use super::estimate::Estimate;
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
     Slider, Symbol, Toggle, knobs,
 };
 use crate::kit::geometry::match_symbols;
-use crate::kit::matches::{MAX_USED, Matches, cameras, exact_match};
+use crate::kit::matches::{MAX_USED, Matches, cameras, distance_px, exact_match, line2};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::scenes::PHOTO_SIZE;
@@ -31,8 +31,11 @@ const RANK2: Toggle = Toggle::new("rank2", "Enforce rank 2").on();
 const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = knobs![COUNT, NOISE, NORMALIZE, RANK2, SEED];
 
-/// Where the probe begins: on the handle of the mug.
-const PROBE_PX: (f64, f64) = (479.0, 327.0);
+/// At first on the handle of the mug.
+const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
+    .over(PHOTO_SIZE)
+    .step(4.0)
+    .at(479.0, 327.0);
 
 /// The model of `eight-point`.
 pub struct EightPoint {
@@ -103,8 +106,7 @@ impl EightPoint {
     }
 
     pub(super) fn probe(&self) -> Point2<f64> {
-        let (u, v) = self.probe.place(PHOTO_SIZE);
-        Point2::new(u, v)
+        self.probe.point()
     }
 
     /// The exact match of the probe, if photograph 2 shows it.
@@ -114,8 +116,8 @@ impl EightPoint {
 
     /// How far the match of the probe is from its line.
     pub(super) fn probe_px(&self) -> Option<f64> {
-        let line = line2(&self.estimate().ok()?.fundamental, &self.probe())?;
-        Some(line.signed_distance(&self.probe_match()?).abs())
+        let found = (self.probe(), self.probe_match()?);
+        distance_px(&self.estimate().ok()?.fundamental, &found)
     }
 }
 
@@ -131,7 +133,7 @@ impl Declared for EightPoint {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE_PX.0, PROBE_PX.1),
+            probe: PROBE,
             asked: Asked::about(Question),
             matches: OnceCell::new(),
             estimate: OnceCell::new(),
@@ -145,7 +147,7 @@ impl Model for EightPoint {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(PHOTO_SIZE, 4.0)]
+        vec![self.probe.handle()]
     }
 
     /// Those of the probe.
@@ -156,7 +158,7 @@ impl Model for EightPoint {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.probe.update(event, PHOTO_SIZE) {
+        if self.probe.update(event) {
             return Ok(());
         }
         if let Some(id) = self.settings.update(event)? {

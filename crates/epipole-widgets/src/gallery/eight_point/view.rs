@@ -1,12 +1,13 @@
 //! Both photographs with the matches and their lines; below, the place where the lines meet, much
 //! enlarged, and the singular values.
 
-use super::estimate::{Estimate, line2};
+use super::estimate::Estimate;
 use super::model::EightPoint;
 use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::matches::line2;
 use crate::kit::pair::{border_arrow, draw_line, series};
 use crate::kit::plan;
 use crate::kit::plot::{self, List, Ruler};
@@ -20,14 +21,13 @@ const MARKER: f64 = 5.0;
 const NUM_LINES: usize = 10;
 /// The enlarged place shows so many pixels of photograph 2 to each side: the first that is enough.
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
-/// Height over width of the photographs.
+
 /// Draws [`EightPoint`].
 #[derive(Default)]
 pub struct EightPointView;
 
 fn rulers() -> [Ruler; 2] {
-    let names = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
-    [Ruler::things(names), Ruler::decades(-3.2, 6.6)]
+    [Ruler::things(plot::SIGMAS), Ruler::decades(-3.2, 6.6)]
 }
 
 impl View for EightPointView {

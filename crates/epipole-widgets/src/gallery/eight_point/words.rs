@@ -13,48 +13,27 @@ impl Words for EightPoint {
     fn readouts(&self) -> Vec<Readout> {
         let estimate = self.estimate();
         let known = estimate.ok();
-        let px = |id, label, value: Option<f64>| {
-            Readout::number(id, label, value.unwrap_or(f64::NAN), 2, "px")
-        };
-        let words = |id, label, value: Option<String>| {
-            Readout::words(id, label, value.unwrap_or_else(|| "no value".to_owned()))
-        };
-        let condition = |solution: &epipole::epipolar::EightPoint| {
-            words::magnitude(solution.condition_number, 0.0)
-        };
+        let px = |id, label, value: Option<f64>| Readout::number(id, label, value, 2, "px");
+        let held_out = known.map(|estimate| estimate.held_out_px);
+        let used = known.map(|estimate| estimate.used_px);
         let meeting = known.and_then(|estimate| estimate.meeting);
+        let condition = known.map(|estimate| estimate.chosen().condition_number);
+        let condition = condition.map(|number| words::magnitude(number, 0.0));
+        let condition = condition.unwrap_or_else(|| "no value".to_owned());
         let probe = "Probe's match";
         let mut readouts = vec![
-            px(
-                "held-out",
-                "Held-out points",
-                known.map(|estimate| estimate.held_out_px),
-            )
-            .main(),
-            px(
-                "used",
-                "Matches used",
-                known.map(|estimate| estimate.used_px),
-            )
-            .main(),
+            px("held-out", "Held-out points", held_out).main(),
+            px("used", "Matches used", used).main(),
             px("miss", "Lines miss", meeting.map(Meeting::shown_px)).main(),
-            words(
-                "condition",
-                "Condition number",
-                known.map(|estimate| condition(estimate.chosen())),
-            )
-            .main(),
+            Readout::words("condition", "Condition number", condition).main(),
             match (known, self.probe_px()) {
                 (Some(_), None) => Readout::words("probe-px", probe, "not seen"),
                 (_, distance) => px("probe-px", probe, distance),
             },
         ];
         readouts.extend(known.into_iter().flat_map(details));
-        readouts.extend(
-            estimate
-                .err()
-                .map(|why| Readout::words("state", "State", why)),
-        );
+        let state = estimate.err();
+        readouts.extend(state.map(|why| Readout::words("state", "State", why)));
         readouts
     }
 

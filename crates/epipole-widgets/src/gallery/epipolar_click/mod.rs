@@ -1,6 +1,5 @@
 //! `epipolar-click`: a point in one photograph, its epipolar line in the other.
 
-mod geometry;
 mod model;
 mod view;
 mod words;

@@ -1,15 +1,16 @@
 //! Points of one photograph, and where the camera of the other one stands.
 
-use super::geometry::{self, Match, find_match};
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Symbol, Value, knobs,
+    Settings, Slider, Symbol, knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
-use crate::kit::probe::{place_words, ranges};
-use crate::kit::scenes::{PHOTO_SIZE, in_picture};
+use crate::kit::points::{Points, number_of};
+use crate::kit::probe::{Probe, place_words};
+use crate::kit::scenes::{PHOTO_SIZE, Seen, in_picture, still_life_pair};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
+use epipole::math::Line2;
 use nalgebra::Point2;
 
 const MAX_POINTS: usize = 6;
@@ -48,9 +49,12 @@ const PLACES_PX: [(f64, f64); MAX_POINTS] = [
     (291.0, 332.0),
 ];
 const NUM_AT_START: usize = 4;
-const POINT_IDS: [&str; MAX_POINTS] = ["p1", "p2", "p3", "p4", "p5", "p6"];
-/// Digits that a point's place is kept with.
-const DIGITS: usize = 1;
+/// What the handles of all points have in common.
+const POINT: Probe = Probe::new("p", "first", "Point # in photograph 1")
+    .over(PHOTO_SIZE)
+    .step(4.0)
+    .digits(1)
+    .told(|place| place_words(place, 1));
 /// Two points on one epipolar line are no farther from it than this, pixels; and they are at least so
 /// far from each other.
 const SAME_LINE_PX: f64 = 2.0;
@@ -59,12 +63,13 @@ const APART_PX: f64 = 60.0;
 /// The model of `epipolar-click`.
 pub(crate) struct EpipolarClick {
     settings: Settings,
-    points: [Option<Point2<f64>>; MAX_POINTS],
+    points: Points,
 }
 
 impl EpipolarClick {
     pub(super) fn cameras(&self) -> [Camera; 2] {
-        geometry::cameras(self.motion())
+        let (right_m, forward_m, left_deg) = self.motion();
+        still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
     }
 
     /// Camera 2 in the frame of camera 1: meters to the right, meters forward, and degrees to the
@@ -76,17 +81,13 @@ impl EpipolarClick {
 
     /// None while both cameras stand at the same place.
     pub(super) fn geometry(&self) -> Option<Geometry> {
-        let (right_m, forward_m, _) = self.motion();
-        if right_m == 0.0 && forward_m == 0.0 {
-            return None;
-        }
         Geometry::of(&self.cameras())
     }
 
     /// The points with their index.
     pub(super) fn points(&self) -> impl Iterator<Item = (usize, Point2<f64>)> {
-        let points = self.points.iter().enumerate();
-        points.filter_map(|(index, point)| Some((index, (*point)?)))
+        let points = self.points.iter();
+        points.map(|point| (point.number - 1, point.place))
     }
 
     /// The point that the readouts speak of, with its index.
@@ -97,8 +98,9 @@ impl EpipolarClick {
             .or_else(|| self.points().last())
     }
 
-    pub(super) fn find_match(&self, pixel1: &Point2<f64>) -> Match {
-        find_match(&self.cameras(), pixel1)
+    /// How camera 2 sees what is at a pixel of photograph 1.
+    pub(super) fn seen(&self, pixel1: &Point2<f64>) -> Seen {
+        Seen::of(&self.cameras(), pixel1)
     }
 
     /// Whether some point lies on the line of another one, apart from it.
@@ -106,55 +108,32 @@ impl EpipolarClick {
         let Some(geometry) = self.geometry() else {
             return false;
         };
-        self.points().any(|(index, point)| {
-            let line = geometry.line1(&point);
-            line.is_some_and(|line| {
-                self.points().any(|(other, place)| {
-                    other != index
-                        && (place - point).norm() >= APART_PX
-                        && line.signed_distance(&place).abs() <= SAME_LINE_PX
+        self.points().any(|(_, point)| {
+            let is_on = |line: Line2| {
+                self.points().any(|(_, other)| {
+                    (other - point).norm() >= APART_PX
+                        && line.signed_distance(&other).abs() <= SAME_LINE_PX
                 })
-            })
+            };
+            geometry.line1(&point).is_some_and(is_on)
         })
     }
 
-    fn select(&mut self, index: usize) {
-        // A number within the slider's range is accepted.
-        let chosen = Value::Number((index + 1) as f64);
-        let _ = self.settings.set(SELECTED.id, &chosen);
+    /// Says the selection in full, so that a permalink restores it.
+    fn keep_selection(&mut self) {
+        let index = self.selected().map_or(0, |(index, _)| index);
+        self.settings.slide(&SELECTED, (index + 1) as f64);
     }
 
-    fn handle(&self, index: usize, point: Point2<f64>) -> Handle {
-        let (id, place) = (POINT_IDS[index], (point.x, point.y));
-        let label = format!("Point {} in photograph 1", index + 1);
-        Handle::new(id, "first", label, place, ranges(PHOTO_SIZE))
-            .told(place_words(place, DIGITS))
-            .step([4.0; 2], DIGITS)
-            .removable_if(true)
+    fn put(&mut self, number: usize, x: f64, y: f64) {
+        self.points.put(number, x, y);
+        self.settings.slide(&SELECTED, number as f64);
     }
 
-    fn put(&mut self, index: usize, x: f64, y: f64) {
-        let wanted = Point2::new(x, y);
-        if let Some((x, y)) = self.handle(index, wanted).admit(x, y) {
-            self.points[index] = Some(Point2::new(x, y));
-            self.select(index);
-        }
-    }
-
+    /// The smallest number that no point has.
     fn free(&self) -> Option<usize> {
-        self.points.iter().position(Option::is_none)
+        (1..=MAX_POINTS).find(|number| !self.points.has(*number))
     }
-
-    fn remove(&mut self, index: usize) {
-        self.points[index] = None;
-        // The selection is said in full from now on, so that a permalink restores it.
-        let next = self.selected().map_or(0, |(index, _)| index);
-        self.select(next);
-    }
-}
-
-fn index_of(id: &str) -> Option<usize> {
-    POINT_IDS.iter().position(|known| *known == id)
 }
 
 impl Declared for EpipolarClick {
@@ -166,86 +145,73 @@ impl Declared for EpipolarClick {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        let place = |index: usize| {
-            let (u, v) = PLACES_PX[index];
-            (index < NUM_AT_START).then(|| Point2::new(u, v))
-        };
+        let places = PLACES_PX[..NUM_AT_START].iter();
+        let places = places.map(|&(u, v)| Point2::new(u, v));
         Self {
             settings: Settings::new(KNOBS),
-            points: std::array::from_fn(place),
+            points: Points::new(POINT, 0, places),
         }
     }
 }
 
 impl Model for EpipolarClick {
     fn controls(&self) -> Vec<Control> {
-        let count = self.points().count();
+        let count = self.points.len();
         let add = ADD.control(count < MAX_POINTS, false);
         self.settings
             .controls_and([add, REMOVE.control(count > 0, false)])
     }
 
     fn handles(&self) -> Vec<Handle> {
-        self.points()
-            .map(|(index, point)| self.handle(index, point))
-            .collect()
+        self.points.handles()
     }
 
     /// Those of the selected point.
     fn symbols(&self) -> Vec<Symbol> {
         let pixel1 = self.selected().map(|(_, point)| point);
-        let pixel2 = pixel1.and_then(|point| self.find_match(&point).pixel());
+        let pixel2 = pixel1.and_then(|point| self.seen(&point).pixel());
         symbols([pixel1, pixel2], self.geometry().as_ref())
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        self.settings.update(event)?;
         match event {
-            Event::Set { id, value } => {
-                self.settings.set(id, value)?;
-                if id == SELECTED.id {
-                    let effective = self.selected().map_or(0, |(index, _)| index);
-                    self.select(effective);
-                }
-            }
+            Event::Set { id, .. } if id == SELECTED.id => self.keep_selection(),
             Event::Press { id } if id == ADD.id => {
-                if let Some(index) = self.free() {
-                    let (u, v) = PLACES_PX[index];
-                    self.put(index, u, v);
+                if let Some(number) = self.free() {
+                    let (u, v) = PLACES_PX[number - 1];
+                    self.put(number, u, v);
                 }
             }
             Event::Press { id } if id == REMOVE.id => {
                 if let Some((index, _)) = self.points().last() {
-                    self.remove(index);
-                }
-            }
-            Event::HandleMoved { id, x, y } => {
-                if let Some(index) = index_of(id) {
-                    self.put(index, *x, *y);
-                }
-            }
-            Event::HandleRemoved { id } => {
-                if let Some(index) = index_of(id) {
-                    self.remove(index);
+                    self.points.remove(index + 1);
+                    self.keep_selection();
                 }
             }
             // With every point in use, a click moves the selected one.
             Event::Clicked { x, y, .. } => {
-                let selected = self.selected().map(|(index, _)| index);
-                if let Some(index) = self.free().or(selected) {
-                    self.put(index, *x, *y);
+                let selected = self.selected().map(|(index, _)| index + 1);
+                if let Some(number) = self.free().or(selected) {
+                    self.put(number, *x, *y);
                 }
             }
-            _ => {}
+            _ => {
+                if let Some(number) = self.points.update(event) {
+                    self.settings.slide(&SELECTED, number as f64);
+                    self.keep_selection();
+                }
+            }
         }
         Ok(())
     }
 
     fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
-        let Some(index) = index_of(id) else {
-            return false;
-        };
-        self.put(index, x, y);
-        true
+        let number = number_of(id).filter(|number| (1..=MAX_POINTS).contains(number));
+        if let Some(number) = number {
+            self.put(number, x, y);
+        }
+        number.is_some()
     }
 }
 
@@ -289,7 +255,7 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
               different places from different cameras.",
         check: |model| {
             let mut points = model.points();
-            points.any(|(_, point)| matches!(model.find_match(&point), Match::Hidden(..)))
+            points.any(|(_, point)| matches!(model.seen(&point), Seen::Hidden(..)))
         },
         solution: || vec![Event::moved("p1", 262.0, 205.0)],
     },
@@ -320,8 +286,8 @@ mod tests {
     fn every_place_to_begin_is_seen_by_both_cameras() {
         let model = EpipolarClick::new();
         for (u, v) in PLACES_PX {
-            let found = model.find_match(&Point2::new(u, v));
-            assert!(matches!(found, Match::Visible(_)), "({u}, {v}): {found:?}");
+            let found = model.seen(&Point2::new(u, v));
+            assert!(matches!(found, Seen::Visible(_)), "({u}, {v}): {found:?}");
         }
     }
 
@@ -346,7 +312,7 @@ mod tests {
         let ends = |slider: &Slider| [slider.min, 0.5 * (slider.min + slider.max), slider.max];
         for right_m in ends(&BASELINE) {
             for forward_m in ends(&FORWARD) {
-                let [_, second] = geometry::cameras((right_m, forward_m, 0.0));
+                let [_, second] = still_life_pair(PHOTO_SIZE, right_m, forward_m, 0.0);
                 let small = Camera {
                     intrinsics: second.intrinsics.scaled(0.0125).unwrap(),
                     ..second
@@ -376,7 +342,7 @@ mod tests {
             model.update(&Event::clicked("first", x, 33.333)).unwrap();
         }
         assert_eq!(model.points().count(), MAX_POINTS);
-        assert_eq!(model.points[5], Some(Point2::new(30.0, 33.3)));
+        assert_eq!(model.points.places()[5], Point2::new(30.0, 33.3));
         assert_eq!(model.selected().unwrap().0, 5);
         model.update(&Event::press(REMOVE.id)).unwrap();
         assert_eq!(model.selected().unwrap().0, 4);

@@ -1,6 +1,5 @@
 //! Two photographs, points in the first, lines in the second.
 
-use super::geometry::Match;
 use super::model::EpipolarClick;
 use super::words::NO_BASELINE;
 use crate::canvas::{Canvas, Place, Stroke};
@@ -9,7 +8,7 @@ use crate::kit::geometry::Geometry;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line, series};
-use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, Seen};
 use crate::theme::Role;
 
 const MARKER: f64 = 5.5;
@@ -74,14 +73,11 @@ fn draw_first(
     canvas: &mut Canvas,
 ) {
     let mut labels = Labels::new(panel.rect);
-    if let Some(geometry) = geometry {
-        for (index, point) in model.points() {
-            if let Some(line) = geometry.line1(&point) {
-                let (role, _) = series(index);
-                let stroke = Stroke::solid(role, 1.25).dotted();
-                let (from, to) = draw_line(canvas, panel, &line, stroke);
-                labels.keep_line_free(from, to);
-            }
+    for (index, point) in model.points() {
+        if let Some(line) = geometry.and_then(|geometry| geometry.line1(&point)) {
+            let stroke = Stroke::solid(series(index).0, 1.25).dotted();
+            let (from, to) = draw_line(canvas, panel, &line, stroke);
+            labels.keep_line_free(from, to);
         }
     }
     for (index, point) in model.points() {
@@ -108,42 +104,35 @@ fn draw_second(
     canvas: &mut Canvas,
 ) {
     let mut labels = Labels::new(panel.rect);
-    if let Some(geometry) = geometry {
-        for (index, point) in model.points() {
-            if let Some(line) = geometry.line2(&point) {
-                let (role, _) = series(index);
-                let width = if is_selected(model, index) { 2.5 } else { 1.75 };
-                let stroke = Stroke::solid(role, width).cased();
-                let (from, to) = draw_line(canvas, panel, &line, stroke);
-                labels.keep_line_free(from, to);
-            }
+    for (index, point) in model.points() {
+        if let Some(line) = geometry.and_then(|geometry| geometry.line2(&point)) {
+            let width = if is_selected(model, index) { 2.5 } else { 1.75 };
+            let stroke = Stroke::solid(series(index).0, width).cased();
+            let (from, to) = draw_line(canvas, panel, &line, stroke);
+            labels.keep_line_free(from, to);
         }
     }
     let mut texts = Vec::new();
     for (index, point) in model.points() {
         let (role, shape) = series(index);
-        let found = model.find_match(&point);
+        let found = model.seen(&point);
         let Some(pixel) = found.pixel() else { continue };
         let place = panel.place_of(&pixel);
-        match found {
-            Match::Visible(_) | Match::Hidden(..) => {
-                draw_selection(model, index, place, canvas);
-                labels.keep_free(place, MARKER + 3.0);
-                if let Match::Hidden(_, by) = found {
-                    canvas.hollow_marker(place, MARKER, shape, role, true);
-                    texts.push((index, place, format!(" hidden by {by}")));
-                } else {
-                    canvas.marker(place, MARKER, shape, role, true);
-                    texts.push((index, place, String::new()));
-                }
+        if let Seen::Outside(_) = found {
+            if let Some((from, to)) = border_arrow(panel.rect, place) {
+                canvas.arrow(from, to, Stroke::solid(role, 2.5).cased());
+                texts.push((index, from, " is outside".to_owned()));
             }
-            Match::Outside(_) => {
-                if let Some((from, to)) = border_arrow(panel.rect, place) {
-                    canvas.arrow(from, to, Stroke::solid(role, 2.5).cased());
-                    texts.push((index, from, " is outside".to_owned()));
-                }
-            }
-            Match::Behind | Match::Nothing => {}
+            continue;
+        }
+        draw_selection(model, index, place, canvas);
+        labels.keep_free(place, MARKER + 3.0);
+        if let Seen::Hidden(_, by) = found {
+            canvas.hollow_marker(place, MARKER, shape, role, true);
+            texts.push((index, place, format!(" hidden by {by}")));
+        } else {
+            canvas.marker(place, MARKER, shape, role, true);
+            texts.push((index, place, String::new()));
         }
     }
     if let Some(geometry) = geometry {
@@ -155,9 +144,7 @@ fn draw_second(
 }
 
 fn is_selected(model: &EpipolarClick, index: usize) -> bool {
-    model
-        .selected()
-        .is_some_and(|(selected, _)| selected == index)
+    model.selected().map(|(selected, _)| selected) == Some(index)
 }
 
 /// A ring around the point that the readouts speak of.

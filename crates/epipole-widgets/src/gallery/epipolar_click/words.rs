@@ -1,11 +1,10 @@
 //! What `epipolar-click` says.
 
-use super::geometry::Match;
 use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::geometry::Geometry;
-use crate::kit::words::{self, pixel, side};
-use epipole::epipolar::Epipole;
+use crate::kit::scenes::Seen;
+use crate::kit::words::{self, matrix, pixel, short_epipole, side};
 
 /// What the figure says when both cameras stand at one place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
@@ -15,36 +14,29 @@ pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same p
 impl Words for EpipolarClick {
     fn readouts(&self) -> Vec<Readout> {
         let selected = self.selected();
-        let matched = selected.map(|(_, point)| self.find_match(&point));
-        let pixel2 = matched.and_then(Match::pixel);
+        let matched = selected.map(|(_, point)| self.seen(&point));
+        let pixel2 = matched.and_then(Seen::pixel);
         let geometry = self.geometry();
         let line = selected.zip(geometry);
         let line = line.and_then(|((_, point), geometry)| geometry.line2(&point));
         let distance = line.zip(pixel2);
         let distance = distance.map(|(line, pixel2)| line.signed_distance(&pixel2).abs());
+        let residual = Readout::number("residual", "Residual", distance, 3, "px");
         let say = |id, label, text: Option<String>| {
             Readout::words(id, label, text.unwrap_or("none".to_owned()))
         };
         let of = |get: fn(&Geometry) -> String| geometry.as_ref().map(get);
-        let [e1, e2] = [
-            of(|all| short(&all.epipole1)),
-            of(|all| short(&all.epipole2)),
-        ];
-        let f = of(|geometry| words::matrix(&geometry.fundamental));
-        let e = of(|geometry| words::matrix(&geometry.essential));
         let point = selected.map(|(index, point)| format!("{} at {}", index + 1, pixel(&point)));
         vec![
             say("match", "Its match", pixel2.as_ref().map(pixel)).main(),
-            Readout::number("residual", "Residual", distance, 3, "px")
-                .or("none")
-                .main(),
-            say("e2", "Epipole e′", e2).main(),
+            residual.or("none").main(),
+            say("e2", "Epipole e′", of(|all| short_epipole(&all.epipole2))).main(),
             say("point", "Selected point", point),
             say("sight", "Visible", matched.map(sight)),
             say("line", "Line ℓ′", line.as_ref().map(words::line)),
-            say("e1", "Epipole e", e1),
-            say("f", "F, by rows", f),
-            say("e", "E, by rows", e),
+            say("e1", "Epipole e", of(|all| short_epipole(&all.epipole1))),
+            say("f", "F, by rows", of(|all| matrix(&all.fundamental))),
+            say("e", "E, by rows", of(|all| matrix(&all.essential))),
         ]
     }
 
@@ -55,11 +47,8 @@ impl Words for EpipolarClick {
         let (right_m, forward_m, left_deg) = self.motion();
         let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
         let count = self.points().count();
-        let seen = self
-            .points()
-            .filter(|(_, point)| matches!(self.find_match(point), Match::Visible(_)))
-            .count();
-        let seen = match seen {
+        let is_seen = |(_, point): &(_, _)| matches!(self.seen(point), Seen::Visible(_));
+        let seen = match self.points().filter(is_seen).count() {
             0 => "none".to_owned(),
             all if all == count => "all".to_owned(),
             some => some.to_string(),
@@ -89,26 +78,14 @@ impl Words for EpipolarClick {
     }
 }
 
-/// An epipole, such as "(1273, 240)".
-fn short(epipole: &Epipole) -> String {
-    match epipole {
-        Epipole::Finite(place) => format!(
-            "({}, {})",
-            format_number(place.x, 0),
-            format_number(place.y, 0)
-        ),
-        Epipole::AtInfinity(_) => "at infinity".to_owned(),
-    }
-}
-
 /// Whether camera 2 sees a match, such as "no: the jug hides it".
-fn sight(found: Match) -> String {
+fn sight(found: Seen) -> String {
     match found {
-        Match::Visible(_) => "yes".to_owned(),
-        Match::Hidden(_, by) => format!("no: {by} hides it"),
-        Match::Outside(place) => format!("no: it is {}", side(&place)),
-        Match::Behind => "no: it is behind camera 2".to_owned(),
-        Match::Nothing => "no: camera 1 sees nothing there".to_owned(),
+        Seen::Visible(_) => "yes".to_owned(),
+        Seen::Hidden(_, by) => format!("no: {by} hides it"),
+        Seen::Outside(place) => format!("no: it is {}", side(&place)),
+        Seen::Behind => "no: it is behind camera 2".to_owned(),
+        Seen::Nothing => "no: camera 1 sees nothing there".to_owned(),
     }
 }
 

@@ -4,12 +4,12 @@
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    Space, Symbol, Value, format_number, knobs, round_to_digits,
+    Space, Symbol, format_number, knobs,
 };
 use crate::kit::geometry::symbols;
 use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::probe::{place_words, ranges};
+use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
 use epipole::camera::Camera;
 use epipole::epipolar::Epipole;
@@ -88,7 +88,10 @@ pub(super) const SUBJECT: Subject = Subject {
     middle: Point3::new(0.03, -0.22, -0.67),
     radius: 0.68,
 };
-const PIXEL: &str = "p";
+const PIXEL: Probe = Probe::new("p", "first", "p in photograph 1")
+    .over(PHOTO_SIZE)
+    .step(4.0)
+    .digits(DIGITS);
 const POINT: &str = "point";
 const CENTERS: [&str; 2] = ["camera1", "camera2"];
 /// Digits that places in the photograph and in the space are kept with.
@@ -136,33 +139,32 @@ impl EpipolarPlane {
     }
 
     /// Puts P somewhere.
-    fn put(&mut self, point: &Point3<f64>) -> Result<(), Problem> {
+    fn put(&mut self, point: &Point3<f64>) {
         if !point.coords.iter().all(|x| x.is_finite()) {
-            return Ok(());
+            return;
         }
         for (index, slider) in COORDINATES.into_iter().enumerate() {
             let inside = 0.99 * REACH_M;
-            let value = Value::Number(point[index].clamp(-inside, inside));
-            self.settings.set(slider.id, &value)?;
+            let value = point[index].clamp(-inside, inside);
+            self.settings.slide(slider, value);
         }
-        self.compute()
+        self.compute();
     }
 
     /// What follows from the places, and the slider that tells one of them.
-    fn compute(&mut self) -> Result<(), Problem> {
+    fn compute(&mut self) {
         let cameras = self.cameras();
         self.scenery = cameras.map(|cameras| Scenery::new(cameras, self.point()));
         if let Some(scenery) = &self.scenery {
-            let depth_m = scenery.depth_m().clamp(DEPTHS_M[0], DEPTHS_M[1]);
-            self.settings.set(DEPTH.id, &Value::Number(depth_m))?;
+            let depth_m = scenery.depth_m();
+            self.settings.slide(&DEPTH, depth_m);
         }
-        Ok(())
     }
 
     /// P slides along its ray to this depth.
-    fn slide(&mut self, depth_m: f64) -> Result<(), Problem> {
+    fn slide(&mut self, depth_m: f64) {
         let Some(scenery) = &self.scenery else {
-            return Ok(());
+            return;
         };
         let first = &scenery.cameras[0];
         let center = first.center_in_world();
@@ -171,7 +173,15 @@ impl EpipolarPlane {
             depth if depth > 1e-6 => (scenery.point - center) / depth,
             _ => first.ray_in_world(&first.intrinsics.principal_point()),
         };
-        self.put(&(center + ray * depth_m.clamp(DEPTHS_M[0], DEPTHS_M[1])))
+        self.put(&(center + ray * depth_m.clamp(DEPTHS_M[0], DEPTHS_M[1])));
+    }
+
+    /// P is what camera 1 sees at a pixel, if it sees anything there.
+    fn look_at(&mut self, u: f64, v: f64) {
+        let pixel = Point2::new(u, v);
+        if let Some(seen) = self.cameras().and_then(|pair| surface(&pair, &pixel)) {
+            self.put(&seen.point);
+        }
     }
 
     fn lens(&self) -> Option<Lens> {
@@ -179,17 +189,16 @@ impl EpipolarPlane {
     }
 
     /// A thing of the space takes the place under the pointer, as far as it can.
-    fn drag(&mut self, id: &str, place: (f64, f64)) -> Result<(), Problem> {
+    fn drag(&mut self, id: &str, place: (f64, f64)) {
         let Some(lens) = self.lens() else {
-            return Ok(());
+            return;
         };
         if let Some(index) = CENTERS.iter().position(|center| *center == id) {
             let Some(found) = lens.on_level(place, CAMERA_Y_M) else {
-                return Ok(());
+                return;
             };
             for (slider, value) in CAMERAS[index].into_iter().zip([found.x, found.z]) {
-                let value = value.clamp(slider.min, slider.max);
-                self.settings.set(slider.id, &Value::Number(value))?;
+                self.settings.slide(slider, value);
             }
             return self.put(&self.point());
         }
@@ -198,36 +207,31 @@ impl EpipolarPlane {
             let ray = (scenery.point - center) / scenery.depth_m();
             lens.along(place, &center, &ray)
         });
-        found.map_or(Ok(()), |depth_m| self.slide(depth_m))
-    }
-
-    fn handle(
-        &self,
-        (id, panel): (&str, &'static str),
-        (label, told): (&str, String),
-        (x, y): (f64, f64),
-        ranges: [[f64; 2]; 2],
-        step: f64,
-    ) -> Handle {
-        let keep =
-            |value: f64, [low, high]: [f64; 2]| round_to_digits(value.clamp(low, high), DIGITS);
-        let place = (keep(x, ranges[0]), keep(y, ranges[1]));
-        let handle = Handle::new(id, panel, label, place, ranges);
-        handle.told(told).step([step; 2], DIGITS)
+        if let Some(depth_m) = found {
+            self.slide(depth_m);
+        }
     }
 
     fn pixel_handle(&self, scenery: &Scenery) -> Handle {
         let middle = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) / 2.0;
         let pixel = scenery.pixels[0].unwrap_or(middle);
-        let place = (pixel.x, pixel.y);
-        let names = ("p in photograph 1", place_words(place, DIGITS));
-        self.handle((PIXEL, "first"), names, place, ranges(PHOTO_SIZE), 4.0)
+        let mut probe = PIXEL;
+        probe.put(pixel.x, pixel.y);
+        probe.handle().told(place_words((pixel.x, pixel.y), DIGITS))
     }
 
-    fn space_handle(&self, id: &str, label: &str, text: String, point: &Point3<f64>) -> Handle {
-        let place = self.lens().and_then(|lens| lens.place(point));
-        let place = place.unwrap_or_default();
-        self.handle((id, SPACE.panel), (label, text), place, [ACROSS, DOWN], 3.0)
+    fn space_handle(
+        &self,
+        id: &'static str,
+        label: &'static str,
+        text: String,
+        point: &Point3<f64>,
+    ) -> Handle {
+        let probe = Probe::new(id, SPACE.panel, label).within([ACROSS, DOWN]);
+        let mut probe = probe.step(3.0).digits(DIGITS);
+        let (x, y) = (self.lens().and_then(|lens| lens.place(point))).unwrap_or_default();
+        probe.put(x, y);
+        probe.handle().told(text)
     }
 }
 
@@ -249,8 +253,7 @@ impl Declared for EpipolarPlane {
         };
         let seen = model.cameras().and_then(|pair| surface(&pair, &START_PX));
         model.start = seen.map_or(model.start, |seen| seen.point);
-        // The places at the start are within all ranges.
-        let _ = model.compute();
+        model.compute();
         model
     }
 }
@@ -299,18 +302,18 @@ impl Model for EpipolarPlane {
         match event {
             Event::Set { id, value } => {
                 self.settings.set(id, value)?;
-                if id == DEPTH.id {
-                    return self.slide(self.settings.number(&DEPTH));
-                }
                 // Once P, or a camera that tells its depth, has moved, all three coordinates are said, so
                 // that a permalink restores exactly this.
                 let moves_camera = CAMERAS.as_flattened().iter().any(|slider| slider.id == id);
                 let is_put =
                     (COORDINATES.iter()).any(|slider| self.settings.number(slider) > -REACH_M);
-                if moves_camera || is_put {
-                    return self.put(&self.point());
+                if id == DEPTH.id {
+                    self.slide(self.settings.number(&DEPTH));
+                } else if moves_camera || is_put {
+                    self.put(&self.point());
+                } else {
+                    self.compute();
                 }
-                self.compute()
             }
             Event::HandleMoved { id, x, y } => {
                 // A place that is where the thing is already must not move it by what rounding left.
@@ -318,22 +321,15 @@ impl Model for EpipolarPlane {
                 if self.handles().iter().any(stays) {
                     return Ok(());
                 }
-                if id == PIXEL {
-                    let seen = self
-                        .cameras()
-                        .and_then(|pair| surface(&pair, &Point2::new(*x, *y)));
-                    return seen.map_or(Ok(()), |seen| self.put(&seen.point));
+                match id == PIXEL.id() {
+                    true => self.look_at(*x, *y),
+                    false => self.drag(id, (*x, *y)),
                 }
-                self.drag(id, (*x, *y))
             }
-            Event::Clicked { x, y, .. } => {
-                let seen = self
-                    .cameras()
-                    .and_then(|pair| surface(&pair, &Point2::new(*x, *y)));
-                seen.map_or(Ok(()), |seen| self.put(&seen.point))
-            }
-            _ => Ok(()),
+            Event::Clicked { x, y, .. } => self.look_at(*x, *y),
+            _ => {}
         }
+        Ok(())
     }
 }
 
@@ -365,7 +361,7 @@ const CHALLENGES: &[Challenge<EpipolarPlane>] = &[
         why: "The plane turns about the baseline only, and a point at the height of both cameras holds it \
               level.",
         check: |model| model.tilt_deg().is_some_and(|tilt| tilt.abs() <= 2.0),
-        solution: || vec![Event::moved(PIXEL, 320.0, 88.0)],
+        solution: || vec![Event::moved(PIXEL.id(), 320.0, 88.0)],
     },
     Challenge {
         id: "epipole-inside",

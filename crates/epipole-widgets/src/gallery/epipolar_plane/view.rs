@@ -12,12 +12,9 @@ use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, GAP, Grid, SMALL, TEXT, TITLE};
 use crate::kit::labels::Labels;
 use crate::kit::orbit::Orbit;
-use crate::kit::pair::{border_arrow, draw_epipole, draw_line};
-use crate::kit::photo::Photo;
-use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life};
+use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, in_picture};
 use crate::theme::{Rgb, Role};
-use epipole::camera::Camera;
-use image::RgbImage;
 use nalgebra::{Point2, Point3};
 
 const LIT: Role = Role::Series(3);
@@ -28,13 +25,13 @@ const FORMULA: f64 = 26.0;
 /// Draws [`EpipolarPlane`].
 #[derive(Default)]
 pub(crate) struct EpipolarPlaneView {
-    photos: [Photo; 2],
+    photos: Photos,
     cloud: Vec<(Point3<f64>, Rgb)>,
 }
 
 /// The space and the two photographs.
 fn cells(grid: &mut Grid, width: f64) -> (Rect, [Rect; 2]) {
-    let aspect = f64::from(PHOTO_HEIGHT) / f64::from(PHOTO_WIDTH);
+    let aspect = PHOTO_ASPECT;
     if grid::is_narrow(width) {
         let [space] = grid.row([SPACE_ASPECT], 400.0);
         return (space, grid.row([aspect; 2], 106.0));
@@ -77,18 +74,14 @@ impl View for EpipolarPlaneView {
             return grid::notice(canvas, space.rect, "A camera cannot stand there.");
         };
         let Self { photos, cloud } = self;
-        let scene = still_life();
-        let mut pictures: Vec<(&Camera, &RgbImage)> = Vec::new();
-        for (photo, camera) in photos.iter_mut().zip(&scenery.cameras) {
-            match photo.picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
-                Ok(picture) => pictures.push((camera, picture)),
-                Err(error) => return grid::notice(canvas, space.rect, &error.to_string()),
-            }
-        }
-        for (panel, (_, picture)) in [first, second].into_iter().zip(&pictures) {
+        let pictures = match photos.pictures(&scenery.cameras) {
+            Ok(pictures) => pictures,
+            Err(error) => return grid::notice(canvas, space.rect, &error.to_string()),
+        };
+        for (panel, picture) in [first, second].into_iter().zip(pictures) {
             canvas.photograph(panel.rect, picture);
         }
-        draw_space(model, scenery, cloud, &pictures, space, canvas);
+        draw_space(model, scenery, cloud, pictures, space, canvas);
         canvas.clipped(first.rect, |canvas| {
             draw_first(model, scenery, first, canvas)
         });
@@ -110,9 +103,7 @@ impl View for EpipolarPlaneView {
             self.cloud = cloud();
             return true;
         }
-        let scene = still_life();
-        let mut photos = self.photos.iter_mut().zip(&scenery.cameras);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+        self.photos.refine(&scenery.cameras)
     }
 }
 

@@ -3,9 +3,7 @@
 use super::model::{EpipolarPlane, Lit};
 use super::scenery::Scenery;
 use crate::contract::{Readout, Words, format_number};
-use crate::kit::words;
-use epipole::epipolar::Epipole;
-use nalgebra::Point2;
+use crate::kit::words::{self, whole_pixel};
 
 /// What the figure says without a baseline.
 pub(super) const NO_BASELINE: &str =
@@ -22,16 +20,22 @@ impl Words for EpipolarPlane {
         };
         let pixel = |id, label, index: usize| {
             let place = scenery.and_then(|scenery| scenery.pixels[index]);
-            let text = place.map_or("behind it".to_owned(), |place| short(&place));
+            let text = place.map_or("behind it".to_owned(), |place| whole_pixel(&place));
             Readout::words(id, label, text)
         };
         let of = |get: fn(&Scenery) -> Option<f64>| scenery.and_then(get);
         let epipole = |id, label, index: usize| {
             let text = scenery
                 .and_then(|scenery| scenery.geometry)
-                .map(|geometry| epipole(&[geometry.epipole1, geometry.epipole2][index]));
+                .map(|geometry| {
+                    words::short_epipole(&[geometry.epipole1, geometry.epipole2][index])
+                });
             Readout::words(id, label, text.unwrap_or_else(|| "none".to_owned()))
         };
+        let (before, baseline) = (
+            of(Scenery::before_surface_m),
+            scenery.map(Scenery::baseline_m),
+        );
         let from = self.orbit.seen_from();
         vec![
             number("tilt", "Plane tilt", self.tilt_deg(), 1, "°").main(),
@@ -39,20 +43,8 @@ impl Words for EpipolarPlane {
             pixel("p2", "Image p′", 1).main(),
             number("residual", "Residual", of(Scenery::residual_px), 3, "px").main(),
             Readout::words("lit", "Lit up", self.meaning()),
-            number(
-                "before",
-                "Before surface",
-                of(Scenery::before_surface_m),
-                2,
-                "m",
-            ),
-            number(
-                "baseline",
-                "Baseline",
-                scenery.map(Scenery::baseline_m),
-                2,
-                "m",
-            ),
+            number("before", "Before surface", before, 2, "m"),
+            number("baseline", "Baseline", baseline, 2, "m"),
             epipole("e1", "Epipole e", 0),
             epipole("e2", "Epipole e′", 1),
             Readout::words("seen", "Seen from", from),
@@ -71,7 +63,7 @@ impl Words for EpipolarPlane {
         };
         let tilt = plane.tilt_deg();
         let image = match scenery.pixels[1] {
-            Some(pixel) => format!("p′ is at {} on its line there", short(&pixel)),
+            Some(pixel) => format!("p′ is at {} on its line there", whole_pixel(&pixel)),
             None => "P is behind camera 2".to_owned(),
         };
         format!(
@@ -100,7 +92,8 @@ impl EpipolarPlane {
         let Some(scenery) = self.scenery() else {
             return none();
         };
-        let pixel = |index: usize| scenery.pixels[index].map_or_else(none, |pixel| short(&pixel));
+        let pixel =
+            |index: usize| scenery.pixels[index].map_or_else(none, |pixel| whole_pixel(&pixel));
         match self.lit() {
             Lit::Point => format!("p = {}, p′ = {}", pixel(0), pixel(1)),
             Lit::Baseline => format!("t is {} m long", format_number(scenery.baseline_m(), 2)),
@@ -110,25 +103,9 @@ impl EpipolarPlane {
             }),
             Lit::Line => scenery.lines()[1].map_or_else(none, |line| words::line(&line)),
             Lit::Epipole => scenery.geometry.map_or_else(none, |geometry| {
-                let [e1, e2] = [&geometry.epipole1, &geometry.epipole2].map(epipole);
+                let [e1, e2] = [&geometry.epipole1, &geometry.epipole2].map(words::short_epipole);
                 format!("e = {e1}, e′ = {e2}")
             }),
         }
-    }
-}
-
-/// A pixel, whole.
-pub(super) fn short(pixel: &Point2<f64>) -> String {
-    format!(
-        "({}, {})",
-        format_number(pixel.x, 0),
-        format_number(pixel.y, 0)
-    )
-}
-
-fn epipole(epipole: &Epipole) -> String {
-    match epipole {
-        Epipole::Finite(place) => short(place),
-        Epipole::AtInfinity(_) => "at infinity".to_owned(),
     }
 }

@@ -5,6 +5,7 @@ use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number, knobs,
 };
+use crate::kit::probe::Probe;
 use epipole::camera::RigidTransform;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
@@ -19,14 +20,24 @@ pub(super) const X_RANGE: [f64; 2] = [-1.6, 1.6];
 pub(super) const Z_RANGE: [f64; 2] = [-1.0, 1.2];
 /// At the start it is so much nearer to the house than camera 1 that every pose keeps all corners near:
 /// a corner as far from one camera as from the other goes to infinity in the half-turned ones.
-const PLACE: (f64, f64) = (-0.8, 0.6);
+const CAMERA_2: Probe = Probe::new("camera2", "first", "Camera 2")
+    .within([X_RANGE, Z_RANGE])
+    .step(0.1)
+    .digits(2)
+    .told(|(x, z)| {
+        let side = if x < 0.0 { "left" } else { "right" };
+        let way = if z < 0.0 { "behind" } else { "ahead" };
+        let [aside, along] = [x, z].map(|value| format_number(value.abs(), 2));
+        format!("{aside} to the {side}, {along} {way}")
+    })
+    .at(-0.8, 0.6);
 /// Farther away than this is as good as infinitely far, steps.
 const FAR: f64 = 20.0;
 
 /// The model of `four-poses`.
 pub(crate) struct FourPoses {
     settings: Settings,
-    pub(super) place: (f64, f64),
+    pub(super) camera2: Probe,
     found: epipole::Result<Ambiguity>,
 }
 
@@ -44,16 +55,7 @@ impl FourPoses {
     }
 
     fn refresh(&mut self) {
-        self.found = ambiguity(self.place, self.turn_deg());
-    }
-
-    /// Where camera 2 stands, seen from camera 1.
-    pub(super) fn place_words(&self) -> String {
-        let (x, z) = self.place;
-        let side = if x < 0.0 { "left" } else { "right" };
-        let way = if z < 0.0 { "behind" } else { "ahead" };
-        let length = |value: f64| format_number(value.abs(), 2);
-        format!("{} to the {side}, {} {way}", length(x), length(z))
+        self.found = ambiguity(self.camera2.place(), self.turn_deg());
     }
 }
 
@@ -75,8 +77,8 @@ impl Declared for FourPoses {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            place: PLACE,
-            found: ambiguity(PLACE, TURN.default),
+            camera2: CAMERA_2,
+            found: ambiguity(CAMERA_2.place(), TURN.default),
         }
     }
 }
@@ -87,16 +89,12 @@ impl Model for FourPoses {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let ranges = [X_RANGE, Z_RANGE];
-        let handle = Handle::new("camera2", "first", "Camera 2", self.place, ranges);
-        vec![handle.told(self.place_words()).step([0.1; 2], 2)]
+        vec![self.camera2.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        if let Event::HandleMoved { x, y, .. } = event {
-            self.place = (*x, *y);
-        }
+        self.camera2.update(event);
         self.refresh();
         Ok(())
     }
@@ -111,9 +109,8 @@ const CHALLENGES: &[Challenge<FourPoses>] = &[
               cameras, whatever the direction.",
         check: |model| {
             let first = model.poses().first();
-            model.place.0.abs() < 0.06
-                && model.place.1 > 0.5
-                && first.is_some_and(|pose| pose.num_in_front() > 0)
+            let (x, z) = model.camera2.place();
+            x.abs() < 0.06 && z > 0.5 && first.is_some_and(|pose| pose.num_in_front() > 0)
         },
         solution: || vec![Event::moved("camera2", 0.0, 1.0), Event::set(&TURN, 0.0)],
     },

@@ -6,7 +6,7 @@ use crate::canvas::{Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::border_arrow;
+use crate::kit::pair::{CAMERAS, border_arrow};
 use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3, Vector3};
@@ -18,10 +18,6 @@ const HALF_DEPTH: f64 = 3.9;
 const LOW: f64 = 150.0;
 /// How far before a camera its image plane is drawn.
 const LENS: f64 = 0.6;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const PANELS: [(&str, &str); 4] = [
     ("first", "R, t"),
     ("second", "R, −t"),
@@ -66,7 +62,7 @@ impl View for FourPosesView {
             }
         }
         let first = layout.panel(PANELS[0].0);
-        canvas.grip(first.canvas_from_world(model.place), Role::Grip);
+        canvas.grip(first.canvas_from_world(model.camera2.place()), Role::Grip);
         if model.poses().is_empty() {
             grid::notice(canvas, first.rect, "No step, no E: move camera 2.");
         }

@@ -17,7 +17,7 @@ impl Words for FourPoses {
             pose("third", "turned R, t", 2),
             pose("fourth", "turned R, −t", 3),
             Readout::count("matches", "Matches", all),
-            Readout::words("step", "Step", self.place_words()),
+            Readout::words("step", "Step", self.camera2.text()),
             Readout::number("turn", "Turn", self.turn_deg(), 0, "°"),
         ]
     }
@@ -39,7 +39,7 @@ impl Words for FourPoses {
              both cameras, the others {}. Camera 2 stands {}, turned by {}°.",
             self.num_matches(),
             others.join(", "),
-            self.place_words(),
+            self.camera2.text(),
             format_number(self.turn_deg(), 0)
         )
     }

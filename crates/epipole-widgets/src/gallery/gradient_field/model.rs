@@ -64,11 +64,16 @@ pub(super) struct Quality {
     pub(super) noise: f64,
 }
 
+/// At first on the edge whatever its angle, and not in the very middle.
+const PROBE: Probe = Probe::new("probe", "image", "Probe")
+    .over(GRID)
+    .at(11.0, 10.0);
+
 /// The model of `gradient-field`.
 pub(crate) struct GradientField {
     settings: Settings,
     own: Own<1>,
-    probe: Probe,
+    pub(super) probe: Probe,
     pub(super) orbit: Orbit,
     edge: Result<Field, String>,
     /// The still life, once it has been rendered.
@@ -125,20 +130,16 @@ impl GradientField {
         self.settings.flag(&SMOOTH).then(|| self.sigma_px())
     }
 
-    pub(super) fn probe_place(&self) -> (f64, f64) {
-        self.probe.place(self.size())
-    }
-
     /// The gradient under the probe.
     pub(super) fn probed(&self) -> Option<Arrow> {
         let field = self.field().ok()?;
-        Some(field.at(self.probe.pixel(field.size())))
+        Some(field.at(self.probe.pixel()))
     }
 
     /// Left and upper end of what is shown as a surface.
     pub(super) fn surface_from(&self) -> (u32, u32) {
         let (width, height) = self.size();
-        let (u, v) = self.probe.pixel((width, height));
+        let (u, v) = self.probe.pixel();
         let from = |at: u32, size: u32, part: u32| {
             at.saturating_sub(part / 2).min(size.saturating_sub(part))
         };
@@ -181,11 +182,9 @@ impl GradientField {
 
     /// Another image: nothing that is known is of it.
     fn begin(&mut self) {
-        let (width, height) = self.size();
         self.probe = match self.settings.chosen(&SOURCE) {
-            // On the edge whatever its angle, and not in the very middle.
-            0 => self.probe.at(11.0, 10.0),
-            _ => (self.probe).at(f64::from(width / 2), f64::from(height / 2)),
+            0 => PROBE,
+            _ => PROBE.in_middle(self.size()),
         };
         self.asked.forget();
         self.look();
@@ -206,7 +205,7 @@ impl Declared for GradientField {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
-            probe: Probe::new("probe", "image", "Probe"),
+            probe: PROBE,
             orbit: Orbit::new(-28.0, 38.0),
             edge: Err(String::new()),
             taken: None,
@@ -229,7 +228,7 @@ impl Model for GradientField {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let mut handles = vec![self.probe.handle(self.size(), 1.0)];
+        let mut handles = vec![self.probe.handle()];
         if self.beside() == Beside::Surface {
             handles.extend(self.orbit.handles());
         }
@@ -237,7 +236,7 @@ impl Model for GradientField {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.orbit.update(event)? || self.probe.update(event, self.size()) {
+        if self.orbit.update(event)? || self.probe.update(event) {
             return Ok(());
         }
         match self.settings.update(event)? {

@@ -2,10 +2,9 @@
 
 use super::field::Field;
 use crate::contract::{Problem, Progress};
-use crate::kit::picture::Picture;
+use crate::kit::picture::{Picture, gray_levels};
 use crate::kit::question::{self, tell};
 use crate::kit::scenes;
-use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
 use epipole::synthetic::still_life_camera;
 use serde::{Deserialize, Serialize};
 
@@ -52,8 +51,7 @@ impl question::Question for Question {
             }
             Source::Taken(picture) => picture.clone(),
         };
-        let mut levels = rgb_to_gray_f32(picture.image(), &BT601_WEIGHTS);
-        levels.pixels_mut().for_each(|pixel| pixel.0[0] *= 255.0);
+        let levels = gray_levels(picture.image());
         tell(progress, 0.95)?;
         let field = Field::new(&levels, self.smooth_px)?;
         Ok(Answer { picture, field })

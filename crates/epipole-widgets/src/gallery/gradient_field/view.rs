@@ -71,9 +71,7 @@ impl View for GradientFieldView {
         let (image, beside) = (&layout.panels[0], &layout.panels[1]);
         let narrow = grid::is_narrow(layout.width);
         grid::open(canvas, image, &["Image and gradient"]);
-        let entries = entries();
-        let top = layout.height - legend::height(&entries, layout.width, 0.0);
-        legend::draw(canvas, &entries, layout.width, 0.0, top);
+        legend::draw_last(canvas, &entries(), layout, 0.0, 0.0);
         let field = model.field();
         if let Ok(field) = field {
             match model.edge() {
@@ -166,7 +164,7 @@ fn draw_arrows(model: &GradientField, field: &Field, panel: &Panel, canvas: &mut
         let frame = Rect::new(a.0, a.1, b.0 - a.0, b.1 - a.1);
         canvas.stroke_rect(frame, Stroke::solid(Role::Grip, 1.5).cased());
     }
-    let place = panel.canvas_from_world(model.probe_place());
+    let place = panel.canvas_from_world(model.probe.place());
     if let Some(arrow) = model.probed() {
         let (_, to) = ends(&arrow, if is_edge { 2.6 } else { 3.5 });
         let (du, dv) = (to.0 - place.0, to.1 - place.1);

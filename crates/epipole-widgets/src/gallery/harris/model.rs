@@ -59,11 +59,17 @@ pub(super) struct Probed {
     pub(super) verdict: Verdict,
 }
 
+/// At first on a corner of the square.
+const PROBE: Probe = Probe::new("probe", "picture", "Probe")
+    .over(SQUARE_SIZE)
+    .step(2.0)
+    .at(150.0, 143.0);
+
 /// The model of `harris`.
 pub struct Harris {
     settings: Settings,
     own: Own<1>,
-    probe: Probe,
+    pub(super) probe: Probe,
     pub(super) asked: Asked<Question>,
 }
 
@@ -75,10 +81,6 @@ impl Harris {
             1 => STILL_LIFE_SIZE,
             _ => self.own.get(0).map_or(SQUARE_SIZE, |own| own.size()),
         }
-    }
-
-    pub(super) fn probe_place(&self) -> (f64, f64) {
-        self.probe.place(self.size())
     }
 
     pub(super) fn threshold_percent(&self) -> f64 {
@@ -102,7 +104,7 @@ impl Harris {
 
     pub(super) fn probe(&self) -> Option<Probed> {
         let (question, answer) = self.asked.answered()?;
-        let tensor = question.tensor(answer, self.probe.pixel(answer.picture.size()))?;
+        let tensor = question.tensor(answer, self.probe.pixel())?;
         let (lambda1, lambda2) = tensor.eigenvalues();
         let response = tensor.harris(f64::from(question.k));
         let verdict = if response >= f64::from(self.threshold(answer)) {
@@ -139,11 +141,9 @@ impl Harris {
 
     /// Another picture: nothing that is known is of it.
     fn begin(&mut self) {
-        let (width, height) = self.size();
         self.probe = match self.settings.chosen(&SOURCE) {
-            // On a corner of the square.
-            0 => self.probe.at(150.0, 143.0),
-            _ => (self.probe).at(f64::from(width / 2), f64::from(height / 2)),
+            0 => PROBE,
+            _ => PROBE.in_middle(self.size()),
         };
         self.asked.forget();
         self.ask();
@@ -163,7 +163,7 @@ impl Declared for Harris {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
-            probe: Probe::new("probe", "picture", "Probe"),
+            probe: PROBE,
             asked: Asked::default(),
         };
         model.begin();
@@ -177,11 +177,11 @@ impl Model for Harris {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(self.size(), 2.0)]
+        vec![self.probe.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.probe.update(event, self.size()) {
+        if self.probe.update(event) {
             return Ok(());
         }
         match self.settings.update(event)? {

@@ -5,8 +5,8 @@ use super::question::Answer;
 use crate::canvas::{Canvas, Stroke};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid};
-use crate::kit::heat::{self, Fill, Heat};
-use crate::theme::{Role, Theme, mix};
+use crate::kit::heat::{self, Fill, Heat, Signed};
+use crate::theme::{Role, Theme};
 use image::RgbImage;
 
 /// A tall photograph must not push everything else off the screen.
@@ -49,7 +49,7 @@ impl View for HarrisView {
         for panel in [picture, response] {
             canvas.clipped(panel.rect, |canvas| {
                 draw_corners(canvas, panel, model);
-                let place = panel.canvas_from_world(model.probe_place());
+                let place = panel.canvas_from_world(model.probe.place());
                 let half = question.window_px as f64 / 2.0 * panel.scale_x();
                 let window = Rect::around(place, half);
                 canvas.stroke_rect(window, Stroke::solid(Role::Grip, 1.5).cased());
@@ -79,16 +79,12 @@ fn draw_corners(canvas: &mut Canvas, panel: &Panel, model: &Harris) {
 
 /// Warm where R is positive, cool and striped where it is negative.
 fn colored(answer: &Answer, theme: Theme) -> RgbImage {
-    let [zero, warm, cool] =
-        [Role::Surface, Role::Outlier, Role::Candidate].map(|role| theme.color(role));
-    let strongest = answer.strongest();
+    let (colors, strongest) = (Signed::of(theme), answer.strongest());
     RgbImage::from_fn(answer.response.width(), answer.response.height(), |u, v| {
         let relative = answer.response.get_pixel(u, v).0[0] / strongest;
         // The fourth root shows weak responses beside strong ones.
         let strength = relative.abs().min(1.0).sqrt().sqrt();
-        let is_faint = relative < 0.0 && heat::is_stripe(u, v);
-        let share = if is_faint { strength * 0.45 } else { strength };
-        image::Rgb(mix(zero, if relative < 0.0 { cool } else { warm }, share))
+        image::Rgb(colors.at((u, v), relative < 0.0, strength, 0.45))
     })
 }
 

@@ -42,7 +42,7 @@ impl Words for Harris {
             Verdict::Corner => "a corner",
         };
         let corners = self.corners().len();
-        let (u, v) = self.probe_place();
+        let (u, v) = self.probe.place();
         format!(
             "{corners} {} above {} % of the strongest response. The probe at column {u}, row {v} is \
              on {what}: λ₁ is {}, λ₂ is {}, R is {} million.",

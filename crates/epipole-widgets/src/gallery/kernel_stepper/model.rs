@@ -31,7 +31,7 @@ const ALONG: Choice = Choice::new(
     "Along",
     &[("u", "u, to the right"), ("v", "v, down")],
 );
-const BORDER: Choice = Choice::new(
+pub(super) const BORDER: Choice = Choice::new(
     "border",
     "Beyond the border",
     &[
@@ -62,12 +62,15 @@ static KNOBS: &[Knob] = knobs![
     KERNEL, ALONG, BORDER, PIXELS, WEIGHTS[0], WEIGHTS[1], WEIGHTS[2], WEIGHTS[3], WEIGHTS[4],
     WEIGHTS[5], WEIGHTS[6], WEIGHTS[7], WEIGHTS[8], DIVIDE,
 ];
+const WINDOW: Probe = Probe::new("window", "pixels", "Window")
+    .over(SIZE)
+    .at(3.0, 2.0);
 const NEXT: Button = Button::new("next", "Next pixel", ButtonRole::Step);
 
 /// The model of `kernel-stepper`.
 pub(crate) struct KernelStepper {
-    settings: Settings,
-    window: Probe,
+    pub(super) settings: Settings,
+    pub(super) window: Probe,
     image: GrayImage32,
     /// The sum of products at every pixel.
     sums: Result<GrayImage32, String>,
@@ -95,26 +98,14 @@ impl KernelStepper {
 
     /// The label of the kernel, and the axis along which it measures, if it does.
     pub(super) fn names(&self) -> (&'static str, Option<&'static str>) {
-        let kernel = self.settings.chosen(&KERNEL);
-        let along = ALONG.options[self.settings.chosen(&ALONG)].0;
-        (KERNEL.options[kernel].1, (kernel < 3).then_some(along))
+        let measures = self.settings.chosen(&KERNEL) < 3;
+        let along = ["u", "v"][self.settings.chosen(&ALONG)];
+        (self.settings.label(&KERNEL), measures.then_some(along))
     }
 
     pub(super) fn border(&self) -> Border {
-        match self.settings.chosen(&BORDER) {
-            0 => Border::Replicate,
-            1 => Border::Reflect101,
-            _ => Border::Constant(0.0),
-        }
-    }
-
-    pub(super) fn border_name(&self) -> &'static str {
-        BORDER.options[self.settings.chosen(&BORDER)].1
-    }
-
-    /// The pixel in the middle of the window: column and row.
-    pub(super) fn pixel(&self) -> (u32, u32) {
-        self.window.pixel(SIZE)
+        let borders = [Border::Replicate, Border::Reflect101, Border::Constant(0.0)];
+        borders[self.settings.chosen(&BORDER)]
     }
 
     /// The gray level at a place of the image or beyond its border.
@@ -124,7 +115,7 @@ impl KernelStepper {
 
     /// The nine gray levels in the window, in rows.
     pub(super) fn window(&self) -> [f32; 9] {
-        let (u, v) = self.pixel();
+        let (u, v) = self.window.pixel();
         std::array::from_fn(|index| {
             let (column, row) = (index as i32 % 3 - 1, index as i32 / 3 - 1);
             self.level(u as i32 + column, v as i32 + row)
@@ -167,7 +158,7 @@ impl Declared for KernelStepper {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            window: Probe::new("window", "pixels", "Window").at(3.0, 2.0),
+            window: WINDOW,
             image: pixels::image(false),
             sums: Err(String::new()),
         };
@@ -190,11 +181,11 @@ impl Model for KernelStepper {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.window.handle(SIZE, 1.0)]
+        vec![self.window.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.window.update(event, SIZE) {
+        if self.window.update(event) {
             return Ok(());
         }
         if let Some(id) = self.settings.update(event)? {
@@ -204,7 +195,7 @@ impl Model for KernelStepper {
             self.filter();
         }
         if *event == Event::press(NEXT.id) {
-            let (u, v) = self.pixel();
+            let (u, v) = self.window.pixel();
             let next = (v * SIZE.0 + u + 1) % (SIZE.0 * SIZE.1);
             let (u, v) = (next % SIZE.0, next / SIZE.0);
             self.window = self.window.at(f64::from(u), f64::from(v));
@@ -222,7 +213,8 @@ const CHALLENGES: &[Challenge<KernelStepper>] = &[
               looks flat. Every border invents a slope.",
         check: |model| {
             let chosen = [&KERNEL, &ALONG].map(|choice| model.settings.chosen(choice));
-            chosen == [0, 0] && model.pixel().0 == 0 && model.answer(model.pixel()) == 0.0
+            let pixel = model.window.pixel();
+            chosen == [0, 0] && pixel.0 == 0 && model.answer(pixel) == 0.0
         },
         solution: || {
             vec![
@@ -318,7 +310,7 @@ mod tests {
         model.update(&Event::moved("window", 6.0, 5.0)).unwrap();
         for expected in [(7, 5), (0, 0), (1, 0)] {
             model.update(&Event::press("next")).unwrap();
-            assert_eq!(model.pixel(), expected);
+            assert_eq!(model.window.pixel(), expected);
             let products = model.window().into_iter().zip(model.kernel().weights);
             let sum: f32 = products.map(|(level, weight)| level * weight).sum();
             assert_eq!(f64::from(sum), model.sum(expected));

@@ -1,10 +1,9 @@
 //! F by the core's eight-point algorithm from matches of which one is wrong, and what that does to the
 //! others.
 
-use crate::kit::matches::Match;
+use crate::kit::matches::{Match, distance_px};
 use epipole::Error;
-use epipole::epipolar::{epipolar_line2, fundamental_8point_explained};
-use epipole::math::Line2;
+use epipole::epipolar::fundamental_8point_explained;
 use nalgebra::{Matrix3, Point2, Vector2};
 
 /// F, and how it treats the matches.
@@ -32,9 +31,9 @@ impl Fit {
         let (pixels1, pixels2): (Vec<_>, Vec<_>) = used.copied().unzip();
         let found = fundamental_8point_explained(&pixels1, &pixels2)?;
         let fundamental = found.fundamental;
-        let distance = |pair: &Match| distance_px(&fundamental, pair);
+        let distance = |pair: &Match| distance_px(&fundamental, pair).unwrap_or(0.0);
         let distances: Vec<f64> = truth.iter().map(distance).collect();
-        let wrong_px = distance_px(&fundamental, wrong);
+        let wrong_px = distance(wrong);
         Ok(Self {
             fundamental,
             singular_values: found.singular_values,
@@ -44,15 +43,6 @@ impl Fit {
             wrong_px,
         })
     }
-}
-
-/// The line of a pixel of photograph 1; `None` for the epipole itself.
-pub(super) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
-    epipolar_line2(fundamental, pixel1).ok()
-}
-
-fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> f64 {
-    line2(fundamental, pixel1).map_or(0.0, |line| line.signed_distance(pixel2).abs())
 }
 
 /// How far the curve leads the wrong match away, pixels, and in how many steps.

@@ -1,15 +1,15 @@
 //! Matches of the still life, the first of them dragged to a wrong place.
 
-use super::fit::{Fit, led_away, line2};
+use super::fit::{Fit, led_away};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
-    Toggle, format_number, knobs, round_to_digits,
+    Toggle, format_number, knobs,
 };
 use crate::kit::geometry::match_symbols;
-use crate::kit::matches::{Match, Matches, cameras};
-use crate::kit::probe::{place_words, ranges};
+use crate::kit::matches::{Match, Matches, cameras, line2};
+use crate::kit::probe::Probe;
 use crate::kit::scenes::PHOTO_SIZE;
-use epipole::epipolar::{epipolar_line2, fundamental_from_cameras};
+use epipole::epipolar::fundamental_from_cameras;
 use nalgebra::{Point2, Vector2};
 
 /// True matches; the wrong one comes on top.
@@ -26,16 +26,19 @@ const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
 const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = knobs![COUNT, HEARD, NOISE, SEED];
 
-const WRONG: &str = "wrong";
+const WRONG: Probe = Probe::new("wrong", "second", "Wrong match")
+    .over(PHOTO_SIZE)
+    .step(5.0)
+    .digits(1);
 /// Where the wrong match is at first, seen from where it belongs, pixels.
 const AWAY_PX: Vector2<f64> = Vector2::new(30.0, 130.0);
-const DIGITS: usize = 1;
 
 /// Matches with the wrong one, and F from them.
 pub(super) struct State {
     pub(super) truth: Vec<Match>,
     /// The match before it was dragged.
     pub(super) right: Match,
+    put: Probe,
     pub(super) wrong: Match,
     /// As the toggle wants it, and from the true matches alone.
     pub(super) fit: Fit,
@@ -48,7 +51,7 @@ pub(crate) struct OutlierDrag {
     settings: Settings,
     matches: Matches,
     /// Where the reader has put it.
-    put: Option<Point2<f64>>,
+    put: Option<Probe>,
     state: Result<State, String>,
 }
 
@@ -77,24 +80,25 @@ impl OutlierDrag {
         let count = self.settings.count(&COUNT) + 1;
         let mut truth = self.matches.noisy(count, self.settings.number(&NOISE));
         let right = truth.remove(0);
-        let put = self.put.unwrap_or_else(|| inside(right.1 + AWAY_PX));
-        let wrong = (right.0, put);
+        let put = self.put.unwrap_or_else(|| near(&(right.1 + AWAY_PX)));
+        let wrong = (right.0, put.point());
         Ok(State {
             fit: Fit::new(&truth, &wrong, self.is_heard())?,
             without: Fit::new(&truth, &wrong, false)?,
             led: led_away(&truth, &right, &wrong.1),
             truth,
             right,
+            put,
             wrong,
         })
     }
 }
 
-/// The place within the photograph, with the handle's digits.
-fn inside(place: Point2<f64>) -> Point2<f64> {
-    let [u, v] = ranges(PHOTO_SIZE);
-    let inside = Point2::new(place.x.clamp(u[0], u[1]), place.y.clamp(v[0], v[1]));
-    inside.map(|x| round_to_digits(x, DIGITS))
+/// The wrong match as near to a place as it can be.
+fn near(place: &Point2<f64>) -> Probe {
+    let mut wrong = WRONG;
+    wrong.put(place.x, place.y);
+    wrong
 }
 
 impl Declared for OutlierDrag {
@@ -126,11 +130,9 @@ impl Model for OutlierDrag {
         let Ok(state) = &self.state else {
             return Vec::new();
         };
-        let place = (state.wrong.1.x, state.wrong.1.y);
         let away = format_number(self.away_px(), 0);
-        let told = format!("{}, {away} px from where it belongs", place_words(place, 0));
-        let handle = Handle::new(WRONG, "second", "Wrong match", place, ranges(PHOTO_SIZE));
-        vec![handle.told(told).step([5.0; 2], DIGITS)]
+        let told = format!("{}, {away} px from where it belongs", state.put.text());
+        vec![state.put.handle().told(told)]
     }
 
     /// Those of the wrong match.
@@ -150,7 +152,7 @@ impl Model for OutlierDrag {
                 self.put = None;
             }
             (Some(_), _) => {}
-            (None, Event::HandleMoved { x, y, .. }) => self.put = Some(Point2::new(*x, *y)),
+            (None, Event::HandleMoved { x, y, .. }) => self.put = Some(near(&Point2::new(*x, *y))),
             _ => return Ok(()),
         }
         self.compute();
@@ -164,12 +166,12 @@ fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
     let (pixel1, pixel2) = model.state.ok()?.right;
     let [first, second] = cameras();
     let fundamental = fundamental_from_cameras(&first, &second).ok()?;
-    let line = epipolar_line2(&fundamental, &pixel1).ok()?;
+    let line = line2(&fundamental, &pixel1)?;
     let on = line.nearest(&pixel2);
     let along = Vector2::new(-line.b, line.a) * away_px;
     let ends = [on + along, on - along];
     ends.into_iter()
-        .find(|place| inside(*place) == place.map(|x| round_to_digits(x, DIGITS)))
+        .find(|place| (near(place).point() - place).amax() < 0.1)
 }
 
 const CHALLENGES: &[Challenge<OutlierDrag>] = &[
@@ -198,7 +200,7 @@ const CHALLENGES: &[Challenge<OutlierDrag>] = &[
             model.is_heard() && model.away_px() >= 80.0 && mean <= 1.5
         },
         solution: || {
-            let moved = |place: Point2<f64>| Event::moved(WRONG, place.x, place.y);
+            let moved = |place: Point2<f64>| Event::moved(WRONG.id(), place.x, place.y);
             along_its_line(90.0).map(moved).into_iter().collect()
         },
     },
@@ -223,7 +225,9 @@ mod tests {
     #[test]
     fn another_seed_has_another_match_to_drag() {
         let mut model = OutlierDrag::new();
-        model.update(&Event::moved(WRONG, 100.0, 100.0)).unwrap();
+        model
+            .update(&Event::moved(WRONG.id(), 100.0, 100.0))
+            .unwrap();
         assert_eq!(model.state().unwrap().wrong.1, Point2::new(100.0, 100.0));
         for seed in [2.0, 50.0, 99.0] {
             model.update(&Event::set(&SEED, seed)).unwrap();

@@ -1,13 +1,13 @@
 //! Both photographs with the matches and the lines of F; beside them the singular values, and how far the
 //! true matches are from their lines as the wrong one is led away.
 
-use super::fit::{Fit, REACH_PX, line2};
+use super::fit::{Fit, REACH_PX};
 use super::model::{OutlierDrag, State};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::matches::cameras;
+use crate::kit::matches::{cameras, line2};
 use crate::kit::pair::{Photos, draw_line};
 use crate::kit::plot::{self, List, Ruler};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
@@ -29,8 +29,7 @@ pub(crate) struct OutlierDragView {
 }
 
 fn value_rulers() -> [Ruler; 2] {
-    let names = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
-    [Ruler::things(names), Ruler::decades(-3.0, 1.3)]
+    [Ruler::things(plot::SIGMAS), Ruler::decades(-3.0, 1.3)]
 }
 
 fn led_rulers() -> [Ruler; 2] {

@@ -3,7 +3,6 @@
 use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, Problem, Settings,
-    Value,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -104,8 +103,7 @@ impl Model for PatchMatch {
         if let Event::Clicked { panel, .. } = event {
             for (round, names) in OPTIONS.iter().enumerate() {
                 if let Some(option) = names.iter().position(|name| name == panel) {
-                    let letter = Value::from(LETTERS[option + 1].0);
-                    self.settings.set(PICKS[round].id, &letter)?;
+                    self.settings.choose(&PICKS[round], option + 1);
                 }
             }
         }

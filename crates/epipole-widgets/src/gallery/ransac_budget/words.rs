@@ -12,13 +12,13 @@ impl Words for RansacBudget {
             ("n7", "F, s = 7"),
             ("n8", "F, s = 8"),
         ];
-        let percent = 100.0 * self.inlier_ratio;
-        let mut readouts = vec![Readout::number("w", "Inlier ratio", percent, 0, "%").main()];
+        let ratio = Readout::percent("w", "Inlier ratio", self.inlier_ratio, 0);
+        let mut readouts = vec![ratio.main()];
         for ((id, label), size) in LABELS.into_iter().zip(SIZES) {
             let count = Readout::number(id, label, self.now(size) as f64, 0, "");
             // The cheapest, one in the middle and the dearest carry the point.
             let is_main = [2, 4, 8].contains(&size);
-            readouts.push(if is_main { count.main() } else { count });
+            readouts.push(count.main_if(is_main));
         }
         readouts
     }

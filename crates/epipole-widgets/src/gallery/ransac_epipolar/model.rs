@@ -7,7 +7,7 @@ use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
 use super::votes::{Best, LeftOpen, Moment, Voters, Votes};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
-    Problem, Settings, Slider, Symbol, Toggle, Value, knobs,
+    Problem, Settings, Slider, Symbol, Toggle, knobs,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
@@ -57,8 +57,11 @@ const SLOTS: &[PhotoSlot] = &pair_slots(640);
 /// Smaller photographs have no features to speak of.
 const MIN_SIDE_PX: u32 = 32;
 const SAMPLES_PER_SECOND: f64 = 8.0;
-/// Where the probe is at first: on the jug of the still life.
-const PROBE: (f64, f64) = (244.0, 170.0);
+/// At first on the jug of the still life.
+const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
+    .over(STILL_LIFE_SIZE)
+    .step(4.0)
+    .at(244.0, 170.0);
 
 /// What is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,8 +99,7 @@ impl RansacEpipolar {
 
     /// A place in photograph 1, pixels.
     pub(super) fn probe(&self) -> Point2<f64> {
-        let (u, v) = self.probe.place(self.sizes()[0]);
-        Point2::new(u, v)
+        self.probe.point()
     }
 
     /// The matches that pass the ratio test; those that have voted, if any have.
@@ -180,6 +182,7 @@ impl RansacEpipolar {
     /// Asks for the matches of the present photographs.
     fn ask(&mut self) {
         self.running.stop();
+        self.probe = self.probe.over(self.sizes()[0]);
         self.votes.forget();
         self.matched.forget();
         match (self.settings.chosen(&SOURCE), self.own.all()) {
@@ -207,12 +210,10 @@ impl RansacEpipolar {
     }
 
     /// Draws to so many samples in all. The number asked for is kept: other rules may need more.
-    fn draw_to(&mut self, count: usize) -> Result<(), Problem> {
-        let value = Value::Number(count.min(MAX_SAMPLES) as f64);
-        self.settings.set(ITERATIONS.id, &value)?;
+    fn draw_to(&mut self, count: usize) {
+        self.settings.slide(&ITERATIONS, count as f64);
         self.running
             .stop_if(self.votes().is_none() || self.is_finished());
-        Ok(())
     }
 
     /// How many voters of the best F are right, where the truth is known.
@@ -243,7 +244,7 @@ impl Declared for RansacEpipolar {
             matched: Asked::default(),
             votes: Asked::default(),
             running: Running::at(SAMPLES_PER_SECOND),
-            probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE.0, PROBE.1),
+            probe: PROBE,
         };
         model.ask();
         model
@@ -260,7 +261,7 @@ impl Model for RansacEpipolar {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(self.sizes()[0], 4.0)]
+        vec![self.probe.handle()]
     }
 
     /// Those of one of the elected matches.
@@ -274,12 +275,12 @@ impl Model for RansacEpipolar {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.probe.update(event, self.sizes()[0]) {
+        if self.probe.update(event) {
             return Ok(());
         }
         let (drawn, is_finished) = (self.num_samples(), self.is_finished());
         if let Some(count) = self.running.update(event, drawn, is_finished) {
-            return self.draw_to(count);
+            self.draw_to(count);
         }
         match self.settings.update(event)? {
             Some(id) if id == SOURCE.id => self.ask(),

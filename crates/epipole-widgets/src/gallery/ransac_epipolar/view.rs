@@ -6,7 +6,7 @@ use crate::canvas::{Canvas, Place, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, GAP, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
-use crate::kit::pair::draw_line;
+use crate::kit::pair::{draw_line, spread};
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
 
@@ -54,13 +54,11 @@ impl View for RansacEpipolarView {
 
     fn layout(&self, model: &RansacEpipolar, width: f64) -> Layout {
         let sizes = model.sizes();
-        let aspect = |(columns, rows): (u32, u32)| f64::from(rows) / f64::from(columns);
         let mut grid = Grid::new(width);
-        let [left, right] = grid.row(sizes.map(aspect), TALLEST);
+        let [left, right] = grid.row(sizes.map(grid::aspect), TALLEST);
         grid.strip(GAP / 2.0 + legend::height(&legend_of(model), width, 0.0));
-        let [(width1, height1), (width2, height2)] = sizes;
-        let first = Panel::photograph("first", left, (width1, height1)).clickable();
-        let second = Panel::photograph("second", right, (width2, height2));
+        let first = Panel::photograph("first", left, sizes[0]).clickable();
+        let second = Panel::photograph("second", right, sizes[1]);
         grid.layout(vec![first, second])
     }
 
@@ -107,12 +105,6 @@ fn ends(model: &RansacEpipolar, [first, second]: [&Panel; 2]) -> Vec<Ends> {
     places.collect()
 }
 
-/// At most `count` of a list, evenly from all of it.
-fn thinned<T: Copy>(list: &[T], count: usize) -> Vec<T> {
-    let every = list.len().div_ceil(count.max(1)).max(1);
-    list.iter().step_by(every).copied().collect()
-}
-
 fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas: &mut Canvas) {
     let ends = ends(model, panels);
     let Some(best) = model.best() else {
@@ -140,8 +132,8 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
     let is_small = side < 250.0;
     let radius = if is_small { 1.75 } else { 2.5 };
     for (group, stroke, _) in &groups[..num_groups] {
-        for [from, to] in thinned(group, num_connected) {
-            canvas.line(from, to, *stroke);
+        for [from, to] in spread(group, num_connected) {
+            canvas.line(*from, *to, *stroke);
         }
     }
     for (group, stroke, shape) in &groups[..num_groups] {
@@ -158,7 +150,7 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
     };
     let matches = model.matches();
     let indices: Vec<usize> = (0..matches.len()).filter(|&k| best.is_inlier[k]).collect();
-    let chosen = thinned(&indices, NUM_LINES);
+    let chosen: Vec<usize> = spread(&indices, NUM_LINES).copied().collect();
     canvas.clipped(panels[1].rect, |canvas| {
         for (k, &index) in chosen.iter().enumerate() {
             if let Ok(line) = epipolar_line2(&best.fundamental, &matches[index].pixel1()) {

@@ -41,17 +41,14 @@ impl Words for RansacEpipolar {
         let words = |id, label, value: Option<String>| {
             Readout::words(id, label, value.unwrap_or_else(|| WAITING.to_owned()))
         };
+        let now = last.map(|trial| of(trial.num_votes));
         let [drawn, needed] = Drawn::readouts(self.drawn(), WAITING);
         let mut readouts = vec![
             words("best", "Best votes", best.map(|best| of(best.num_votes))).main(),
             Readout::words("right", "Right inliers", right).main(),
             drawn.main(),
             needed.main(),
-            words(
-                "inliers",
-                "Votes now",
-                last.map(|trial| of(trial.num_votes)),
-            ),
+            words("inliers", "Votes now", now),
         ];
         if let Some(best) = best {
             let (label, unit) = ("Mean Sampson", "px");
@@ -92,7 +89,7 @@ impl Words for RansacEpipolar {
             Show::Outliers => " Outliers are shown.",
             Show::Lines => " Epipolar lines are shown.",
         };
-        let open = left_open(self).map_or_else(String::new, |sentence| format!(" {sentence}"));
+        let open = words::after(left_open(self).as_deref());
         format!(
             "After {}, {} of {num_matches} matches agree on one F within {} px{right}. Their mean \
              Sampson distance is {} px. {}{show}{open}",

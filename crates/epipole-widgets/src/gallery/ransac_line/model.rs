@@ -3,9 +3,9 @@
 use super::question::{MAX_SAMPLES, Question, Runs, kind};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
-    Toggle, Value, knobs,
+    Toggle, knobs,
 };
-use crate::kit::line_points::{COUNT, EPSILON, Scatter, angle_between_deg, places_of};
+use crate::kit::line_points::{COUNT, EPSILON, Scatter, angle_between_deg};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
@@ -90,12 +90,7 @@ impl RansacLine {
             local_optimization: self.settings.flag(&LOCAL),
         };
         let count = self.settings.count(&ITERATIONS);
-        let tally = Tally::new(
-            &places_of(&self.scattered.points),
-            self.scattered.truth,
-            rules,
-            count,
-        );
+        let tally = Tally::new(&self.scattered.points, self.scattered.truth, rules, count);
         self.tally = tally.map_err(|error| format!("There are no samples: {error}."));
         self.asked.ask(Question {
             outlier_ratio: self.settings.number(&OUTLIERS),
@@ -105,13 +100,11 @@ impl RansacLine {
     }
 
     /// Draws to so many samples, of the last of which this much has happened.
-    fn run_to(&mut self, count: usize, phase: f64) -> Result<(), Problem> {
-        let count = Value::Number(count.min(MAX_SAMPLES) as f64);
-        self.settings.set(ITERATIONS.id, &count)?;
-        self.settings.set(PHASE.id, &Value::Number(phase))?;
+    fn run_to(&mut self, count: usize, phase: f64) {
+        self.settings.slide(&ITERATIONS, count as f64);
+        self.settings.slide(&PHASE, phase);
         self.compute();
         self.running.stop_if(self.drawn().1);
-        Ok(())
     }
 }
 
@@ -151,24 +144,23 @@ impl Model for RansacLine {
             Event::Tick { dt_s } => {
                 let phase = (self.phase() + dt_s * SAMPLES_PER_SECOND).min(1.0);
                 if phase < 1.0 {
-                    self.settings.set(PHASE.id, &Value::Number(phase))?;
-                    return Ok(());
+                    self.settings.slide(&PHASE, phase);
+                } else if self.running.is_running() && !is_finished {
+                    self.run_to(drawn + 1, 0.0);
+                } else {
+                    self.settings.slide(&PHASE, 1.0);
                 }
-                if self.running.is_running() && !is_finished {
-                    return self.run_to(drawn + 1, 0.0);
-                }
-                self.settings.set(PHASE.id, &Value::Number(1.0))?;
             }
             Event::Press { .. } => {
                 let was_running = self.running.is_running();
                 let next = self.running.update(event, drawn, is_finished);
-                if self.running.is_running() && !was_running {
+                let from = next.unwrap_or(drawn);
+                match self.running.is_running() && !was_running {
                     // The first sample does not wait.
-                    let from = next.unwrap_or(drawn);
-                    return self.run_to(from + 1, 0.0);
+                    true => self.run_to(from + 1, 0.0),
+                    // What a reader steps to is there at once, and what is stopped is complete.
+                    false => self.run_to(from, 1.0),
                 }
-                // What a reader steps to is there at once, and what is stopped is complete.
-                return self.run_to(next.unwrap_or(drawn), 1.0);
             }
             Event::Set { id, value } => {
                 if self.settings.set(id, value)? != Some(true) || id == PHASE.id {

@@ -1,7 +1,7 @@
 //! A hundred runs of each kind on points of their own.
 
 use crate::contract::{Problem, Progress};
-use crate::kit::line_points::{angle_between_deg, places_of, scatter};
+use crate::kit::line_points::{angle_between_deg, scatter};
 use crate::kit::question::{self, tell};
 use crate::kit::samples::{Rules, inliers_of};
 use epipole::Error;
@@ -66,7 +66,7 @@ impl Runs {
 impl Question {
     fn run(&self, seed: u64, msac: bool, local: bool) -> Result<Run, Error> {
         let scattered = scatter(seed, self.count, self.outlier_ratio);
-        let places = places_of(&scattered.points);
+        let places = &scattered.points;
         let rules = Rules {
             epsilon_px: self.epsilon_px,
             seed,
@@ -74,8 +74,8 @@ impl Question {
             msac,
             local_optimization: local,
         };
-        let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(&places, is));
-        let (line, num_samples) = rules.run(LineEstimator::new(&places)?, refit)?;
+        let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(places, is));
+        let (line, num_samples) = rules.run(LineEstimator::new(places)?, refit)?;
         Ok(Run {
             error_deg: angle_between_deg(&line, &scattered.truth),
             num_samples,

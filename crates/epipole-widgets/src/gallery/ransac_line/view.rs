@@ -71,10 +71,6 @@ fn cells(grid: &mut Grid, width: f64) -> [Rect; 3] {
     [plane, tally, runs]
 }
 
-fn legend_height(width: f64) -> f64 {
-    legend::height(&LEGEND, width, 0.0) + 4.0
-}
-
 impl View for RansacLineView {
     type Model = RansacLine;
     const ASPECT: Aspect = Aspect::Broad;
@@ -82,7 +78,7 @@ impl View for RansacLineView {
     fn layout(&self, model: &RansacLine, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let [plane, tally, runs] = cells(&mut grid, width);
-        grid.strip(legend_height(width));
+        grid.strip(legend::height(&LEGEND, width, 0.0) + 4.0);
         let ([x, y], [error, kinds]) = (tally_rulers(model), run_rulers());
         grid.layout(vec![
             line_plane::panel("plane", plane),
@@ -107,8 +103,7 @@ impl View for RansacLineView {
         ];
         let runs = plot::open(canvas, layout, "runs", &titles, &run_rulers());
         draw_runs(model, runs, canvas);
-        let top = layout.height - legend_height(layout.width);
-        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
+        legend::draw_last(canvas, &LEGEND, layout, 0.0, 4.0);
         match model.tally() {
             Ok(counted) => {
                 canvas.clipped(plane.rect.inset(1.0), |canvas| {
@@ -134,7 +129,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     let region_rect = panel.rect_between((region.x, region.y), (region.right(), region.bottom()));
     let good = scattered.points.len() - scattered.num_outliers.min(scattered.points.len());
     let outliers = scattered.points.iter().skip(good);
-    let in_region = outliers.filter(|point| region.contains((point.place.x, point.place.y)));
+    let in_region = outliers.filter(|point| region.contains((point.x, point.y)));
     let num_in_region = in_region.count();
     if num_in_region > 0 {
         let stroke = Stroke::solid(Role::Outlier, 1.25).dashed();
@@ -167,7 +162,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     }
     let radius = (panel.scale_x() * 4.5).clamp(2.5, 4.5);
     for (index, point) in scattered.points.iter().enumerate() {
-        let place = panel.place_of(&point.place);
+        let place = panel.place_of(point);
         let banded = candidate.filter(|_| phase >= BANDED);
         draw_point(
             canvas,
@@ -256,7 +251,7 @@ fn draw_flight(
         if share <= 0.0 || share >= 1.0 {
             continue;
         }
-        let from = plane.place_of(&point.place);
+        let from = plane.place_of(point);
         let to = panel.canvas_from_world((drawn as f64, index as f64 + 0.5));
         canvas.disk(between(from, to, share), 3.5, Role::Inlier, 1.0);
     }

@@ -6,16 +6,15 @@
 
 use super::fits::Fits;
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Value,
-    format_number, knobs, round_to_digits,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    format_number, knobs,
 };
-use crate::kit::line_points::{
-    COUNT, DIGITS, DataPoint, EPSILON, HEIGHT_PX, Scatter, WIDTH_PX, places_of,
-};
+use crate::kit::line_points::{COUNT, DIGITS, EPSILON, HEIGHT_PX, Scatter, WIDTH_PX};
+use crate::kit::points::{Points, number_of};
+use crate::kit::probe::Probe;
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
 use epipole::math::Line2;
-use nalgebra::Point2;
 
 const MAX_SAMPLES: usize = 500;
 const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
@@ -30,6 +29,17 @@ const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .hidden();
 const KNOBS: &[Knob] = knobs![OUTLIERS, EPSILON, COUNT, SEED, ITERATIONS];
 
+/// What the handles of all points have in common.
+const POINT: Probe = Probe::new("p", "plane", "Point #")
+    .within([[0.0, WIDTH_PX], [0.0, HEIGHT_PX]])
+    .step(10.0)
+    .digits(DIGITS)
+    .told(|(x, y)| {
+        let [across, down] = [x, y].map(|value| format_number(value, 0));
+        format!("{across} px across, {down} px down")
+    });
+/// Two points are a line.
+const FEWEST: usize = 2;
 const MAX_ADDED: usize = 24;
 const SAMPLES_PER_SECOND: f64 = 4.0;
 
@@ -37,7 +47,7 @@ const SAMPLES_PER_SECOND: f64 = 4.0;
 pub struct RansacRace {
     settings: Settings,
     truth: Line2,
-    pub(super) points: Vec<DataPoint>,
+    pub(super) points: Points,
     pub(super) fits: Fits,
     running: Running,
 }
@@ -54,38 +64,26 @@ impl RansacRace {
 
     /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
     /// for is kept: other data may need more of them.
-    fn run_to(&mut self, iterations: usize) -> Result<(), Problem> {
-        let value = Value::Number(iterations.min(MAX_SAMPLES) as f64);
-        self.settings.set(ITERATIONS.id, &value)?;
+    fn run_to(&mut self, iterations: usize) {
+        self.settings.slide(&ITERATIONS, iterations as f64);
         self.compute();
         self.running.stop_if(self.fits.is_finished());
-        Ok(())
     }
 
-    fn index_of(&self, id: &str) -> Option<usize> {
-        let number = number_of(id)?;
-        self.points.iter().position(|point| point.number == number)
-    }
-
-    fn add(&mut self, number: usize, u: f64, v: f64) -> bool {
-        let added = self.points.iter().filter(|point| point.added).count();
-        if added >= MAX_ADDED || self.points.iter().any(|point| point.number == number) {
+    /// Adds a point unless there are enough; those that were there at first have the numbers up to COUNT.
+    fn add(&mut self, number: usize, x: f64, y: f64) -> bool {
+        let num_drawn = self.settings.count(&COUNT);
+        let added = self.points.iter().filter(|point| point.number > num_drawn);
+        if added.count() >= MAX_ADDED || self.points.has(number) {
             return false;
         }
-        let [u, v] = [u, v].map(|value| round_to_digits(value, DIGITS));
-        let point = DataPoint {
-            number,
-            place: Point2::new(u, v),
-            added: true,
-        };
-        let at = self.points.partition_point(|other| other.number < number);
-        self.points.insert(at, point);
+        self.points.put(number, x, y);
         self.compute();
         true
     }
 }
 
-fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
+fn fit_as(settings: &Settings, truth: Line2, points: &Points) -> Fits {
     let rules = Rules {
         epsilon_px: settings.number(&EPSILON),
         seed: settings.count(&SEED) as u64,
@@ -95,12 +93,13 @@ fn fit_as(settings: &Settings, truth: Line2, points: &[DataPoint]) -> Fits {
         local_optimization: false,
     };
     let count = settings.count(&ITERATIONS);
-    Fits::new(&places_of(points), truth, rules, count)
+    Fits::new(&points.places(), truth, rules, count)
 }
 
-fn number_of(id: &str) -> Option<usize> {
-    let number: usize = id.strip_prefix('p')?.parse().ok()?;
-    (id == format!("p{number}")).then_some(number)
+/// The hidden line, and points that the reader may drag.
+fn scattered(settings: &Settings) -> (Line2, Points) {
+    let Scatter { truth, points, .. } = Scatter::by(settings, &SEED, &OUTLIERS);
+    (truth, Points::new(POINT, FEWEST, points))
 }
 
 impl Declared for RansacRace {
@@ -113,7 +112,7 @@ impl Declared for RansacRace {
 
     fn new() -> Self {
         let settings = Settings::new(KNOBS);
-        let Scatter { truth, points, .. } = Scatter::by(&settings, &SEED, &OUTLIERS);
+        let (truth, points) = scattered(&settings);
         Self {
             fits: fit_as(&settings, truth, &points),
             settings,
@@ -133,51 +132,27 @@ impl Model for RansacRace {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let ranges = [[0.0, WIDTH_PX], [0.0, HEIGHT_PX]];
-        let handle = |point: &DataPoint| {
-            let (x, y) = (point.place.x, point.place.y);
-            let [id, label] = ["p", "Point "].map(|name| format!("{name}{}", point.number));
-            let [across, down] = [x, y].map(|value| format_number(value, 0));
-            Handle::new(id, "plane", label, (x, y), ranges)
-                .told(format!("{across} px across, {down} px down"))
-                .step([10.0; 2], DIGITS)
-                .removable_if(self.points.len() > 2)
-        };
-        self.points.iter().map(handle).collect()
+        self.points.handles()
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         let (drawn, is_finished) = (self.fits.num_samples(), self.fits.is_finished());
         if let Some(count) = self.running.update(event, drawn, is_finished) {
-            return self.run_to(count);
+            self.run_to(count);
         }
         if let Some(id) = self.settings.update(event)? {
             if [OUTLIERS.id, COUNT.id, SEED.id].contains(&id) {
                 // What the reader had moved or added is gone.
-                let scattered = Scatter::by(&self.settings, &SEED, &OUTLIERS);
-                (self.truth, self.points) = (scattered.truth, scattered.points);
+                (self.truth, self.points) = scattered(&self.settings);
             }
-            self.run_to(self.settings.count(&ITERATIONS))?;
+            self.run_to(self.settings.count(&ITERATIONS));
         }
-        match event {
-            Event::HandleMoved { id, x, y } => {
-                if let Some(index) = self.index_of(id) {
-                    self.points[index].place = Point2::new(*x, *y);
-                    self.compute();
-                }
-            }
-            Event::HandleRemoved { id } => {
-                if let Some(index) = self.index_of(id) {
-                    self.points.remove(index);
-                    self.compute();
-                }
-            }
-            Event::Clicked { x, y, .. } => {
-                // Points are in the order of their numbers.
-                let last = self.points.last().map_or(0, |point| point.number);
-                self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
-            }
-            _ => {}
+        if let Event::Clicked { x, y, .. } = event {
+            let last = self.points.iter().last().map_or(0, |point| point.number);
+            self.add(last.max(self.settings.count(&COUNT)) + 1, *x, *y);
+        }
+        if self.points.update(event).is_some() {
+            self.compute();
         }
         Ok(())
     }
@@ -336,7 +311,7 @@ mod tests {
         let mut model = after(&[Event::set(&OUTLIERS, 0.8), Event::set(&ITERATIONS, 25.0)]);
         let budget = model.fits.drawn().unwrap().budget;
         assert!(budget.unwrap() > 100 && model.fits.ending().is_none());
-        model.run_to(MAX_SAMPLES).unwrap();
+        model.run_to(MAX_SAMPLES);
         assert!(model.fits.num_samples() > 100);
         assert_eq!(model.fits.ending(), Some(Ending::Right));
         // With a wide band a wrong line wins, and the figure says so.

@@ -18,14 +18,17 @@ const MUTUAL: Toggle = Toggle::new("mutual", "Mutual check");
 const KNOBS: &[Knob] = knobs![RATIO, MUTUAL];
 /// So little below τ, a match is the next to go.
 const BRINK: f32 = 0.05;
-/// Where the probe is at first: on the fringe of the cloth.
-const PROBE: (f64, f64) = (217.0, 324.0);
+/// At first on the fringe of the cloth.
+const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
+    .over(SIZE)
+    .step(4.0)
+    .at(217.0, 324.0);
 
 /// The model of `ratio-test`.
 pub(crate) struct RatioTest {
     settings: Settings,
     pub(super) asked: Asked<Question>,
-    probe: Probe,
+    pub(super) probe: Probe,
     /// Precision against recall, from the smallest τ to the largest; without the mutual check, then with it.
     pub(super) curves: [Vec<Tally>; 2],
 }
@@ -48,14 +51,10 @@ impl RatioTest {
         candidate.ratio >= self.rules().max_ratio - BRINK
     }
 
-    pub(super) fn probe_place(&self) -> (f64, f64) {
-        self.probe.place(SIZE)
-    }
-
     /// The feature of photograph 1 nearest to the probe, and its match.
     pub(super) fn probed(&self) -> Option<(usize, &Candidate)> {
         let answer = self.asked.answer()?;
-        let (u, v) = self.probe_place();
+        let (u, v) = self.probe.place();
         let distance = |index: &usize| {
             let [x, y] = answer.spots[0][*index].place;
             libm::hypot(x - u, y - v)
@@ -90,7 +89,7 @@ impl Declared for RatioTest {
         Self {
             settings: Settings::new(KNOBS),
             asked: Asked::about(Question),
-            probe: Probe::new("probe", "first", "Probe in photograph 1").at(PROBE.0, PROBE.1),
+            probe: PROBE,
             curves: Default::default(),
         }
     }
@@ -102,11 +101,11 @@ impl Model for RatioTest {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(SIZE, 4.0)]
+        vec![self.probe.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        self.probe.update(event, SIZE);
+        self.probe.update(event);
         self.settings.update(event).map(|_| ())
     }
 

@@ -54,7 +54,7 @@ impl View for RatioTestView {
 
     fn layout(&self, _: &RatioTest, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let [x, y] = rulers();
         let (photographs, curve, patches);
         if grid::is_broad(width) {
@@ -88,8 +88,7 @@ impl View for RatioTestView {
         let photographs = grid::open_all(canvas, layout, titles);
         let titles = ["Precision against recall", "Precision"];
         let curve = plot::open(canvas, layout, "curve", &titles, &rulers());
-        let bottom = layout.height - 1.0 - legend::height(&LEGEND, layout.width, 0.0);
-        legend::draw(canvas, &LEGEND, layout.width, 0.0, bottom);
+        legend::draw_last(canvas, &LEGEND, layout, 0.0, 1.0);
         let Some(answer) = model.asked.answer() else {
             return grid::notice(canvas, photographs[0].rect, model.asked.stand_in());
         };
@@ -242,7 +241,7 @@ impl RatioTestView {
                 canvas.marker(place, 4.0, shape, role, true);
             }
         }
-        let probe = layout.panel("first").canvas_from_world(model.probe_place());
+        let probe = layout.panel("first").canvas_from_world(model.probe.place());
         let [u, v] = three[0].0.place;
         let feature = layout.panel("first").canvas_from_world((u, v));
         canvas.line(probe, feature, Stroke::solid(Role::Grip, 1.5).cased());

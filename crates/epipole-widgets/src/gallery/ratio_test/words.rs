@@ -2,6 +2,8 @@
 
 use super::model::RatioTest;
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::words::whole_pixel;
+use nalgebra::Point2;
 
 /// Stands for a number until there is one.
 const WAITING: &str = "none yet";
@@ -26,17 +28,14 @@ impl Words for RatioTest {
         };
         let [kept, right, precision, recall] = names;
         let percent = |(id, label), share: Option<f64>| {
-            let percent = share.map(|share| 100.0 * share);
-            Readout::number(id, label, percent, 0, "%")
-                .or("no match")
-                .main()
+            Readout::percent(id, label, share, 0).or("no match").main()
         };
         let [near, far] = found.distances.map(f64::from);
         let is_right = if found.is_right { "right" } else { "wrong" };
         let is_kept = kept_or_not(self.rules().keep(found));
         let verdict = format!("{is_right}, {is_kept}");
         let [u, v] = answer.spots[0][index].place;
-        let place = format!("({}, {})", format_number(u, 0), format_number(v, 0));
+        let place = whole_pixel(&Point2::new(u, v));
         vec![
             Readout::count(kept.0, kept.1, tally.num_kept).main(),
             Readout::count(right.0, right.1, tally.num_right).main(),

@@ -3,7 +3,7 @@
 use super::turned::{Turned, Way};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, Symbol,
-    Value, knobs,
+    knobs,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{in_picture, still_life};
@@ -198,18 +198,14 @@ impl Model for Rectify {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self
-            .settings
-            .update(event)?
-            .is_some_and(|id| id != MATCH.id)
-        {
+        let changed = self.settings.update(event)?;
+        if changed.is_some_and(|id| id != MATCH.id) {
             self.compute();
         }
         if let Event::Clicked { panel, x, y } = event
             && let Some(index) = self.nearest(panel, Point2::new(*x, *y))
         {
-            let number = Value::Number(index as f64 + 1.0);
-            self.settings.set(MATCH.id, &number)?;
+            self.settings.slide(&MATCH, index as f64 + 1.0);
         }
         Ok(())
     }

@@ -6,31 +6,24 @@ use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::draw_line;
-use crate::kit::photo::Photo;
+use crate::kit::pair::{CAMERAS, Photos, draw_line};
 use crate::kit::plan::{self, PlanCamera};
-use crate::kit::scenes::{PHOTO_SIZE, still_life};
+use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 use epipole::homography::transfer;
 use image::RgbImage;
 use nalgebra::{Matrix3, Point2};
 
 const MARKER: f64 = 4.5;
-/// Height over width of the photographs.
-const ASPECT: f64 = 0.75;
 /// The match that the reader follows.
 const LIT: Role = Role::Series(3);
 /// How far in front of the centers the image planes are drawn, meters.
 const IMAGE_M: f64 = 0.42;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 
 /// Draws [`Rectify`].
 #[derive(Default)]
 pub(crate) struct RectifyView {
-    photos: [Photo; 2],
+    photos: Photos,
 }
 
 impl View for RectifyView {
@@ -40,11 +33,11 @@ impl View for RectifyView {
     fn layout(&self, _: &Rectify, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let (pictures, top) = if grid::is_broad(width) {
-            let [first, second, top] = grid.row([ASPECT, ASPECT, 0.9], 404.0);
+            let [first, second, top] = grid.row([PHOTO_ASPECT, PHOTO_ASPECT, 0.9], 404.0);
             ([first, second], top)
         } else {
             let low = if grid::is_narrow(width) { 180.0 } else { 190.0 };
-            let pictures = grid.row([ASPECT; 2], 254.0);
+            let pictures = grid.row([PHOTO_ASPECT; 2], 254.0);
             let [top] = grid.shares([1.0], low);
             (pictures, top)
         };
@@ -68,10 +61,9 @@ impl View for RectifyView {
             Ok(state) => state,
             Err(sentence) => return grid::notice(canvas, panels[0].rect, sentence),
         };
-        let scene = still_life();
         for (index, panel) in panels.into_iter().enumerate() {
             let camera = &state.turned.taken[index];
-            match self.photos[index].picture(&scene, camera, [0.0; 3], PHOTO_SIZE) {
+            match self.photos.picture(index, camera) {
                 Ok(picture) => canvas.clipped(panel.rect, |canvas| {
                     let homography = &state.turned.shown_from_taken[index];
                     draw_picture(canvas, panel, homography, picture);
@@ -87,12 +79,8 @@ impl View for RectifyView {
     }
 
     fn refine(&mut self, model: &Rectify) -> bool {
-        let Ok(state) = model.state() else {
-            return false;
-        };
-        let scene = still_life();
-        let mut photos = self.photos.iter_mut().zip(&state.turned.taken);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))
+        let state = model.state();
+        state.is_ok_and(|state| self.photos.refine(&state.turned.taken))
     }
 }
 
@@ -174,9 +162,8 @@ fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canva
         labels.keep_free(place, size + 2.0);
     }
     if let Some((_, shown)) = model.selected() {
-        let style = TextStyle::new(Role::Ink, TEXT).cased();
-        let around = Labels::around(at(&shown.pixels[index]), 9.0);
-        labels.draw(canvas, &around, ["p", "p′"][index], style);
+        let mark = (at(&shown.pixels[index]), 9.0);
+        labels.name(canvas, mark, ["p", "p′"][index], (Role::Ink, TEXT));
     }
 }
 
@@ -253,8 +240,7 @@ fn draw_top(model: &Rectify, state: &State, panel: &Panel, canvas: &mut Canvas) 
     }
     if let Some(place) = chosen.map(at) {
         canvas.marker(place, MARKER, Shape::Diamond, LIT, true);
-        let style = TextStyle::new(Role::Ink, TEXT).cased();
-        labels.draw(canvas, &Labels::around(place, 8.0), "P", style);
+        labels.name(canvas, (place, 8.0), "P", (Role::Ink, TEXT));
     }
     let (from, to) = (at(cameras[0].0), at(cameras[1].0));
     let beyond = to.0 + 40.0;

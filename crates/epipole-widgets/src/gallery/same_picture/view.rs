@@ -1,10 +1,11 @@
 //! Both photographs, and between them the table from above.
 
 use super::model::{CENTER2_M, FOCALS_PX, RANGE_M, RIGHT, SIZE, SamePicture};
-use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
+use crate::canvas::{Align, Canvas, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::kit::photo::Photo;
 use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
@@ -12,11 +13,7 @@ use epipole::camera::Camera;
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector2};
 
-const ASPECT: f64 = SIZE.1 as f64 / SIZE.0 as f64;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
+const ASPECT: f64 = grid::aspect(SIZE);
 /// The mug's radius over its height.
 const ROUND: f64 = 0.41;
 /// How far in front of the centers the image planes are drawn, meters.
@@ -183,8 +180,7 @@ fn draw_pixel(
         _ => canvas.hollow_marker(place, 4.5, shape, role, true),
     }
     labels.keep_free(place, 6.0);
-    let style = TextStyle::new(role, TEXT).cased();
-    labels.draw(canvas, &Labels::around(place, 8.0), name, style);
+    labels.name(canvas, (place, 8.0), name, (role, TEXT));
 }
 
 fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {

@@ -1,20 +1,17 @@
 //! The house and its cameras in space, before and now, and the two photographs.
 
 use super::model::{ScaleAmbiguity, World};
-use crate::canvas::{Canvas, Place, Shape, Stroke};
+use crate::canvas::{Canvas, Place, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid};
 use crate::kit::house::{House, SIZE};
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::CAMERAS;
 use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::Point3;
 
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const PHOTOS: [&str; 2] = ["first", "second"];
 /// The picture that a camera's frustum carries stands so far before it, in widths of the house.
 const PICTURE_DEPTH: f64 = 0.55;
@@ -22,10 +19,6 @@ const PICTURE_DEPTH: f64 = 0.55;
 const BEFORE: Stroke = Stroke::solid(Role::Reference, 1.5).dashed();
 const NOW: Stroke = Stroke::solid(Role::Best, 2.0);
 const LEGEND: [Entry; 2] = [(Swatch::Line(BEFORE), "before"), (Swatch::Line(NOW), "now")];
-
-fn legend_height(width: f64) -> f64 {
-    legend::height(&LEGEND, width, 0.0) + 4.0
-}
 
 /// Draws [`ScaleAmbiguity`].
 #[derive(Default)]
@@ -36,7 +29,7 @@ impl View for ScaleAmbiguityView {
     const ASPECT: Aspect = Aspect::Broad;
 
     fn layout(&self, _: &ScaleAmbiguity, width: f64) -> Layout {
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let mut grid = Grid::new(width);
         let (space, photos) = if grid::is_broad(width) {
             let [space, first, second] = grid.row([0.84, aspect, aspect], 400.0);
@@ -46,7 +39,7 @@ impl View for ScaleAmbiguityView {
             let [space] = grid.shares([1.0], height);
             (space, grid.row([aspect; 2], 160.0))
         };
-        grid.strip(legend_height(width));
+        grid.strip(legend::height(&LEGEND, width, 0.0) + 4.0);
         let photograph = |(id, rect)| Panel::photograph(id, rect, SIZE);
         let mut panels = vec![Orbit::panel(space)];
         panels.extend(PHOTOS.into_iter().zip(photos).map(photograph));
@@ -59,8 +52,7 @@ impl View for ScaleAmbiguityView {
         for (id, title) in PHOTOS.into_iter().zip(["Photograph 1", "Photograph 2"]) {
             grid::open(canvas, layout.panel(id), &[title]);
         }
-        let top = layout.height - legend_height(layout.width);
-        legend::draw(canvas, &LEGEND, layout.width, 0.0, top);
+        legend::draw_last(canvas, &LEGEND, layout, 0.0, 4.0);
         let worlds = (
             model.house(),
             model.world([1.0, 1.0]),
@@ -98,10 +90,8 @@ fn draw_space(
     };
     space.ground(&subject.middle, 0.4, 1.0, 8);
     for (world, stroke) in [(was, BEFORE), (is, NOW)] {
-        for wire in &house.wires {
-            for pair in wire.windows(2) {
-                space.line(&world.points[pair[0]], &world.points[pair[1]], stroke);
-            }
+        for [from, to] in house.pieces() {
+            space.line(&world.points[from], &world.points[to], stroke);
         }
     }
     for (index, camera) in is.cameras.iter().enumerate() {

@@ -5,7 +5,7 @@ mod map;
 use super::model::ScaleDrift;
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View};
-use crate::kit::grid::{self, Grid, TITLE};
+use crate::kit::grid::{self, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::plot::{self, Ruler, decade};
 use crate::theme::Role;
@@ -100,14 +100,7 @@ impl View for ScaleDriftView {
 fn draw_plot(model: &ScaleDrift, [plot, track]: [&Panel; 2], canvas: &mut Canvas) {
     let [x, y] = rulers(model);
     plot::draw_axes(canvas, plot, &x, &y);
-    let Rect {
-        x: left,
-        y: top,
-        width,
-        ..
-    } = plot.rect;
-    let above = Rect::new(left - plot::LEFT, top, width + plot::LEFT, TITLE);
-    grid::fitting_title(canvas, above, &["Scale of each frame", "Scale"]);
+    plot::title_from_left(canvas, plot, &["Scale of each frame", "Scale"]);
     let places = |scales: &[f64]| -> Vec<(f64, f64)> {
         let scales = scales.iter().enumerate();
         scales

@@ -15,8 +15,11 @@ const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .digits(1)
     .unit("px");
 const KNOBS: &[Knob] = knobs![SIGMA];
-/// Where the probe is at first: on the shaded side of an orange.
-const PROBE: (f64, f64) = (186.0, 275.0);
+/// At first on the shaded side of an orange.
+const PROBE: Probe = Probe::new("probe", "photograph", "Probe")
+    .over(SIZE)
+    .step(4.0)
+    .at(186.0, 275.0);
 
 /// The blur at which a place answers most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,16 +33,12 @@ pub(super) struct Extremum {
 pub(crate) struct ScaleSpace {
     settings: Settings,
     pub(super) asked: Asked<Question>,
-    probe: Probe,
+    pub(super) probe: Probe,
 }
 
 impl ScaleSpace {
     pub(super) fn sigma_px(&self) -> f64 {
         self.settings.number(&SIGMA)
-    }
-
-    pub(super) fn place(&self) -> (f64, f64) {
-        self.probe.place(SIZE)
     }
 
     /// The layer whose blur is nearest to the slider's.
@@ -52,7 +51,7 @@ impl ScaleSpace {
     /// The answers at the probe: blur in pixels and difference in gray levels, by growing blur.
     pub(super) fn answers(&self) -> Vec<(f64, f64)> {
         let layers = self.asked.answer().map_or(&[][..], |answer| &answer.layers);
-        let place = self.place();
+        let place = self.probe.place();
         layers
             .iter()
             .map(|layer| (layer.sigma_px, layer.at(place)))
@@ -103,7 +102,7 @@ impl Declared for ScaleSpace {
         Self {
             settings: Settings::new(KNOBS),
             asked: Asked::about(Question),
-            probe: Probe::new("probe", "photograph", "Probe").at(PROBE.0, PROBE.1),
+            probe: PROBE,
         }
     }
 }
@@ -114,11 +113,11 @@ impl Model for ScaleSpace {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(SIZE, 4.0)]
+        vec![self.probe.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        self.probe.update(event, SIZE);
+        self.probe.update(event);
         self.settings.update(event).map(|_| ())
     }
 

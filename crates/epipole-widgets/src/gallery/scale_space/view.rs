@@ -6,10 +6,10 @@ use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::features::SIZE;
 use crate::kit::grid::{self, GAP, Grid, SMALL};
-use crate::kit::heat::{self, Fill, Heat};
+use crate::kit::heat::{self, Fill, Heat, Signed};
 use crate::kit::labels::Labels;
 use crate::kit::plot::{self, Ruler, decade};
-use crate::theme::{Role, Theme, mix};
+use crate::theme::{Role, Theme};
 use image::{Rgb, RgbImage};
 
 const COUNT: usize = NUM_OCTAVES * NUM_LAYERS;
@@ -43,7 +43,7 @@ impl View for ScaleSpaceView {
 
     fn layout(&self, model: &ScaleSpace, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let [x, y] = rulers(&model.answers());
         let (pictures, curve);
         if grid::is_broad(width) {
@@ -104,7 +104,7 @@ impl View for ScaleSpaceView {
         let color = || std::array::from_fn(|k| colored(&answer.layers[k], theme, SMALLER));
         let maps = self.small.maps(version, theme, color);
         draw_layers(canvas, layers.rect, answer, maps, shown);
-        let place = model.place();
+        let place = model.probe.place();
         for panel in [photograph, difference] {
             canvas.clipped(panel.rect, |canvas| {
                 let at = panel.canvas_from_world(place);
@@ -125,15 +125,14 @@ impl View for ScaleSpaceView {
 /// Warm where the difference is positive, cool and striped where it is negative; one in so many
 /// samples.
 fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
-    let [zero, warm, cool] =
-        [Role::Surface, Role::Outlier, Role::Candidate].map(|role| theme.color(role));
+    let colors = Signed::of(theme);
+    // Small maps have no room for stripes.
+    let faint = if every == 1 { 0.55 } else { 1.0 };
     let (width, height) = layer.values.dimensions();
     RgbImage::from_fn(width / every, height / every, |u, v| {
         let value = 255.0 * f64::from(layer.values.get_pixel(every * u, every * v).0[0]);
         let strength = (value.abs() / STRONG).min(1.0).sqrt() as f32;
-        let is_faint = value < 0.0 && every == 1 && heat::is_stripe(u, v);
-        let share = if is_faint { 0.55 * strength } else { strength };
-        Rgb(mix(zero, if value < 0.0 { cool } else { warm }, share))
+        Rgb(colors.at((u, v), value < 0.0, strength, faint))
     })
 }
 

@@ -31,7 +31,7 @@ impl Words for ScaleSpace {
         let Some(now) = self.now() else {
             return self.asked.sentence();
         };
-        let (u, v) = self.place();
+        let (u, v) = self.probe.place();
         let peak = self.extremum().map_or_else(
             || "no blur gives more than its neighbors".to_owned(),
             |found| {

@@ -7,19 +7,13 @@ impl Words for Schur {
     fn readouts(&self) -> Vec<Readout> {
         let blocks = &self.blocks;
         let [cameras, points] = blocks.unknowns();
-        let percent = |share: f64| 100.0 * share;
+        let [filled, coupled] = [blocks.filled_share(), blocks.coupled_share()];
         vec![
             Readout::count("unknowns", "All unknowns", cameras + points).main(),
             Readout::count("left", "Unknowns left", cameras).main(),
             Readout::number("saving", "Less work", blocks.saving(), 0, "times").main(),
-            Readout::number("filled", "Not zero", percent(blocks.filled_share()), 1, "%"),
-            Readout::number(
-                "coupled",
-                "Coupled cameras",
-                percent(blocks.coupled_share()),
-                0,
-                "%",
-            ),
+            Readout::percent("filled", "Not zero", filled, 1),
+            Readout::percent("coupled", "Coupled cameras", coupled, 0),
         ]
     }
 

@@ -32,14 +32,17 @@ const CONTRAST: Slider = Slider::new("contrast", "Contrast")
 const DIRECTION: Toggle = Toggle::new("direction", "Turn the window").on();
 const SCALE: Toggle = Toggle::new("scale", "Scale the window").on();
 const KNOBS: &[Knob] = knobs![TURN, ZOOM, BRIGHTER, CONTRAST, DIRECTION, SCALE];
-/// Where the keypoint is at first.
-const PLACE: (f64, f64) = (348.0, 244.0);
+const KEYPOINT: Probe = Probe::new("keypoint", "photograph", "Keypoint")
+    .over(SIZE)
+    .step(4.0)
+    .at(348.0, 244.0);
+
 /// The model of `sift-descriptor`.
 pub(crate) struct SiftDescriptor {
     settings: Settings,
     photograph: Asked<Question>,
     comparison: Asked<Question>,
-    probe: Probe,
+    pub(super) keypoint: Probe,
 }
 
 impl SiftDescriptor {
@@ -52,10 +55,6 @@ impl SiftDescriptor {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),
             _ => Err(self.photograph.stand_in()),
         }
-    }
-
-    pub(super) fn place(&self) -> (f64, f64) {
-        self.probe.place(SIZE)
     }
 
     /// What is known of the change, perhaps of the one before.
@@ -91,7 +90,7 @@ impl SiftDescriptor {
 
     fn ask(&mut self) {
         self.comparison.ask(Question::Comparison(Subject {
-            place: self.place(),
+            place: self.keypoint.place(),
             change: self.change(),
             turns: self.settings.flag(&DIRECTION),
             scales: self.settings.flag(&SCALE),
@@ -113,7 +112,7 @@ impl Declared for SiftDescriptor {
             settings: Settings::new(KNOBS),
             photograph: Asked::about(Question::Photograph),
             comparison: Asked::default(),
-            probe: Probe::new("keypoint", "photograph", "Keypoint").at(PLACE.0, PLACE.1),
+            keypoint: KEYPOINT,
         };
         model.ask();
         model
@@ -126,11 +125,11 @@ impl Model for SiftDescriptor {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.probe.handle(SIZE, 4.0)]
+        vec![self.keypoint.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if self.probe.update(event, SIZE) || self.settings.update(event)?.is_some() {
+        if self.keypoint.update(event) || self.settings.update(event)?.is_some() {
             self.ask();
         }
         Ok(())

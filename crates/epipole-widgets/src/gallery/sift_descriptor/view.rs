@@ -35,7 +35,7 @@ impl View for SiftDescriptorView {
 
     fn layout(&self, _: &SiftDescriptor, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let (photograph, ratios, squares);
         if grid::is_broad(width) {
             let [left, middle, right] = grid.row([aspect, 1.12, 2.1], 390.0);
@@ -78,7 +78,7 @@ impl View for SiftDescriptorView {
             Ok(picture) => canvas.photograph(photograph.rect, picture),
             Err(notice) => return grid::notice(canvas, photograph.rect, notice),
         }
-        let (u, v) = model.place();
+        let (u, v) = model.keypoint.place();
         let Some(compared) = model.compared() else {
             canvas.grip(photograph.canvas_from_world((u, v)), Role::Grip);
             let notice = model.problem().unwrap_or(Question::LABEL);

@@ -4,6 +4,7 @@ use super::rig::{Measured, Rig};
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
 };
+use crate::kit::probe::Probe;
 use crate::kit::scenes::PHOTO_WIDTH;
 
 const BASELINE: Slider = Slider::new("baseline", "Baseline")
@@ -21,47 +22,36 @@ const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
 /// How far the ball can stand to either side of the left camera's axis, meters.
 const SIDE_RANGE_M: [f64; 2] = [-0.8, 0.8];
-/// Digits that the ball's place is kept with.
-const DIGITS: usize = 3;
+/// Along the row of cameras and away from it, meters. With the default rig it is at first seen in columns
+/// 410 and 380.
+const BALL: Probe = Probe::new("object", "top", "Ball")
+    .on_plan([SIDE_RANGE_M, DEPTH_RANGE_M])
+    .digits(3)
+    .at(0.362, 2.8);
 
 /// The model of `stereo-slider`.
 pub(crate) struct StereoSlider {
     settings: Settings,
-    /// Place of the ball along the row of cameras and away from it, meters.
-    x_m: f64,
-    z_m: f64,
+    ball: Probe,
 }
 
 impl StereoSlider {
     pub(super) fn rig(&self) -> Rig {
+        let (x_m, z_m) = self.ball.place();
         Rig {
             baseline_m: self.settings.number(&BASELINE),
             focal_px: self.settings.number(&FOCAL),
-            x_m: self.x_m,
-            z_m: self.z_m,
+            x_m,
+            z_m,
         }
     }
 
     /// Puts the ball, without changing its depth, where a camera sees it in column `u_px`.
     fn move_to_column(&mut self, camera_x_m: f64, u_px: f64) {
         let center_px = (f64::from(PHOTO_WIDTH) - 1.0) / 2.0;
-        let x_m = camera_x_m + (u_px - center_px) * self.z_m / self.rig().focal_px;
-        self.put(x_m, self.z_m);
-    }
-
-    fn put(&mut self, x_m: f64, z_m: f64) {
-        if let Some(place) = self.handle().admit(x_m, z_m) {
-            (self.x_m, self.z_m) = place;
-        }
-    }
-
-    fn handle(&self) -> Handle {
-        let side = if self.x_m < 0.0 { "left" } else { "right" };
-        let (x_m, z_m) = (self.x_m, self.z_m);
-        let ranges = [SIDE_RANGE_M, DEPTH_RANGE_M];
-        Handle::new("object", "top", "Ball", (x_m, z_m), ranges)
-            .told(format!("{z_m:.2} m away, {:.2} m to the {side}", x_m.abs()))
-            .step([0.05; 2], DIGITS)
+        let z_m = self.ball.place().1;
+        let x_m = camera_x_m + (u_px - center_px) * z_m / self.settings.number(&FOCAL);
+        self.ball.put(x_m, z_m);
     }
 
     /// Whether the sliders are where they were, and the pair measures something of this kind.
@@ -82,11 +72,9 @@ impl Declared for StereoSlider {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        // With the default rig the ball is seen in columns 410 and 380.
         Self {
             settings: Settings::new(KNOBS),
-            x_m: 0.362,
-            z_m: 2.8,
+            ball: BALL,
         }
     }
 }
@@ -97,19 +85,18 @@ impl Model for StereoSlider {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.handle()]
+        vec![self.ball.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        match event {
-            Event::HandleMoved { x, y, .. } => (self.x_m, self.z_m) = (*x, *y),
-            Event::Clicked { panel, x, y } => match panel.as_str() {
+        self.ball.update(event);
+        if let Event::Clicked { panel, x, .. } = event {
+            match panel.as_str() {
                 "left" => self.move_to_column(0.0, *x),
                 "right" => self.move_to_column(self.rig().baseline_m, *x),
-                _ => self.put(*x, *y),
-            },
-            _ => {}
+                _ => {}
+            }
         }
         Ok(())
     }

@@ -11,22 +11,16 @@ use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT, TITLE};
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::kit::photo::Photo;
 use crate::kit::plan::draw_span;
 use crate::kit::plot::{self, Ruler};
-use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH};
+use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
-/// Each camera has a hue and a shape, in its photograph and in the view from above.
-pub(super) const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 /// What an uncertain pixel leaves open.
 pub(super) const UNCERTAIN: Role = Role::Series(3);
-/// Height over width of a photograph.
-const PHOTO_ASPECT: f64 = PHOTO_HEIGHT as f64 / PHOTO_WIDTH as f64;
 /// Height of the view from above on a phone, CSS pixels.
 const LOW: f64 = 186.0;
 /// Disparities and depths that the curve is drawn for.

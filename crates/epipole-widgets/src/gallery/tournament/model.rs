@@ -3,7 +3,7 @@
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
-    Problem, Settings, Slider, Value, knobs,
+    Problem, Settings, Slider, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
 
@@ -77,15 +77,11 @@ impl Tournament {
         self.asked.ask(self.question());
     }
 
-    /// Whether all runs are in, and the shares of two rivals at a ratio compare like this.
-    fn compares(
-        &self,
-        [one, other]: [usize; 2],
-        ratio: usize,
-        check: fn(f64, f64) -> bool,
-    ) -> bool {
-        let shares = (self.share(one, ratio), self.share(other, ratio));
-        matches!(shares, (Some(one), Some(other)) if self.is_finished() && check(one, other))
+    /// The shares of two rivals at the ratio that the numbers are about, once all runs are in.
+    fn final_shares(&self, rivals: [usize; 2]) -> Option<[f64; 2]> {
+        let (ratio, _) = self.ratio();
+        let [one, other] = rivals.map(|rival| self.share(rival, ratio));
+        self.is_finished().then_some([one?, other?])
     }
 }
 
@@ -122,10 +118,7 @@ impl Model for Tournament {
         }
         match event {
             Event::Press { id } if id == AGAIN.id => self.start(),
-            Event::Clicked { x, .. } => {
-                let ratio = Value::Number(x.clamp(RATIO.min, RATIO.max));
-                self.settings.set(RATIO.id, &ratio)?;
-            }
+            Event::Clicked { x, .. } => self.settings.slide(&RATIO, *x),
             _ => {}
         }
         Ok(())
@@ -159,10 +152,8 @@ const CHALLENGES: &[Challenge<Tournament>] = &[
         why: "Once more than half of the data are outliers the middle error belongs to one of them; a vote \
               only needs the true ones to agree more than chance does.",
         check: |model| {
-            let (ratio, _) = model.ratio();
-            model.compares([LOCAL, LEAST_MEDIAN], ratio, |local, median| {
-                local >= 0.9 && median < 0.4
-            })
+            let shares = model.final_shares([LOCAL, LEAST_MEDIAN]);
+            shares.is_some_and(|[local, median]| local >= 0.9 && median < 0.4)
         },
         solution: || vec![Event::set(&RATIO, 0.7)],
     },
@@ -173,10 +164,8 @@ const CHALLENGES: &[Challenge<Tournament>] = &[
         why: "RANSAC is only as good as its threshold: too wide, and outliers vote; too narrow, and good \
               points do not. The least median takes its measure from the data.",
         check: |model| {
-            model.ratio().0 == 4
-                && model.compares([LEAST_MEDIAN, RANSAC], 4, |median, ransac| {
-                    median > ransac + 0.05
-                })
+            let shares = model.final_shares([LEAST_MEDIAN, RANSAC]);
+            model.ratio().0 == 4 && shares.is_some_and(|[median, ransac]| median > ransac + 0.05)
         },
         solution: || vec![Event::set(&RATIO, 0.4), Event::set(&THRESHOLD, 20.0)],
     },

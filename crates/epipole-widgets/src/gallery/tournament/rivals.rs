@@ -1,13 +1,11 @@
 //! The rivals, on a line and on F: from the same data, how far off is each?
 
-use crate::kit::line_points::{angle_between_deg, places_of, scatter};
-use crate::kit::matches::{MAX_USED, Match, Matches};
+use crate::kit::line_points::{angle_between_deg, scatter};
+use crate::kit::matches::{MAX_USED, Match, Matches, distance_px};
 use crate::kit::samples::{Rules, inliers_of};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
-use epipole::epipolar::{
-    FundamentalEstimator, epipolar_line2, fundamental_8point, refine_fundamental,
-};
+use epipole::epipolar::{FundamentalEstimator, fundamental_8point, refine_fundamental};
 use epipole::math::{Line2, random::Random};
 use epipole::optim::RobustLoss;
 use epipole::robust::{
@@ -77,12 +75,12 @@ fn sampled<E: Estimator>(
 /// * `threshold`: of those that vote, in standard deviations of the noise
 pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Successes {
     let scattered = scatter(seed, NUM_POINTS, outlier_ratio);
-    let points = places_of(&scattered.points);
-    let estimator = || LineEstimator::new(&points);
-    let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(&points, is));
+    let points = &scattered.points;
+    let estimator = || LineEstimator::new(points);
+    let refit = |is: &[bool]| fit_line_total_least_squares(&inliers_of(points, is));
     let [median, plain, msac, local] = sampled(estimator, refit, threshold * LINE_SIGMA_PX, seed);
-    let squares = fit_line_total_least_squares(&points);
-    let huber = fit_line_huber(&points, HUBER * LINE_SIGMA_PX);
+    let squares = fit_line_total_least_squares(points);
+    let huber = fit_line_huber(points, HUBER * LINE_SIGMA_PX);
     let is_near = |line: Line2| angle_between_deg(&line, &scattered.truth) <= WITHIN_DEG;
     [squares, huber, median, plain, msac, local].map(|line| line.is_ok_and(is_near))
 }
@@ -134,10 +132,7 @@ impl Pair {
     /// How far exact matches that no rival saw are from their lines, on average.
     fn mean_px(&self, fundamental: &Matrix3<f64>) -> f64 {
         let held_out = &self.matches.held_out;
-        let distance = |(pixel1, pixel2): &Match| {
-            let line = epipolar_line2(fundamental, pixel1);
-            line.map_or(f64::INFINITY, |line| line.signed_distance(pixel2).abs())
-        };
+        let distance = |found| distance_px(fundamental, found).unwrap_or(f64::INFINITY);
         held_out.iter().map(distance).sum::<f64>() / held_out.len().max(1) as f64
     }
 }

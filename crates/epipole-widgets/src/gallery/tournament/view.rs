@@ -8,6 +8,7 @@ use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Layout, View};
 use crate::kit::grid::{self, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
+use crate::kit::pair::series;
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 
@@ -26,7 +27,7 @@ fn rulers() -> [Ruler; 2] {
 
 /// Rivals differ in hue, in shape and in dash.
 fn look(rival: usize) -> (Role, Shape, Stroke) {
-    let (role, shape) = (Role::Series(rival as u8), Shape::of_series(rival));
+    let (role, shape) = series(rival);
     (role, shape, Stroke::of_series(rival, 2.25))
 }
 

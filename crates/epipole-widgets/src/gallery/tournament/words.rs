@@ -4,6 +4,7 @@ use super::model::Tournament;
 use super::question::Subject;
 use super::rivals::{NUM_RIVALS, RIVALS, WITHIN_DEG, WITHIN_PX};
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::words::after;
 
 /// What counts as a success.
 pub(super) fn success(subject: Subject) -> String {
@@ -18,9 +19,8 @@ impl Words for Tournament {
         let (ratio, _) = self.ratio();
         let share = |rival: usize| {
             let (id, name, is_main) = RIVALS[rival];
-            let percent = self.share(rival, ratio).map(|share| 100.0 * share);
-            let readout = Readout::number(id, name, percent, 0, "%").or("no runs yet");
-            readout.main_if(is_main)
+            let readout = Readout::percent(id, name, self.share(rival, ratio), 0);
+            readout.or("no runs yet").main_if(is_main)
         };
         let mut readouts: Vec<Readout> = (0..NUM_RIVALS).map(share).collect();
         readouts.push(Readout::count("runs", "Runs", self.num_runs()));
@@ -42,8 +42,7 @@ impl Words for Tournament {
             Subject::Line => "Lines",
             Subject::Fundamental => "Fundamental matrices",
         };
-        let stopped = self.asked.problem();
-        let stopped = stopped.map_or_else(String::new, |problem| format!(" {problem}"));
+        let stopped = after(self.asked.problem());
         format!(
             "{thing} {}, at an outlier ratio of {} over {} runs: {}.{stopped}",
             success(self.subject()),

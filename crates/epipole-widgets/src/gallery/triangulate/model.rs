@@ -3,10 +3,10 @@
 use super::estimates::{Estimates, METHODS};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Space, Symbol, Value, knobs,
+    Settings, Slider, Space, Symbol, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::pin::Pin;
+use crate::kit::probe::Probe;
 use epipole::camera::{Camera, Intrinsics, look_at};
 use nalgebra::{Point3, Vector3};
 
@@ -31,6 +31,12 @@ const SHOW: Choice = Choice::new(
 );
 const SEED: Slider = Slider::seed(6.0);
 const KNOBS: &[Knob] = knobs![SHOW, NOISE, SEED];
+const POINT: Probe = Probe::new("point", "top", "Point P")
+    .on_plan([ASIDE_M, [1.0, 3.4]])
+    .at(0.3, 2.4);
+const SECOND: Probe = Probe::new("second", "top", "Camera 2")
+    .on_plan([ASIDE_M, [-0.3, 3.0]])
+    .at(0.5, 1.5);
 const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
 
 /// What stands beside the region about the point.
@@ -48,8 +54,8 @@ pub(super) enum Show {
 pub(crate) struct Triangulate {
     settings: Settings,
     pub(super) orbit: Orbit,
-    point: Pin,
-    second: Pin,
+    point: Probe,
+    second: Probe,
     pub(super) estimates: Result<Estimates, String>,
 }
 
@@ -97,14 +103,8 @@ impl Declared for Triangulate {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-50.0, 20.0),
-            point: Pin::new("point", "top", "Point P", (0.3, 2.4), [ASIDE_M, [1.0, 3.4]]),
-            second: Pin::new(
-                "second",
-                "top",
-                "Camera 2",
-                (0.5, 1.5),
-                [ASIDE_M, [-0.3, 3.0]],
-            ),
+            point: POINT,
+            second: SECOND,
             estimates: Err(String::new()),
         };
         model.compute();
@@ -139,7 +139,7 @@ impl Model for Triangulate {
         if *event == Event::press(AGAIN.id) {
             let seed = self.settings.number(&SEED);
             let next = if seed < SEED.max { seed + 1.0 } else { 1.0 };
-            self.settings.set(SEED.id, &Value::Number(next))?;
+            self.settings.slide(&SEED, next);
         }
         let _ = self.point.update(event) || self.second.update(event);
         self.compute();
@@ -157,7 +157,8 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
         check: |model| {
             let start = Triangulate::new();
             let long = |model: &Triangulate| model.estimates.as_ref().ok()?.uncertainty_m();
-            let untouched = model.point == start.point && model.sigma_px() == start.sigma_px();
+            let untouched =
+                model.point.place() == POINT.place() && model.sigma_px() == start.sigma_px();
             untouched && long(model) > long(&start).map(|long| 4.0 * long)
         },
         solution: || vec![Event::moved("second", 0.1, 0.0)],

@@ -6,22 +6,19 @@ mod region;
 
 use super::estimates::METHODS;
 use super::model::{ASIDE_M, FOCAL_PX, SIZE, Triangulate};
-use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
+use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::legend::{self, Swatch};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::CAMERAS;
 use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::Point2;
 
 /// How far in front of the centers the image planes are drawn, meters.
 const IMAGE_M: f64 = 0.35;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const REGION: Role = Role::Series(3);
 const SHAPES: [Shape; 4] = [Shape::Cross, Shape::Plus, Shape::Triangle, Shape::Diamond];
 /// All estimates are of one kind; their shapes tell them apart.
@@ -47,7 +44,7 @@ impl View for TriangulateView {
                 if grid::is_broad(width) { 336.0 } else { 300.0 },
             )
         };
-        grid.strip(legend_height(width));
+        grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
         let mut panels = vec![
             plan::panel_of("top", top, [ASIDE_M, [-0.3, 3.4]], 0.25),
             Orbit::panel(space),
@@ -66,8 +63,7 @@ impl View for TriangulateView {
         ];
         grid::open(canvas, space, &titles);
         beside::draw(model, layout, canvas);
-        let top_of_legend = layout.height - legend_height(layout.width);
-        legend::draw(canvas, &legend_entries(), layout.width, 0.0, top_of_legend);
+        legend::draw_last(canvas, &legend_entries(), layout, 0.0, 4.0);
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
         match &model.estimates {
             Ok(estimates) => region::draw(model, estimates, space, canvas),
@@ -87,15 +83,10 @@ fn legend_entries() -> [legend::Entry; 5] {
     ]
 }
 
-fn legend_height(width: f64) -> f64 {
-    legend::height(&legend_entries(), width, 0.0) + 4.0
-}
-
 fn draw_top(model: &Triangulate, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let [point, second] = model.pins();
     let mut labels = Labels::new(panel.rect.inset(3.0));
-    let ink = TextStyle::new(Role::Ink, TEXT).cased();
     for (index, (x, z)) in [(0.0, 0.0), second].into_iter().enumerate() {
         let towards = (point.0 - x, point.1 - z);
         let camera = PlanCamera {
@@ -122,10 +113,10 @@ fn draw_top(model: &Triangulate, panel: &Panel, canvas: &mut Canvas) {
     for (index, place) in [(0.0, 0.0), second].into_iter().enumerate() {
         let place = panel.canvas_from_world(place);
         let name = ["camera 1", "camera 2"][index];
-        labels.draw(canvas, &Labels::around(place, 10.0), name, ink);
+        labels.name(canvas, (place, 10.0), name, (Role::Ink, TEXT));
     }
     let place = panel.canvas_from_world(point);
     canvas.grip(place, Role::Grip);
     labels.keep_free(place, 9.0);
-    labels.draw(canvas, &Labels::around(place, 10.0), "P", ink);
+    labels.name(canvas, (place, 10.0), "P", (Role::Ink, TEXT));
 }

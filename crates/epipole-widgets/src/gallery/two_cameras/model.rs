@@ -4,7 +4,7 @@ use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
     Toggle, knobs,
 };
-use crate::kit::pin::Pin;
+use crate::kit::probe::Probe;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use nalgebra::{Point2, Point3};
 
@@ -27,6 +27,16 @@ const KNOBS: &[Knob] = knobs![BASELINE, WRONG];
 /// Where the balls may be, meters to the right and meters away.
 const RANGES_M: [[f64; 2]; 2] = [[-1.2, 1.6], [0.7, 3.2]];
 
+/// P and Q.
+const BALLS: [Probe; 2] = [
+    Probe::new("point", "top", "The ball P")
+        .on_plan(RANGES_M)
+        .at(0.3, 2.0),
+    Probe::new("other", "top", "The ball Q")
+        .on_plan(RANGES_M)
+        .at(-0.2, 2.6),
+];
+
 /// Where the rays through two pixels meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meeting {
@@ -41,8 +51,7 @@ pub(super) enum Meeting {
 /// The model of `two-cameras`.
 pub(crate) struct TwoCameras {
     settings: Settings,
-    /// P and Q.
-    balls: [Pin; 2],
+    balls: [Probe; 2],
 }
 
 impl TwoCameras {
@@ -106,10 +115,7 @@ impl Declared for TwoCameras {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            balls: [
-                Pin::new("point", "top", "The ball P", (0.3, 2.0), RANGES_M),
-                Pin::new("other", "top", "The ball Q", (-0.2, 2.6), RANGES_M),
-            ],
+            balls: BALLS,
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2};
@@ -12,10 +13,6 @@ use nalgebra::{Point2, Vector2};
 /// How far in front of the centers the image planes are drawn, and how large a ball is, meters.
 const IMAGE_M: f64 = 0.45;
 const RADIUS_M: f64 = 0.09;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const PHANTOM: Role = Role::Outlier;
 
 /// Draws [`TwoCameras`].
@@ -28,7 +25,7 @@ impl View for TwoCamerasView {
 
     fn layout(&self, _: &TwoCameras, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let aspect = f64::from(SIZE.1) / f64::from(SIZE.0);
+        let aspect = grid::aspect(SIZE);
         let (top, photographs) = grid.beside_photographs(aspect, 430.0);
         let mut panels = vec![plan::panel("top", top, (0.2, 1.35), 2.0)];
         for (id, rect) in ["left", "right"].into_iter().zip(photographs) {
@@ -92,7 +89,7 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
         canvas.disk(place, radius, Role::Candidate, 0.45);
         canvas.grip(place, Role::Grip);
         labels.keep_free(place, radius.max(9.0));
-        labels.draw(canvas, &Labels::around(place, 11.0), name, ink);
+        labels.name(canvas, (place, 11.0), name, (Role::Ink, TEXT));
     }
     if let (true, Meeting::Ahead(found) | Meeting::Behind(found)) =
         (model.is_wrong(), model.meeting())
@@ -100,8 +97,7 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
         let (shown, text) = phantom(found, panel);
         let shape = [Shape::Cross, Shape::Triangle][usize::from(shown != found)];
         canvas.marker(at(shown), 7.0, shape, PHANTOM, true);
-        let style = TextStyle::new(PHANTOM, TEXT).cased();
-        labels.draw(canvas, &Labels::around(at(shown), 10.0), &text, style);
+        labels.name(canvas, (at(shown), 10.0), &text, (PHANTOM, TEXT));
     }
 }
 

@@ -1,15 +1,14 @@
 //! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
 
-use super::question::{Answer, CloudPoint, Question, Source};
 use crate::contract::{
-    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, ControlKind, Declared, Event,
-    FileOffer, Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, Value,
-    format_number, knobs,
+    Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, FileOffer,
+    Handle, Knob, Model, PhotoSlot, Problem, Settings, Slider, Space, Symbol, format_number, knobs,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::picture::{Own, Picture, pair_slots};
 use crate::kit::question::{Asked, carry_out};
+use crate::kit::reconstruction::{Answer, CloudPoint, Question, Source, Stage};
 use epipole::stereo::PointCloud;
 use image::RgbImage;
 use nalgebra::Point3;
@@ -67,18 +66,6 @@ const KNOBS: &[Knob] = knobs![STAGE, PAIR, RATIO, THRESHOLD, KNOCK, FOCAL];
 const SLOTS: &[PhotoSlot] = &pair_slots(800);
 /// Smaller pictures have no room for features.
 const MIN_SIDE_PX: u32 = 64;
-
-/// How far the pipeline has come; later stages know what earlier ones do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::gallery) enum Stage {
-    Detect,
-    Match,
-    Ransac,
-    Pose,
-    Cloud,
-    Adjust,
-    Surface,
-}
 
 const STAGES: [Stage; 7] = [
     Stage::Detect,
@@ -242,12 +229,8 @@ impl Declared for TwoViewSfm {
 impl Model for TwoViewSfm {
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
-        for control in &mut controls {
-            if let (ControlKind::Slider { value, .. }, true) =
-                (&control.kind, control.id == FOCAL.id)
-            {
-                control.value_text = focal_text(*value);
-            }
+        for control in controls.iter_mut().filter(|control| control.id == FOCAL.id) {
+            control.value_text = focal_text(self.focal());
         }
         controls.push(NEXT.control(!self.is_last_stage(), false));
         controls.extend(self.orbit.controls());
@@ -282,8 +265,8 @@ impl Model for TwoViewSfm {
             _ => {}
         }
         if *event == Event::press(NEXT.id) && !self.is_last_stage() {
-            let next = STAGE.options[self.settings.chosen(&STAGE) + 1].0;
-            self.settings.set(STAGE.id, &Value::from(next))?;
+            self.settings
+                .choose(&STAGE, self.settings.chosen(&STAGE) + 1);
         }
         Ok(())
     }
@@ -309,7 +292,7 @@ impl Model for TwoViewSfm {
         self.own.take(slot, photo)?;
         if !self.is_own() {
             // The rendered photographs' focal length is known; that of others is only guessed.
-            self.settings.set(FOCAL.id, &Value::Number(USUAL_FOCAL))?;
+            self.settings.slide(&FOCAL, USUAL_FOCAL);
             self.focal_from = FocalFrom::Guess;
             self.settings.choose(&PAIR, OWN);
         }
@@ -318,12 +301,9 @@ impl Model for TwoViewSfm {
     }
 
     fn take_focal(&mut self, _: &str, focal: f64) {
-        let focal = focal.clamp(FOCAL.min, FOCAL.max);
-        // Within its range every number is taken.
-        if self.settings.set(FOCAL.id, &Value::Number(focal)).is_ok() {
-            self.focal_from = FocalFrom::File;
-            self.ask();
-        }
+        self.settings.slide(&FOCAL, focal);
+        self.focal_from = FocalFrom::File;
+        self.ask();
     }
 }
 

@@ -1,13 +1,14 @@
 //! The two photographs with what each stage finds, and beside them cameras and points in space.
 
-use super::model::{Stage, TwoViewSfm};
-use super::question::{Answer, Motion, Question};
+use super::model::TwoViewSfm;
 use super::words;
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid, TEXT, TITLE};
 use crate::kit::orbit::Orbit;
+use crate::kit::pair::{CAMERAS, spread};
 use crate::kit::question::Question as _;
+use crate::kit::reconstruction::{Answer, Question, Stage};
 use crate::kit::scenes::PHOTO_SIZE;
 use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
@@ -17,11 +18,6 @@ use nalgebra::{Point2, Point3};
 const MOST_LINES: usize = 32;
 /// Rays of more points than this hide the points.
 const MOST_RAYS: usize = 24;
-/// Each camera has a hue and a shape, above its photograph and in space.
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(1), Shape::Square),
-];
 const PHOTOS: [&str; 2] = ["first", "second"];
 
 /// Draws [`TwoViewSfm`].
@@ -199,12 +195,6 @@ fn legend(canvas: &mut Canvas, rect: Rect, num_outliers: usize, num_inliers: usi
     }
 }
 
-/// Some of many, evenly.
-pub(in crate::gallery) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
-    let stride = all.len().div_ceil(most).max(1);
-    all.iter().step_by(stride)
-}
-
 /// The cameras and most of the points; without points, the space before camera 1.
 fn frame(answer: &Answer) -> Frame {
     let Some(motion) = &answer.motion else {
@@ -283,11 +273,12 @@ fn draw_space(
     if second.is_some() {
         space.line(&centers[0], &centers[1], Stroke::solid(Role::Ink, 2.0));
     }
-    match (&answer.motion, stage) {
-        (Some(motion), Stage::Surface) if motion.surface.is_ok() => {
-            draw_surface(&mut space, motion, 1.0, panel);
-        }
-        (Some(motion), Stage::Cloud | Stage::Adjust | Stage::Surface) => {
+    let motion = answer.motion.as_ref();
+    let surface = motion.filter(|_| stage == Stage::Surface);
+    let surface = surface.and_then(|motion| motion.surface.as_ref().ok());
+    match (motion, surface, stage) {
+        (_, Some(surface), _) => surface.draw(&mut space, 1.0, panel),
+        (Some(motion), None, Stage::Cloud | Stage::Adjust | Stage::Surface) => {
             let radius = (panel.rect.height / 140.0).clamp(1.6, 3.2);
             for point in &motion.points {
                 let place = match stage {
@@ -321,24 +312,6 @@ fn draw_space(
     space.draw(canvas, panel);
 }
 
-/// The first `share` of the pixels that have a depth.
-pub(in crate::gallery) fn draw_surface(
-    space: &mut Space<'_>,
-    motion: &Motion,
-    share: f64,
-    panel: &Panel,
-) {
-    let Ok(surface) = &motion.surface else {
-        return;
-    };
-    let side = (panel.rect.height / 130.0).clamp(1.6, 3.4);
-    let all = surface.coarse();
-    let shown = (share * all.len() as f64) as usize;
-    for (place, color) in &all[..shown] {
-        space.speck(&Point3::from(*place).cast(), side, *color);
-    }
-}
-
 /// What a feature is at a stage.
 fn role_of(stage: Stage) -> Role {
     match stage {
@@ -362,18 +335,4 @@ fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
     let place = (share * values.len().checked_sub(1)? as f64) as usize;
     values.sort_by(f64::total_cmp);
     Some(values[place])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_are_spread_over_all_matches() {
-        let all: Vec<usize> = (0..1000).collect();
-        let some: Vec<&usize> = spread(&all, MOST_LINES).collect();
-        assert!(some.len() <= MOST_LINES && *some[some.len() - 1] >= 980);
-        assert_eq!(spread(&all[..5], MOST_LINES).count(), 5);
-        assert_eq!(spread(&all[..0], MOST_LINES).count(), 0);
-    }
 }

@@ -1,10 +1,9 @@
 //! What `two-view-sfm` says: readouts, description, sentences.
 
-use super::model::{FocalFrom, Stage, TwoViewSfm, focal_text};
-use super::question::{Answer, Question};
-use super::verdict::{MIN_NUM_MATCHES, Verdict};
+use super::model::{FocalFrom, TwoViewSfm, focal_text};
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::question::Question as _;
+use crate::kit::reconstruction::{Answer, MIN_NUM_MATCHES, Question, Stage, Verdict};
 
 fn degrees(value: f64) -> String {
     format!("{}°", format_number(value, 1))
@@ -68,132 +67,6 @@ fn caution(answer: &Answer) -> &'static str {
     }
 }
 
-/// What each stage up to the present one has found. What it does not know yet is a dash, so that
-/// every number keeps its place.
-fn readouts(model: &TwoViewSfm) -> Vec<Readout> {
-    let (stage, answer) = (model.stage(), model.answer());
-    let unknown = if answer.is_some() || model.asked.problem().is_some() {
-        "–"
-    } else {
-        "…"
-    };
-    let say = |id, label, from: Stage, text: Option<String>| {
-        let text = text.filter(|_| stage >= from);
-        Readout::words(id, label, text.unwrap_or_else(|| unknown.to_owned()))
-    };
-    let motion = answer.and_then(|answer| answer.motion.as_ref());
-    let number =
-        |value: f64, digits: usize, unit: &str| format!("{}{unit}", format_number(value, digits));
-    let inliers = answer.map(|answer| match stage >= Stage::Ransac {
-        true => format!("{} of {}", answer.num_inliers(), answer.matches.len()),
-        false => format!("? of {}", answer.matches.len()),
-    });
-    let error = |index: usize| motion.map(|motion| number(motion.error_px[index], 2, " px"));
-    let features = answer.map(|answer| {
-        let [first, second] = answer.keypoints.each_ref().map(Vec::len);
-        format!("{first} and {second}")
-    });
-    let matches = answer.map(|answer| answer.matches.len().to_string());
-    let in_front = motion.map(|motion| motion.num_in_front.map(|n| n.to_string()).join(", "));
-    let turn = model.turn_deg().map(|turn| number(turn, 2, "°"));
-    let truth = model.true_turn_deg().map(|turn| number(turn, 2, "°"));
-    let points = motion.map(|motion| match (&motion.surface, stage) {
-        (Ok(surface), Stage::Surface) => surface.points.len().to_string(),
-        _ => motion.points.len().to_string(),
-    });
-    let mut readouts = vec![
-        say("inliers", "Inliers", Stage::Match, inliers).main(),
-        say("points", "Points", Stage::Cloud, points).main(),
-        say("error-before", "Error before", Stage::Cloud, error(0)).main(),
-        say("error", "Error adjusted", Stage::Adjust, error(1)).main(),
-        say("features", "Features", Stage::Detect, features),
-        say("matches", "Matches", Stage::Match, matches),
-        say("in-front", "In front", Stage::Pose, in_front),
-        say("rotation", "Rotation", Stage::Pose, turn),
-        say("truth", "True rotation", Stage::Pose, truth),
-    ];
-    if model.is_own() {
-        let from = match model.focal_from() {
-            FocalFrom::Known | FocalFrom::Reader => "as you set it",
-            FocalFrom::File => "from the file",
-            FocalFrom::Guess => "a guess",
-        };
-        let text = format!("{}, {from}", focal_text(model.focal()));
-        readouts.push(Readout::words("lens", "Focal length", text));
-    }
-    let from = model.orbit.seen_from();
-    readouts.push(Readout::words("viewpoint", "Seen from", from));
-    readouts
-}
-
-fn describe(model: &TwoViewSfm) -> String {
-    if let Some(problem) = model.asked.problem() {
-        return problem.to_owned();
-    }
-    let Some((question, answer)) = model.asked.answered() else {
-        return format!("{}.", Question::LABEL);
-    };
-    let stage = model.stage();
-    let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
-    let counts = answer.keypoints.each_ref().map(Vec::len);
-    let turn = degrees(model.turn_deg().unwrap_or(0.0));
-    let (before, ago) = knocks(model.knock_deg());
-    match (stage, failure((question, answer)), &answer.motion) {
-        (Stage::Detect, ..) => format!(
-            "{} features in the first photograph and {} in the second.",
-            counts[0], counts[1]
-        ),
-        (Stage::Match, ..) => {
-            format!("{matches} features of the first photograph have a partner in the second.")
-        }
-        (_, Some(failure), _) => failure,
-        (_, None, None) => format!("{}.", Question::FAILED),
-        (Stage::Ransac, ..) => format!(
-            "{inliers} of {matches} matches agree with one motion of the camera; the other {} are \
-             dropped.",
-            matches - inliers
-        ),
-        (Stage::Pose, _, Some(motion)) => {
-            let [first, others @ ..] = motion.num_in_front;
-            let others = others.map(|count| count.to_string()).join(", ");
-            format!(
-                "Camera 2 is turned by {turn} against camera 1. Of the four poses that E allows, one \
-                 puts {first} of {inliers} points in front of both cameras, the others {others}.{}",
-                caution(answer)
-            )
-        }
-        (Stage::Cloud, _, Some(motion)) => format!(
-            "{before} {} points, triangulated {}, miss their features by {} px (RMS).",
-            motion.points.len(),
-            if model.knock_deg() > 0.0 {
-                "all the same"
-            } else {
-                "with it"
-            },
-            format_number(motion.error_px[0], 2),
-        ),
-        (Stage::Surface, _, Some(motion)) => match &motion.surface {
-            Ok(surface) => format!(
-                "{} pixels of photograph 1 found their partner in photograph 2, and stand in space in their own \
-                 colors, seen from {}. {ago}{}",
-                surface.points.len(),
-                model.orbit.words(),
-                caution(answer)
-            ),
-            Err(_) => no_surface(answer).unwrap_or_default(),
-        },
-        (Stage::Adjust, _, Some(motion)) => format!(
-            "{} points in color and the two cameras, seen from {}. {ago} The adjustment takes the error from {} px to \
-             {} px (RMS).{}",
-            motion.points.len(),
-            model.orbit.words(),
-            format_number(motion.error_px[0], 2),
-            format_number(motion.error_px[1], 2),
-            caution(answer)
-        ),
-    }
-}
-
 /// What camera 2 has been through before the adjustment, and after it.
 fn knocks(knock_deg: f64) -> (String, String) {
     let knock = format_number(knock_deg, 1);
@@ -228,11 +101,127 @@ pub(super) fn no_surface(answer: &Answer) -> Option<String> {
 }
 
 impl Words for TwoViewSfm {
+    /// What each stage up to the present one has found. What it does not know yet is a dash, so that
+    /// every number keeps its place.
     fn readouts(&self) -> Vec<Readout> {
-        readouts(self)
+        let (stage, answer) = (self.stage(), self.answer());
+        let unknown = if answer.is_some() || self.asked.problem().is_some() {
+            "–"
+        } else {
+            "…"
+        };
+        let say = |id, label, from: Stage, text: Option<String>| {
+            let text = text.filter(|_| stage >= from);
+            Readout::words(id, label, text.unwrap_or_else(|| unknown.to_owned()))
+        };
+        let motion = answer.and_then(|answer| answer.motion.as_ref());
+        let number = |value: f64, digits: usize, unit: &str| {
+            format!("{}{unit}", format_number(value, digits))
+        };
+        let inliers = answer.map(|answer| match stage >= Stage::Ransac {
+            true => format!("{} of {}", answer.num_inliers(), answer.matches.len()),
+            false => format!("? of {}", answer.matches.len()),
+        });
+        let error = |index: usize| motion.map(|motion| number(motion.error_px[index], 2, " px"));
+        let features = answer.map(|answer| {
+            let [first, second] = answer.keypoints.each_ref().map(Vec::len);
+            format!("{first} and {second}")
+        });
+        let matches = answer.map(|answer| answer.matches.len().to_string());
+        let in_front = motion.map(|motion| motion.num_in_front.map(|n| n.to_string()).join(", "));
+        let turn = self.turn_deg().map(|turn| number(turn, 2, "°"));
+        let truth = self.true_turn_deg().map(|turn| number(turn, 2, "°"));
+        let points = motion.map(|motion| match (&motion.surface, stage) {
+            (Ok(surface), Stage::Surface) => surface.points.len().to_string(),
+            _ => motion.points.len().to_string(),
+        });
+        let mut readouts = vec![
+            say("inliers", "Inliers", Stage::Match, inliers).main(),
+            say("points", "Points", Stage::Cloud, points).main(),
+            say("error-before", "Error before", Stage::Cloud, error(0)).main(),
+            say("error", "Error adjusted", Stage::Adjust, error(1)).main(),
+            say("features", "Features", Stage::Detect, features),
+            say("matches", "Matches", Stage::Match, matches),
+            say("in-front", "In front", Stage::Pose, in_front),
+            say("rotation", "Rotation", Stage::Pose, turn),
+            say("truth", "True rotation", Stage::Pose, truth),
+        ];
+        if self.is_own() {
+            let from = match self.focal_from() {
+                FocalFrom::Known | FocalFrom::Reader => "as you set it",
+                FocalFrom::File => "from the file",
+                FocalFrom::Guess => "a guess",
+            };
+            let text = format!("{}, {from}", focal_text(self.focal()));
+            readouts.push(Readout::words("lens", "Focal length", text));
+        }
+        let from = self.orbit.seen_from();
+        readouts.push(Readout::words("viewpoint", "Seen from", from));
+        readouts
     }
 
     fn describe(&self) -> String {
-        describe(self)
+        let (Some((question, answer)), None) = (self.asked.answered(), self.asked.problem()) else {
+            return self.asked.sentence();
+        };
+        let stage = self.stage();
+        let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
+        let counts = answer.keypoints.each_ref().map(Vec::len);
+        let turn = degrees(self.turn_deg().unwrap_or(0.0));
+        let (before, ago) = knocks(self.knock_deg());
+        match (stage, failure((question, answer)), &answer.motion) {
+            (Stage::Detect, ..) => format!(
+                "{} features in the first photograph and {} in the second.",
+                counts[0], counts[1]
+            ),
+            (Stage::Match, ..) => {
+                format!("{matches} features of the first photograph have a partner in the second.")
+            }
+            (_, Some(failure), _) => failure,
+            (_, None, None) => format!("{}.", Question::FAILED),
+            (Stage::Ransac, ..) => format!(
+                "{inliers} of {matches} matches agree with one motion of the camera; the other {} are \
+                 dropped.",
+                matches - inliers
+            ),
+            (Stage::Pose, _, Some(motion)) => {
+                let [first, others @ ..] = motion.num_in_front;
+                let others = others.map(|count| count.to_string()).join(", ");
+                format!(
+                    "Camera 2 is turned by {turn} against camera 1. Of the four poses that E allows, one \
+                     puts {first} of {inliers} points in front of both cameras, the others {others}.{}",
+                    caution(answer)
+                )
+            }
+            (Stage::Cloud, _, Some(motion)) => format!(
+                "{before} {} points, triangulated {}, miss their features by {} px (RMS).",
+                motion.points.len(),
+                if self.knock_deg() > 0.0 {
+                    "all the same"
+                } else {
+                    "with it"
+                },
+                format_number(motion.error_px[0], 2),
+            ),
+            (Stage::Surface, _, Some(motion)) => match &motion.surface {
+                Ok(surface) => format!(
+                    "{} pixels of photograph 1 found their partner in photograph 2, and stand in space in their own \
+                     colors, seen from {}. {ago}{}",
+                    surface.points.len(),
+                    self.orbit.words(),
+                    caution(answer)
+                ),
+                Err(_) => no_surface(answer).unwrap_or_default(),
+            },
+            (Stage::Adjust, _, Some(motion)) => format!(
+                "{} points in color and the two cameras, seen from {}. {ago} The adjustment takes the error from {} px to \
+                 {} px (RMS).{}",
+                motion.points.len(),
+                self.orbit.words(),
+                format_number(motion.error_px[0], 2),
+                format_number(motion.error_px[1], 2),
+                caution(answer)
+            ),
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! The picture, and what is found at a place of the window: the change under every shift, and the
 //! structure tensor.
 
+use crate::kit::picture::gray_levels;
 use crate::kit::scenes::square_picture;
 use epipole::feature::{ShiftSurface, StructureTensorOptions, Window, WindowTensor, shift_surface};
-use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32};
+use epipole::imaging::{Border, GrayImage32};
 use image::RgbImage;
 use nalgebra::Vector2;
 
@@ -36,8 +37,8 @@ pub(super) struct Found {
 
 impl Found {
     /// The squared change under a shift by whole pixels; none beyond the reach.
-    pub(super) fn change(&self, du: i32, dv: i32) -> f64 {
-        self.surface.at(du, dv).unwrap_or(0.0) / self.pixels
+    pub(super) fn change(&self, (du, dv): (f64, f64)) -> f64 {
+        self.surface.at(du as i32, dv as i32).unwrap_or(0.0) / self.pixels
     }
 
     /// Taylor's estimate of the squared change under a shift.
@@ -75,11 +76,9 @@ impl Found {
 /// The part of the picture that is shown, and all of it in gray levels.
 pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
     let whole = square_picture(noise);
-    let mut gray = rgb_to_gray_f32(&whole, &BT601_WEIGHTS);
-    gray.pixels_mut().for_each(|pixel| pixel.0[0] *= 255.0);
     let (left, top, width, height) = SHOWN;
     let shown = image::imageops::crop_imm(&whole, left, top, width, height).to_image();
-    (shown, gray)
+    (shown, gray_levels(&whole))
 }
 
 /// Measures the window of so many pixels with its middle at column u and row v.
@@ -88,10 +87,9 @@ pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
 /// As the core's functions; places within the handle's range are never refused.
 pub(super) fn find(
     gray: &GrayImage32,
-    (u, v): (f64, f64),
+    (u, v): (u32, u32),
     window_px: usize,
 ) -> epipole::Result<Found> {
-    let (u, v) = (u as u32, v as u32);
     let surface = shift_surface(gray, (u, v), window_px / 2, REACH, Border::Reflect101)?;
     let options = StructureTensorOptions {
         window: Window::Box(window_px),

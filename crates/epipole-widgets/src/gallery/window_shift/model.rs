@@ -5,7 +5,7 @@ use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number, knobs,
 };
-use crate::kit::probe::place_words;
+use crate::kit::probe::Probe;
 use epipole::imaging::GrayImage32;
 use image::RgbImage;
 
@@ -22,19 +22,31 @@ const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .at(100.0);
 const KNOBS: &[Knob] = knobs![WINDOW, NOISE, THRESHOLD];
 
-/// Where the window is at the start, on a corner of the square, and the shift to try.
-const PLACE: (f64, f64) = (151.0, 143.0);
-const SHIFT: (f64, f64) = (-5.0, 4.0);
+/// At first on a corner of the square. The largest window stays within what is shown.
+const PLACE: Probe = Probe::new("place", "picture", "Window")
+    .within([room(SHOWN.0, SHOWN.2), room(SHOWN.1, SHOWN.3)])
+    .step(2.0)
+    .at(151.0, 143.0);
+/// The shift to try: columns to the right and rows down, whole pixels.
+const SHIFT: Probe = Probe::new("shift", "map", "Shift")
+    .within([[-(REACH as f64), REACH as f64]; 2])
+    .told(|(du, dv)| {
+        let [du, dv] = [du, dv].map(|shift| format_number(shift, 0));
+        format!("{du} columns right, {dv} rows down")
+    })
+    .at(-5.0, 4.0);
+const fn room(from: u32, size: u32) -> [f64; 2] {
+    let half = LARGEST_HALF;
+    [(from + half) as f64, (from + size - 1 - half) as f64]
+}
 /// Right of here the square does not reach into any window.
 const PLAIN_FROM: f64 = 190.0;
 
 /// The model of `window-shift`.
 pub struct WindowShift {
     settings: Settings,
-    /// The middle of the window: column and row, whole pixels.
-    pub(super) window: (f64, f64),
-    /// Columns to the right and rows down, whole pixels.
-    pub(super) shift: (f64, f64),
+    pub(super) window: Probe,
+    pub(super) shift: Probe,
     /// What is shown.
     pub(super) picture: RgbImage,
     /// Gray levels of the whole picture.
@@ -69,7 +81,7 @@ impl WindowShift {
     }
 
     fn look(&mut self) {
-        self.found = find(&self.gray, self.window, self.window_px());
+        self.found = find(&self.gray, self.window.pixel(), self.window_px());
         self.version += 1;
     }
 }
@@ -85,7 +97,7 @@ impl Declared for WindowShift {
         let settings = Settings::new(KNOBS);
         let (picture, gray) = take_picture(NOISE.default);
         Self {
-            found: find(&gray, PLACE, settings.count(&WINDOW)),
+            found: find(&gray, PLACE.pixel(), settings.count(&WINDOW)),
             settings,
             window: PLACE,
             shift: SHIFT,
@@ -102,20 +114,7 @@ impl Model for WindowShift {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (left, top, width, height) = SHOWN;
-        let range = |from: u32, size: u32| {
-            [from + LARGEST_HALF, from + size - 1 - LARGEST_HALF].map(f64::from)
-        };
-        let reach = REACH as f64;
-        let ranges = [range(left, width), range(top, height)];
-        let [du, dv] = [self.shift.0, self.shift.1].map(|shift| format_number(shift, 0));
-        vec![
-            Handle::new("place", "picture", "Window", self.window, ranges)
-                .told(place_words(self.window, 0))
-                .step([2.0; 2], 0),
-            Handle::new("shift", "map", "Shift", self.shift, [[-reach, reach]; 2])
-                .told(format!("{du} columns right, {dv} rows down")),
-        ]
+        vec![self.window.handle(), self.shift.handle()]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
@@ -127,17 +126,10 @@ impl Model for WindowShift {
                 self.look();
             }
         }
-        for handle in self.handles() {
-            let Some(place) = handle.moved_by(event) else {
-                continue;
-            };
-            if handle.id == "shift" {
-                self.shift = place;
-            } else {
-                self.window = place;
-                self.look();
-            }
+        if self.window.update(event) {
+            self.look();
         }
+        self.shift.update(event);
         Ok(())
     }
 }
@@ -149,7 +141,7 @@ const CHALLENGES: &[Challenge<WindowShift>] = &[
         hint: "Go far to the right of the square. How much noise does it take?",
         why: "Noise has slopes in every direction, so both eigenvalues grow with its variance: a \
               threshold must stay above it.",
-        check: |model| model.window.0 >= PLAIN_FROM && model.is_on(Verdict::Corner),
+        check: |model| model.window.place().0 >= PLAIN_FROM && model.is_on(Verdict::Corner),
         solution: || {
             vec![
                 Event::moved("place", 200.0, 120.0),
@@ -163,7 +155,7 @@ const CHALLENGES: &[Challenge<WindowShift>] = &[
         hint: "A corner needs two large eigenvalues. Large compared with what?",
         why: "Corner and edge are a choice of threshold: between the two eigenvalues, one counts as \
               large and the other does not.",
-        check: |model| model.window == PLACE && model.is_on(Verdict::Edge),
+        check: |model| model.window.place() == PLACE.place() && model.is_on(Verdict::Edge),
         solution: || vec![Event::set(&THRESHOLD, 460.0)],
     },
     Challenge {
@@ -173,11 +165,11 @@ const CHALLENGES: &[Challenge<WindowShift>] = &[
         why: "The structure tensor knows slopes at one place only, so its estimate holds for small \
               shifts and fails for large ones.",
         check: |model| {
-            let (du, dv) = model.shift;
-            model.window == PLACE
+            let shift = model.shift.place();
+            model.window.place() == PLACE.place()
                 && model.found().is_ok_and(|found| {
-                    let change = found.change(du as i32, dv as i32);
-                    found.estimate(model.shift) >= 4.0 * change && change > 0.0
+                    let change = found.change(shift);
+                    found.estimate(shift) >= 4.0 * change && change > 0.0
                 })
         },
         solution: || vec![Event::moved("shift", 8.0, 8.0)],

@@ -1,21 +1,22 @@
 //! The picture with its window, the squared change as a map, and the same as a surface.
 
-mod surface;
-
 use super::measure::{CHANGE, Found, REACH, SHOWN};
 use super::model::WindowShift;
 use crate::canvas::{Canvas, Place, Stroke, TextStyle, text_width};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
-use crate::theme::{Rgb, Role, Theme, mix};
+use crate::kit::terrain::Terrain;
+use crate::theme::{Role, Theme, mix};
 use image::RgbImage;
 
 const LEGEND: f64 = 26.0;
-/// Pixels of the map for a pixel of shift.
-const FINE: usize = 16;
 /// Root mean square change from one level line to the next, gray levels.
 const LEVEL: f64 = 15.0;
+/// The one that has full color.
+const STRONG: f64 = 150.0;
+/// Squared change at the top of the surface.
+const TOP: f64 = 11_000.0;
 /// Height of the surface on a phone, CSS pixels.
 const LOW: f64 = 138.0;
 
@@ -67,12 +68,15 @@ impl View for WindowShiftView {
         canvas.photograph(picture.rect, &model.picture);
         canvas.clipped(picture.rect, |canvas| windows(canvas, picture, model));
         let theme = canvas.theme();
-        let [colors] = (self.map).maps(model.version, theme, || [colored(found, theme)]);
+        let height = |shift| found.change(shift);
+        let terrain = Terrain {
+            reach: REACH,
+            height: &height,
+        };
+        let [colors] = (self.map).maps(model.version, theme, || [colored(&terrain, theme)]);
         canvas.photograph(map.rect, colors);
         canvas.clipped(map.rect, |canvas| ellipse(canvas, map, model, found));
-        canvas.clipped(surface.rect, |canvas| {
-            surface::draw(canvas, surface.rect, model.shift, found);
-        });
+        draw_surface(canvas, surface.rect, &terrain, model);
         draw_legend(canvas, layout, model, found);
     }
 }
@@ -80,9 +84,8 @@ impl View for WindowShiftView {
 /// The window where it is, and where the shift takes it.
 fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     let side = model.window_px() as f64 * panel.scale_x();
-    let place = model.window;
-    let shifted = (place.0 + model.shift.0, place.1 + model.shift.1);
-    let [still, moved] = [place, shifted].map(|place| panel.canvas_from_world(place));
+    let ((u, v), (du, dv)) = (model.window.place(), model.shift.place());
+    let [still, moved] = [(u, v), (u + du, v + dv)].map(|place| panel.canvas_from_world(place));
     let [still_square, moved] = [still, moved].map(|place| Rect::around(place, side / 2.0));
     let stroke = Stroke::solid(Role::Candidate, 2.0).cased();
     canvas.polygon_outline(&moved.corners(), stroke.dashed());
@@ -119,73 +122,38 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
         canvas.label(place(beyond(short), 0.0), "λ₁", style);
         canvas.label(place(0.0, -beyond(long)), "λ₂", style);
     }
-    let shift = panel.canvas_from_world(model.shift);
+    let shift = panel.canvas_from_world(model.shift.place());
     let stroke = Stroke::solid(Role::Grip, 2.0).cased();
     canvas.line(middle, shift, stroke);
     canvas.grip(shift, Role::Grip);
 }
 
 /// Level lines of the root mean square change; pale where it is less than [`CHANGE`].
-fn colored(found: &Found, theme: Theme) -> RgbImage {
+fn colored(terrain: &Terrain, theme: Theme) -> RgbImage {
     let [pale, strong, line] =
         [Role::Surface, Role::Candidate, Role::Ink].map(|role| theme.color(role));
-    let reach = REACH as i32;
-    let side = (2 * REACH + 1) * FINE;
-    let limit = f64::from(reach);
-    // The number of the whole shift before each pixel of the map, and how far the pixel is beyond it.
-    let places: Vec<(usize, f64)> = (0..side)
-        .map(|pixel| {
-            let at = (pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit;
-            let at = at.clamp(-limit, limit - 1e-9);
-            ((at.floor() + limit) as usize, at - at.floor())
-        })
-        .collect();
-    let shifts = || -reach..=reach;
-    let changes: Vec<Vec<f64>> = shifts()
-        .map(|dv| shifts().map(|du| found.change(du, dv)).collect())
-        .collect();
-    // Across the columns once for each row of shifts, then down the rows.
-    let across: Vec<Vec<f64>> = changes
-        .iter()
-        .map(|row| {
-            let between =
-                |&(left, right): &(usize, f64)| row[left] * (1.0 - right) + row[left + 1] * right;
-            places.iter().map(between).collect()
-        })
-        .collect();
-    let mut levels = Vec::with_capacity(side * side);
-    for &(above, below) in &places {
-        let rows = across[above].iter().zip(&across[above + 1]);
-        levels.extend(rows.map(|(upper, lower)| {
-            ((upper * (1.0 - below) + lower * below).sqrt() / LEVEL) as usize
-        }));
-    }
-    let most = levels.iter().copied().max().unwrap_or(0);
-    let colors: Vec<[Rgb; 2]> = (0..=most)
-        .map(|level| {
-            let change = level as f64 * LEVEL;
-            let share = match change < CHANGE {
-                true => 0.0,
-                false => 0.3 + 0.6 * (change / 150.0).min(1.0),
-            };
-            let color = mix(pale, strong, share as f32);
-            [color, mix(color, line, 0.45)]
-        })
-        .collect();
-    let rows: Vec<&[usize]> = levels.chunks_exact(side).collect();
-    let mut map = RgbImage::new(side as u32, side as u32);
-    let pixels = map.as_chunks_mut::<3>().0;
-    for (v, pixels) in pixels.chunks_exact_mut(side).enumerate() {
-        let (row, below) = (rows[v], rows[(v + 1).min(side - 1)]);
-        let above = rows[v.saturating_sub(1)];
-        for (u, pixel) in pixels.iter_mut().enumerate() {
-            let here = row[u];
-            let next = row[(u + 1).min(side - 1)].max(below[u]);
-            let before = row[u.saturating_sub(1)].max(above[u]);
-            *pixel = colors[here][usize::from(here != next || here < before)];
-        }
-    }
-    map
+    let colors = |level: usize| {
+        let change = level as f64 * LEVEL;
+        let share = match change < CHANGE {
+            true => 0.0,
+            false => 0.3 + 0.6 * (change / STRONG).min(1.0),
+        };
+        let color = mix(pale, strong, share as f32);
+        [color, mix(color, line, 0.45)]
+    };
+    terrain.map(|change| (change.sqrt() / LEVEL) as usize, colors)
+}
+
+fn draw_surface(canvas: &mut Canvas, rect: Rect, terrain: &Terrain, model: &WindowShift) {
+    let [pale, strong] = [Role::Surface, Role::Candidate].map(|role| canvas.theme().color(role));
+    let color = |change: f64| {
+        let share = (change.sqrt() / STRONG).min(1.0);
+        mix(pale, strong, 0.1 + 0.6 * share as f32)
+    };
+    let place = model.shift.place();
+    canvas.clipped(rect, |canvas| {
+        terrain.draw_net(canvas, rect, TOP, place, color);
+    });
 }
 
 /// What the window is on, and what the marks of the map mean.

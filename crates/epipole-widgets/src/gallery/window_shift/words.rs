@@ -21,9 +21,8 @@ impl Words for WindowShift {
             return vec![Readout::words("state", "State", self.describe()).main()];
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift;
-        let change = found.change(du as i32, dv as i32);
-        let estimate = found.estimate(self.shift);
+        let shift = self.shift.place();
+        let (change, estimate) = (found.change(shift), found.estimate(shift));
         let number = |id, label, value: f64| Readout::number(id, label, value, 0, "");
         vec![
             Readout::words("verdict", "Verdict", self.verdict(found).word()).main(),
@@ -45,14 +44,14 @@ impl Words for WindowShift {
             Verdict::Corner => "a corner: every shift changes it",
         };
         let (large, small) = found.eigenvalues();
-        let (du, dv) = self.shift;
-        let change = found.change(du as i32, dv as i32);
+        let (du, dv) = self.shift.place();
+        let change = found.change((du, dv));
         let numbers = [large, small, self.threshold(), du, dv, change];
         let [large, small, threshold, du, dv, change] =
             numbers.map(|number| format_number(number, 0));
-        let (column, row) = self.window;
+        let window = self.window.text();
         format!(
-            "The window at column {column}, row {row} is on {what}. Per pixel λ₁ is {large} and λ₂ is {small}; \
+            "The window at {window} is on {what}. Per pixel λ₁ is {large} and λ₂ is {small}; \
              {threshold} and more counts as large. A shift by {du} columns and {dv} rows changes it by {change}."
         )
     }

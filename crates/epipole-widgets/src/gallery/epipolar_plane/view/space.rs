@@ -64,7 +64,7 @@ pub(super) fn draw_space(
     model: &EpipolarPlane,
     scenery: &Scenery,
     cloud: &[(Point3<f64>, Rgb)],
-    pictures: &[(&Camera, &RgbImage)],
+    pictures: [&RgbImage; 2],
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
@@ -73,7 +73,7 @@ pub(super) fn draw_space(
     };
     let lit = model.lit();
     space.ground(&SUBJECT.middle, 0.0, 0.25, 6);
-    space.stand(pictures.iter().copied(), PICTURE_M);
+    space.stand(scenery.cameras.iter().zip(pictures), PICTURE_M);
     for (point, color) in cloud {
         space.dot(point, 2.4, *color);
     }

@@ -4,11 +4,12 @@
 use super::super::model::DEPTH_RANGE_M;
 use super::super::rig::{Measured, Rig};
 use super::super::words::reach;
-use super::{CAMERAS, UNCERTAIN};
+use super::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Panel, Rect, format_number};
 use crate::kit::grid::{self, TEXT};
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::kit::plan::{self, draw_span};
 use crate::kit::scenes::PHOTO_WIDTH;
 use crate::theme::Role;

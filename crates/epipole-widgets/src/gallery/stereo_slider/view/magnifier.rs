@@ -1,11 +1,12 @@
 //! The match through a magnifying glass, in a corner of the right photograph: there a pixel more or less can be seen.
 
-use super::{CAMERAS, UNCERTAIN};
+use super::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Panel, Rect};
 use crate::gallery::stereo_slider::rig::ERROR_PX;
 use crate::kit::grid::TEXT;
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::theme::Role;
 use image::RgbImage;
 use nalgebra::Point2;

@@ -1,6 +1,6 @@
 //! Beside the region: where the estimates appear in the photographs, or how the uncertainty grows.
 
-use super::{CAMERAS, METHOD_ROLE, REGION, SHAPES};
+use super::{METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Layout, Panel, Rect, format_number};
 use crate::gallery::triangulate::estimates::{Estimates, METHODS};
@@ -8,6 +8,7 @@ use crate::gallery::triangulate::model::{Show, Triangulate};
 use crate::gallery::triangulate::uncertainty::{ANGLES_DEG, DISTANCES};
 use crate::kit::grid::{self, SMALL};
 use crate::kit::labels::Labels;
+use crate::kit::pair::CAMERAS;
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 

@@ -1,10 +1,11 @@
 //! What lies around the point, enlarged: both rays, all estimates, and the region of the others.
 
-use super::{CAMERAS, METHOD_ROLE, REGION, SHAPES};
+use super::{METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::Panel;
 use crate::gallery::triangulate::estimates::Estimates;
 use crate::gallery::triangulate::model::Triangulate;
+use crate::kit::pair::CAMERAS;
 use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::{Point3, Vector3};

@@ -1,7 +1,8 @@
 //! Every pixel of the first photograph as a point: the pair is rectified with the cameras that were found,
 //! and each pixel looks for its partner in its row.
 
-use crate::contract::Progress;
+use crate::contract::{Panel, Progress};
+use crate::kit::space::Space;
 use epipole::Error;
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use epipole::stereo::{
@@ -21,17 +22,27 @@ const SPECKLE_PX: u32 = 150;
 
 /// The pixels of camera 1 whose depth is known.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::gallery) struct Surface {
+pub(crate) struct Surface {
     /// Where they are in the frame of camera 1, in units of the baseline, and their colors: first, row by row,
     /// a quarter of them that is spread over all.
-    pub(in crate::gallery) points: Vec<([f32; 3], [u8; 3])>,
+    pub(crate) points: Vec<([f32; 3], [u8; 3])>,
     num_coarse: u32,
 }
 
 impl Surface {
     /// As many of them as the eye can tell apart in a figure, row by row.
-    pub(in crate::gallery) fn coarse(&self) -> &[([f32; 3], [u8; 3])] {
+    pub(crate) fn coarse(&self) -> &[([f32; 3], [u8; 3])] {
         &self.points[..(self.num_coarse as usize).min(self.points.len())]
+    }
+
+    /// Draws the first `share` of these.
+    pub(crate) fn draw(&self, space: &mut Space<'_>, share: f64, panel: &Panel) {
+        let side = (panel.rect.height / 130.0).clamp(1.6, 3.4);
+        let all = self.coarse();
+        let shown = (share * all.len() as f64) as usize;
+        for (place, color) in &all[..shown] {
+            space.speck(&Point3::from(*place).cast(), side, *color);
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
 /// Fewer matches than this tell nothing.
-pub(super) const MIN_NUM_MATCHES: usize = 15;
+pub(crate) const MIN_NUM_MATCHES: usize = 15;
 /// Half of the inliers should have rays that meet at a larger angle.
 const MIN_MEDIAN_ANGLE_DEG: f64 = 0.75;
 /// Another focal length is worth telling if a turn then explains so many times the matches.
@@ -19,7 +19,7 @@ const MIN_GAIN: f64 = 1.05;
 
 /// What the pair turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) enum Verdict {
+pub(crate) enum Verdict {
     /// A motion and a scene with depth.
     Good,
     /// A motion, but a plane explains most matches.

@@ -1,0 +1,202 @@
+//! Plots: axes with ticks, linear or in decades, curves on them, and a line that says where one is.
+//!
+//! A panel's world is linear, so an axis in [`Ruler::decades`] has the logarithm to base 10 as its
+//! world; [`decade`] takes values there.
+
+mod ruler;
+
+pub(crate) use self::ruler::{Ruler, SIGMAS, decade};
+use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
+use crate::contract::{Layout, Panel, Rect};
+use crate::kit::grid::{SMALL, fitting_title};
+use crate::kit::labels::Labels;
+use crate::theme::Role;
+
+/// Room for the numbers of the vertical axis.
+pub(crate) const LEFT: f64 = 42.0;
+/// Room for those of the horizontal one.
+const BELOW: f64 = 22.0;
+/// Room to the right of a plot.
+const RIGHT: f64 = 6.0;
+/// Room for the name of the horizontal axis.
+const NAME: f64 = 17.0;
+/// Size of raised letters.
+const RAISED: f64 = 9.0;
+/// Least distance of ticks along the horizontal and the vertical axis.
+const ACROSS: f64 = 58.0;
+const DOWN: f64 = 30.0;
+
+/// The number of a tick; what follows a "^" is raised. The font has no raised minus.
+fn draw_number(canvas: &mut Canvas, (x, y): Place, text: &str, style: TextStyle) {
+    let (base, raised) = text.split_once('^').unwrap_or((text, ""));
+    if raised.is_empty() {
+        return canvas.label((x, y), base, style);
+    }
+    let small = TextStyle {
+        size: RAISED,
+        align: Align::Start,
+        ..style
+    };
+    let left = match style.align {
+        Align::Start => x,
+        Align::Middle => x - number_width(text) / 2.0,
+        Align::End => x - number_width(text),
+    };
+    let base_style = TextStyle {
+        size: SMALL,
+        ..small
+    };
+    canvas.label((left, y), base, base_style);
+    let beside = (left + text_width(base, SMALL) + 1.0, y - 4.0);
+    canvas.label(beside, raised, small);
+}
+
+fn number_width(text: &str) -> f64 {
+    let (base, raised) = text.split_once('^').unwrap_or((text, ""));
+    text_width(base, SMALL) + text_width(raised, RAISED) + 1.0
+}
+
+/// A plot's panel within a cell, with room for the numbers of its axes.
+pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel {
+    let below = if x.name.is_empty() {
+        BELOW
+    } else {
+        BELOW + NAME
+    };
+    let rect = Rect::new(
+        cell.x + LEFT,
+        cell.y,
+        (cell.width - LEFT - RIGHT).max(1.0),
+        (cell.height - below).max(1.0),
+    );
+    Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
+}
+
+/// A plot's panel with its title, in the first wording that fits, and its axes.
+pub(crate) fn open<'a>(
+    canvas: &mut Canvas,
+    layout: &'a Layout,
+    id: &str,
+    titles: &[&str],
+    [x, y]: &[Ruler; 2],
+) -> &'a Panel {
+    let panel = layout.panel(id);
+    fitting_title(canvas, panel.rect, titles);
+    draw_axes(canvas, panel, x, y);
+    panel
+}
+
+/// The title of a plot, in the first wording that fits, from where the numbers of its vertical axis begin.
+pub(crate) fn title_from_left(canvas: &mut Canvas, panel: &Panel, titles: &[&str]) {
+    let Rect { x, width, .. } = panel.rect;
+    let above = Rect {
+        x: x - LEFT,
+        width: width + LEFT,
+        ..panel.rect
+    };
+    fitting_title(canvas, above, titles);
+}
+
+/// The surface, the ticks and their numbers.
+pub(crate) fn draw_axes(canvas: &mut Canvas, panel: &Panel, x: &Ruler, y: &Ruler) {
+    let rect = panel.rect;
+    canvas.panel(rect);
+    let style = TextStyle::new(Role::Muted, SMALL);
+    let grid = Stroke::solid(Role::Grid, 1.0);
+    for (at, text) in y.ticks(rect.height, DOWN) {
+        let v = panel.canvas_from_world((x.from, at)).1;
+        canvas.line((rect.x + 1.0, v), (rect.right() - 1.0, v), grid);
+        // Half of a number at the very end would run into the title.
+        let beside = v.max(rect.y + 4.0);
+        draw_number(canvas, (rect.x - 6.0, beside), &text, style.end());
+    }
+    for (at, text) in x.ticks(rect.width, ACROSS) {
+        let u = panel.canvas_from_world((at, y.from)).0;
+        canvas.line((u, rect.y + 1.0), (u, rect.bottom() - 1.0), grid);
+        // The last number may stand at the very end, where half of it has no room.
+        let middle = u.min(rect.right() + RIGHT - number_width(&text) / 2.0);
+        draw_number(
+            canvas,
+            (middle, rect.bottom() + 12.0),
+            &text,
+            style.middle(),
+        );
+    }
+    if !x.name.is_empty() {
+        let place = (rect.center().0, rect.bottom() + BELOW + 7.0);
+        canvas.label(place, x.name, style.middle());
+    }
+}
+
+/// A curve through places of the panel's world; what is outside is cut off.
+pub(crate) fn draw_curve(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    places: impl IntoIterator<Item = (f64, f64)>,
+    stroke: Stroke,
+) {
+    let places: Vec<Place> = (places.into_iter())
+        .map(|place| panel.canvas_from_world(place))
+        .collect();
+    canvas.clipped(panel.rect.inset(1.0), |canvas| {
+        canvas.polyline(&places, stroke)
+    });
+}
+
+/// Values of an axis that counts things, in decades: a curve with a mark for each.
+pub(crate) struct List<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) stroke: Stroke,
+    /// Shape and radius of its marks.
+    pub(crate) mark: (Shape, f64),
+    /// Its name, and the index of the value beside which it stands.
+    pub(crate) name: (&'a str, usize),
+}
+
+/// Draws lists, and then their names beside them. A value beyond the axis is drawn at its edge.
+pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
+    let mut labels = Labels::new(panel.rect.inset(2.0));
+    let world = |(k, value): (usize, &f64)| {
+        let decade = decade(*value).clamp(panel.y_axis.end, panel.y_axis.start);
+        (k as f64 + 1.0, decade)
+    };
+    for list in lists {
+        let places = || list.values.iter().enumerate().map(world);
+        draw_curve(canvas, panel, places(), list.stroke);
+        for place in places() {
+            let (x, y) = panel.canvas_from_world(place);
+            let place = (x, y.clamp(panel.rect.y + 5.0, panel.rect.bottom() - 5.0));
+            let (shape, radius) = list.mark;
+            canvas.marker(place, radius, shape, list.stroke.role, false);
+            labels.keep_free(place, 6.0);
+        }
+    }
+    for list in lists {
+        let (name, index) = list.name;
+        let place = panel.canvas_from_world(world((index, &list.values[index])));
+        labels.name(canvas, (place, 8.0), name, (list.stroke.role, SMALL));
+    }
+}
+
+/// The line that says where along the horizontal axis the figure is now.
+pub(crate) fn draw_now(canvas: &mut Canvas, panel: &Panel, x: f64) {
+    let u = panel.canvas_from_world((x, 0.0)).0;
+    let rect = panel.rect;
+    let stroke = Stroke::solid(Role::Grip, 1.5).dashed();
+    canvas.clipped(rect.inset(1.0), |canvas| {
+        canvas.line((u, rect.y), (u, rect.bottom()), stroke);
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_leaves_room_for_numbers() {
+        let (x, y) = (Ruler::linear(0.0, 10.0), Ruler::decades(-1.0, 3.0));
+        let panel = panel("cost", Rect::new(0.0, 24.0, 300.0, 180.0), &x, &y);
+        assert_eq!(panel.canvas_from_world((0.0, 3.0)), (LEFT, 24.0));
+        assert_eq!(panel.rect.bottom(), 24.0 + 180.0 - BELOW);
+    }
+}

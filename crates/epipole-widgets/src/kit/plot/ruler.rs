@@ -1,0 +1,211 @@
+//! An axis of a plot: what it spans, and where its numbers stand.
+
+use crate::contract::format_number;
+
+/// Least distance of names along an axis that counts things.
+const NAMES: f64 = 20.0;
+
+/// The names of nine singular values.
+pub(crate) const SIGMAS: &[&str] = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Scale {
+    Linear,
+    /// Each power of ten takes as much room as the next.
+    Decades,
+}
+
+/// An axis of a plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ruler {
+    /// From where to where, in the panel's world.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    scale: Scale,
+    /// What stands below a horizontal axis; a vertical axis is named by the plot's title.
+    pub(super) name: &'static str,
+    /// What stands behind each number.
+    unit: &'static str,
+    /// By how much numbers are multiplied before they are shown.
+    times: f64,
+    /// What stands at 1, 2, 3 … instead of numbers.
+    names: &'static [&'static str],
+}
+
+impl Ruler {
+    /// From `from` to `to`, evenly.
+    pub(crate) fn linear(from: f64, to: f64) -> Self {
+        Self {
+            from,
+            to,
+            scale: Scale::Linear,
+            name: "",
+            unit: "",
+            times: 1.0,
+            names: &[],
+        }
+    }
+
+    /// Things that are counted from 1, with their names.
+    pub(crate) fn things(names: &'static [&'static str]) -> Self {
+        Self {
+            names,
+            ..Self::linear(0.5, names.len() as f64 + 0.5)
+        }
+    }
+
+    /// From `10^from` to `10^to`.
+    pub(crate) fn decades(from: f64, to: f64) -> Self {
+        Self {
+            scale: Scale::Decades,
+            ..Self::linear(from, to)
+        }
+    }
+
+    /// The same axis with a name below it.
+    pub(crate) fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same axis with numbers in a unit, such as shares in percent.
+    pub(crate) fn shown(self, times: f64, unit: &'static str) -> Self {
+        Self {
+            times,
+            unit,
+            ..self
+        }
+    }
+
+    /// Where the ticks are, and what they say, so that the axis of this length has room for them.
+    ///
+    /// * `apart`: least distance of numbers
+    pub(super) fn ticks(&self, length: f64, apart: f64) -> Vec<(f64, String)> {
+        if !self.names.is_empty() {
+            let every = (self.names.len() as f64 * NAMES / length.max(1.0)).ceil();
+            let names = self.names.iter().enumerate().step_by(every as usize);
+            return names
+                .map(|(k, name)| (k as f64 + 1.0, (*name).to_owned()))
+                .collect();
+        }
+        let most = length / apart;
+        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        if self.scale == Scale::Decades && high - low < 2.0 {
+            return within_decades(low, high);
+        }
+        let step = match self.scale {
+            Scale::Linear => round_step(self.times * (high - low) / most.max(1.0)) / self.times,
+            Scale::Decades => ((high - low) / most.max(1.0)).ceil().max(1.0),
+        };
+        let first = (low / step - 1e-9).ceil() as i64;
+        let last = (high / step + 1e-9).floor() as i64;
+        let text = |at: f64| match self.scale {
+            Scale::Linear => {
+                let step = step * self.times;
+                let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 6.0) as usize;
+                format!("{}{}", format_number(at * self.times, digits), self.unit)
+            }
+            // One notation for all numbers of an axis.
+            Scale::Decades if first as f64 * step < -3.0 || last as f64 * step > 3.0 => {
+                format!("10^{}", format_number(at, 0))
+            }
+            Scale::Decades => power_of_ten(at as i32),
+        };
+        (first..=last.min(first + 100))
+            .map(|index| {
+                let at = index as f64 * step;
+                (at, text(at))
+            })
+            .collect()
+    }
+}
+
+/// The next larger of 1, 2, 5, 10, 20 …
+fn round_step(step: f64) -> f64 {
+    let power = libm::exp10(libm::floor(libm::log10(step.max(1e-300))));
+    let times = [1.0, 2.0, 5.0]
+        .into_iter()
+        .find(|n| n * power >= step * (1.0 - 1e-9));
+    times.unwrap_or(10.0) * power
+}
+
+/// A power of ten in full.
+fn power_of_ten(power: i32) -> String {
+    format_number(libm::exp10(f64::from(power)), (-power).max(0) as usize)
+}
+
+/// Ticks at 1, 2, 5, 10, 20 … where an axis spans hardly a decade.
+fn within_decades(low: f64, high: f64) -> Vec<(f64, String)> {
+    let powers = libm::floor(low) as i32..=libm::floor(high) as i32;
+    let ticks = powers.flat_map(|power| {
+        [1.0, 2.0, 5.0].map(|times| {
+            let value = times * libm::exp10(f64::from(power));
+            (
+                libm::log10(value),
+                format_number(value, (-power).max(0) as usize),
+            )
+        })
+    });
+    let is_inside = |(at, _): &(f64, String)| (low - 1e-9..=high + 1e-9).contains(at);
+    ticks.filter(is_inside).collect()
+}
+
+/// Where a value is on an axis in decades; zero and less are far below.
+pub(crate) fn decade(value: f64) -> f64 {
+    libm::log10(value.max(1e-300))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(ruler: &Ruler, most: f64) -> Vec<String> {
+        ruler
+            .ticks(most, 1.0)
+            .into_iter()
+            .map(|(_, text)| text)
+            .collect()
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        assert_eq!(
+            texts(&Ruler::linear(0.0, 8.3), 5.0),
+            ["0", "2", "4", "6", "8"]
+        );
+        assert_eq!(
+            texts(&Ruler::linear(-0.3, 0.3), 3.0),
+            ["−0.2", "0.0", "0.2"]
+        );
+        let shares = Ruler::linear(0.1, 0.9).shown(100.0, " %");
+        assert_eq!(texts(&shares, 5.0), ["20 %", "40 %", "60 %", "80 %"]);
+    }
+
+    #[test]
+    fn things_have_names_as_far_as_there_is_room() {
+        let ruler = Ruler::things(&["a", "b", "c", "d", "e"]);
+        assert_eq!(ruler.ticks(200.0, 1.0).len(), 5);
+        let few = ruler.ticks(60.0, 1.0);
+        let few: Vec<_> = few.iter().map(|(at, name)| (*at, &**name)).collect();
+        assert_eq!(few, [(1.0, "a"), (3.0, "c"), (5.0, "e")]);
+    }
+
+    #[test]
+    fn decades_are_powers_of_ten() {
+        let ruler = Ruler::decades(-1.2, 4.4);
+        assert_eq!(
+            texts(&ruler, 10.0),
+            ["10^−1", "10^0", "10^1", "10^2", "10^3", "10^4"]
+        );
+        assert_eq!(texts(&ruler, 2.0), ["1", "1000"]);
+        assert_eq!(
+            texts(&Ruler::decades(-3.0, 1.0), 4.0),
+            ["0.001", "0.01", "0.1", "1", "10"]
+        );
+        assert_eq!(
+            texts(&Ruler::decades(-0.4, 0.7), 3.0),
+            ["0.5", "1", "2", "5"]
+        );
+        assert!((decade(1000.0) - 3.0).abs() < 1e-12 && decade(0.0) < -200.0);
+    }
+}

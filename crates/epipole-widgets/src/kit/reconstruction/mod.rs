@@ -1,0 +1,237 @@
+//! What do two photographs tell? Every stage, from their pixels to points in space, as one question.
+
+mod stages;
+mod surface;
+mod verdict;
+
+use self::surface::Surface;
+pub(crate) use self::verdict::{MIN_NUM_MATCHES, Verdict};
+use crate::contract::{Problem, Progress};
+use crate::kit::picture::Picture;
+use crate::kit::question;
+use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
+use epipole::Error;
+use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::synthetic::still_life_camera;
+use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Where the cameras of the rendered pairs are, and where they look.
+const FIRST: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.02, -0.16, 0.05]];
+const STEP: [[f64; 3]; 2] = [[0.22, -0.47, -1.20], [0.02, -0.16, 0.05]];
+const TURN: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.30, -0.20, 0.0]];
+
+/// How far the pipeline has come; later stages know what earlier ones do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stage {
+    Detect,
+    Match,
+    Ransac,
+    Pose,
+    Cloud,
+    Adjust,
+    Surface,
+}
+
+/// Where the two photographs come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Source {
+    /// The rendered still life, from two places.
+    Step,
+    /// The rendered still life, from one place in two directions.
+    Turn,
+    /// The reader's own.
+    Own([Picture; 2]),
+}
+
+/// Everything that the answer depends on.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Question {
+    pub(crate) source: Source,
+    /// Focal length, in units of a photograph's longer side.
+    pub(crate) focal: f64,
+    /// Of Lowe's test.
+    pub(crate) max_ratio: f32,
+    /// Largest distance of an inlier from its epipolar line, pixels.
+    pub(crate) max_error_px: f64,
+    /// How far camera 2 is turned away from its pose before points are triangulated, degrees.
+    pub(crate) knock_deg: f64,
+}
+
+/// A point of the cloud.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct CloudPoint {
+    /// Where it is in the frame of camera 1; the baseline has length 1.
+    pub(crate) place: Point3<f64>,
+    /// Where it was before the adjustment.
+    pub(crate) triangulated: Point3<f64>,
+    pub(crate) color: [u8; 3],
+}
+
+impl CloudPoint {
+    /// Where it was before the adjustment, and its color.
+    pub(crate) fn before(&self) -> (Point3<f64>, [u8; 3]) {
+        (self.triangulated, self.color)
+    }
+}
+
+/// A motion and what follows from it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Motion {
+    /// Camera 2 in the frame of camera 1, as RANSAC found it.
+    pub(crate) found: RigidTransform,
+    /// The same, adjusted.
+    pub(crate) cam2_from_cam1: RigidTransform,
+    /// How many inliers each of the four poses of E puts in front of both cameras, most first.
+    pub(crate) num_in_front: [usize; 4],
+    /// Root mean square of the distances of projections from their features, pixels, before and
+    /// after the adjustment of all.
+    pub(crate) error_px: [f64; 2],
+    pub(crate) points: Vec<CloudPoint>,
+    /// Every pixel that has a partner in its row; or why there is none.
+    pub(crate) surface: Result<Surface, String>,
+}
+
+/// What the computation finds.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Answer {
+    pub(crate) pictures: [Picture; 2],
+    /// Places of all features, pixels.
+    pub(crate) keypoints: [Vec<Point2<f64>>; 2],
+    /// The features of each match.
+    pub(crate) matches: Vec<(u32, u32)>,
+    /// For each match, whether it agrees with what was found.
+    pub(crate) inliers: Vec<bool>,
+    pub(crate) verdict: Verdict,
+    /// There for the verdicts that have a cloud.
+    pub(crate) motion: Option<Motion>,
+}
+
+impl Motion {
+    fn is_sound(&self) -> bool {
+        let is_motion = |motion: &RigidTransform| {
+            (motion.rotation.coords.norm() - 1.0).abs() < 1e-6
+                && (motion.translation.vector.norm() - 1.0).abs() < 1e-6
+        };
+        let places = self
+            .points
+            .iter()
+            .flat_map(|point| [&point.place, &point.triangulated]);
+        let numbers = places.flat_map(|place| place.iter()).chain(&self.error_px);
+        let surface = self.surface.iter().flat_map(|surface| &surface.points);
+        let surface = surface.flat_map(|(place, _)| place);
+        // NaN is not less than anything.
+        is_motion(&self.found)
+            && is_motion(&self.cam2_from_cam1)
+            && numbers.into_iter().all(|x| x.abs() < 1e12)
+            && surface.into_iter().all(|x| x.abs() < 1e12)
+    }
+}
+
+impl Answer {
+    /// Where the two features of a match are, pixels.
+    pub(crate) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
+        [self.keypoints[0][i as usize], self.keypoints[1][j as usize]]
+    }
+
+    /// The matches that agree with what was found, or those that do not.
+    pub(crate) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
+        let matches = self.matches.iter().zip(&self.inliers);
+        matches.filter_map(move |(pair, is_inlier)| (*is_inlier == agree).then_some(*pair))
+    }
+
+    pub(crate) fn num_inliers(&self) -> usize {
+        self.inliers.iter().filter(|is_inlier| **is_inlier).count()
+    }
+}
+
+impl Question {
+    fn lens(&self, (width, height): (u32, u32)) -> Result<Intrinsics, Error> {
+        Intrinsics::centered(self.focal * f64::from(width.max(height)), width, height)
+    }
+
+    /// Camera 2 in the frame of camera 1, as a stage has it.
+    pub(crate) fn motion(&self, answer: &Answer, stage: Stage) -> Option<RigidTransform> {
+        let motion = answer.motion.as_ref()?;
+        match stage {
+            Stage::Detect | Stage::Match | Stage::Ransac => None,
+            Stage::Pose => Some(motion.found),
+            Stage::Cloud => Some(self.knocked(&motion.found)),
+            Stage::Adjust | Stage::Surface => Some(motion.cam2_from_cam1),
+        }
+    }
+
+    /// Camera 1 of the answer, and camera 2 once a stage knows its motion.
+    pub(crate) fn cameras(
+        &self,
+        answer: &Answer,
+        stage: Stage,
+    ) -> Option<(Camera, Option<Camera>)> {
+        let camera = |index: usize, cam_from_world| {
+            let intrinsics = self.lens(answer.pictures[index].size()).ok()?;
+            Some(Camera {
+                intrinsics,
+                cam_from_world,
+            })
+        };
+        let second = self
+            .motion(answer, stage)
+            .and_then(|motion| camera(1, motion));
+        Some((camera(0, RigidTransform::identity())?, second))
+    }
+
+    /// Camera 2 turned on the spot, up and aside.
+    fn knocked(&self, cam2_from_cam1: &RigidTransform) -> RigidTransform {
+        let axis = Vector3::new(0.8, 0.6, 0.0) * self.knock_deg.to_radians();
+        UnitQuaternion::from_scaled_axis(axis) * cam2_from_cam1
+    }
+}
+
+impl question::Question for Question {
+    type Answer = Answer;
+    const LABEL: &'static str = "Following the pipeline";
+    const FAILED: &'static str = "There is no motion";
+
+    fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
+        self.follow(progress)
+    }
+
+    fn fits(&self, answer: &Answer) -> bool {
+        let nums = answer.keypoints.each_ref().map(Vec::len);
+        let is_there = |(i, j): &(u32, u32)| (*i as usize) < nums[0] && (*j as usize) < nums[1];
+        // NaN is not within any bounds.
+        let is_place = |pixel: &Point2<f64>| pixel.iter().all(|x| x.abs() < 1e6);
+        answer.keypoints.iter().flatten().all(is_place)
+            && answer.matches.iter().all(is_there)
+            && answer.inliers.len() == answer.matches.len()
+            && answer.motion.iter().all(Motion::is_sound)
+    }
+}
+
+impl Source {
+    /// The true cameras of a rendered pair.
+    fn cameras(&self) -> Result<[Camera; 2], Error> {
+        let second = match self {
+            Self::Turn => TURN,
+            Self::Step | Self::Own(_) => STEP,
+        };
+        let camera = |[center, target]: [[f64; 3]; 2]| {
+            let up = Vector3::new(0.0, -1.0, 0.0);
+            Ok(Camera {
+                cam_from_world: look_at(&Point3::from(center), &Point3::from(target), &up)?,
+                ..still_life_camera(PHOTO_WIDTH, PHOTO_HEIGHT)
+            })
+        };
+        Ok([camera(FIRST)?, camera(second)?])
+    }
+
+    /// How far camera 2 of a rendered pair is really turned, degrees.
+    pub(crate) fn true_turn_deg(&self) -> Option<f64> {
+        if matches!(self, Self::Own(_)) {
+            return None;
+        }
+        let [first, second] = self.cameras().ok()?;
+        let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
+        Some(motion.rotation.angle().to_degrees())
+    }
+}

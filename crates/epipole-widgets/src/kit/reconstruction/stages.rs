@@ -1,0 +1,180 @@
+//! How the question is answered: stage after stage.
+
+use super::surface::surface;
+use super::verdict::{Judged, Verdict, judge};
+use super::{Answer, CloudPoint, Motion, Question, Source};
+use crate::contract::{Problem, Progress};
+use crate::kit::picture::Picture;
+use crate::kit::question::tell;
+use crate::kit::scenes::{self, PHOTO_SIZE};
+use epipole::Error;
+use epipole::camera::Intrinsics;
+use epipole::feature::{
+    FeatureOptions, Features, MatchOptions, detect_sift_with_progress, match_descriptors,
+    photo_to_gray,
+};
+use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
+use nalgebra::Point2;
+use std::ops::ControlFlow;
+
+/// More features than this cost time and show nothing new.
+const MAX_FEATURES: usize = 3000;
+
+impl Question {
+    /// Every stage, one after the other.
+    ///
+    /// # Errors
+    /// As the stages, and [`Error::Canceled`] if `progress` ended it.
+    pub(super) fn follow(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
+        tell(progress, 0.0)?;
+        let pictures = self.photographs(progress)?;
+        let lenses = [
+            self.lens(pictures[0].size())?,
+            self.lens(pictures[1].size())?,
+        ];
+        let first = features(&pictures[0], &mut |share| progress(0.4 + 0.1 * share))?;
+        let second = features(&pictures[1], &mut |share| progress(0.5 + 0.1 * share))?;
+        let matches = self.matches(&first, &second)?;
+        tell(progress, 0.7)?;
+        let keypoints = [&first, &second].map(|found| -> Vec<_> {
+            let keypoints = found.keypoints.iter();
+            keypoints.map(|keypoint| keypoint.point()).collect()
+        });
+        let pixels1: Vec<_> = matches.iter().map(|m| keypoints[0][m.0 as usize]).collect();
+        let pixels2: Vec<_> = matches.iter().map(|m| keypoints[1][m.1 as usize]).collect();
+        let colors: Vec<_> = (matches.iter())
+            .map(|m| color_at(&pictures[0], &keypoints[0][m.0 as usize]))
+            .collect();
+        let judged = judge([&pixels1, &pixels2], &lenses, self.max_error_px)?;
+        tell(progress, 0.75)?;
+        let mut motion = self.reconstruct(&judged, [&pixels1, &pixels2], &lenses, &colors)?;
+        if let Some(motion) = &mut motion {
+            Self::look_everywhere(motion, &pictures, &lenses, &mut |share| {
+                progress(0.8 + 0.2 * share)
+            })?;
+        }
+        let has_depth = judged.cam2_from_cam1.is_some();
+        Ok(Answer {
+            pictures,
+            keypoints,
+            matches,
+            verdict: match motion.is_none() && has_depth {
+                true => Verdict::Narrow(judged.median_angle_deg),
+                false => judged.verdict,
+            },
+            inliers: judged.inliers,
+            motion,
+        })
+    }
+
+    fn photographs(&self, progress: Progress<'_>) -> Result<[Picture; 2], Error> {
+        if let Source::Own(pictures) = &self.source {
+            return Ok(pictures.clone());
+        }
+        let [first, second] = self.source.cameras()?;
+        let first = scenes::photograph(&first, PHOTO_SIZE, &mut |share| progress(0.2 * share))?;
+        let part = &mut |share| progress(0.2 + 0.2 * share);
+        let second = scenes::photograph(&second, PHOTO_SIZE, part)?;
+        Ok([first.into(), second.into()])
+    }
+
+    /// Features of the first photograph and what they match in the second.
+    fn matches(&self, first: &Features, second: &Features) -> Result<Vec<(u32, u32)>, Error> {
+        let options = MatchOptions {
+            max_ratio: Some(self.max_ratio),
+            ..MatchOptions::default()
+        };
+        let found = match_descriptors(&first.descriptors, &second.descriptors, &options)?;
+        let pairs = found.iter().map(|m| (m.index1 as u32, m.index2 as u32));
+        Ok(pairs.collect())
+    }
+
+    /// What the inliers of a pair with depth give; `None` if hardly any point can be had.
+    fn reconstruct(
+        &self,
+        judged: &Judged,
+        [pixels1, pixels2]: [&[Point2<f64>]; 2],
+        [lens1, lens2]: &[Intrinsics; 2],
+        colors: &[[u8; 3]],
+    ) -> Result<Option<Motion>, Error> {
+        let Some(motion) = judged.cam2_from_cam1 else {
+            return Ok(None);
+        };
+        let chosen = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
+            let pixels = pixels.iter().zip(&judged.inliers);
+            pixels
+                .filter(|(_, is_inlier)| **is_inlier)
+                .map(|(p, _)| *p)
+                .collect()
+        };
+        let inliers: Vec<usize> = (0..colors.len()).filter(|&n| judged.inliers[n]).collect();
+        let found = two_view_reconstruction(
+            &chosen(pixels1),
+            &chosen(pixels2),
+            lens1,
+            lens2,
+            &self.knocked(&motion),
+            &TwoViewReconstructionOptions::default(),
+            &mut |_| ControlFlow::Continue(()),
+        );
+        let found = match found {
+            // The rays of all but a few meet at a narrow angle.
+            Err(Error::TooFew { .. }) => return Ok(None),
+            found => found?,
+        };
+        let places = found.points.iter().zip(&found.triangulated);
+        let points = places.zip(&found.match_of_point);
+        Ok(Some(Motion {
+            found: motion,
+            cam2_from_cam1: found.cam2_from_cam1,
+            num_in_front: found.num_in_front,
+            error_px: [found.rms_before_px, found.rms_px],
+            points: points
+                .map(|((place, triangulated), inlier)| CloudPoint {
+                    place: *place,
+                    triangulated: *triangulated,
+                    color: colors[inliers[*inlier]],
+                })
+                .collect(),
+            surface: Err(String::new()),
+        }))
+    }
+
+    /// Every pixel as a point, where the pair can be rectified.
+    fn look_everywhere(
+        motion: &mut Motion,
+        pictures: &[Picture; 2],
+        lenses: &[Intrinsics; 2],
+        progress: Progress<'_>,
+    ) -> Result<(), Error> {
+        let places: Vec<_> = motion.points.iter().map(|point| point.place).collect();
+        let images = pictures.each_ref().map(Picture::image);
+        let found = surface(images, lenses, &motion.cam2_from_cam1, &places, progress);
+        motion.surface = match found {
+            Err(Error::Canceled) => return Err(Error::Canceled),
+            found => found.map_err(|error| error.to_string()),
+        };
+        Ok(())
+    }
+}
+
+/// What the core looks for in photographs by default, and no other kind: a worker would download those for nothing.
+fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error> {
+    let options = FeatureOptions {
+        max_features: MAX_FEATURES,
+        ..FeatureOptions::default()
+    };
+    let (width, height) = picture.size();
+    detect_sift_with_progress(
+        &photo_to_gray(picture.image()),
+        &options.sift(width, height),
+        &mut |status| progress(f64::from(status.share)),
+    )
+}
+
+fn color_at(picture: &Picture, pixel: &Point2<f64>) -> [u8; 3] {
+    let (width, height) = picture.size();
+    let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
+    let (u, v) = (inside(pixel.x, width), inside(pixel.y, height));
+    picture.image().get_pixel(u, v).0
+}
