@@ -3,7 +3,7 @@
 
 use super::field::{Arrow, Field, GRID};
 use super::model::{Beside, GradientField, SIGMA};
-use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
+use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::labels::Labels;
@@ -278,37 +278,31 @@ fn draw_curves(model: &GradientField, panel: &Panel, canvas: &mut Canvas) {
     let now = model.smooth_px().unwrap_or(0.0);
     plot::draw_now(canvas, panel, now);
     let height = |value: f64| plot::decade(value).clamp(-9.0, 9.0);
-    for (name, stroke, shape, value) in [
-        ("slope", Stroke::solid(SLOPE, 2.5), Shape::Disk, 0),
-        (
-            "noise",
-            Stroke::solid(NOISE, 2.5).dotted(),
-            Shape::Square,
-            1,
-        ),
-    ] {
+    let kinds = [
+        ("slope", Stroke::solid(SLOPE, 2.5), Shape::Disk),
+        ("noise", Stroke::solid(NOISE, 2.5).dotted(), Shape::Square),
+    ];
+    for (value, (_, stroke, _)) in kinds.iter().enumerate() {
         let places = curve.iter().filter_map(|(sigma, quality)| {
             let quality = (*quality)?;
             Some((*sigma, height([quality.slope, quality.noise][value])))
         });
-        plot::draw_curve(canvas, panel, places, stroke);
-        let Some(quality) = model.quality(model.smooth_px()) else {
-            continue;
-        };
-        let at = height([quality.slope, quality.noise][value]);
+        let places: Vec<_> = places.collect();
+        for pair in places.windows(2) {
+            let [from, to] = [pair[0], pair[1]].map(|place| panel.canvas_from_world(place));
+            labels.keep_line_free(from, to);
+        }
+        plot::draw_curve(canvas, panel, places, *stroke);
+    }
+    let Some(quality) = model.quality(model.smooth_px()) else {
+        return;
+    };
+    for ((name, stroke, shape), value) in kinds.into_iter().zip([quality.slope, quality.noise]) {
+        let at = height(value);
         if (DECADES[0]..=DECADES[1]).contains(&at) {
             let place = panel.canvas_from_world((now, at));
             canvas.marker(place, 5.0, shape, stroke.role, true);
-            let beside = [
-                ((place.0 + 10.0, place.1 - 12.0), Align::Start),
-                ((place.0 - 10.0, place.1 - 12.0), Align::End),
-            ];
-            labels.draw(
-                canvas,
-                &beside,
-                name,
-                TextStyle::new(stroke.role, SMALL).cased(),
-            );
+            labels.name(canvas, (place, 7.0), name, (stroke.role, SMALL));
         }
     }
 }
