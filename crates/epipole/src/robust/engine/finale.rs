@@ -52,7 +52,7 @@ const REWEIGHTINGS_OF_WIDTH: usize = 5;
 
 impl<E: Estimator> Ransac<E> {
     /// As [`finish`](Ransac::finish), once.
-    pub(in crate::robust) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
+    pub(super) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
         let no_consensus = match self.stop {
             Some(StopReason::Canceled) => Error::Canceled,
             _ => Error::NoConsensus {
