@@ -22,6 +22,11 @@ pub(crate) fn order_by(
     order
 }
 
+/// The value at a rank in ascending order, NaN last. Puts smaller values before it and larger ones behind it.
+pub(crate) fn at_rank(values: &mut [f64], rank: usize) -> f64 {
+    *values.select_nth_unstable_by(rank, f64::total_cmp).1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -36,6 +41,20 @@ mod tests {
             let mut known: Vec<usize> = (0..len).collect();
             known.sort_by_key(|&i| std::cmp::Reverse(things[i]));
             assert_eq!(order, known);
+        }
+    }
+
+    #[test]
+    fn a_rank_is_a_place_in_the_order() {
+        let mut random = Random::new(4);
+        let values: Vec<f64> = (0..200).map(|_| random.uniform(-1.0, 1.0)).collect();
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        for rank in [0, 1, 99, 100, 198, 199] {
+            let mut values = values.clone();
+            assert_eq!(at_rank(&mut values, rank), sorted[rank]);
+            assert!(values[..rank].iter().all(|&value| value <= sorted[rank]));
+            assert!(values[rank..].iter().all(|&value| value >= sorted[rank]));
         }
     }
 

@@ -7,7 +7,7 @@ mod hamming;
 mod integers;
 
 use super::{Descriptors, parallel};
-use crate::math::order::order_by;
+use crate::math::order::{at_rank, order_by};
 use crate::progress::Progress;
 use crate::{Error, Result};
 use std::ops::ControlFlow;
@@ -141,7 +141,7 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
     let mut all: Vec<f64> = distances.iter().map(|&d| f64::from(d)).collect();
     let farthest = match count {
         0 => return Ok(Vec::new()),
-        _ if count < all.len() => *all.select_nth_unstable_by(count - 1, f64::total_cmp).1,
+        _ if count < all.len() => at_rank(&mut all, count - 1),
         _ => f64::INFINITY,
     };
     let near: Vec<(usize, f32)> = (distances.into_iter().enumerate())

@@ -11,7 +11,7 @@ use super::keypoint::Keypoint;
 use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
-use crate::math::order::order_by;
+use crate::math::order::{at_rank, order_by};
 use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 pub use describe::{describe_sift, sift_directions};
@@ -240,10 +240,7 @@ impl Strongest {
         let negative = |e: &Extremum| -f64::from(e.response);
         self.responses.extend(extrema.iter().map(negative));
         if self.responses.len() > self.limit {
-            // Of the type and in the order by which medians are selected: it is compiled once.
-            let (_, weakest, _) =
-                (self.responses).select_nth_unstable_by(self.limit - 1, f64::total_cmp);
-            let weakest = *weakest;
+            let weakest = at_rank(&mut self.responses, self.limit - 1);
             self.responses.truncate(self.limit);
             extrema.retain(|e| negative(e) <= weakest);
         }
