@@ -120,8 +120,7 @@ pub(crate) fn project<const P: usize>(
     normal: &mut NormalEquations<P>,
 ) {
     normal.cost += sums.cost;
-    normal.gradient += derivatives.transpose() * sums.gradient;
-    normal.hessian += derivatives.transpose() * (sums.hessian * derivatives);
+    normal.add_along(derivatives, &sums.hessian, &sums.gradient);
 }
 
 /// Entries row by row.

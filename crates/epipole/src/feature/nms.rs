@@ -2,6 +2,7 @@
 
 use super::Keypoint;
 use crate::imaging::{GrayImage32, require_finite};
+use crate::math::order::order_by;
 use crate::{Error, Result};
 
 /// The pixels whose response exceeds `threshold` and every other response within `radius` columns
@@ -63,7 +64,10 @@ pub fn non_maximum_suppression(
 
 /// Orders by response, equal ones by place, so that the order never depends on the search.
 pub(crate) fn strongest_first(keypoints: &mut [Keypoint]) {
-    keypoints.sort_by(stronger);
+    let mut by_strength = |a: usize, b: usize| stronger(&keypoints[a], &keypoints[b]);
+    let order = order_by(keypoints.len(), &mut by_strength);
+    let sorted: Vec<Keypoint> = order.into_iter().map(|index| keypoints[index]).collect();
+    keypoints.copy_from_slice(&sorted);
 }
 
 /// The order of [`strongest_first`].

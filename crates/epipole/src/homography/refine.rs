@@ -95,10 +95,8 @@ impl FixedProblem<8> for Problem<'_> {
 
     fn accumulate(&self, h: &Matrix3<f64>, normal: &mut NormalEquations<8>) {
         let (hessian, gradient, cost) = linearize(self.coordinates, h, &self.loss);
-        let basis = tangent_basis(h);
         normal.cost += cost;
-        normal.gradient += basis.transpose() * gradient;
-        normal.hessian += basis.transpose() * (hessian * basis);
+        normal.add_along(&tangent_basis(h), &hessian, &gradient);
     }
 
     fn cost(&self, h: &Matrix3<f64>) -> f64 {

@@ -4,6 +4,7 @@ mod geodetic;
 mod length;
 mod line;
 pub(crate) mod null_space;
+pub(crate) mod order;
 pub(crate) mod polynomial;
 pub mod random;
 pub(crate) mod real_roots;

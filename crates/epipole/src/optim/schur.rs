@@ -105,14 +105,20 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         let (num_cameras, num_points) = (problem.num_cameras(), problem.num_points());
         let num_groups = problem.num_groups();
         let observations = problem.observations();
-        let mut order: Vec<u32> = (0..observations.len() as u32).collect();
-        order.sort_by_key(|&o| (observations[o as usize].1, o));
         let mut point_starts = vec![0; num_points + 1];
         for &(_, point) in observations {
             point_starts[point as usize + 1] += 1;
         }
         for p in 0..num_points {
             point_starts[p + 1] += point_starts[p];
+        }
+        // Observations by point, those of one as they come.
+        let mut order = vec![0; observations.len()];
+        let mut next = point_starts.clone();
+        for (o, &(_, point)) in observations.iter().enumerate() {
+            let place = &mut next[point as usize];
+            order[*place] = o as u32;
+            *place += 1;
         }
         let mut camera_couplings = vec![Vec::new(); num_cameras];
         let point = PointBlock {

@@ -1,13 +1,13 @@
 //! Sparse Cholesky factorization in blocks of one size.
 
+use crate::math::order::sort_indices;
 use nalgebra::{SMatrix, SVector};
-use std::collections::BTreeSet;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
-/// The lower triangular factor of a symmetric matrix of `D × D` blocks, most of them zero.
-///
-/// The order of elimination is by least degree, found once; values can be factorized again and
-/// again.
-pub(crate) struct BlockCholesky<const D: usize> {
+/// In which order vertices are eliminated, and which blocks that fills. It does not depend on the blocks' size, so it is
+/// compiled once.
+struct Pattern {
     /// Place in the order of elimination of each vertex.
     place: Vec<usize>,
     /// Vertex at each place.
@@ -16,13 +16,10 @@ pub(crate) struct BlockCholesky<const D: usize> {
     rows: Vec<Vec<usize>>,
     /// Columns left of the diagonal that have a block in each row.
     left: Vec<Vec<usize>>,
-    diagonal: Vec<SMatrix<f64, D, D>>,
-    blocks: Vec<Vec<SMatrix<f64, D, D>>>,
 }
 
-impl<const D: usize> BlockCholesky<D> {
-    /// Finds the order and the pattern for blocks at the `pairs` of `count` vertices.
-    pub(crate) fn new(count: usize, pairs: &[(u32, u32)]) -> Self {
+impl Pattern {
+    fn new(count: usize, pairs: &[(u32, u32)]) -> Self {
         let mut neighbors: Vec<Vec<usize>> = vec![Vec::new(); count];
         for &(a, b) in pairs {
             if a != b {
@@ -31,20 +28,25 @@ impl<const D: usize> BlockCholesky<D> {
             }
         }
         for list in &mut neighbors {
-            list.sort_unstable();
+            sort_indices(list, &mut |a, b| a.cmp(&b));
             list.dedup();
         }
-        let mut queue: BTreeSet<(usize, usize)> = (0..count)
-            .map(|vertex| (neighbors[vertex].len(), vertex))
+        let mut queue: BinaryHeap<Reverse<(usize, usize)>> = (0..count)
+            .map(|vertex| Reverse((neighbors[vertex].len(), vertex)))
             .collect();
+        let mut eliminated = vec![false; count];
         let mut vertex = Vec::with_capacity(count);
         let mut pattern = Vec::with_capacity(count);
-        while let Some((_, v)) = queue.pop_first() {
+        while let Some(Reverse((degree, v))) = queue.pop() {
+            // Entries from before a degree changed are still in the queue.
+            if eliminated[v] || degree != neighbors[v].len() {
+                continue;
+            }
+            eliminated[v] = true;
             let clique = std::mem::take(&mut neighbors[v]);
             for &u in &clique {
-                queue.remove(&(neighbors[u].len(), u));
                 neighbors[u] = merged_without(&neighbors[u], &clique, v, u);
-                queue.insert((neighbors[u].len(), u));
+                queue.push(Reverse((neighbors[u].len(), u)));
             }
             vertex.push(v);
             pattern.push(clique);
@@ -59,22 +61,41 @@ impl<const D: usize> BlockCholesky<D> {
             .enumerate()
             .map(|(column, clique)| {
                 let mut rows: Vec<usize> = clique.iter().map(|&v| place[v]).collect();
-                rows.sort_unstable();
+                sort_indices(&mut rows, &mut |a, b| a.cmp(&b));
                 for &row in &rows {
                     left[row].push(column);
                 }
                 rows
             })
             .collect();
-        let blocks = rows
-            .iter()
-            .map(|rows| vec![SMatrix::zeros(); rows.len()])
-            .collect();
         Self {
             place,
             vertex,
             rows,
             left,
+        }
+    }
+}
+
+/// The lower triangular factor of a symmetric matrix of `D × D` blocks, most of them zero.
+///
+/// The order of elimination is by least degree, found once; values can be factorized again and
+/// again.
+pub(crate) struct BlockCholesky<const D: usize> {
+    pattern: Pattern,
+    diagonal: Vec<SMatrix<f64, D, D>>,
+    blocks: Vec<Vec<SMatrix<f64, D, D>>>,
+}
+
+impl<const D: usize> BlockCholesky<D> {
+    /// Finds the order and the pattern for blocks at the `pairs` of `count` vertices.
+    pub(crate) fn new(count: usize, pairs: &[(u32, u32)]) -> Self {
+        let pattern = Pattern::new(count, pairs);
+        let blocks = (pattern.rows.iter())
+            .map(|rows| vec![SMatrix::zeros(); rows.len()])
+            .collect();
+        Self {
+            pattern,
             diagonal: vec![SMatrix::zeros(); count],
             blocks,
         }
@@ -92,14 +113,14 @@ impl<const D: usize> BlockCholesky<D> {
 
     /// Adds a block on the diagonal.
     pub(crate) fn add_diagonal(&mut self, vertex: usize, block: &SMatrix<f64, D, D>) {
-        self.diagonal[self.place[vertex]] += block;
+        self.diagonal[self.pattern.place[vertex]] += block;
     }
 
     /// Adds the block in row `a` and column `b`, and with it its transpose in row `b`, column `a`.
     pub(crate) fn add(&mut self, a: usize, b: usize, block: &SMatrix<f64, D, D>) {
-        let (a, b) = (self.place[a], self.place[b]);
+        let (a, b) = (self.pattern.place[a], self.pattern.place[b]);
         let (row, column) = (a.max(b), a.min(b));
-        if let Ok(index) = self.rows[column].binary_search(&row) {
+        if let Ok(index) = self.pattern.rows[column].binary_search(&row) {
             if a > b {
                 self.blocks[column][index] += block;
             } else {
@@ -113,13 +134,13 @@ impl<const D: usize> BlockCholesky<D> {
         let count = self.diagonal.len();
         let mut position = vec![usize::MAX; count];
         for column in 0..count {
-            for (index, &row) in self.rows[column].iter().enumerate() {
+            for (index, &row) in self.pattern.rows[column].iter().enumerate() {
                 position[row] = index;
             }
             let (before, after) = self.blocks.split_at_mut(column);
             let target = &mut after[0];
-            for &source in &self.left[column] {
-                let rows = &self.rows[source];
+            for &source in &self.pattern.left[column] {
+                let rows = &self.pattern.rows[source];
                 // Every row in a list of `left` has its block.
                 let Ok(at) = rows.binary_search(&column) else {
                     continue;
@@ -153,7 +174,7 @@ impl<const D: usize> BlockCholesky<D> {
 
     /// Solves for one vector a vertex, in place, after [`factorize`](Self::factorize).
     pub(crate) fn solve(&self, b: &mut [SVector<f64, D>]) {
-        let mut x: Vec<SVector<f64, D>> = self.vertex.iter().map(|&v| b[v]).collect();
+        let mut x: Vec<SVector<f64, D>> = self.pattern.vertex.iter().map(|&v| b[v]).collect();
         for column in 0..x.len() {
             let lower = &self.diagonal[column];
             let mut value = x[column];
@@ -164,13 +185,13 @@ impl<const D: usize> BlockCholesky<D> {
                 value[i] /= lower[(i, i)];
             }
             x[column] = value;
-            for (&row, block) in self.rows[column].iter().zip(&self.blocks[column]) {
+            for (&row, block) in self.pattern.rows[column].iter().zip(&self.blocks[column]) {
                 x[row] -= block * value;
             }
         }
         for column in (0..x.len()).rev() {
             let mut value = x[column];
-            for (&row, block) in self.rows[column].iter().zip(&self.blocks[column]) {
+            for (&row, block) in self.pattern.rows[column].iter().zip(&self.blocks[column]) {
                 value -= block.tr_mul(&x[row]);
             }
             let lower = &self.diagonal[column];
@@ -182,7 +203,7 @@ impl<const D: usize> BlockCholesky<D> {
             }
             x[column] = value;
         }
-        for (&v, value) in self.vertex.iter().zip(&x) {
+        for (&v, value) in self.pattern.vertex.iter().zip(&x) {
             b[v] = *value;
         }
     }
@@ -261,7 +282,10 @@ mod tests {
     fn a_long_chain_has_no_fill() {
         let pairs: Vec<(u32, u32)> = (1..5000).map(|i| (i - 1, i)).collect();
         let sparse = BlockCholesky::<2>::new(5000, &pairs);
-        assert_eq!(sparse.rows.iter().map(Vec::len).sum::<usize>(), 4999);
+        assert_eq!(
+            sparse.pattern.rows.iter().map(Vec::len).sum::<usize>(),
+            4999
+        );
     }
 
     #[test]

@@ -1,11 +1,8 @@
 //! The loop at a threshold that the data themselves give.
 
-use std::ops::ControlFlow;
-
 use super::noise::{Background, noise_scale_px};
-use super::{
-    Estimator, Ransac, RansacOptions, RansacReport, Step, StopReason, Trial, log10_false_alarms,
-};
+use super::run::Watch;
+use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, StopReason, log10_false_alarms};
 use crate::{Error, Result};
 
 /// Thresholds to begin with, pixels. Each one leads to those around it.
@@ -36,11 +33,11 @@ struct Suited<M> {
 }
 
 /// Runs of the loop at several thresholds, watched together.
-struct Search<'a, W> {
+struct Search<'a, M> {
     options: &'a RansacOptions,
     background: Background,
     most_px: f64,
-    watch: &'a mut W,
+    watch: Watch<'a, M>,
     /// Samples drawn so far.
     iterations: usize,
     canceled: bool,
@@ -51,13 +48,13 @@ struct Search<'a, W> {
 /// A run at some threshold gives a model, the errors of all data from it tell the noise, and the noise another
 /// threshold, until both agree. Of what several starts lead to, the model is kept that is least likely by
 /// chance.
-pub(super) fn ransac_by_noise<E: Estimator>(
-    mut estimator: E,
+pub(super) fn ransac_by_noise<M: Clone>(
+    estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,
-    watch: &mut impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
-) -> Result<RansacReport<E::Model>> {
+    watch: Watch<'_, M>,
+) -> Result<RansacReport<M>> {
     options.check()?;
-    let background = Background::new(&estimator, LEAST_PX, options.max_error_px);
+    let background = Background::new(estimator, LEAST_PX, options.max_error_px);
     let mut search = Search {
         options,
         background,
@@ -66,16 +63,14 @@ pub(super) fn ransac_by_noise<E: Estimator>(
         iterations: 0,
         canceled: false,
     };
-    let mut best: Option<Suited<E::Model>> = None;
+    let mut best: Option<Suited<M>> = None;
     let mut failure = None;
     for start_px in STARTS_PX {
         let mut max_error_px = start_px.clamp(LEAST_PX, search.most_px);
         let mut model = None;
         for _ in 0..ROUNDS {
-            let (outcome, back) = search.run(estimator, model, max_error_px)?;
-            estimator = back;
-            let suited = match outcome {
-                Ok(report) => search.suited(&estimator, report),
+            let suited = match search.run(estimator, model, max_error_px)? {
+                Ok(report) => search.suited(estimator, report),
                 Err(error) => {
                     failure = Some(error);
                     break;
@@ -109,7 +104,7 @@ pub(super) fn ransac_by_noise<E: Estimator>(
     if search.canceled {
         report.stop = StopReason::Canceled;
     } else {
-        let (last, _) = search.run(estimator, Some(report.model.clone()), max_error_px)?;
+        let last = search.run(estimator, Some(report.model.clone()), max_error_px)?;
         report = last.unwrap_or(report);
     }
     report.iterations = search.iterations;
@@ -120,17 +115,14 @@ fn same(first_px: f64, second_px: f64) -> bool {
     first_px < SAME * second_px && second_px < SAME * first_px
 }
 
-impl<W> Search<'_, W> {
-    /// One run; gives the estimator back.
-    fn run<E: Estimator>(
+impl<M: Clone> Search<'_, M> {
+    /// One run. What it fails with from the start is the outer error.
+    fn run(
         &mut self,
-        estimator: E,
-        model: Option<E::Model>,
+        estimator: &mut dyn Estimator<Model = M>,
+        model: Option<M>,
         max_error_px: f64,
-    ) -> Result<(Result<RansacReport<E::Model>>, E)>
-    where
-        W: FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
-    {
+    ) -> Result<Result<RansacReport<M>>> {
         let mut run = Ransac::new(estimator, self.options.within(max_error_px))?;
         if let Some(model) = model {
             run.propose(model);
@@ -145,16 +137,11 @@ impl<W> Search<'_, W> {
             }
         }
         self.iterations += run.iterations();
-        let outcome = run.conclude();
-        Ok((outcome, run.into_estimator()))
+        Ok(run.finish())
     }
 
     /// The threshold that suits the model of a run.
-    fn suited<E: Estimator>(
-        &self,
-        estimator: &E,
-        report: RansacReport<E::Model>,
-    ) -> Suited<E::Model> {
+    fn suited(&self, estimator: &dyn Estimator<Model = M>, report: RansacReport<M>) -> Suited<M> {
         let background = &self.background;
         let model = &report.model;
         let mut near = Vec::new();

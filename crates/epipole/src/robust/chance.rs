@@ -1,5 +1,7 @@
 //! What data without any structure would show.
 
+use crate::math::order::at_rank;
+
 /// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
 pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 
@@ -67,8 +69,7 @@ fn reach(mut values: Vec<f64>) -> f64 {
         return 0.0;
     }
     let strays = (STRAY * (count - 1) as f64) as usize;
-    values.sort_by(f64::total_cmp);
-    let between = values[count - 1 - strays] - values[strays];
+    let between = at_rank(&mut values, count - 1 - strays) - at_rank(&mut values, strays);
     between * (count - 1) as f64 / (count - 1 - 2 * strays) as f64
 }
 

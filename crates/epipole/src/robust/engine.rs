@@ -220,11 +220,6 @@ impl<E: Estimator> Ransac<E> {
         self.conclude()
     }
 
-    /// The problem, to be run again.
-    pub(super) fn into_estimator(self) -> E {
-        self.estimator
-    }
-
     /// What a support is worth, as [`ScoreKind`] defines it.
     fn score(&self, support: &Support) -> f64 {
         match self.options.score {

@@ -204,6 +204,101 @@ pub trait Estimator {
     }
 }
 
+/// What is borrowed can be asked as well. Every question is passed on: where an estimator has an answer of its own,
+/// that of the trait would be another one.
+impl<E: Estimator + ?Sized> Estimator for &mut E {
+    type Model = E::Model;
+
+    fn name(&self) -> &'static str {
+        (**self).name()
+    }
+
+    fn sample_size(&self) -> usize {
+        (**self).sample_size()
+    }
+
+    fn num_data(&self) -> usize {
+        (**self).num_data()
+    }
+
+    fn matches(&self) -> Option<&MatchSet> {
+        (**self).matches()
+    }
+
+    fn codimension(&self) -> usize {
+        (**self).codimension()
+    }
+
+    fn max_models(&self) -> usize {
+        (**self).max_models()
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<E::Model>) {
+        (**self).fit_sample(sample, models);
+    }
+
+    fn error_sq(&self, model: &E::Model, index: usize) -> f64 {
+        (**self).error_sq(model, index)
+    }
+
+    fn refine(
+        &mut self,
+        model: &E::Model,
+        inliers: &[usize],
+        max_error_px: f64,
+    ) -> Option<E::Model> {
+        (**self).refine(model, inliers, max_error_px)
+    }
+
+    fn polish(&mut self, model: &E::Model, near: &[usize], weights: &[f64]) -> Option<E::Model> {
+        (**self).polish(model, near, weights)
+    }
+
+    fn recover(
+        &mut self,
+        model: &E::Model,
+        sample: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<E::Model> {
+        (**self).recover(model, sample, max_error_px, random)
+    }
+
+    fn settle(
+        &mut self,
+        model: &E::Model,
+        inliers: &[usize],
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<E::Model> {
+        (**self).settle(model, inliers, max_error_px, random)
+    }
+
+    fn support(&self, model: &E::Model, max_error_px: f64, cost_limit: f64) -> Support {
+        (**self).support(model, max_error_px, cost_limit)
+    }
+
+    fn inliers(&self, model: &E::Model, max_error_px: f64, inliers: &mut Vec<usize>) {
+        (**self).inliers(model, max_error_px, inliers);
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        (**self).chance(max_error_px)
+    }
+
+    fn num_votes(&self) -> f64 {
+        (**self).num_votes()
+    }
+
+    fn num_distinct(&self, inliers: &[usize]) -> usize {
+        (**self).num_distinct(inliers)
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        (**self).unique()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{RansacOptions, ransac};

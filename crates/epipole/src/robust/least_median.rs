@@ -2,6 +2,7 @@
 
 use super::sampler::Sampler;
 use super::{Estimator, SamplerKind};
+use crate::math::order::at_rank;
 use crate::math::random::Random;
 use crate::{Error, Result};
 
@@ -148,7 +149,7 @@ fn middle(errors_sq: &mut [f64], sample_size: usize) -> f64 {
         .min(errors_sq.len())
         - 1;
     // A NaN is the largest of all.
-    *errors_sq.select_nth_unstable_by(rank, f64::total_cmp).1
+    at_rank(errors_sq, rank)
 }
 
 #[cfg(test)]

@@ -18,7 +18,11 @@ impl Background {
     /// * `little_px`: an error within which hardly any of such data are
     /// * `unknown_px`: the error within which [`UNKNOWN_CHANCE`] of them are, for an estimator that does not
     ///   know
-    pub(super) fn new<E: Estimator>(estimator: &E, little_px: f64, unknown_px: f64) -> Self {
+    pub(super) fn new<E: Estimator + ?Sized>(
+        estimator: &E,
+        little_px: f64,
+        unknown_px: f64,
+    ) -> Self {
         let codimension = estimator.codimension().clamp(1, 2);
         let (chance, within_px) = (estimator.chance(little_px))
             .map_or((UNKNOWN_CHANCE, unknown_px), |chance| (chance, little_px));

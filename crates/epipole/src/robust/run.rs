@@ -8,6 +8,9 @@ use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, ThresholdKind,
 use crate::Error;
 use crate::Result;
 
+/// Hears of every trial and may end the run.
+pub(super) type Watch<'a, M> = &'a mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>;
+
 /// Runs [`Ransac`] to its end.
 ///
 /// # Errors
@@ -56,12 +59,22 @@ pub fn ransac<E: Estimator>(
 /// # Ok(()) }
 /// ```
 pub fn ransac_with<E: Estimator>(
-    estimator: E,
+    mut estimator: E,
     options: &RansacOptions,
     mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
 ) -> Result<RansacReport<E::Model>> {
+    run(&mut estimator, options, &mut watch)
+}
+
+/// Compiled once for all estimators of one kind of model: the loop asks them little, and what it asks takes long, so
+/// a pointer on the way costs nothing, but a copy of the loop for each is 10 KB.
+fn run<M: Clone>(
+    estimator: &mut dyn Estimator<Model = M>,
+    options: &RansacOptions,
+    watch: Watch<'_, M>,
+) -> Result<RansacReport<M>> {
     if options.threshold == ThresholdKind::Noise {
-        return ransac_by_noise(estimator, options, &mut watch);
+        return ransac_by_noise(estimator, options, watch);
     }
     let mut run = Ransac::new(estimator, *options)?;
     while let Step::Trial(trial) = run.step() {

@@ -1,5 +1,7 @@
 //! Equal data, found once and counted once.
 
+use crate::math::order::order_by;
+
 /// As many as any datum has: a point and its pixel.
 const MAX_COORDINATES: usize = 5;
 
@@ -37,20 +39,22 @@ impl Unique {
             Some((key, i))
         };
         const { assert!(D <= MAX_COORDINATES) }
-        Self::of_keys(num_data, (0..num_data).filter_map(key).collect())
+        let keys: Vec<_> = (0..num_data).filter_map(key).collect();
+        Self::of_keys(num_data, &keys)
     }
 
     /// Apart from [`new`](Self::new), so that there is one sort for data of every kind.
-    fn of_keys(num_data: usize, mut order: Vec<([u64; MAX_COORDINATES], usize)>) -> Self {
-        // Sorting by (bits, index) puts the first occurrence at the front of its group.
-        order.sort_unstable();
+    fn of_keys(num_data: usize, keys: &[([u64; MAX_COORDINATES], usize)]) -> Self {
+        // Of equal ones the first occurrence is at the front.
+        let order = order_by(keys.len(), &mut |a, b| keys[a].0.cmp(&keys[b].0));
         let mut leader = vec![None; num_data];
+        let mut group = None;
         let mut current = 0;
-        for (rank, (bits, i)) in order.iter().enumerate() {
-            if rank == 0 || order[rank - 1].0 != *bits {
-                current = *i;
+        for (bits, i) in order.into_iter().map(|place| keys[place]) {
+            if group != Some(bits) {
+                (group, current) = (Some(bits), i);
             }
-            leader[*i] = Some(current);
+            leader[i] = Some(current);
         }
         let mut first = Vec::with_capacity(num_data);
         let mut place = vec![None; num_data];

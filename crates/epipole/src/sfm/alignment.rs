@@ -1,6 +1,7 @@
 //! Bringing two reconstructions into one frame, and how far apart they then are.
 
 use crate::camera::RigidTransform;
+use crate::math::order::at_rank;
 use crate::math::{Svd3, svd3};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, Rotation3, Similarity3, Translation3, UnitQuaternion, Vector3};
@@ -136,15 +137,16 @@ impl ErrorStatistics {
         let count = errors.len().max(1) as f64;
         let sum_sq: f64 = errors.iter().map(|e| e * e).sum();
         let mean = errors.iter().sum::<f64>() / count;
-        errors.sort_by(f64::total_cmp);
+        let last = errors.len().saturating_sub(1);
+        let [median, max] = [last / 2, last].map(|rank| match errors.is_empty() {
+            true => 0.0,
+            false => at_rank(&mut errors, rank),
+        });
         Self {
             rmse: (sum_sq / count).sqrt(),
             mean,
-            median: errors
-                .get((errors.len().max(1) - 1) / 2)
-                .copied()
-                .unwrap_or(0.0),
-            max: errors.last().copied().unwrap_or(0.0),
+            median,
+            max,
         }
     }
 }

@@ -156,7 +156,7 @@ impl PixelMap {
             if !inside {
                 return None;
             }
-            let (x, y) = (x.clamp(0.0, last_u), y.clamp(0.0, last_v));
+            let (x, y) = (x.max(0.0).min(last_u), y.max(0.0).min(last_v));
             let (u0, v0) = (x as usize, y as usize);
             let (u1, v1) = ((u0 + 1).min(columns - 1), (v0 + 1).min(rows - 1));
             let (a, b) = (x - u0 as f32, y - v0 as f32);

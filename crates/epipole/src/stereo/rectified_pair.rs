@@ -2,6 +2,7 @@
 
 use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
 use crate::imaging::rgb_to_gray;
+use crate::math::order::at_rank;
 use crate::{Error, Result};
 use image::{GrayImage, RgbImage};
 use nalgebra::{Point2, Point3, Vector4};
@@ -75,9 +76,8 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
             got: disparities.len(),
         });
     }
-    disparities.sort_by(f64::total_cmp);
     let last = (disparities.len() - 1) as f64;
-    let at = |share: f64| disparities[(share * last).round() as usize];
+    let mut at = |share: f64| at_rank(&mut disparities, (share * last).round() as usize);
     let (low, high) = (at(WRONG), at(1.0 - WRONG));
     let room = BEYOND.0 + BEYOND.1 * (high - low);
     let (mut first, mut end) = ((low - room).floor(), (high + room).ceil());

@@ -22,7 +22,9 @@ pub(crate) struct Paint {
     pub(crate) light_cells: [usize; 2],
 }
 
+// Scenes are put together once, by a hundred of these calls, so what a call takes does not count: inlined, they are 8 KB.
 impl Paint {
+    #[inline(never)]
     pub(crate) fn new(texture: &Arc<Texture>) -> Self {
         Self {
             texture: Arc::clone(texture),
@@ -35,31 +37,37 @@ impl Paint {
         }
     }
 
+    #[inline(never)]
     pub(crate) fn repeated(mut self, across: f32, down: f32) -> Self {
         self.scale = [across, down];
         self
     }
 
+    #[inline(never)]
     pub(crate) fn shifted(mut self, s: f32, t: f32) -> Self {
         self.offset = [s, t];
         self
     }
 
+    #[inline(never)]
     pub(crate) fn tinted(mut self, tint: [f32; 3]) -> Self {
         self.tint = tint;
         self
     }
 
+    #[inline(never)]
     pub(crate) fn glossy(mut self, gloss: f32) -> Self {
         self.gloss = gloss;
         self
     }
 
+    #[inline(never)]
     pub(crate) fn glowing(mut self, glow: f32) -> Self {
         self.glow = glow;
         self
     }
 
+    #[inline(never)]
     pub(crate) fn lit(mut self, across: usize, down: usize) -> Self {
         self.light_cells = [across, down];
         self
@@ -102,8 +110,10 @@ pub(crate) struct Body {
     pub(crate) hollow: bool,
 }
 
+// Not inlined, as those of `Paint` are not.
 impl Body {
     /// A thing standing upright at a place, painted the same all over.
+    #[inline(never)]
     pub(crate) fn new(name: &'static str, shape: Shape, center: [f64; 3], paint: &Paint) -> Self {
         let paints = vec![paint.clone(); shape.num_charts()];
         Self {
@@ -123,6 +133,7 @@ impl Body {
     }
 
     /// Tipped over about its own z axis, then turned about the vertical one.
+    #[inline(never)]
     #[rustfmt::skip]
     pub(crate) fn rotated(mut self, yaw_rad: f64, tip_rad: f64) -> Self {
         let (sin, cos) = libm::sincos(yaw_rad);
@@ -141,17 +152,20 @@ impl Body {
         self
     }
 
+    #[inline(never)]
     pub(crate) fn painted(mut self, chart: usize, paint: &Paint) -> Self {
         self.paints[chart] = paint.clone();
         self
     }
 
+    #[inline(never)]
     pub(crate) fn hollow(mut self) -> Self {
         self.hollow = true;
         self
     }
 
     /// Its own box is its stand-in.
+    #[inline(never)]
     pub(crate) fn boxed(mut self) -> Self {
         let (half, center) = self.shape.bounds();
         self.proxies = vec![Proxy::Box {
@@ -163,6 +177,7 @@ impl Body {
     }
 
     /// These are its stand-ins, given relative to its center.
+    #[inline(never)]
     pub(crate) fn standing_for(mut self, proxies: &[Proxy]) -> Self {
         self.proxies = proxies
             .iter()

@@ -4,6 +4,7 @@ use super::pairs::Pairs;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::{RelativePose, decompose_essential, sampson_sq, select_pose, signed_depths};
 use crate::homography::decompose_homography;
+use crate::math::order::at_rank;
 use crate::robust::RansacReport;
 use nalgebra::{Matrix3, Point2, Rotation3};
 
@@ -93,6 +94,6 @@ pub(super) fn median_angle(
         })
         .filter(|angle: &f64| angle.is_finite())
         .collect();
-    angles.sort_by(f64::total_cmp);
-    angles.get(angles.len() / 2).copied()
+    let middle = angles.len() / 2;
+    (!angles.is_empty()).then(|| at_rank(&mut angles, middle))
 }

@@ -7,6 +7,7 @@ mod hamming;
 mod integers;
 
 use super::{Descriptors, parallel};
+use crate::math::order::{at_rank, order_by};
 use crate::progress::Progress;
 use crate::{Error, Result};
 use std::ops::ControlFlow;
@@ -129,17 +130,26 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
         });
     }
     let values = list.to_floats();
-    let mut found: Vec<(usize, f32)> = (values.chunks_exact(query.len()))
+    let distances: Vec<f32> = (values.chunks_exact(query.len()))
         .map(|other| {
             let pairs = query.iter().zip(other);
             let apart = pairs.map(|(a, b)| f64::from(*a) - f64::from(*b));
             apart.map(|d| d * d).sum::<f64>().sqrt() as f32
         })
-        .enumerate()
         .collect();
-    found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-    found.truncate(count);
-    Ok(found)
+    // Most are too far away to be sorted.
+    let mut all: Vec<f64> = distances.iter().map(|&d| f64::from(d)).collect();
+    let farthest = match count {
+        0 => return Ok(Vec::new()),
+        _ if count < all.len() => at_rank(&mut all, count - 1),
+        _ => f64::INFINITY,
+    };
+    let near: Vec<(usize, f32)> = (distances.into_iter().enumerate())
+        .filter(|&(_, distance)| f64::from(distance) <= farthest)
+        .collect();
+    let mut order = order_by(near.len(), &mut |a, b| near[a].1.total_cmp(&near[b].1));
+    order.truncate(count);
+    Ok(order.into_iter().map(|place| near[place]).collect())
 }
 
 /// Matches between two lists of descriptors, in the order of the first list.

@@ -5,6 +5,7 @@ use super::scale_space::{Octave, OctaveGrid};
 use super::{SiftOptions, check, descriptor, orientation};
 use crate::feature::{Descriptors, Keypoint};
 use crate::imaging::{GrayImage32, require_finite};
+use crate::math::order::order_by;
 use crate::{Error, Result};
 
 /// SIFT descriptors at given places, scales and directions, one for each keypoint: what
@@ -115,12 +116,13 @@ fn at_layers(
             });
         }
     }
-    let homes = keypoints.iter().map(|keypoint| home(keypoint, options));
-    let mut waiting: Vec<(i32, usize, usize)> = (homes.enumerate())
-        .map(|(index, (octave, layer))| (octave, layer, index))
+    let homes: Vec<(i32, usize)> = (keypoints.iter())
+        .map(|keypoint| home(keypoint, options))
         .collect();
-    waiting.sort_unstable();
-    let mut waiting = waiting.into_iter().peekable();
+    let order = order_by(homes.len(), &mut |a, b| homes[a].cmp(&homes[b]));
+    let mut waiting = (order.into_iter())
+        .map(|index| (homes[index].0, homes[index].1, index))
+        .peekable();
     let (mut memory, mut scratch) = (Default::default(), Samples::default());
     let mut next = OctaveGrid::first(image, options);
     while let Some(grid) = next.filter(|_| waiting.peek().is_some()) {

@@ -11,6 +11,7 @@ use super::keypoint::Keypoint;
 use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
+use crate::math::order::{at_rank, order_by};
 use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
 pub use describe::{describe_sift, sift_directions};
@@ -181,7 +182,7 @@ pub fn detect_sift_with_progress(
         share /= 4.0;
         memory = octave.into_memory();
     }
-    Ok(collect(found, options.max_features))
+    Ok(collect(&found, options.max_features))
 }
 
 /// The features at one extremum: one for each of its directions.
@@ -220,7 +221,8 @@ fn describe(
 /// ones need no descriptor.
 struct Strongest {
     limit: usize,
-    responses: Vec<f32>,
+    /// The strongest, negative: so the strongest is the least.
+    responses: Vec<f64>,
 }
 
 impl Strongest {
@@ -235,29 +237,25 @@ impl Strongest {
         if self.limit == 0 {
             return;
         }
-        self.responses.extend(extrema.iter().map(|e| e.response));
+        let negative = |e: &Extremum| -f64::from(e.response);
+        self.responses.extend(extrema.iter().map(negative));
         if self.responses.len() > self.limit {
-            let order = |a: &f32, b: &f32| b.total_cmp(a);
-            let (_, weakest, _) = self.responses.select_nth_unstable_by(self.limit - 1, order);
-            let weakest = *weakest;
+            let weakest = at_rank(&mut self.responses, self.limit - 1);
             self.responses.truncate(self.limit);
-            extrema.retain(|e| e.response >= weakest);
+            extrema.retain(|e| negative(e) <= weakest);
         }
     }
 }
 
-fn collect(mut found: Vec<(Keypoint, [u8; 128])>, max_features: usize) -> Features {
-    found.sort_by(|a, b| stronger(&a.0, &b.0));
-    found.dedup_by(|a, b| a.0 == b.0);
+fn collect(found: &[(Keypoint, [u8; 128])], max_features: usize) -> Features {
+    let mut order = order_by(found.len(), &mut |a, b| stronger(&found[a].0, &found[b].0));
+    order.dedup_by(|a, b| found[*a].0 == found[*b].0);
     if max_features > 0 {
-        found.truncate(max_features);
+        order.truncate(max_features);
     }
-    let bytes = found
-        .iter()
-        .flat_map(|(_, descriptor)| *descriptor)
-        .collect();
+    let bytes = order.iter().flat_map(|&i| found[i].1).collect();
     Features {
-        keypoints: found.into_iter().map(|(keypoint, _)| keypoint).collect(),
+        keypoints: order.iter().map(|&i| found[i].0).collect(),
         descriptors: Descriptors::from_bytes(128, bytes).expect("each descriptor has 128 bytes"),
     }
 }

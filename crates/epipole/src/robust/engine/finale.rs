@@ -1,6 +1,7 @@
 //! The end of a run: a look around the best model, the estimator's objections, the last refinement, the report.
 
 use super::{Candidate, Ransac};
+use crate::math::order::at_rank;
 use crate::robust::chance::log10_false_alarms;
 use crate::robust::{Estimator, RansacReport, ScoreKind, StopReason, Unique};
 use crate::{Error, Result};
@@ -52,7 +53,7 @@ const REWEIGHTINGS_OF_WIDTH: usize = 5;
 
 impl<E: Estimator> Ransac<E> {
     /// As [`finish`](Ransac::finish), once.
-    pub(in crate::robust) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
+    pub(super) fn conclude(&mut self) -> Result<RansacReport<E::Model>> {
         let no_consensus = match self.stop {
             Some(StopReason::Canceled) => Error::Canceled,
             _ => Error::NoConsensus {
@@ -283,7 +284,7 @@ impl<E: Estimator> Ransac<E> {
         let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
         let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
         let middle = errors_sq.len() / 2;
-        let (_, median_sq, _) = errors_sq.select_nth_unstable_by(middle, f64::total_cmp);
+        let median_sq = at_rank(&mut errors_sq, middle);
         let least_px = 0.25 * self.options.max_error_px;
         (medians * median_sq.sqrt()).clamp(least_px, most_px)
     }
