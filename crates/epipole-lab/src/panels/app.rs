@@ -167,7 +167,7 @@ impl<H: Host> App<H> {
                 });
         }
         CentralPanel::default().show(ui, |ui| self.picture(ui, &mut events));
-        if !events.is_empty() {
+        if !events.is_empty() || self.work.is_waiting() {
             // What follows from them is started, and shown, with the next frame.
             ui.ctx().request_repaint();
         }
