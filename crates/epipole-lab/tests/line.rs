@@ -420,7 +420,7 @@ fn a_camera_that_only_turned_is_told_so() {
 
 #[test]
 fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
-    for typed_px in [480.0, 780.0] {
+    for typed_px in [480.0, 1000.0] {
         let mut project = Project::default();
         project.update(Event::OpenSample(Sample::Turned));
         let photos = project.document().photos.iter();

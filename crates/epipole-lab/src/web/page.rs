@@ -49,10 +49,12 @@ extern "C" {
 
 /// How long news of work that goes on wait for a frame: several workers tell some of them within that, and each frame
 /// takes time from them.
-const PATIENCE: Duration = Duration::from_millis(150);
+const PATIENCE: Duration = Duration::from_millis(250);
 
-/// An answer waits for the next frame alone; who waits for nothing gets two.
-const SOON: Duration = Duration::from_millis(1);
+/// How long an answer waits to be shown.
+const SOON: Duration = Duration::from_millis(120);
+/// Until the next frame alone: who waits for nothing gets two.
+const NEXT: Duration = Duration::from_millis(1);
 
 /// What came from outside and was not seen yet.
 #[derive(Default)]
@@ -169,6 +171,11 @@ impl eframe::App for Frames {
         self.0.ui(ui);
     }
 
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
+    }
+
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
@@ -225,6 +232,18 @@ impl Lab {
         }
     }
 
+    /// Starts at once what follows from an answer: workers wait for no frame.
+    fn answered(&self, report: Report) {
+        self.receive_within(SOON, |inbox| inbox.reports.push(report));
+        let rests = (self.runner.app_mut::<Frames>()).is_none_or(|mut frames| {
+            frames.0.go_on();
+            !frames.0.is_waiting()
+        });
+        if !rests {
+            self.receive_within(NEXT, |_| {});
+        }
+    }
+
     /// Tells how far a piece of work is.
     pub fn progress(&self, work: f64, share: f32, words: String) {
         self.receive_within(PATIENCE, |inbox| {
@@ -243,8 +262,7 @@ impl Lab {
 
     /// Brings an answer.
     pub fn done(&self, work: f64, answer: Vec<u8>) {
-        let report = Report::Done(work as WorkId, Ok(answer));
-        self.receive_within(SOON, |inbox| inbox.reports.push(report));
+        self.answered(Report::Done(work as WorkId, Ok(answer)));
     }
 
     /// Says why there is none; `broken` if that lies in computing itself, not in what was asked.
@@ -254,7 +272,7 @@ impl Lab {
             true => Report::Broken(work, sentence),
             false => Report::Done(work, Err(sentence)),
         };
-        self.receive(|inbox| inbox.reports.push(report));
+        self.answered(report);
     }
 
     /// Brings a photograph, which is seen with the next [`Lab::deliver`].
