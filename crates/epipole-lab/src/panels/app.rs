@@ -182,6 +182,10 @@ impl<H: Host> App<H> {
             }
             self.project.update(event);
         }
+        if self.project.is_paused() {
+            // Who stops something does not wait for another frame.
+            self.work.go_on(&mut self.project, &mut self.host);
+        }
         self.work.keep(&self.project, &mut self.host, ui);
     }
 
