@@ -144,6 +144,8 @@ test("the mouse opens menus on the canvas, chooses, and opens them again", async
     throw new Error(`no menu ${name} in the bar`);
   };
   const x = await find("Project", 420);
+  // Its items come a frame later.
+  await expect(menu("Project")).toHaveAttribute("aria-controls", /./);
   const opened = await menu("Project").getAttribute("aria-controls");
   const items = await lab.evaluate((ids) => ids.split(" ").map((id) => document.getElementById(id).getAttribute("aria-label") ?? ""), opened);
   expect(items.slice(0, 3)).toEqual(["Open…", "Save", "Remove all photographs"]);
