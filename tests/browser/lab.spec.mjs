@@ -123,6 +123,47 @@ test("the menu of the project closes with what assistive technology chooses, and
   }
 });
 
+test("the mouse opens menus on the canvas, chooses, and opens them again", async ({ lab }) => {
+  await solved(lab);
+  const canvas = await lab.locator("#lab").boundingBox();
+  const click = async (x, y) => {
+    await lab.mouse.move(canvas.x + x, canvas.y + y);
+    await lab.mouse.down();
+    await lab.mouse.up();
+  };
+  const menu = (name) => lab.locator("#widgets").getByRole("button", { name, exact: true });
+  const isOpen = (name) => menu(name).getAttribute("aria-expanded").then((value) => value === "true");
+  /** Where the menu is in the bar: all to the right of the menus waits for something to take back. */
+  const find = async (name, from) => {
+    for (let x = from; x > 0; x -= 20) {
+      await click(x, 20);
+      // What was clicked is told with one of the next looks at it.
+      const opened = expect.poll(() => isOpen(name), { timeout: 1000 }).toBe(true);
+      if (await opened.then(() => true, () => false)) return x;
+    }
+    throw new Error(`no menu ${name} in the bar`);
+  };
+  const x = await find("Project", 420);
+  // Its items come a frame later.
+  await expect(menu("Project")).toHaveAttribute("aria-controls", /./);
+  const opened = await menu("Project").getAttribute("aria-controls");
+  const items = await lab.evaluate((ids) => ids.split(" ").map((id) => document.getElementById(id).getAttribute("aria-label") ?? ""), opened);
+  expect(items.slice(0, 3)).toEqual(["Open…", "Save", "Remove all photographs"]);
+  await expectAccessible(lab);
+  for (let round = 0; round < 2; round += 1) {
+    // Its first item asks for a file.
+    const [chooser] = await Promise.all([lab.waitForEvent("filechooser"), click(x, 52)]);
+    expect(chooser.isMultiple()).toBe(false);
+    await expect(menu("Project")).toHaveAttribute("aria-expanded", "false");
+    await expect(lab.locator("#widgets").getByRole("button", { name: "Open…" })).toHaveCount(0);
+    await click(x, 20);
+    await expect(menu("Project")).toHaveAttribute("aria-expanded", "true");
+  }
+  // A click beside it closes it.
+  await click(600, 400);
+  await expect(menu("Project")).toHaveAttribute("aria-expanded", "false");
+});
+
 test("a link opens a step with its knobs, and tells what it does not know", async ({ lab, library }) => {
   await lab.goto(`${library}/lab/index.html?step=matches&ratio=0.7&color=red`);
   await expect(said(lab)).toContainText('The Lab knows no "color".', { timeout: 30_000 });

@@ -4,7 +4,7 @@
 
 import { readdirSync, readFileSync } from "node:fs";
 import { loadavg } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { chromium } from "@playwright/test";
 import { launchOptions } from "./chromium.mjs";
 import { book } from "./places.mjs";
@@ -77,7 +77,8 @@ const memory = () => {
   return total;
 };
 let most = 0;
-const watching = setInterval(() => (most = Math.max(most, memory())), 500);
+// Seldom: whoever counts the pages of a process holds it up.
+const watching = setInterval(() => (most = Math.max(most, memory())), 3000);
 if (folder) {
   const files = readdirSync(folder).filter((name) => name.endsWith(".jpg")).sort().map((name) => join(folder, name));
   await page.goto(`${server.origin}/course/lab/index.html?refine-focal=${focal ? "never" : "guessed"}`);
@@ -98,11 +99,27 @@ if (folder) {
     tell(await frames(), "meanwhile");
     say("memory of the page and its workers, at most", `${most.toFixed(0)} MB`);
   }
-  // Every pixel of a pair: more than a million points, which turn under the mouse.
+  // Every pixel of some pairs: a million points, which turn under the mouse.
   await press("button", "Depth");
-  await until(/pixels have a depth|could be|nothing/);
-  console.log(await said());
-  await press("checkbox", "Add to cloud and export");
+  const names = files.map((path) => basename(path));
+  let points = 0;
+  for (let first = 0; first + 1 < names.length && points < 1e6; first += 1) {
+    // The second one first: a pair has two photographs.
+    for (const [list, name] of [["Second", names[first + 1]], ["First", names[first]]]) {
+      const box = page.locator("#widgets").getByRole("combobox", { name: new RegExp(`^${list}:`) });
+      if ((await box.getAttribute("aria-label")) === `${list}: ${name}`) continue;
+      await box.dispatchEvent("click");
+      await press("button", name);
+      await box.and(page.getByLabel(`${list}: ${name}`)).waitFor({ state: "attached" });
+    }
+    const pair = `${names[first]} and ${names[first + 1]}: `;
+    await until(new RegExp(`^${pair}(\\d+ %|.*(cannot|could not|too few|nothing))`));
+    const [, share, pixels] = (await said()).match(/: (\d+) % of (\d+) pixels/) ?? [0, 0, 0];
+    if (share === 0) console.log(await said());
+    else await press("checkbox", "Add to cloud and export");
+    points += (share / 100) * pixels;
+  }
+  say("points of every pixel", points.toFixed(0));
   await press("button", "Reconstruction");
   await page.waitForTimeout(4000);
   await frames();

@@ -176,6 +176,9 @@ async function start(): Promise<void> {
   await open(lab, isHanded, kept, askForKept);
 
   letTabLeave();
+  // The toolkit smooths edges itself, and asks for this context without saying so: samples of each pixel would cost as
+  // much again where a processor draws.
+  canvas.getContext("webgl2", { antialias: false, depth: false });
   try {
     await lab.start(canvas, shell);
   } catch (error) {

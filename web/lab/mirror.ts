@@ -3,8 +3,11 @@
  * keyboard alone one is on the canvas, so nothing here is a stop of the Tab key.
  */
 
-/** A line of the module: number, role, name, value, state, least, largest, step. */
-type Widget = [string, string, string, string, string, string, string, string];
+/**
+ * A line of the module: number, role, name, value, state, least, largest, step, whether what it opens is open or closed,
+ * and the number of what has opened the list that it is in.
+ */
+type Widget = [string, string, string, string, string, string, string, string, string, string];
 
 /** Does to a widget what somebody did to its element: by number, role and name, since numbers may go over to others. */
 type Operate = (widget: string, role: string, name: string, value?: number) => void;
@@ -22,10 +25,11 @@ export class Mirror {
 
   show(lines: string): void {
     const kept = new Set<string>();
+    const opened = new Map<string, string[]>();
     let before: HTMLElement | undefined;
     for (const line of lines.split("\n")) {
       const widget = line.split("\t") as Widget;
-      if (widget.length !== 8) continue;
+      if (widget.length !== 10) continue;
       const key = `${widget[1]} ${widget[0]}`;
       if (kept.has(key)) continue;
       kept.add(key);
@@ -33,15 +37,22 @@ export class Mirror {
       this.#elements.set(key, element);
       this.#names.set(element, widget[2]);
       set(element, widget);
+      put(element, "id", `widget-${widget[1]}-${widget[0]}`);
+      if (widget[9] !== "") opened.set(widget[9], [...(opened.get(widget[9]) ?? []), element.id]);
       const place = before ? before.nextElementSibling : this.#root.firstElementChild;
       if (place !== element) this.#root.insertBefore(element, place);
       before = element;
     }
     for (const [key, element] of this.#elements) {
-      if (kept.has(key)) continue;
-      element.remove();
-      this.#elements.delete(key);
-      this.#names.delete(element);
+      if (!kept.has(key)) {
+        element.remove();
+        this.#elements.delete(key);
+        this.#names.delete(element);
+        continue;
+      }
+      const controls = opened.get(key.split(" ")[1] ?? "");
+      if (controls && element.hasAttribute("aria-expanded")) put(element, "aria-controls", controls.join(" "));
+      else element.removeAttribute("aria-controls");
     }
   }
 
@@ -72,7 +83,7 @@ export class Mirror {
   }
 }
 
-function set(element: HTMLElement, [, role, name, value, state, least, most]: Widget): void {
+function set(element: HTMLElement, [, role, name, value, state, least, most, , opens]: Widget): void {
   if (element instanceof HTMLInputElement) {
     put(element, "aria-label", name || "number");
     if (least) element.min = least;
@@ -87,7 +98,8 @@ function set(element: HTMLElement, [, role, name, value, state, least, most]: Wi
   }
   put(element, "aria-label", role === "combobox" ? `${name}: ${value}` : name);
   if (element instanceof HTMLButtonElement) element.disabled = state === "disabled";
-  if (role === "combobox") put(element, "aria-expanded", "false");
+  if (opens !== "") put(element, "aria-expanded", String(opens === "open"));
+  else element.removeAttribute("aria-expanded");
   if (role === "checkbox" || role === "radio") put(element, "aria-checked", String(state === "on"));
   else if (role === "button" && (state === "on" || state === "off")) {
     put(element, "aria-pressed", String(state === "on"));

@@ -419,6 +419,41 @@ fn a_camera_that_only_turned_is_told_so() {
 }
 
 #[test]
+fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
+    for typed_px in [480.0, 1000.0] {
+        let mut project = Project::default();
+        project.update(Event::OpenSample(Sample::Turned));
+        let photos = project.document().photos.iter();
+        let ids: Vec<_> = photos.map(|photo| photo.id).collect();
+        for id in &ids {
+            project.update(Event::Focal(*id, Some(typed_px)));
+        }
+        finish(&mut project);
+        let (each, all) = sentences(&mut project);
+        assert!(
+            each.iter().all(|words| words.contains("only turned")),
+            "{each:?}"
+        );
+        // Small turns look alike by any focal length; that between the first and the last photograph does not.
+        for photo in [0, 3].map(|n| &project.document().photos[n]) {
+            let Fate::OnlyTurned(Some(focal_px)) = project.fate(photo) else {
+                panic!("{typed_px}: {each:?}");
+            };
+            // The camera of the sample has 600 px.
+            assert!((570..=630).contains(&focal_px), "{typed_px}: {focal_px}");
+            let words = format!("if its focal length is near {focal_px} px");
+            assert!(project.fate_words(photo).contains(&words), "{each:?}");
+        }
+        assert!(all.contains("only turned"), "{all}");
+        project.update(Event::Show(Step::TwoViews));
+        project.update(Event::LookAtPair(ids[0], ids[3]));
+        let pair = project.describe();
+        let words = format!("px, not {typed_px} px, the camera only turned, by 15.");
+        assert!(pair.contains(&words), "{pair}");
+    }
+}
+
+#[test]
 fn a_plane_is_told_so() {
     let mut project = solved(Sample::Plane);
     let (each, all) = sentences(&mut project);

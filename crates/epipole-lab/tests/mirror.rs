@@ -41,6 +41,10 @@ impl Page {
             }
             *undone += usize::from(ui.button("Undo").clicked());
             *redone += usize::from(ui.button("Redo").clicked());
+            let more = ui.menu_button("More", |ui| ui.button("Deep"));
+            let is_open = more.inner.is_some();
+            let tell = |node: &mut egui::accesskit::Node| node.set_expanded(is_open);
+            ui.ctx().accesskit_node_builder(more.response.id, tell);
         });
         // Nobody draws.
         output.textures_delta.clear();
@@ -104,4 +108,29 @@ fn what_is_gone_is_not_pressed_later() {
         page.frame();
     }
     assert_eq!((page.undone, page.redone), (0, 0));
+}
+
+#[test]
+fn what_stands_in_an_open_menu_names_what_opened_it() {
+    let mut page = Page::new();
+    let field = |told: &str, name: &str, field: usize| {
+        let mut lines = told
+            .lines()
+            .map(|line| line.split('\t').collect::<Vec<_>>());
+        let line = lines.find(|fields| fields[2] == name)?;
+        assert_eq!(line.len(), 10, "{line:?}");
+        Some(line[field].to_owned())
+    };
+    let told = page.mirror.news().unwrap();
+    assert_eq!(field(&told, "More", 8).unwrap(), "closed");
+    assert_eq!(field(&told, "Undo", 8).unwrap(), "");
+    assert_eq!(field(&told, "Deep", 9), None);
+    page.press(&told, "More");
+    for _ in 0..9 {
+        page.frame();
+    }
+    let told = page.mirror.news().unwrap();
+    assert_eq!(field(&told, "More", 8).unwrap(), "open");
+    assert_eq!(field(&told, "Deep", 9), field(&told, "More", 0));
+    assert_eq!(field(&told, "Undo", 9).unwrap(), "");
 }

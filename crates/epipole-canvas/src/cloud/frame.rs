@@ -109,8 +109,9 @@ impl Frame {
                 continue;
             }
             let side = (side_at_middle / depth).clamp(1.0, 7.0);
-            let from = |at: f32| ((at - side / 2.0).round().max(0.0)) as usize;
-            let to = |at: f32, most: usize| ((at + side / 2.0).round().max(0.0) as usize).min(most);
+            // To the nearest whole number, and to 0 from below: browsers have no instruction for `round`.
+            let from = |at: f32| (at - side / 2.0 + 0.5) as usize;
+            let to = |at: f32, most: usize| ((at + side / 2.0 + 0.5) as usize).min(most);
             for row in from(v)..to(v, size.1) {
                 for column in from(u)..to(u, size.0) {
                     let at = row * size.0 + column;

@@ -14,6 +14,7 @@
 
 mod frame;
 mod orbit;
+mod outermost;
 mod picture;
 
 pub use frame::{Frame, Look};

@@ -1,6 +1,7 @@
 //! Where a space is seen from: it turns about its middle.
 
 use super::Scene;
+use super::outermost::Outermost;
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 /// A view of a space.
@@ -21,7 +22,9 @@ pub struct Orbit {
 }
 
 /// Focal length over the shorter side of the picture.
-const FOCAL: f64 = 1.2;
+pub(super) const FOCAL: f64 = 1.2;
+/// Depth over the size of the scene below which nothing is seen.
+pub(super) const NEAREST: f64 = 1e-3;
 
 impl Orbit {
     /// A view of all points but the outermost.
@@ -70,54 +73,22 @@ impl Orbit {
 
     /// Comes as near as it can with all of these places in the picture, and some border around them.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
+        let rotation = self.rotation();
+        let turned = places
+            .iter()
+            .map(|place| rotation * (Point3::from(*place) - self.middle));
+        let outermost = Outermost::of(turned);
         let (mut too_near, mut far) = self.bounds();
+        let mut aside = Vector3::zeros();
         // Halved again and again: near to a place the picture grows so fast that steps by what is missing overshoot.
         for _ in 0..24 {
-            let mut view = Self {
-                distance: (too_near * far).sqrt(),
-                ..*self
-            };
-            match view.center(places) {
-                true => (far, *self) = (view.distance, view),
-                false => too_near = view.distance,
+            let distance = (too_near * far).sqrt();
+            match outermost.centered(aside, distance, self.size) {
+                Some(found) => (far, aside, self.distance) = (distance, found, distance),
+                None => too_near = distance,
             }
         }
-    }
-
-    /// Puts the middle of these places into the middle of the picture. Says whether all are in it then, and not all at
-    /// one place.
-    fn center(&mut self, places: &[[f64; 3]]) -> bool {
-        /// Of the side of the picture.
-        const BORDER: f64 = 0.04;
-        let mut is_inside = false;
-        for _ in 0..32 {
-            let Some(([left, top], [right, bottom])) = self.reach_of(places) else {
-                return false;
-            };
-            if right - left < 1e-9 && bottom - top < 1e-9 {
-                return false;
-            }
-            let inside = |x: f64| (BORDER..=1.0 - BORDER).contains(&x);
-            is_inside = [left, top, right, bottom].into_iter().all(inside);
-            // What is nearer moves farther than what is missing, so each step is a part of it.
-            let step = |low: f64, high: f64| 400.0 * (0.5 - 0.5 * (low + high));
-            self.pan(step(left, right), step(top, bottom), (1000, 1000));
-        }
-        is_inside
-    }
-
-    /// From where to where places are in a square picture, in shares of its side; `None` if one of them is not seen.
-    fn reach_of(&self, places: &[[f64; 3]]) -> Option<([f64; 2], [f64; 2])> {
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for place in places {
-            let (pixel, _) = self.project(place.map(|x| x as f32), (1000, 1000))?;
-            for axis in 0..2 {
-                least[axis] = least[axis].min(pixel[axis] / 1000.0);
-                most[axis] = most[axis].max(pixel[axis] / 1000.0);
-            }
-        }
-        let is_finite = least.iter().chain(&most).all(|x| x.is_finite());
-        is_finite.then_some((least, most))
+        self.middle += rotation.transpose() * aside;
     }
 
     /// The least and the greatest distance.
@@ -164,7 +135,7 @@ impl Orbit {
         let place = Point3::from(place.map(f64::from));
         let p = self.rotation() * (place - self.middle);
         let depth = p.z + self.distance;
-        if depth <= 1e-3 * self.size {
+        if depth <= NEAREST * self.size {
             return None;
         }
         let focal_px = Self::focal_px(size);

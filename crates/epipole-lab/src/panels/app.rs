@@ -126,6 +126,11 @@ impl<H: Host> App<H> {
         self.work.is_busy()
     }
 
+    /// Whether there is more to do between two frames than was done: [`App::go_on`] wants to be called soon.
+    pub fn is_waiting(&self) -> bool {
+        self.work.is_waiting()
+    }
+
     /// Draws a frame. Once before the first one, [`prepare`] is to be called.
     pub fn ui(&mut self, ui: &mut Ui) {
         let mut events = Vec::new();
@@ -167,7 +172,7 @@ impl<H: Host> App<H> {
                 });
         }
         CentralPanel::default().show(ui, |ui| self.picture(ui, &mut events));
-        if !events.is_empty() {
+        if !events.is_empty() || self.is_waiting() {
             // What follows from them is started, and shown, with the next frame.
             ui.ctx().request_repaint();
         }
@@ -176,6 +181,10 @@ impl<H: Host> App<H> {
                 self.memory = Memory::default();
             }
             self.project.update(event);
+        }
+        if self.project.is_paused() {
+            // Who stops something does not wait for another frame.
+            self.work.go_on(&mut self.project, &mut self.host);
         }
         self.work.keep(&self.project, &mut self.host, ui);
     }

@@ -2,15 +2,12 @@
 
 use super::look;
 use super::marks::{add_dense, frustum, rays, standing};
-use super::photo::reduced_rgb;
 use super::steer::{frame, steer};
-use crate::project::{Floor, Given, Key, Project};
+use crate::project::{Floor, Key, Project};
 use crate::tasks::{Blob, Component};
 use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 use epipole_canvas::theme::{Role, Theme};
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// What the color of a point says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,15 +56,10 @@ pub(super) struct CloudView {
     orbit: Option<Orbit>,
     scene: Scene,
     num_fixed_lines: usize,
-    /// Photographs, small, for their frusta.
-    small: BTreeMap<Key, Small>,
     frame: Frame,
     texture: Option<TextureHandle>,
     drawn: Option<Drawn>,
 }
-
-/// Width and height, and the pixels.
-type Small = ([usize; 2], Arc<[u8]>);
 
 impl Default for CloudView {
     fn default() -> Self {
@@ -79,7 +71,6 @@ impl Default for CloudView {
             orbit: None,
             scene: Scene::default(),
             num_fixed_lines: 0,
-            small: BTreeMap::new(),
             frame: Frame::default(),
             texture: None,
             drawn: None,
@@ -87,8 +78,6 @@ impl Default for CloudView {
     }
 }
 
-/// The longer side of a photograph in the space, pixels.
-const SMALL_SIDE: u32 = 256;
 /// A frame of so many points is drawn while something moves.
 const MAX_MOVING: usize = 150_000;
 
@@ -241,9 +230,10 @@ impl CloudView {
                     color,
                 );
                 if self.photographs
-                    && let Some(small) = self.small(project, photo)
+                    && let Some(pixels) = project.photograph(photo)
                 {
-                    let picture = standing(camera, (size.width, size.height), reach, small);
+                    let size = (size.width, size.height);
+                    let picture = standing(camera, size, reach, &pixels.small);
                     self.scene.pictures.push(picture);
                 }
             }
@@ -251,19 +241,6 @@ impl CloudView {
         self.num_fixed_lines = self.scene.lines.len();
         self.made = Some(made);
         self.drawn = None;
-    }
-
-    fn small(&mut self, project: &Project, photo: &Given) -> Option<Small> {
-        let key = project.key_of_photograph(photo);
-        if let Some(small) = self.small.get(&key) {
-            return Some(small.clone());
-        }
-        let pixels = project.photograph(photo)?;
-        let factor = pixels.width.max(pixels.height).div_ceil(SMALL_SIDE).max(1);
-        let (size, rgb) = reduced_rgb(pixels, factor);
-        let small = (size, rgb.into());
-        self.small.insert(key, small);
-        self.small.get(&key).cloned()
     }
 
     fn draw(

@@ -19,6 +19,16 @@ pub enum Report {
     Broken(WorkId, String),
 }
 
+impl Report {
+    /// How many bytes there are to read.
+    pub(super) fn num_bytes(&self) -> usize {
+        match self {
+            Self::SoFar(_, bytes) | Self::Done(_, Ok(bytes)) => bytes.len(),
+            Self::Progress(..) | Self::Done(_, Err(_)) | Self::Broken(..) => 0,
+        }
+    }
+}
+
 /// What the reader brought.
 #[derive(Debug, Clone)]
 pub enum Arrival {

@@ -102,7 +102,7 @@ pub(super) fn choose(
             }
         };
         let shown = combo.show_ui(ui, |ui| menu::offer(ui, &mut photos));
-        menu::go_on(&shown);
+        menu::go_on(ui, &shown);
         shown.response.labelled_by(label.id);
     });
     chosen

@@ -1,7 +1,7 @@
 //! What is drawn beside points: cameras, and the rays of one point; and where that is seen.
 
 use crate::project::Project;
-use crate::tasks::{CameraFound, Component};
+use crate::tasks::{CameraFound, Component, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ pub(super) fn standing(
     camera: &CameraFound,
     (width, height): (u32, u32),
     reach: f64,
-    (size, rgb): ([usize; 2], Arc<[u8]>),
+    small: &Thumbnail,
 ) -> Picture {
     let place = |pixel| camera.center() + camera.ray(pixel) * reach;
     let corner = place([-0.5, -0.5]);
@@ -47,8 +47,8 @@ pub(super) fn standing(
         corner: plain(&corner),
         right: side([f64::from(width) - 0.5, -0.5]),
         down: side([-0.5, f64::from(height) - 0.5]),
-        size: size.into(),
-        rgb,
+        size: (small.width as usize, small.height as usize),
+        rgb: Arc::clone(&small.rgb.0),
     }
 }
 

@@ -73,7 +73,7 @@ fn cell(
             first.name,
             second.name,
             pair.num_inliers,
-            project.pair_words(pair)
+            project.pair_words(first, pair)
         ),
         _ => format!("{} and {}: not computed yet", first.name, second.name),
     };

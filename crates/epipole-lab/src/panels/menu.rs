@@ -6,7 +6,7 @@ use egui::{Button, Checkbox, InnerResponse, Ui, Widget};
 /// A button that opens a menu of what [`item`] and [`toggle`] show.
 pub(super) fn menu(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     let shown = ui.menu_button(title, |ui| offer(ui, content));
-    go_on(&shown);
+    go_on(ui, &shown);
 }
 
 /// Shows what can be chosen. True if a key has chosen.
@@ -18,8 +18,12 @@ pub(super) fn offer(ui: &mut Ui, content: impl FnOnce(&mut Ui)) -> bool {
     is_within && ui.will_parent_close()
 }
 
-/// After a key has chosen, keys go on at the button of the menu, not at the begin of everything.
-pub(super) fn go_on(shown: &InnerResponse<Option<bool>>) {
+/// Tells whether the menu is open. After a key has chosen, keys go on at the button of the menu, not at the begin of
+/// everything.
+pub(super) fn go_on(ui: &Ui, shown: &InnerResponse<Option<bool>>) {
+    let is_open = shown.inner.is_some();
+    let tell = |node: &mut egui::accesskit::Node| node.set_expanded(is_open);
+    ui.ctx().accesskit_node_builder(shown.response.id, tell);
     if shown.inner == Some(true) {
         shown.response.request_focus();
     }

@@ -21,8 +21,6 @@ pub(super) struct Pictures {
 const MAX_FULL: usize = 6;
 /// And so many small ones.
 const MAX_SMALL: usize = 200;
-/// Width of a small one, pixels.
-const SMALL_WIDTH: u32 = 352;
 
 impl Pictures {
     /// The photograph as a texture.
@@ -49,38 +47,13 @@ impl Pictures {
             self.small.clear();
         }
         self.small.entry(key).or_insert_with(|| {
-            let image = reduced(photograph, photograph.width.div_ceil(SMALL_WIDTH).max(1));
+            let small = &photograph.small;
+            let size = [small.width as usize, small.height as usize];
+            let image = ColorImage::from_rgb(size, &small.rgb);
             let name = format!("small {key}");
             ui.ctx().load_texture(name, image, TextureOptions::LINEAR)
         })
     }
-}
-
-fn reduced(photograph: &Photograph, factor: u32) -> ColorImage {
-    let (size, rgb) = reduced_rgb(photograph, factor);
-    ColorImage::from_rgb(size, &rgb)
-}
-
-/// Every block of so many pixels a side as their mean: width and height, and red, green, blue, row by row.
-pub(super) fn reduced_rgb(photograph: &Photograph, factor: u32) -> ([usize; 2], Vec<u8>) {
-    let (width, height) = (photograph.width / factor, photograph.height / factor);
-    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
-    for row in 0..height {
-        for column in 0..width {
-            let mut sum = [0_u32; 3];
-            for v in row * factor..(row + 1) * factor {
-                let first = 3 * (v * photograph.width + column * factor) as usize;
-                let run = photograph.rgb.get(first..first + 3 * factor as usize);
-                for rgb in run.unwrap_or_default().chunks_exact(3) {
-                    for (total, value) in sum.iter_mut().zip(rgb) {
-                        *total += u32::from(*value);
-                    }
-                }
-            }
-            pixels.extend(sum.map(|total| (total / (factor * factor)) as u8));
-        }
-    }
-    ([width as usize, height as usize], pixels)
 }
 
 /// How a reader looks at a photograph.

@@ -82,11 +82,16 @@ pub(super) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit
         }
     }
     let middle = orbit.middle;
-    let away = |place: &[f64; 3]| (nalgebra::Point3::from(*place) - middle).norm();
-    let mut places: Vec<[f64; 3]> = component.points.iter().map(|p| p.position).collect();
-    places.retain(|place| away(place).is_finite());
-    places.sort_by(|a, b| away(a).total_cmp(&away(b)));
-    places.truncate(places.len() * 9 / 10);
+    let away = |place: &[f64; 3]| (nalgebra::Point3::from(*place) - middle).norm_squared();
+    let all = component.points.iter().map(|point| point.position);
+    let mut by_distance: Vec<(f64, [f64; 3])> = all.map(|place| (away(&place), place)).collect();
+    by_distance.retain(|(away, _)| away.is_finite());
+    let num_near = by_distance.len() * 9 / 10;
+    if num_near < by_distance.len() {
+        by_distance.select_nth_unstable_by(num_near, |(a, _), (b, _)| a.total_cmp(b));
+        by_distance.truncate(num_near);
+    }
+    let mut places: Vec<[f64; 3]> = by_distance.into_iter().map(|(_, place)| place).collect();
     places.extend(cameras().map(|camera| <[f64; 3]>::from(camera.center().coords)));
     orbit.fit(&places);
 }

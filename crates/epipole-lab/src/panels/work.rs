@@ -6,6 +6,7 @@ use super::keeping::Keeping;
 use super::videos::Videos;
 use crate::project::{About, Event, Project, Task, count};
 use crate::tasks::{Answer, Blob, Request};
+use std::collections::VecDeque;
 
 /// Work beside the project's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,10 +40,15 @@ struct Running {
     words: String,
 }
 
+/// So many bytes are read and written between two frames, and those of one photograph more: a few milliseconds.
+const MAX_BYTES: usize = 4_000_000;
+
 /// All work that is under way.
 #[derive(Default)]
 pub(super) struct Work {
     running: Vec<Running>,
+    /// What was told and waits for the next frame.
+    told: VecDeque<Report>,
     last: WorkId,
     /// The revision of the project at which everything that is wanted was looked through.
     seen: Option<u64>,
@@ -65,9 +71,14 @@ impl Work {
         }
     }
 
-    /// Hears what is done, ends what is not wanted any more, starts what is.
+    /// Hears what is done, ends what is not wanted any more, starts what is. What takes too long waits for the next frame.
     pub(super) fn go_on(&mut self, project: &mut Project, host: &mut impl Host) {
-        for report in host.reports() {
+        let mut num_bytes = 0;
+        self.told.extend(host.reports());
+        while num_bytes < MAX_BYTES
+            && let Some(report) = self.told.pop_front()
+        {
+            num_bytes += report.num_bytes();
             self.hear(report, project, host);
         }
         if self.seen == Some(project.revision()) {
@@ -95,17 +106,27 @@ impl Work {
             if self.running.len() >= host.capacity() {
                 break;
             }
+            if num_bytes >= MAX_BYTES {
+                self.seen = None;
+                break;
+            }
             let under_way = |running: &Running| matches!(&running.what, What::Task(other) if other.key == task.key);
             if self.running.iter().any(under_way) {
                 continue;
             }
             if let Some(request) = project.request(&task) {
-                self.start(What::Task(task), &request, host);
+                num_bytes += self.start(What::Task(task), &request, host);
             }
         }
     }
 
-    fn start(&mut self, what: What, request: &Request, host: &mut impl Host) {
+    /// Whether there is something to do between two frames at once.
+    pub(super) fn is_waiting(&self) -> bool {
+        !self.told.is_empty() || self.seen.is_none()
+    }
+
+    /// Returns how many bytes went out.
+    fn start(&mut self, what: What, request: &Request, host: &mut impl Host) -> usize {
         self.last += 1;
         self.running.push(Running {
             id: self.last,
@@ -113,7 +134,10 @@ impl Work {
             share: 0.0,
             words: String::new(),
         });
-        host.start(self.last, request.branch(), request.to_bytes());
+        let bytes = request.to_bytes();
+        let num_bytes = bytes.len();
+        host.start(self.last, request.branch(), bytes);
+        num_bytes
     }
 
     /// Starts an errand, unless one of its kind is under way.
@@ -229,7 +253,7 @@ impl Work {
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        !self.running.is_empty()
+        !self.running.is_empty() || self.is_waiting()
     }
 
     /// What is under way, in a few words, with the share that is done of the longest.

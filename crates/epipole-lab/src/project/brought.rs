@@ -7,7 +7,7 @@ use super::wanted::About;
 use super::{Kept, Project};
 use crate::tasks::{
     Answer, Blob, CameraFound, Component, Described, Features, Match, Photograph, Reconstructed,
-    Source, TwoViews, ViewModel,
+    Source, Thumbnail, TwoViews, ViewModel,
 };
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +80,7 @@ impl Project {
         self.computed_of(|kept| match kept {
             Kept::Photograph(found) => Some(Answer::Photograph(Photograph {
                 rgb: Blob::default(),
+                small: Thumbnail::default(),
                 ..(**found).clone()
             })),
             Kept::Features(found) => Some(Answer::Features(Features {
@@ -161,8 +162,12 @@ fn follows(kept: &Kept) -> Option<Answer> {
 fn is_photograph(found: &Photograph) -> bool {
     let num_bytes = u64::from(found.width) * u64::from(found.height) * 3;
     let sizes = [found.full_size, found.sensor_size];
+    let small = &found.small;
+    let num_small = u64::from(small.width) * u64::from(small.height) * 3;
     num_bytes > 0
         && (num_bytes == found.rgb.len() as u64 || !found.has_pixels())
+        && num_small == small.rgb.len() as u64
+        && (num_small > 0) == found.has_pixels()
         && sizes
             .iter()
             .all(|(width, height)| *width > 0 && *height > 0)
@@ -193,12 +198,12 @@ fn is_matches(found: &[Match], first: usize, second: usize) -> bool {
 fn is_pair(found: &TwoViews, num_matches: usize) -> bool {
     let (ViewModel::Essential(m) | ViewModel::Fundamental(m) | ViewModel::Homography(m)) =
         &found.model;
-    let angles = found.turn_deg.into_iter().chain(found.angle_deg);
+    let others = [found.turn_deg, found.focal_factor, found.angle_deg];
     found.inliers.len() == num_matches
         && found.inliers.iter().filter(|fits| **fits).count() == found.num_inliers as usize
         && are_finite(m)
         && found.fundamental.is_none_or(|f| are_finite(&f))
-        && angles.into_iter().all(f64::is_finite)
+        && others.into_iter().flatten().all(f64::is_finite)
 }
 
 /// * `counts`: how many features each photograph has

@@ -24,8 +24,9 @@ pub enum Fate {
     FewFeatures(usize),
     /// It shares nothing with any other; at best so many matches agree.
     OverlapsNone(usize),
-    /// Between it and those that it overlaps with, the camera only turned.
-    OnlyTurned,
+    /// Between it and those that it overlaps with, the camera only turned; if that is told only by another focal length
+    /// than was given, what that is, in pixels of the photograph as it was given.
+    OnlyTurned(Option<u32>),
     /// It sees so few of the points.
     SeesFew(usize),
     /// It sees so many points, but they do not agree on a place.
@@ -96,7 +97,10 @@ impl Project {
             return Fate::FewFeatures(num_features);
         }
         let enough = self.document.settings.sfm.min_num_inliers;
-        let (mut most, mut turns, mut moves) = (0, 0, 0);
+        let (mut most, mut moves) = (0, 0);
+        let mut turns = 0;
+        // Of those that show a turn, the factors of the focal lengths by which they do: a small turn shows by any.
+        let mut factors = Vec::new();
         // Keypoints that agree with a point which other photographs gave.
         let mut seen = BTreeSet::new();
         for other in all.iter().filter(|other| other.id != photo.id) {
@@ -116,7 +120,10 @@ impl Project {
                 continue;
             }
             match pair.shows {
-                Shows::Turn => turns += 1,
+                Shows::Turn => {
+                    turns += 1;
+                    factors.extend(pair.focal_factor);
+                }
                 Shows::Depth | Shows::Plane => moves += 1,
                 Shows::Nothing => {}
             }
@@ -141,7 +148,10 @@ impl Project {
         }
         match (turns, moves) {
             (0, 0) => Fate::OverlapsNone(most as usize),
-            (_, 0) => Fate::OnlyTurned,
+            (_, 0) => {
+                let focal_px = |factor| self.focal_px(photo, factor).round() as u32;
+                Fate::OnlyTurned(median(factors).map(focal_px))
+            }
             _ if seen.len() < enough as usize => Fate::SeesFew(seen.len()),
             _ => Fate::NoPlace(seen.len()),
         }
@@ -169,9 +179,13 @@ impl Project {
                 "overlaps no other photograph: at best {most} matches agree, and {enough} are needed. \
                  Take one in between"
             ),
-            Fate::OnlyTurned => "the camera only turned between this one and the others, and turning shows no \
-                 depth. Take a step to the side between photographs"
-                .to_owned(),
+            Fate::OnlyTurned(focal_px) => format!(
+                "the camera only turned between this one and the others{}, and turning shows no depth. Take a step to the \
+                 side between photographs",
+                focal_px.map_or(String::new(), |focal_px| format!(
+                    " if its focal length is near {focal_px} px"
+                ))
+            ),
             Fate::SeesFew(count) => format!(
                 "sees {count} of the {enough} points it needs. Take one between it and its neighbor"
             ),
@@ -197,6 +211,12 @@ impl Project {
             .filter(|(_, fate)| !matches!(fate, Fate::Registered(_) | Fate::Open))
             .collect()
     }
+}
+
+/// The one in the middle.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
 }
 
 /// The keypoints of an image that show a point.

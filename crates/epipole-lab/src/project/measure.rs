@@ -171,9 +171,15 @@ impl CameraFound {
 
     /// The direction in the world in which a pixel looks, of any length; distortion left aside.
     pub fn ray(&self, pixel: [f64; 2]) -> Vector3<f64> {
+        self.rays()(pixel)
+    }
+
+    /// The same for many pixels.
+    pub fn rays(&self) -> impl Fn([f64; 2]) -> Vector3<f64> + 'static {
         let [fu, fv, cu, cv] = self.intrinsics;
         let (rotation, _) = in_camera(self, &Point3::origin());
-        rotation.transpose() * Vector3::new((pixel[0] - cu) / fu, (pixel[1] - cv) / fv, 1.0)
+        let world_from_cam = rotation.transpose();
+        move |[u, v]| world_from_cam * Vector3::new((u - cu) / fu, (v - cv) / fv, 1.0)
     }
 
     /// How far in front of the camera a place is, along its axis; negative behind it.

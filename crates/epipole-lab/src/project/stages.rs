@@ -121,6 +121,15 @@ impl Project {
         Some(camera(photo, self.frame(photo)?).0)
     }
 
+    /// Its focal length times a factor, in pixels of its file: what a reader types. 0 until it is known.
+    pub(super) fn focal_px(&self, photo: &Given, factor: f64) -> f64 {
+        let known = self.frame(photo).map(|pixels| {
+            let reduced = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
+            factor * camera(photo, pixels).0.k[0] / reduced
+        });
+        known.unwrap_or(0.0)
+    }
+
     /// Where its focal length comes from.
     pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
         Some(camera(photo, self.frame(photo)?).1)

@@ -1,7 +1,8 @@
 //! What there is to see now, in words: for screen readers, and for whoever wants the gist.
 
+use super::document::Given;
 use super::{Project, Step};
-use crate::tasks::{Shows, ViewModel};
+use crate::tasks::{Shows, TwoViews, ViewModel};
 
 /// "1 photograph", "2 photographs".
 pub(crate) fn count(number: usize, what: &str) -> String {
@@ -118,12 +119,14 @@ impl Project {
             "{names}: {} of {} agree. {}",
             pair.num_inliers,
             count(matches.len(), "match").replace("matchs", "matches"),
-            self.pair_words(pair)
+            self.pair_words(first, pair)
         )
     }
 
     /// What a pair shows, and why this matrix describes it.
-    pub fn pair_words(&self, pair: &crate::tasks::TwoViews) -> String {
+    ///
+    /// * `first`: its first photograph
+    pub fn pair_words(&self, first: &Given, pair: &TwoViews) -> String {
         let turn = pair.turn_deg.unwrap_or(0.0);
         match (pair.shows, pair.model) {
             (Shows::Nothing, _) => {
@@ -135,6 +138,12 @@ impl Project {
                 "The camera did not move at all: H explains everything, and there is no depth."
                     .to_owned()
             }
+            (Shows::Turn, _) if let Some(factor) = pair.focal_factor => format!(
+                "With a focal length near {:.0} px, not {:.0} px, the camera only turned, by {turn:.1}°: H explains \
+                 everything, and turning shows no depth.",
+                self.focal_px(first, factor),
+                self.focal_px(first, 1.0)
+            ),
             (Shows::Turn, _) => format!(
                 "The camera only turned, by {turn:.1}°: H explains everything, and turning shows no depth."
             ),

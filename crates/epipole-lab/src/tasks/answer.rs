@@ -1,6 +1,6 @@
 //! What can be answered.
 
-use super::{Blob, BoardFound, Calibration, Dense, Described};
+use super::{Blob, BoardFound, Calibration, Dense, Described, Thumbnail};
 use crate::project::{Computed, Saved};
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +13,8 @@ pub struct Photograph {
     pub height: u32,
     /// Red, green, blue, row by row. None where only its size and lens are known, and the pixels are to come.
     pub rgb: Blob,
+    /// The same, small; nothing where pixels are to come, and of a board, which is in no list.
+    pub small: Thumbnail,
     /// The focal length that the file tells, in pixels of this size.
     pub focal_px: Option<f64>,
     /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as the calibrated
@@ -116,6 +118,8 @@ pub struct TwoViews {
     pub iterations: u32,
     /// The turn of the camera, degrees, where it is known.
     pub turn_deg: Option<f64>,
+    /// So many times the focal lengths given are those by which the camera only turned, where the given ones do not tell.
+    pub focal_factor: Option<f64>,
     /// The median angle at which rays meet, degrees, where it is known.
     pub angle_deg: Option<f64>,
 }

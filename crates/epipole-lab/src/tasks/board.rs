@@ -2,7 +2,7 @@
 
 use super::board_sample;
 use super::convert::core_board;
-use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Told};
+use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Thumbnail, Told};
 use epipole::calibration::{BoardSearch, find_board};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
@@ -44,6 +44,7 @@ pub(super) fn board(
             width,
             height,
             rgb: picture.into_raw().into(),
+            small: Thumbnail::default(),
             focal_px: None,
             k: None,
             full_size: sensor_size,

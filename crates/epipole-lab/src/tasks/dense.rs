@@ -81,12 +81,13 @@ impl Dense {
     /// The points of every n-th pixel along rows and columns, in the frame of the reconstruction, with their
     /// colors.
     pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
-        let (center, step) = (self.camera.center(), every.max(1) as usize);
+        let (center, ray) = (self.camera.center(), self.camera.rays());
+        let step = every.max(1) as usize;
         let rows = (0..self.height).step_by(step);
         let pixels = rows.flat_map(move |v| (0..self.width).step_by(step).map(move |u| (u, v)));
         pixels.filter_map(move |(u, v)| {
             let depth = self.depth(u, v)?;
-            let place = center + self.camera.ray([f64::from(u), f64::from(v)]) * depth;
+            let place = center + ray([f64::from(u), f64::from(v)]) * depth;
             let at = 3 * (v as usize * self.width as usize + u as usize);
             let color = self.left.get(at..at + 3)?.try_into().ok()?;
             Some((place.coords.into(), color))
@@ -97,9 +98,11 @@ impl Dense {
     pub fn depth_range(&self) -> Option<[f64; 2]> {
         let pixels = (0..self.height).flat_map(|v| (0..self.width).map(move |u| (u, v)));
         let mut depths: Vec<f64> = pixels.filter_map(|(u, v)| self.depth(u, v)).collect();
-        depths.sort_by(f64::total_cmp);
         let last = depths.len().checked_sub(1)?;
-        let at = |share: f64| depths[(share * last as f64).round() as usize];
+        let mut at = |share: f64| {
+            let place = (share * last as f64).round() as usize;
+            *depths.select_nth_unstable_by(place, f64::total_cmp).1
+        };
         Some([at(0.01), at(0.99)])
     }
 }

@@ -34,6 +34,7 @@ mod photograph;
 mod reconstruction;
 mod request;
 mod sample;
+mod thumbnail;
 #[cfg(feature = "vision")]
 mod two_views;
 
@@ -58,6 +59,7 @@ pub use request::{
     Branch, Calibrated, Described, ImagePoints, Packed, PairOf, Recipe, Request, Source,
 };
 pub use sample::Sample;
+pub use thumbnail::Thumbnail;
 
 /// What a computation tells on its way.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use super::board_sample;
 use super::convert::core_lens_camera;
-use super::{LensCamera, Photograph, Sample, Source};
+use super::{LensCamera, Photograph, Sample, Source, Thumbnail};
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, look_at};
 use epipole::math::random::Random;
@@ -51,6 +51,7 @@ fn file(bytes: &[u8], max_pixels: u32, camera: Option<&LensCamera>) -> Result<Ph
     Ok(Photograph {
         width,
         height,
+        small: Thumbnail::new((width, height), &photo.image),
         rgb: photo.image.into_raw().into(),
         focal_px: photo.focal_px,
         k: photo.intrinsics.map(plain),
@@ -109,6 +110,7 @@ fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
     Photograph {
         width,
         height,
+        small: Thumbnail::new((width, height), &image),
         rgb: image.into_raw().into(),
         focal_px,
         k: None,

@@ -1,10 +1,10 @@
 //! What two photographs say about each other.
 
-use super::convert::intrinsics;
+use super::convert::{intrinsics, sentence};
 use super::{Calibrated, PairOptions, Shows, TwoViews, ViewModel};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
+    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal,
 };
 use nalgebra::{Matrix3, Point2};
 
@@ -37,16 +37,30 @@ pub(super) fn two_views(
         },
         ..TwoViewOptions::default()
     };
-    how.check().map_err(|error| error.to_string())?;
+    how.check().map_err(sentence)?;
     let Ok(found) = estimate_two_view_calibrated(&first, &second, &k1, &k2, &how) else {
         return Ok(nothing(places.len()));
     };
+    // By a wrong focal length a turn passes for a plane.
+    let otherwise = match found.configuration {
+        Configuration::Planar => {
+            find_turn_and_focal(&first, &second, &k1, &k2, &found.inliers, &how)
+                .map_err(sentence)?
+        }
+        _ => None,
+    };
     let shows = match found.configuration {
         Configuration::General => Shows::Depth,
+        Configuration::Planar if otherwise.is_some() => Shows::Turn,
         Configuration::Planar => Shows::Plane,
         Configuration::Panoramic => Shows::Turn,
         Configuration::Degenerate => Shows::Nothing,
     };
+    let motion = match &otherwise {
+        Some(turn) => Some(turn.cam2_from_cam1),
+        None => found.cam2_from_cam1,
+    };
+    let angle_rad = (found.median_triangulation_angle_rad).filter(|_| otherwise.is_none());
     let mut inliers = vec![false; places.len()];
     for (&place, is_inlier) in order.iter().zip(&found.inliers) {
         inliers[place] = *is_inlier;
@@ -61,8 +75,9 @@ pub(super) fn two_views(
         fundamental: found.fundamental.as_ref().map(rows),
         num_inliers: found.num_inliers as u32,
         iterations: found.iterations as u32,
-        turn_deg: (found.cam2_from_cam1).map(|motion| motion.rotation.angle().to_degrees()),
-        angle_deg: found.median_triangulation_angle_rad.map(f64::to_degrees),
+        turn_deg: motion.map(|motion| motion.rotation.angle().to_degrees()),
+        focal_factor: otherwise.map(|turn| turn.focal_factor),
+        angle_deg: angle_rad.map(f64::to_degrees),
         inliers,
     })
 }
@@ -76,6 +91,7 @@ fn nothing(num_matches: usize) -> TwoViews {
         num_inliers: 0,
         iterations: 0,
         turn_deg: None,
+        focal_factor: None,
         angle_deg: None,
     }
 }

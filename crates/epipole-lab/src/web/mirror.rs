@@ -1,7 +1,8 @@
 //! What the toolkit tells of its widgets, for the page to show to assistive technology: a canvas says
 //! nothing by itself.
 //!
-//! A line a widget: number, role, name, value, state, least and largest value, step; separated by tabs.
+//! A line a widget: number, role, name, value, state, least and largest value, step, "open" or "closed" for what opens a
+//! list, and for what stands in such a list the number of what has opened it; separated by tabs.
 
 use egui::accesskit::{
     Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId, TreeUpdate,
@@ -142,16 +143,18 @@ fn lines(update: &TreeUpdate) -> String {
     let Some(root) = update.tree.as_ref().map(|tree| tree.root) else {
         return text;
     };
-    let mut open = vec![root];
-    while let Some(id) = open.pop() {
+    // With the widget that has opened the list in which it is, if it is in one.
+    let mut open = vec![(root, None)];
+    while let Some((id, opener)) = open.pop() {
         let Some(node) = nodes.get(&id) else { continue };
         if let Some(line) = line(id, node, &nodes) {
-            text.push_str(&line);
-            text.push('\n');
+            let opener = opener.map_or(String::new(), |NodeId(number)| number.to_string());
+            text.push_str(&format!("{line}\t{opener}\n"));
         }
         // Children of labels are runs of letters. Those of a button may be the menu that it has opened.
         if !matches!(node.role(), Role::Label | Role::TextInput) {
-            open.extend(node.children().iter().rev());
+            let opener = node.is_expanded().map(|_| id).or(opener);
+            open.extend(node.children().iter().rev().map(|child| (*child, opener)));
         }
     }
     text
@@ -199,6 +202,11 @@ fn line(id: NodeId, node: &Node, nodes: &BTreeMap<NodeId, &Node>) -> Option<Stri
         number(node.min_numeric_value()),
         number(node.max_numeric_value()),
         number(node.numeric_value_step()),
+        match node.is_expanded() {
+            Some(true) => "open".to_owned(),
+            Some(false) => "closed".to_owned(),
+            None => String::new(),
+        },
     ];
     Some(fields.join("\t"))
 }

@@ -6,6 +6,7 @@ use crate::tasks::{Blob, Branch};
 use eframe::web_sys::HtmlCanvasElement;
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::time::Duration;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -45,6 +46,15 @@ extern "C" {
     #[wasm_bindgen(method, structural, js_name = askForKept)]
     fn ask_for_kept(this: &Shell);
 }
+
+/// How long news of work that goes on wait for a frame: several workers tell some of them within that, and each frame
+/// takes time from them.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// How long an answer waits to be shown.
+const SOON: Duration = Duration::from_millis(120);
+/// Until the next frame alone: who waits for nothing gets two.
+const NEXT: Duration = Duration::from_millis(1);
 
 /// What came from outside and was not seen yet.
 #[derive(Default)]
@@ -161,6 +171,11 @@ impl eframe::App for Frames {
         self.0.ui(ui);
     }
 
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
+    }
+
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
@@ -203,17 +218,35 @@ impl Lab {
         self.runner.start(canvas, options, creator).await
     }
 
+    /// Takes something, for the next frame.
     fn receive(&self, put: impl FnOnce(&mut Inbox)) {
+        self.receive_within(Duration::ZERO, put);
+    }
+
+    /// The same for something that can wait for others.
+    fn receive_within(&self, wait: Duration, put: impl FnOnce(&mut Inbox)) {
         let mut inbox = self.inbox.borrow_mut();
         put(&mut inbox);
         if let Some(context) = &inbox.context {
-            context.request_repaint();
+            context.request_repaint_after(wait);
+        }
+    }
+
+    /// Starts at once what follows from an answer: workers wait for no frame.
+    fn answered(&self, report: Report) {
+        self.receive_within(SOON, |inbox| inbox.reports.push(report));
+        let rests = (self.runner.app_mut::<Frames>()).is_none_or(|mut frames| {
+            frames.0.go_on();
+            !frames.0.is_waiting()
+        });
+        if !rests {
+            self.receive_within(NEXT, |_| {});
         }
     }
 
     /// Tells how far a piece of work is.
     pub fn progress(&self, work: f64, share: f32, words: String) {
-        self.receive(|inbox| {
+        self.receive_within(PATIENCE, |inbox| {
             inbox
                 .reports
                 .push(Report::Progress(work as WorkId, share, words))
@@ -223,12 +256,13 @@ impl Lab {
     /// Brings what a piece of work has so far.
     #[wasm_bindgen(js_name = soFar)]
     pub fn so_far(&self, work: f64, answer: Vec<u8>) {
-        self.receive(|inbox| inbox.reports.push(Report::SoFar(work as WorkId, answer)));
+        let report = Report::SoFar(work as WorkId, answer);
+        self.receive_within(PATIENCE, |inbox| inbox.reports.push(report));
     }
 
     /// Brings an answer.
     pub fn done(&self, work: f64, answer: Vec<u8>) {
-        self.receive(|inbox| inbox.reports.push(Report::Done(work as WorkId, Ok(answer))));
+        self.answered(Report::Done(work as WorkId, Ok(answer)));
     }
 
     /// Says why there is none; `broken` if that lies in computing itself, not in what was asked.
@@ -238,7 +272,7 @@ impl Lab {
             true => Report::Broken(work, sentence),
             false => Report::Done(work, Err(sentence)),
         };
-        self.receive(|inbox| inbox.reports.push(report));
+        self.answered(report);
     }
 
     /// Brings a photograph, which is seen with the next [`Lab::deliver`].

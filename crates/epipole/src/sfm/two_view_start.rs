@@ -8,7 +8,7 @@ use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
 use crate::robust::RansacOptions;
-use crate::two_view::TwoViewOptions;
+use crate::two_view::{TwoViewOptions, find_explaining_turn, find_turn_and_focal};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -20,7 +20,8 @@ pub struct VerifiedPair {
     /// How the camera moved; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
-    /// scenes, where the start of a reconstruction would be ill-conditioned.
+    /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane and a pure
+    /// rotation explains them, by the focal length given or by another one.
     pub median_angle_rad: f64,
     /// A homography explains most matches: the scene is flat or the camera only turned. A pair
     /// that shows depth makes the safer start.
@@ -121,18 +122,36 @@ pub(super) fn verify_pair(
             .map(|n| pixels[n])
             .collect()
     };
+    let (pixels1, pixels2) = (chosen(&pixels1), chosen(&pixels2));
     let few = RansacOptions {
         max_iterations: 500,
         ..options.within(report.max_error_px)
     };
     // The share that makes two views planar makes a pair flat.
-    let share = TwoViewOptions::default().max_homography_share;
-    let is_flat = estimate_homography(&chosen(&pixels1), &chosen(&pixels2), &few)
-        .is_ok_and(|flat| flat.num_inliers as f64 > share * matches.len() as f64);
+    let judging = TwoViewOptions {
+        ransac: few,
+        ..TwoViewOptions::default()
+    };
+    let flat = estimate_homography(&pixels1, &pixels2, &few).ok();
+    let flat = flat.filter(|flat| {
+        flat.num_inliers as f64 > judging.max_homography_share * matches.len() as f64
+    });
+    // What a turn explains has no depth, and by a wrong focal length a turn passes for a plane.
+    let only_turned = flat.as_ref().is_some_and(|flat| {
+        let ([k1, k2], inliers) = (intrinsics, &flat.inliers);
+        find_explaining_turn(&pixels1, &pixels2, k1, k2, inliers, &judging)
+            .is_ok_and(|turn| turn.is_some())
+            || find_turn_and_focal(&pixels1, &pixels2, k1, k2, inliers, &judging)
+                .is_ok_and(|turn| turn.is_some())
+    });
+    let median_angle_rad = match only_turned {
+        true => 0.0,
+        false => angles.get(angles.len() / 2).copied().unwrap_or(0.0),
+    };
     Some(VerifiedPair {
         pair: PairMatches { matches, ..*pair },
         cam2_from_cam1,
-        median_angle_rad: angles.get(angles.len() / 2).copied().unwrap_or(0.0),
-        is_flat,
+        median_angle_rad,
+        is_flat: flat.is_some(),
     })
 }
