@@ -15,18 +15,24 @@ pub(crate) fn print(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// Writes a file aside and then renames it, so that a reader never sees half of it.
+/// Writes a file aside and then renames it, so that a reader never sees half of it. A link stays one: what it leads to
+/// is written. What is no file, such as a pipe or `/dev/null`, is written into.
 ///
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failure =
         |error: io::Error| Failure::new("write", format!("cannot be written: {error}")).about(path);
-    let mut aside = path.as_os_str().to_owned();
+    let known = fs::metadata(path).ok();
+    if known.is_some_and(|known| !known.is_file() && !known.is_dir()) {
+        return fs::write(path, bytes).map_err(failure);
+    }
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let mut aside = target.as_os_str().to_owned();
     aside.push(format!(".{}.part", std::process::id()));
     let aside = Path::new(&aside);
     fs::write(aside, bytes)
-        .and_then(|()| fs::rename(aside, path))
+        .and_then(|()| fs::rename(aside, &target))
         .map_err(|error| {
             // The part may not exist; there is nothing more to tell than the first error.
             let _ = fs::remove_file(aside);
@@ -61,4 +67,42 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
         Failure::new("write", format!("the folder cannot be made: {error}")).about(path)
     })
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    use std::process::Command;
+
+    #[test]
+    fn links_stay_links_and_pipes_stay_pipes() {
+        let folder = std::env::temp_dir().join(format!("epipole-files-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (file, link) = (folder.join("file"), folder.join("link"));
+        fs::write(&file, "before").unwrap();
+        symlink(&file, &link).unwrap();
+        write(&link, b"after").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"after");
+
+        let pipe = folder.join("pipe");
+        assert!(
+            Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
+        let read = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read(pipe).unwrap()
+        });
+        write(&pipe, b"through").unwrap();
+        assert_eq!(read.join().unwrap(), b"through");
+        assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+        // Nothing is left beside them.
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 3);
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }
