@@ -1,14 +1,58 @@
 //! Numbers of the chapter on triangulation.
 
-use super::Arguments;
 use super::Number::{self, Real};
-use super::registry::{pixel1, pixel2, sentence};
+use super::{Arguments, Entry, sentence};
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
     triangulate_optimal,
 };
 use nalgebra::{Point2, Point3, Vector3};
+
+/// What chapters may print.
+pub(super) const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "triangulation.point",
+        parameters: &["f", "b", "u", "v", "u2", "v2", "axis"],
+        summary: "X, Y or Z, axis = 1, 2, 3, of the match (u, v) – (u2, v2) by the DLT; equal cameras \
+            side by side, a baseline b apart, principal point (320, 240); meters",
+        compute: point,
+    },
+    Entry {
+        name: "triangulation.ahead-mm",
+        parameters: &["method", "axis"],
+        summary: "X, Y or Z, axis = 1, 2, 3, of the chapter's match by the midpoint, the DLT, angles or \
+            the optimum, method = 1 to 4; millimeters",
+        compute: ahead_mm,
+    },
+    Entry {
+        name: "triangulation.miss-px",
+        parameters: &["method", "image"],
+        summary: "how far that point lands from the pixel in image 1 or 2, pixels",
+        compute: miss_px,
+    },
+    Entry {
+        name: "triangulation.error-px",
+        parameters: &["method"],
+        summary: "the root mean square of both, pixels",
+        compute: error_px,
+    },
+    Entry {
+        name: "triangulation.sigma-mm",
+        parameters: &["f", "r", "angle", "sigma", "axis"],
+        summary: "half axis 1, 2 or 3 of a point's region of one standard deviation, 1 along the rays, 2 \
+            across them; two cameras look at it from the distance r, their rays at an angle in degrees; \
+            millimeters",
+        compute: sigma_mm,
+    },
+    Entry {
+        name: "triangulation.sigma-depth",
+        parameters: &["f", "b", "z", "sigma"],
+        summary: "standard deviation along the rays of a point half-way between two cameras side by side, \
+            a baseline b apart, and z away; meters",
+        compute: sigma_depth,
+    },
+];
 
 /// Two equal cameras that look the same way, the second one at (x, 0, z).
 fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[Camera; 2], String> {
@@ -19,19 +63,11 @@ fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[Camera; 2], String> {
     }))
 }
 
-/// The parameter `name` of 1 to 3, as an index.
-fn index(a: &Arguments, name: &str) -> Result<usize, String> {
-    match a.count(name)? {
-        index @ 1..=3 => Ok(index - 1),
-        _ => Err(format!("{name} must be 1, 2 or 3")),
-    }
-}
-
-pub(super) fn point(a: &Arguments) -> Result<Number, String> {
+fn point(a: &Arguments) -> Result<Number, String> {
     let [left, right] = looking_ahead(a.get("f"), a.get("b"), 0.0)?;
     let (left, right) = (left.projection_matrix(), right.projection_matrix());
-    let point = triangulate_dlt(&left, &right, &pixel1(a), &pixel2(a)).map_err(sentence)?;
-    Ok(Real(point[index(a, "axis")?], 3))
+    let point = triangulate_dlt(&left, &right, &a.pixel1(), &a.pixel2()).map_err(sentence)?;
+    Ok(Real(point[a.index("axis", 3)?], 3))
 }
 
 /// The match that the chapter works with, by one method: camera 2 is 0.1 m to the right and 2 m ahead,
@@ -60,19 +96,19 @@ fn ahead(a: &Arguments) -> Result<(Point3<f64>, [f64; 2]), String> {
     Ok((point, misses_px))
 }
 
-pub(super) fn ahead_mm(a: &Arguments) -> Result<Number, String> {
-    Ok(Real(1000.0 * ahead(a)?.0[index(a, "axis")?], 1))
+fn ahead_mm(a: &Arguments) -> Result<Number, String> {
+    Ok(Real(1000.0 * ahead(a)?.0[a.index("axis", 3)?], 1))
 }
 
-pub(super) fn miss_px(a: &Arguments) -> Result<Number, String> {
+fn miss_px(a: &Arguments) -> Result<Number, String> {
     let misses_px = ahead(a)?.1;
-    match misses_px.get(index(a, "image")?) {
+    match misses_px.get(a.index("image", 3)?) {
         Some(&miss_px) => Ok(Real(miss_px, 2)),
         None => Err("image must be 1 or 2".to_owned()),
     }
 }
 
-pub(super) fn error_px(a: &Arguments) -> Result<Number, String> {
+fn error_px(a: &Arguments) -> Result<Number, String> {
     let [one, two] = ahead(a)?.1;
     Ok(Real(((one * one + two * two) / 2.0).sqrt(), 2))
 }
@@ -85,7 +121,7 @@ fn half_axes(cameras: &[Camera], point: &Point3<f64>, sigma_px: f64) -> Result<[
     Ok(squares.map(|square| square.max(0.0).sqrt()))
 }
 
-pub(super) fn sigma_mm(a: &Arguments) -> Result<Number, String> {
+fn sigma_mm(a: &Arguments) -> Result<Number, String> {
     let (sin, cos) = libm::sincos((a.get("angle") / 2.0).to_radians());
     let camera = |side: f64| {
         let center = Point3::new(side * sin, 0.0, -cos) * a.get("r");
@@ -102,10 +138,10 @@ pub(super) fn sigma_mm(a: &Arguments) -> Result<Number, String> {
         a.get("sigma"),
     )?;
     // Across, in the plane of the rays, it is never shorter than out of that plane.
-    Ok(Real(1000.0 * axes[index(a, "axis")?], 1))
+    Ok(Real(1000.0 * axes[a.index("axis", 3)?], 1))
 }
 
-pub(super) fn sigma_depth(a: &Arguments) -> Result<Number, String> {
+fn sigma_depth(a: &Arguments) -> Result<Number, String> {
     let cameras = looking_ahead(a.get("f"), a.get("b"), 0.0)?;
     let middle = Point3::new(a.get("b") / 2.0, 0.0, a.get("z"));
     Ok(Real(half_axes(&cameras, &middle, a.get("sigma"))?[0], 2))
