@@ -63,6 +63,19 @@ impl BoardSearch {
         }
     }
 
+    /// Corners of other things stand in a row here and there: a grid is told from them by two rows and columns at least,
+    /// of which half is seen.
+    fn unless_by_chance(self) -> Self {
+        match self {
+            Self::Partial {
+                columns,
+                rows,
+                num_seen,
+            } if columns.min(rows) < 2 || 2 * num_seen < columns * rows => Self::Nothing,
+            search => search,
+        }
+    }
+
     /// The one with more marks.
     pub(super) fn or_more(self, other: Self) -> Self {
         let num_seen = |search: &Self| match search {
@@ -159,7 +172,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
         }
         best = best.or_more(found);
     }
-    Ok(best)
+    Ok(best.unless_by_chance())
 }
 
 /// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients, and from there by
