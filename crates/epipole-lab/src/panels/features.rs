@@ -17,8 +17,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
         return;
     };
     let Some(pixels) = project.photograph(given) else {
-        ui.weak("The photograph is being read.");
-        return;
+        return knobs::instead(ui, &project.describe());
     };
     let rect = ui.available_rect_before_wrap();
     let texture = memory

@@ -108,8 +108,10 @@ pub(super) fn knobs(
     let left_out = project.left_out();
     if !left_out.is_empty() {
         ui.strong(format!("Left out: {}", left_out.len()));
-        for (id, _) in left_out {
-            if let Some(photo) = project.document().photo(id) {
+        // What became of the one that is looked at stands above.
+        let others = (left_out.iter()).filter(|(id, _)| *id != project.view().photo);
+        for (id, _) in others {
+            if let Some(photo) = project.document().photo(*id) {
                 let words = format!("{}: {}", photo.name, project.fate_words(photo));
                 ui.colored_label(look::color(ui, Role::Outlier), words);
             }
