@@ -506,24 +506,3 @@ fn each_photograph_of_a_board_has_a_small_picture() {
         assert_eq!(small.rgb.len(), 3 * pixels);
     }
 }
-
-#[test]
-fn corners_of_other_things_are_no_board_of_another_size() {
-    // A photograph of the still life, in which corners stand in a row here and there.
-    let camera = epipole::synthetic::still_life_camera(480, 360);
-    let scene = epipole::synthetic::Scene::still_life();
-    let sampling = epipole::synthetic::Sampling::Full;
-    let image = scene.render(&camera, 480, 360, sampling).unwrap().image;
-    let mut project = Project::default();
-    project.update(Event::Show(Step::Calibrate));
-    project.update(Event::AddBoards(vec![(
-        "table.png".to_owned(),
-        png(&image),
-    )]));
-    finish(&mut project);
-    let words = project.board_words(&project.document().boards[0]);
-    assert!(
-        words.starts_with("no board of 9 × 6 marks was found"),
-        "{words}"
-    );
-}

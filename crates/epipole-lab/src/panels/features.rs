@@ -103,7 +103,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             knobs::row(
                 ui,
                 "position",
-                format!("({:.1}, {:.1})", feature.u, feature.v),
+                format!("({:.1}, {:.1}) px", feature.u, feature.v),
             );
             knobs::row(ui, "scale", format!("{:.2} px", feature.scale_px));
             let degrees = f64::from(feature.angle_rad).to_degrees();

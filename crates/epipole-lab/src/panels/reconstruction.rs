@@ -12,10 +12,22 @@ use epipole_canvas::theme::Role;
 /// The space.
 pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     if project.component().or(project.growing()).is_none() {
-        return knobs::instead(ui, &project.describe());
+        return knobs::instead(ui, &why_none(project));
     }
     let rect = ui.available_rect_before_wrap();
     memory.cloud.show(project, ui, rect);
+}
+
+/// Why there is nothing to see, each photograph that was left out in a line of its own.
+fn why_none(project: &Project) -> String {
+    let mut words = project.describe();
+    for (id, _) in project.left_out() {
+        if let Some(photo) = project.document().photo(id) {
+            let told = format!("{}: {}", photo.name, project.fate_words(photo));
+            words = words.replace(&format!(" {told}"), &format!("\n{told}"));
+        }
+    }
+    words
 }
 
 /// Numbers, reasons, knobs.
@@ -176,6 +188,8 @@ fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
         sights.len()
     ));
     for (name, [u, v], error_px) in sights {
-        ui.label(format!("{name}: ({u:.1}, {v:.1}), error {error_px:.2} px"));
+        ui.label(format!(
+            "{name}: ({u:.1}, {v:.1}) px, error {error_px:.2} px"
+        ));
     }
 }

@@ -378,4 +378,22 @@ mod tests {
         let bytes = GrayImage32::from_pixel(20, 20, Luma([200.0]));
         assert!(find_board(&bytes, &board).is_err());
     }
+
+    #[test]
+    fn a_few_corners_in_a_row_are_no_board_of_another_size() {
+        let search = |columns, rows, num_seen| {
+            BoardSearch::Partial {
+                columns,
+                rows,
+                num_seen,
+            }
+            .unless_by_chance()
+        };
+        // As photographs of other things give them.
+        for (columns, rows, num_seen) in [(15, 11, 9), (3, 1, 3)] {
+            assert_eq!(search(columns, rows, num_seen), BoardSearch::Nothing);
+        }
+        // A board whose last column is out of sight.
+        assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
+    }
 }
