@@ -5,7 +5,7 @@ import { chromium } from "@playwright/test";
 import { launchOptions } from "./chromium.mjs";
 import { expect, expectAccessible, listen, test as base } from "./fixtures.mjs";
 import { book } from "./places.mjs";
-import { POLICY, serve } from "./server.mjs";
+import { LAB_POLICY, serve } from "./server.mjs";
 
 export { expect, expectAccessible };
 
@@ -22,7 +22,7 @@ const args = [
 export const test = base.extend({
   library: [
     async ({}, use) => {
-      const server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:` });
+      const server = await serve({ mounts: { course: book }, policy: LAB_POLICY });
       await use(`${server.origin}/course`);
       await server.close();
     },

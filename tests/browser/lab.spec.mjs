@@ -392,3 +392,40 @@ test("Escape and Tab leave the canvas, and axe finds nothing wrong", async ({ la
   await lab.emulateMedia({ colorScheme: "dark" });
   await expectAccessible(lab);
 });
+
+test("work that is stopped ends by itself, before its worker is ended", async ({ blank, library }) => {
+  await blank.addInitScript(() => {
+    window.heard = [];
+    window.Worker = class extends Worker {
+      constructor(...how) {
+        super(...how);
+        this.addEventListener("message", ({ data }) => window.heard.push(data.problem ?? Object.keys(data).pop()));
+      }
+      // Chromium takes its time, too.
+      terminate() {}
+    };
+  });
+  await blank.goto(`${library}/lab/index.html`);
+  await solved(blank);
+  await blank.locator("#photographs").setInputFiles([file("one.png", 1800, 1400), file("two.png", 1900, 1400)]);
+  await press(blank, "button", "Features");
+  await expect(blank.locator("#widgets").getByRole("button", { name: "Stop", exact: true })).toHaveCount(1);
+  await blank.waitForFunction(() => window.heard.includes("words"));
+  await press(blank, "button", "Stop");
+  await blank.waitForFunction(() => window.heard.includes("stopped"));
+  await expect(said(blank)).toContainText("Computation is stopped.");
+});
+
+test("on an emulated screen nothing is larger than on a real one", async ({ blank, library }) => {
+  const context = await blank.context().browser().newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 });
+  const page = await context.newPage();
+  await page.goto(`${library}/lab/index.html`);
+  await solved(page);
+  const sizes = await page.evaluate(() => {
+    const { width, height, clientWidth, clientHeight } = document.querySelector("#lab");
+    return [width / clientWidth, height / clientHeight];
+  });
+  // Heights may be broken numbers of pixels.
+  for (const size of sizes) expect(size).toBeCloseTo(2, 2);
+  await context.close();
+});

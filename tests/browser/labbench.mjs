@@ -8,7 +8,7 @@ import { basename, join } from "node:path";
 import { chromium } from "@playwright/test";
 import { launchOptions } from "./chromium.mjs";
 import { book } from "./places.mjs";
-import { POLICY, serve } from "./server.mjs";
+import { LAB_POLICY, serve } from "./server.mjs";
 
 const [folder, focal = ""] = process.argv.slice(2);
 const args = [
@@ -17,7 +17,7 @@ const args = [
   "--enable-unsafe-swiftshader",
   "--enable-precise-memory-info",
 ];
-const server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:` });
+const server = await serve({ mounts: { course: book }, policy: LAB_POLICY });
 const browser = await chromium.launch({ ...launchOptions, args });
 const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
 await page.addInitScript(() => {

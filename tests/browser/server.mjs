@@ -21,6 +21,9 @@ export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
   "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
 
+/** The same for the Lab: the reader's own videos, and addresses that tell workers whether their work is still wanted. */
+export const LAB_POLICY = `${POLICY.replace("connect-src 'self'", "connect-src 'self' blob:")}; media-src blob:`;
+
 /**
  * Serves folders: `mounts` maps the first part of a path to a folder or to a function that returns
  * HTML for the rest of the address, or answers by itself and returns nothing. `policy: false` is a page of someone

@@ -7,7 +7,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { book } from "../browser/places.mjs";
-import { POLICY, serve } from "../browser/server.mjs";
+import { LAB_POLICY, serve } from "../browser/server.mjs";
 import { chromium, firefoxWindow, webkit } from "./drivers.mjs";
 
 const ENGINES = { firefox: firefoxWindow, webkit };
@@ -41,7 +41,7 @@ describe("the sample of the Lab", { timeout: 1_800_000 }, () => {
   before(async () => {
     // Without the results that the sample comes with, every engine has to compute them.
     const missing = /\/sample-[^/]*\.bin$/;
-    server = await serve({ mounts: { course: book }, policy: `${POLICY}; media-src blob:`, missing });
+    server = await serve({ mounts: { course: book }, policy: LAB_POLICY, missing });
     expected = await solve(chromium);
     assert.match(expected.said, /9 of 9 photographs have a camera; \d+ points/);
   });

@@ -3,6 +3,8 @@
 export interface Order {
   work: number;
   request: Uint8Array;
+  /** An address that can be read as long as the work is wanted: a worker that computes hears of nothing else. */
+  wanted: string;
 }
 
 export type Told = { work: number } & (
@@ -19,6 +21,7 @@ interface Member {
   worker: Worker;
   branch: Branch;
   work: number | undefined;
+  wanted: string;
   idleSince: number;
 }
 
@@ -43,10 +46,12 @@ export class Crew {
     if (!fit && this.#members.length >= this.capacity && idle[0]) this.#dismiss(idle[0]);
     const member = fit ?? this.#hire(branch);
     member.work = work;
-    member.worker.postMessage({ work, request } satisfies Order, [request.buffer as ArrayBuffer]);
+    member.wanted = URL.createObjectURL(new Blob());
+    const order: Order = { work, request, wanted: member.wanted };
+    member.worker.postMessage(order, [request.buffer as ArrayBuffer]);
   }
 
-  /** Its worker is ended: nothing that runs in one listens before it is done. */
+  /** Its worker is ended, and told so: Chromium lets one that computes go on for up to two seconds. */
   cancel(work: number): void {
     const member = this.#members.find((other) => other.work === work);
     if (member) this.#dismiss(member);
@@ -54,10 +59,11 @@ export class Crew {
 
   #hire(branch: Branch): Member {
     const worker = new Worker(new URL(LAB_WORKER, import.meta.url), { type: "module", name: branch });
-    const member: Member = { worker, branch, work: undefined, idleSince: performance.now() };
+    const member: Member = { worker, branch, work: undefined, wanted: "", idleSince: performance.now() };
     worker.onmessage = ({ data }: MessageEvent<Told>) => {
       if (!("share" in data || "soFar" in data)) {
         member.work = undefined;
+        URL.revokeObjectURL(member.wanted);
         member.idleSince = performance.now();
       }
       this.#hear(data);
@@ -78,6 +84,7 @@ export class Crew {
 
   #dismiss(member: Member): void {
     member.worker.onmessage = member.worker.onerror = null;
+    URL.revokeObjectURL(member.wanted);
     member.worker.terminate();
     const place = this.#members.indexOf(member);
     if (place >= 0) this.#members.splice(place, 1);

@@ -47,6 +47,30 @@ function theme(): string {
   return chosen ?? (matchMedia(themes[0] ?? "").matches ? "dark" : "light");
 }
 
+/**
+ * Where a screen is emulated, as a phone in the tools of a browser, the size of the canvas in its pixels is told as if it
+ * were not, and everything would be as many times too large.
+ */
+function tellPixelsOfEmulatedScreens(): void {
+  const told = Object.getOwnPropertyDescriptor(ResizeObserverEntry.prototype, "devicePixelContentBoxSize");
+  if (!told?.get) return;
+  const get = told.get as (this: ResizeObserverEntry) => readonly ResizeObserverSize[];
+  Object.defineProperty(ResizeObserverEntry.prototype, "devicePixelContentBoxSize", {
+    ...told,
+    get(this: ResizeObserverEntry) {
+      const [pixels, points] = [get.call(this), this.contentBoxSize];
+      const [first, same] = [pixels[0], points[0]];
+      const inlineSize = Math.round((same?.inlineSize ?? 0) * devicePixelRatio);
+      const blockSize = Math.round((same?.blockSize ?? 0) * devicePixelRatio);
+      // Rounding to whole pixels is no reason.
+      if (!first || Math.abs(first.inlineSize - inlineSize) <= 2) return pixels;
+      // The toolkit asks for one of this kind.
+      const size = { inlineSize: { value: inlineSize }, blockSize: { value: blockSize } };
+      return [Object.create(ResizeObserverSize.prototype, size) as ResizeObserverSize];
+    },
+  });
+}
+
 async function start(): Promise<void> {
   const link = new URLSearchParams(location.search);
   const linked = link.get("sample");
@@ -176,6 +200,7 @@ async function start(): Promise<void> {
   await open(lab, isHanded, kept, askForKept);
 
   letTabLeave();
+  tellPixelsOfEmulatedScreens();
   // The toolkit smooths edges itself, and asks for this context without saying so: samples of each pixel would cost as
   // much again where a processor draws.
   canvas.getContext("webgl2", { antialias: false, depth: false });

@@ -10,14 +10,29 @@ const [code, place] =
 const { compute, take_panic } = code;
 const loading = code.default({ module_or_path: new URL(place, import.meta.url) });
 
+/** Thrown out of a computation that nobody wants any more. */
+const STOPPED = new Error("stopped");
+
 /** How often progress is told, milliseconds. */
 const TELL_MS = 60;
 
-addEventListener("message", ({ data: { work, request } }: MessageEvent<Order>) => {
-  void carryOut(work, request);
+addEventListener("message", ({ data }: MessageEvent<Order>) => {
+  void carryOut(data);
 });
 
-async function carryOut(work: number, request: Uint8Array): Promise<void> {
+/** Whether whoever ordered the work still wants it; what computes in a worker cannot hear of anything in another way. */
+function isWanted(address: string): boolean {
+  const request = new XMLHttpRequest();
+  request.open("GET", address, false);
+  try {
+    request.send();
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+async function carryOut({ work, request, wanted }: Order): Promise<void> {
   const tell = (told: Told, transfer: Transferable[] = []) => postMessage(told, { transfer });
   try {
     await loading;
@@ -25,11 +40,15 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
     tell({ work, problem: "the code for this computation could not be loaded; reload the page", broken: true });
     return;
   }
+  // A policy may forbid it; then the end of the worker has to do.
+  const canAsk = isWanted(wanted);
   let last = 0;
   const progress = (share: number, words: string) => {
     const now = performance.now();
     if (now - last < TELL_MS) return;
     last = now;
+    // Nobody uses this module again: its worker is about to end.
+    if (canAsk && !isWanted(wanted)) throw STOPPED;
     tell({ work, share, words });
   };
   try {
@@ -37,6 +56,11 @@ async function carryOut(work: number, request: Uint8Array): Promise<void> {
     const answer = compute(request, { progress, soFar });
     tell({ work, answer }, [answer.buffer as ArrayBuffer]);
   } catch (problem) {
+    if (problem === STOPPED) {
+      tell({ work, problem: "stopped", broken: true });
+      close();
+      return;
+    }
     // A sentence is an answer; anything else broke the module.
     if (typeof problem === "string") tell({ work, problem, broken: false });
     else tell({ work, problem: sentence(problem, take_panic()), broken: true });

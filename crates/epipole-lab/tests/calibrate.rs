@@ -495,3 +495,14 @@ fn every_piece_of_it_can_be_stopped() {
         assert_eq!((result, calls), (Err("stopped".to_owned()), 2));
     }
 }
+
+#[test]
+fn each_photograph_of_a_board_has_a_small_picture() {
+    let project = calibrated();
+    for photo in &project.document().boards {
+        let small = &project.board(photo).unwrap().picture.small;
+        let pixels = small.width as usize * small.height as usize;
+        assert!(pixels > 1000, "{}", photo.name);
+        assert_eq!(small.rgb.len(), 3 * pixels);
+    }
+}

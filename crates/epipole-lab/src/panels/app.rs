@@ -6,7 +6,7 @@ use super::host::{Arrival, Host, Wish};
 use super::photo::{Lens, Pictures};
 use super::work::{Errand, Work};
 use super::{
-    bar, calibrate, depth, export, features, intake, look, matches, measure, photographs,
+    bar, calibrate, depth, export, features, intake, knobs, look, matches, measure, photographs,
     reconstruction, steps, two_views,
 };
 use crate::project::{Event, Project, Settings, Step};
@@ -207,12 +207,9 @@ impl<H: Host> App<H> {
             return calibrate::picture(project, memory, ui, events);
         }
         if project.document().photos.is_empty() {
-            ui.centered_and_justified(|ui| {
-                ui.label(
-                    "Add photographs of one thing, taken from different places, or open a sample.",
-                )
-            });
-            return;
+            let words =
+                "Add photographs of one thing, taken from different places, or open a sample.";
+            return knobs::instead(ui, words);
         }
         match project.view().step {
             Step::Photographs | Step::Calibrate => {

@@ -78,8 +78,16 @@ impl Default for CloudView {
     }
 }
 
-/// A frame of so many points is drawn while something moves.
-const MAX_MOVING: usize = 150_000;
+/// A frame of so many points, and of so many pixels, is drawn while something moves: it has to be there for the next
+/// picture of the screen.
+const MAX_MOVING: usize = 100_000;
+const MAX_MOVING_PIXELS: usize = 200_000;
+
+/// By how much width and height of a frame of so many pixels are divided while something moves.
+fn coarseness((width, height): (usize, usize)) -> usize {
+    let over = (width * height) as f64 / MAX_MOVING_PIXELS as f64;
+    (libm::ceil(libm::sqrt(over)) as usize).clamp(1, 4)
+}
 
 /// The side of a point on the screen: the fewer there are, the larger.
 fn size_of(num_points: usize) -> f64 {
@@ -130,8 +138,10 @@ impl CloudView {
         if !response.clicked() {
             return None;
         }
-        let at = (response.interact_pointer_pos()? - rect.min) * pixels;
-        let found = self.frame.pick(f64::from(at.x), f64::from(at.y), 6);
+        let at = (response.interact_pointer_pos()? - rect.min) / rect.size();
+        let (width, height) = self.frame.size();
+        let [u, v] = [at.x * width as f32, at.y * height as f32].map(f64::from);
+        let found = self.frame.pick(u, v, 6);
         // Points of every pixel are seen from one pair, and that is all there is to say of them.
         let found = found.filter(|point| *point < component.points.len());
         self.point = found;
@@ -139,12 +149,12 @@ impl CloudView {
     }
 
     /// Where a point is on the screen.
-    pub(super) fn place_of(&self, point: usize, rect: Rect, ui: &Ui) -> Option<egui::Pos2> {
-        let pixels = ui.ctx().pixels_per_point();
-        let ([u, v], _) = self
-            .orbit?
-            .project(self.scene.points.get(point)?.0, self.frame.size())?;
-        Some(rect.min + Vec2::new(u as f32, v as f32) / pixels)
+    pub(super) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
+        let (width, height) = self.frame.size();
+        let place = self.scene.points.get(point)?.0;
+        let ([u, v], _) = self.orbit?.project(place, (width, height))?;
+        let share = Vec2::new(u as f32 / width as f32, v as f32 / height as f32);
+        Some(rect.min + share * rect.size())
     }
 
     /// What was drawn last: width, and red, green, blue, opacity, row by row.
@@ -275,7 +285,10 @@ impl CloudView {
             true => self.scene.points.len().div_ceil(MAX_MOVING),
             false => 1,
         };
-        let point_px = size_of(self.scene.points.len()) * f64::from(ui.ctx().pixels_per_point());
+        let by = if coarse { coarseness(size) } else { 1 };
+        let size = ((size.0 / by).max(1), (size.1 / by).max(1));
+        let point_px =
+            size_of(self.scene.points.len()) * f64::from(ui.ctx().pixels_per_point()) / by as f64;
         let look = Look {
             point_px,
             every,
@@ -294,6 +307,24 @@ impl CloudView {
         }
         if coarse {
             ui.ctx().request_repaint();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_that_moves_has_few_pixels_on_any_screen() {
+        assert_eq!(coarseness((390, 330)), 1);
+        assert_eq!(coarseness((790, 620)), 2);
+        for size in [(790, 620), (1560, 1300), (0, 0)] {
+            let by = coarseness(size);
+            assert!(
+                (size.0 / by) * (size.1 / by) <= MAX_MOVING_PIXELS,
+                "{size:?}"
+            );
         }
     }
 }

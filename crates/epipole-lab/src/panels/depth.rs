@@ -100,8 +100,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
         ))
     });
     let Some((key, found)) = found else {
-        ui.label(project.describe());
-        return;
+        return knobs::instead(ui, &project.describe());
     };
     let view = &mut memory.depth;
     view.make(ui, key, found);

@@ -17,8 +17,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
         return;
     };
     let Some(pixels) = project.photograph(given) else {
-        ui.weak("The photograph is being read.");
-        return;
+        return knobs::instead(ui, &project.describe());
     };
     let rect = ui.available_rect_before_wrap();
     let texture = memory
@@ -104,7 +103,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
             knobs::row(
                 ui,
                 "position",
-                format!("({:.1}, {:.1})", feature.u, feature.v),
+                format!("({:.1}, {:.1}) px", feature.u, feature.v),
             );
             knobs::row(ui, "scale", format!("{:.2} px", feature.scale_px));
             let degrees = f64::from(feature.angle_rad).to_degrees();

@@ -51,6 +51,24 @@ pub(super) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Turned {
     }
 }
 
+/// What stands in place of a picture while there is none: in the middle, with a margin.
+pub(super) fn instead(ui: &mut Ui, words: &str) {
+    let whole = ui.available_rect_before_wrap();
+    let width = (whole.width() - 32.0).clamp(1.0, 460.0);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let mut job = egui::text::LayoutJob::simple(words.to_owned(), font, color, width);
+    job.halign = egui::Align::Center;
+    let text = ui.painter().layout_job(job);
+    let rect = egui::Rect::from_center_size(whole.center(), egui::vec2(width, text.size().y));
+    // Words that are longer than the room begin at its top.
+    let top = rect.top().max(whole.top());
+    let response = ui.interact(rect, ui.scope_id().with("instead"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    ui.painter_at(whole)
+        .galley(egui::pos2(rect.center().x, top), text, color);
+}
+
 /// A line of a table: a name and a value.
 pub(super) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
     ui.horizontal_wrapped(|ui| {

@@ -12,8 +12,7 @@ use epipole_canvas::theme::Role;
 pub(super) fn picture(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     let photos = project.taking_part();
     if photos.len() < 2 {
-        ui.label(project.describe());
-        return;
+        return knobs::instead(ui, &project.describe());
     }
     let room = ui.available_size() - vec2(130.0, 40.0);
     let side = (room.min_elem() / photos.len() as f32).clamp(34.0, 76.0);

@@ -15,8 +15,7 @@ pub(super) fn picture(
     events: &mut Vec<Event>,
 ) {
     if project.component().is_none() {
-        ui.label(project.describe());
-        return;
+        return knobs::instead(ui, &project.describe());
     }
     let rect = ui.available_rect_before_wrap();
     let clicked = memory.cloud.show(project, ui, rect);
@@ -53,7 +52,7 @@ pub(super) fn picture(
     for (index, measure) in project.document().measures.iter().enumerate() {
         let ends = measure.ends.map(|end| {
             let point = project.anchored(&end)?;
-            memory.cloud.place_of(point, rect, ui)
+            memory.cloud.place_of(point, rect)
         });
         let [Some(from), Some(to)] = ends else {
             continue;
@@ -72,7 +71,7 @@ pub(super) fn picture(
     let floor = project.document().floor.iter().flatten();
     let floor = floor.filter_map(|end| project.anchored(end));
     let corners = memory.corners.iter().flatten().copied().chain(floor);
-    for place in corners.filter_map(|point| memory.cloud.place_of(point, rect, ui)) {
+    for place in corners.filter_map(|point| memory.cloud.place_of(point, rect)) {
         // A square: color is not the only sign.
         let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
         painter.rect_stroke(
@@ -84,7 +83,7 @@ pub(super) fn picture(
     }
     if let Some(place) = memory
         .first_end
-        .and_then(|point| memory.cloud.place_of(point, rect, ui))
+        .and_then(|point| memory.cloud.place_of(point, rect))
     {
         painter.circle_stroke(place, 7.0, Stroke::new(2.5, color));
     }
@@ -92,6 +91,10 @@ pub(super) fn picture(
 
 /// The lengths.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
+    if project.component().is_none() {
+        // The words in place of the picture say so.
+        return knobs::book(ui, Step::Measure);
+    }
     if let Some(corners) = &memory.corners {
         ui.label(format!(
             "Click three points of the floor: {} of 3.",

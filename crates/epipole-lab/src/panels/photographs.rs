@@ -4,7 +4,7 @@ use super::app::Memory;
 use super::host::Wish;
 use super::knobs;
 use super::look;
-use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, Project, Step};
+use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, PhotoId, Project, Step};
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
@@ -106,10 +106,12 @@ pub(super) fn knobs(
         ui.separator();
     }
     let left_out = project.left_out();
-    if !left_out.is_empty() {
+    // What became of the one that is looked at stands above.
+    let is_other = |(id, _): &&(PhotoId, Fate)| *id != project.view().photo;
+    if left_out.iter().any(|photo| is_other(&photo)) {
         ui.strong(format!("Left out: {}", left_out.len()));
-        for (id, _) in left_out {
-            if let Some(photo) = project.document().photo(id) {
+        for (id, _) in left_out.iter().filter(is_other) {
+            if let Some(photo) = project.document().photo(*id) {
                 let words = format!("{}: {}", photo.name, project.fate_words(photo));
                 ui.colored_label(look::color(ui, Role::Outlier), words);
             }

@@ -12,45 +12,39 @@ use epipole_canvas::theme::Role;
 /// The space.
 pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     if project.component().or(project.growing()).is_none() {
-        ui.label(project.describe());
-        return;
+        return knobs::instead(ui, &why_none(project));
     }
     let rect = ui.available_rect_before_wrap();
     memory.cloud.show(project, ui, rect);
 }
 
+/// Why there is nothing to see, each photograph that was left out in a line of its own.
+fn why_none(project: &Project) -> String {
+    let mut words = project.describe();
+    for (id, _) in project.left_out() {
+        if let Some(photo) = project.document().photo(id) {
+            let told = format!("{}: {}", photo.name, project.fate_words(photo));
+            words = words.replace(&format!(" {told}"), &format!("\n{told}"));
+        }
+    }
+    words
+}
+
 /// Numbers, reasons, knobs.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     numbers(project, ui, events);
-    let left_out = project.left_out();
-    for (id, _) in &left_out {
-        if let Some(photo) = project.document().photo(*id) {
-            let words = format!("{}: {}", photo.name, project.fate_words(photo));
-            ui.colored_label(look::color(ui, Role::Outlier), words);
+    // Without any, the words in place of the picture tell why.
+    if project.component().is_some() {
+        for (id, _) in &project.left_out() {
+            if let Some(photo) = project.document().photo(*id) {
+                let words = format!("{}: {}", photo.name, project.fate_words(photo));
+                ui.colored_label(look::color(ui, Role::Outlier), words);
+            }
         }
+        ui.separator();
+        view(project, memory, ui);
+        ui.separator();
     }
-    ui.separator();
-    point(project, memory, ui);
-    ui.horizontal_wrapped(|ui| {
-        ui.weak("Color by");
-        for (coloring, name) in [
-            (Coloring::Photographs, "image"),
-            (Coloring::Error, "error"),
-            (Coloring::Track, "track length"),
-        ] {
-            ui.radio_value(&mut memory.cloud.coloring, coloring, name);
-        }
-    });
-    ui.checkbox(&mut memory.cloud.photographs, "Show photographs");
-    match memory.cloud.coloring {
-        Coloring::Photographs => {}
-        Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),
-        Coloring::Track => drop(ui.weak("dark: two photographs, yellow: eight or more")),
-    }
-    if ui.button("Reset view").clicked() {
-        memory.cloud.look_at_all();
-    }
-    ui.separator();
     knobs::edit(project, memory, events, |settings| {
         let mut turned = Turned::No;
         ui.weak("Refine focal lengths");
@@ -77,9 +71,36 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     knobs::book(ui, Step::Reconstruction);
 }
 
+/// How the space is looked at.
+fn view(project: &Project, memory: &mut Memory, ui: &mut Ui) {
+    point(project, memory, ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.weak("Color by");
+        for (coloring, name) in [
+            (Coloring::Photographs, "image"),
+            (Coloring::Error, "error"),
+            (Coloring::Track, "track length"),
+        ] {
+            ui.radio_value(&mut memory.cloud.coloring, coloring, name);
+        }
+    });
+    ui.checkbox(&mut memory.cloud.photographs, "Show photographs");
+    match memory.cloud.coloring {
+        Coloring::Photographs => {}
+        Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),
+        Coloring::Track => drop(ui.weak("dark: two photographs, yellow: eight or more")),
+    }
+    if ui.button("Reset view").clicked() {
+        memory.cloud.look_at_all();
+    }
+}
+
 fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     let Some(found) = project.reconstruction() else {
-        ui.label(project.describe());
+        // The picture grows meanwhile, and does not say how far it is.
+        if project.growing().is_some() {
+            ui.label(project.describe());
+        }
         return;
     };
     let current = project.view().component;
@@ -94,7 +115,6 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
         });
     }
     let Some(component) = found.components.get(current) else {
-        ui.label(project.describe());
         return;
     };
     let photos = project.document().photos.len();
@@ -129,7 +149,7 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
     if costs.len() < 2 || most <= 0.0 {
         return;
     }
-    ui.weak("Cost after each bundle adjustment, Σ r² / 2, px²");
+    ui.weak("Cost after each bundle adjustment, px²");
     let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 56.0), egui::Sense::hover());
     let last = costs.last().copied().unwrap_or(0.0);
     response.widget_info(|| {
@@ -155,7 +175,10 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
 /// The point that was clicked.
 fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
     let Some(index) = memory.cloud.point else {
-        ui.weak("Drag to orbit, Shift and drag to pan, scroll to zoom. Click a point to see which photographs see it.");
+        ui.weak(
+            "Drag to orbit, with Shift or two fingers to pan. Scroll or pinch to zoom. Click a point to see which photographs \
+             see it.",
+        );
         return;
     };
     let sights = sights(project, index);
@@ -165,6 +188,8 @@ fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
         sights.len()
     ));
     for (name, [u, v], error_px) in sights {
-        ui.label(format!("{name}: ({u:.1}, {v:.1}), error {error_px:.2} px"));
+        ui.label(format!(
+            "{name}: ({u:.1}, {v:.1}) px, error {error_px:.2} px"
+        ));
     }
 }

@@ -5,7 +5,7 @@ use super::knobs;
 use super::{look, photo};
 use crate::project::{Event, Given, Project, Step};
 use crate::tasks::ViewModel;
-use egui::{Rect, Slider, Ui, vec2};
+use egui::{Align, Layout, Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
 /// So many matches are drawn.
@@ -16,12 +16,10 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let (first, second) = project.view().pair;
     let document = project.document();
     let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
-        ui.weak("A pair needs two photographs.");
-        return;
+        return knobs::instead(ui, "A pair needs two photographs.");
     };
     let (Some(one), Some(two)) = (project.photograph(first), project.photograph(second)) else {
-        ui.weak("The photographs are being read.");
-        return;
+        return knobs::instead(ui, &project.describe());
     };
     let whole = ui.available_rect_before_wrap();
     let (left, right) = halves(whole);
@@ -185,7 +183,9 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         egui::Grid::new("matrix").show(ui, |ui| {
             for row in values.chunks(3) {
                 for value in row {
-                    ui.label(format!("{value:.3e}"));
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        ui.label(scientific(*value));
+                    });
                 }
                 ui.end_row();
             }
@@ -216,6 +216,11 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
         turned.max(knobs::slider(ui, "Seed", seed))
     });
     knobs::book(ui, Step::TwoViews);
+}
+
+/// A number with its sign and its power of ten, so that rows stand below each other.
+fn scientific(value: f64) -> String {
+    format!("{value:.3e}").replace('-', "−")
 }
 
 /// What both features look like, each turned as its photograph is, in the window that its descriptor sees.

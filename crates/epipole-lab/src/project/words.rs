@@ -1,7 +1,7 @@
 //! What there is to see now, in words: for screen readers, and for whoever wants the gist.
 
 use super::document::Given;
-use super::{Project, Step};
+use super::{Fate, Project, Step};
 use crate::tasks::{Shows, TwoViews, ViewModel};
 
 /// "1 photograph", "2 photographs".
@@ -74,7 +74,10 @@ impl Project {
         };
         match self.features(photo) {
             Some(found) => format!("{}: {}.", photo.name, count(found.list.len(), "feature")),
-            None => format!("{}: looking for features.", photo.name),
+            None => match self.fate(photo) {
+                Fate::Unreadable(_) => format!("{}: {}.", photo.name, self.fate_words(photo)),
+                _ => format!("{}: looking for features.", photo.name),
+            },
         }
     }
 
@@ -97,10 +100,11 @@ impl Project {
                 first.name, second.name
             )
         });
-        format!(
-            "{joined} of {} share enough matches.{strongest}",
-            count(pairs, "pair")
-        )
+        match pairs {
+            0 => "A pair needs two photographs.".to_owned(),
+            1 => format!("{joined} of 1 pair shares enough matches.{strongest}"),
+            _ => format!("{joined} of {pairs} pairs share enough matches.{strongest}"),
+        }
     }
 
     fn two_views_words(&self) -> String {
@@ -110,6 +114,9 @@ impl Project {
             return "A pair needs two photographs.".to_owned();
         };
         let names = format!("{} and {}", first.name, second.name);
+        if let Some(why) = self.no_pair_words([first, second]) {
+            return why;
+        }
         let (Some(pair), Some(matches)) =
             (self.two_views(first, second), self.matches(first, second))
         else {
@@ -121,6 +128,14 @@ impl Project {
             count(matches.len(), "match").replace("matchs", "matches"),
             self.pair_words(first, pair)
         )
+    }
+
+    /// Why a pair is not computed: one of its photographs takes no part. `None` if both do.
+    fn no_pair_words(&self, pair: [&Given; 2]) -> Option<String> {
+        let absent = pair
+            .into_iter()
+            .find(|photo| self.place(photo.id).is_none())?;
+        Some(format!("{}: {}.", absent.name, self.fate_words(absent)))
     }
 
     /// What a pair shows, and why this matrix describes it.
@@ -167,6 +182,9 @@ impl Project {
             return "A pair needs two photographs.".to_owned();
         };
         let names = format!("{} and {}", first.name, second.name);
+        if let Some(why) = self.no_pair_words([first, second]) {
+            return why;
+        }
         if self.reconstruction().is_none() {
             return match self.reconstruction_failure() {
                 Some(why) => format!("{names}: nothing could be reconstructed: {why}."),

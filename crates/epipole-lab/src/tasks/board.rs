@@ -1,7 +1,7 @@
 //! The board in a photograph of full size: read and searched in one go, so that only a small picture travels.
 
 use super::board_sample;
-use super::convert::core_board;
+use super::convert::{core_board, unreadable};
 use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Thumbnail, Told};
 use epipole::calibration::{BoardSearch, find_board};
 use epipole::feature::photo_to_gray;
@@ -39,12 +39,13 @@ pub(super) fn board(
     let marks = search.view().map_or_else(Vec::new, |view| view.pixels);
     let picture = reduce_rgb(whole, SHOWN_PIXELS);
     let (width, height) = picture.dimensions();
+    let small = Thumbnail::new((width, height), &picture);
     Ok(BoardFound {
         picture: Photograph {
             width,
             height,
             rgb: picture.into_raw().into(),
-            small: Thumbnail::default(),
+            small,
             focal_px: None,
             k: None,
             full_size: sensor_size,
@@ -74,6 +75,6 @@ fn of_sensor(source: &Source) -> Result<RgbImage, String> {
         apply_orientation: false,
         ..DecodeOptions::default()
     };
-    let decoded = decode_rgb(bytes, &as_stored).map_err(|error| error.to_string())?;
+    let decoded = decode_rgb(bytes, &as_stored).map_err(unreadable)?;
     Ok(decoded.image)
 }

@@ -41,7 +41,9 @@ fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
             ratios,
             cameras,
             options,
-        } => Answer::TwoViews(two_views::two_views(&places, &ratios, &cameras, &options)?),
+        } => Answer::TwoViews(two_views::two_views(
+            &places, &ratios, &cameras, &options, progress,
+        )?),
         Request::Reconstruction {
             images,
             pairs,
@@ -91,6 +93,7 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
             &source,
             max_pixels,
             camera.as_ref(),
+            progress,
         )?),
         Request::Board { source, options } => {
             Answer::Board(board::board(&source, &options, progress)?)

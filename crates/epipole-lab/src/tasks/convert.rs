@@ -31,6 +31,15 @@ pub(super) fn sentence(error: epipole::Error) -> String {
     }
 }
 
+/// Why a file is no photograph, in words that follow "cannot be read: ".
+#[cfg(feature = "files")]
+pub(super) fn unreadable(error: epipole::Error) -> String {
+    match error {
+        epipole::Error::BadImage { why } => why,
+        other => other.to_string(),
+    }
+}
+
 /// The pixels as an image.
 pub(crate) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
     RgbImage::from_raw(

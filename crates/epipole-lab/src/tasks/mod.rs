@@ -73,6 +73,18 @@ pub enum Told<'a> {
 /// Hears of a computation, and ends it by [`std::ops::ControlFlow::Break`].
 pub type Progress<'a> = &'a mut dyn FnMut(Told<'_>) -> std::ops::ControlFlow<()>;
 
+/// Tells how far it is, and hears whether it goes on.
+///
+/// # Errors
+/// If it does not.
+#[cfg(any(feature = "vision", feature = "files"))]
+fn ask(progress: Progress<'_>, share: f32) -> Result<(), String> {
+    match progress(Told::Share(share, "")).is_break() {
+        true => Err("stopped".to_owned()),
+        false => Ok(()),
+    }
+}
+
 /// A message as bytes.
 pub(crate) fn to_bytes<T: serde::Serialize>(message: &T) -> Vec<u8> {
     // Writing to memory cannot fail, and none of the messages has a length unknown beforehand.

@@ -1,8 +1,8 @@
 //! Photographs: decoded or rendered, upright, without the distortion of a lens that is known, reduced.
 
 use super::board_sample;
-use super::convert::core_lens_camera;
-use super::{LensCamera, Photograph, Sample, Source, Thumbnail};
+use super::convert::{core_lens_camera, unreadable};
+use super::{LensCamera, Photograph, Progress, Sample, Source, Thumbnail, ask};
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, look_at};
 use epipole::math::random::Random;
@@ -19,30 +19,40 @@ const RENDERED: (u32, u32) = (480, 360);
 /// * `camera`: files of its size are redrawn as it would show them without its distortion
 ///
 /// # Errors
-/// A sentence, if a file is none that can be read, or no flat picture can show what the camera sees.
+/// A sentence, if a file is none that can be read, no flat picture can show what the camera sees, or `progress` wants no
+/// more.
 pub(super) fn photograph(
     source: &Source,
     max_pixels: u32,
     camera: Option<&LensCamera>,
+    progress: Progress<'_>,
 ) -> Result<Photograph, String> {
+    ask(progress, 0.0)?;
     match source {
-        Source::File(bytes) => file(bytes, max_pixels, camera),
+        Source::File(bytes) => file(bytes, max_pixels, camera, progress),
         Source::Rendered(sample, index) => render(*sample, *index),
     }
 }
 
 /// Just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
-fn file(bytes: &[u8], max_pixels: u32, camera: Option<&LensCamera>) -> Result<Photograph, String> {
+fn file(
+    bytes: &[u8],
+    max_pixels: u32,
+    camera: Option<&LensCamera>,
+    progress: Progress<'_>,
+) -> Result<Photograph, String> {
     let flat = |camera: &LensCamera| {
         Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
             .map_err(|error| format!("its lens cannot be undone: {error}"))
     };
     let undistortion = camera.map(flat).transpose()?;
+    ask(progress, 0.1)?;
     let options = PrepareOptions {
         max_pixels: max_pixels.into(),
         undistortion: undistortion.as_ref(),
     };
-    let photo = prepare_photo(bytes, &options).map_err(|error| error.to_string())?;
+    let photo = prepare_photo(bytes, &options).map_err(unreadable)?;
+    ask(progress, 0.9)?;
     let (width, height) = photo.image.dimensions();
     let plain = |k: Intrinsics| {
         let center = k.principal_point();
@@ -215,6 +225,8 @@ fn turned(index: u8) -> Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tasks::Told;
+    use std::ops::ControlFlow;
 
     #[test]
     fn the_sample_has_as_many_photographs_as_it_says() {
@@ -224,7 +236,8 @@ mod tests {
 
     #[test]
     fn files_that_are_none_are_refused_in_words() {
-        let refused = file(b"no picture", 1000, None).expect_err("that is no picture");
-        assert!(refused.len() > 10, "{refused}");
+        let go_on = &mut |_: Told<'_>| ControlFlow::Continue(());
+        let refused = file(b"no picture", 1000, None, go_on).expect_err("that is no picture");
+        assert_eq!(refused, "it is no PNG, JPEG or WebP file");
     }
 }

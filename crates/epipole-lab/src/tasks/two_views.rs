@@ -1,24 +1,30 @@
 //! What two photographs say about each other.
 
 use super::convert::{intrinsics, sentence};
-use super::{Calibrated, PairOptions, Shows, TwoViews, ViewModel};
+use super::{Calibrated, PairOptions, Progress, Shows, Told, TwoViews, ViewModel, ask};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal,
+    Configuration, TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_calibrated_with,
+    find_turn_and_focal,
 };
 use nalgebra::{Matrix3, Point2};
+use std::ops::ControlFlow;
+
+/// Whether to go on is asked once in so many samples: the answer may come from another thread.
+const ASK_EVERY: usize = 64;
 
 /// Chooses among E, F and H, just as `epipole two-view` does with known intrinsics: the least ambiguous matches first.
 ///
 /// Matches from which nothing can be estimated are an answer, too: [`Shows::Nothing`].
 ///
 /// # Errors
-/// A sentence for numbers that no photograph has.
+/// A sentence for numbers that no photograph has, and if `progress` wants no more.
 pub(super) fn two_views(
     places: &[[f64; 4]],
     ratios: &[f32],
     cameras: &[Calibrated; 2],
     options: &PairOptions,
+    progress: Progress<'_>,
 ) -> Result<TwoViews, String> {
     if ratios.len() != places.len() {
         return Err("the matches did not arrive whole".to_owned());
@@ -38,9 +44,23 @@ pub(super) fn two_views(
         ..TwoViewOptions::default()
     };
     how.check().map_err(sentence)?;
-    let Ok(found) = estimate_two_view_calibrated(&first, &second, &k1, &k2, &how) else {
+    let (mut num_samples, mut stopped) = (0, false);
+    let mut watch = |_: &TwoViewTrial| {
+        num_samples += 1;
+        stopped = num_samples % ASK_EVERY == 1 && progress(Told::Share(0.0, "")).is_break();
+        match stopped {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let found = estimate_two_view_calibrated_with(&first, &second, &k1, &k2, &how, &mut watch);
+    if stopped {
+        return Err("stopped".to_owned());
+    }
+    let Ok(found) = found else {
         return Ok(nothing(places.len()));
     };
+    ask(progress, 0.0)?;
     // By a wrong focal length a turn passes for a plane.
     let otherwise = match found.configuration {
         Configuration::Planar => {

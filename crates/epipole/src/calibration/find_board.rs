@@ -63,6 +63,19 @@ impl BoardSearch {
         }
     }
 
+    /// Corners of other things stand in a row here and there: a grid is told from them by two rows and columns at least,
+    /// of which half is seen.
+    fn unless_by_chance(self) -> Self {
+        match self {
+            Self::Partial {
+                columns,
+                rows,
+                num_seen,
+            } if columns.min(rows) < 2 || 2 * num_seen < columns * rows => Self::Nothing,
+            search => search,
+        }
+    }
+
     /// The one with more marks.
     pub(super) fn or_more(self, other: Self) -> Self {
         let num_seen = |search: &Self| match search {
@@ -159,7 +172,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
         }
         best = best.or_more(found);
     }
-    Ok(best)
+    Ok(best.unless_by_chance())
 }
 
 /// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients, and from there by
@@ -364,5 +377,23 @@ mod tests {
         assert!(find_board(&nan, &board).is_err());
         let bytes = GrayImage32::from_pixel(20, 20, Luma([200.0]));
         assert!(find_board(&bytes, &board).is_err());
+    }
+
+    #[test]
+    fn a_few_corners_in_a_row_are_no_board_of_another_size() {
+        let search = |columns, rows, num_seen| {
+            BoardSearch::Partial {
+                columns,
+                rows,
+                num_seen,
+            }
+            .unless_by_chance()
+        };
+        // As photographs of other things give them.
+        for (columns, rows, num_seen) in [(15, 11, 9), (3, 1, 3)] {
+            assert_eq!(search(columns, rows, num_seen), BoardSearch::Nothing);
+        }
+        // A board whose last column is out of sight.
+        assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
     }
 }

@@ -103,12 +103,22 @@ fn scaled(raw: &[u16], stride: usize) -> Vec<f32> {
 }
 
 fn bad(error: &image::ImageError) -> Error {
-    Error::BadImage {
-        why: error.to_string(),
-    }
+    use image::ImageError::{Limits, Unsupported};
+    let why = match error {
+        Unsupported(_) => "it is no PNG, JPEG or WebP file".to_owned(),
+        // A size that no memory here has room for, even before a limit can be asked.
+        Limits(_) => "it promises more pixels than fit into memory".to_owned(),
+        other => other.to_string(),
+    };
+    Error::BadImage { why }
 }
 
 fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>> {
+    if bytes.is_empty() {
+        return Err(Error::BadImage {
+            why: "the file is empty".to_owned(),
+        });
+    }
     let reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| Error::BadImage {
@@ -309,6 +319,20 @@ mod tests {
                 let _ = decode_gray(&corrupt, &options);
             }
         }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_file_is_said_in_words() {
+        let why = |bytes: &[u8]| decode_rgb(bytes, &DecodeOptions::default()).unwrap_err();
+        assert!(why(&[]).to_string().ends_with("the file is empty"));
+        let letter = why(b"Dear reader, this is no picture.").to_string();
+        assert!(
+            letter.ends_with("it is no PNG, JPEG or WebP file"),
+            "{letter}"
+        );
+        // A kind of picture that is known elsewhere.
+        let gif = why(b"GIF89a\x01\0\x01\0\0\0\0").to_string();
+        assert!(gif.ends_with("it is no PNG, JPEG or WebP file"), "{gif}");
     }
 
     #[test]

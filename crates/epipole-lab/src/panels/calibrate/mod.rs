@@ -5,7 +5,7 @@ mod camera;
 pub(super) use camera::knobs;
 
 use super::app::Memory;
-use super::{look, photo};
+use super::{knobs as shared, look, photo};
 use crate::project::{BoardFate, Event, Given, Project};
 use crate::tasks::BoardFound;
 use egui::{Rect, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
@@ -31,10 +31,8 @@ pub(super) fn picture(
 ) {
     let document = project.document();
     let Some(given) = document.board(project.view().board) else {
-        ui.centered_and_justified(|ui| {
-            ui.label("Drop photographs of a chessboard here, or open the sample.")
-        });
-        return;
+        let words = "Add photographs of a chessboard, or drop them here, or open the sample.";
+        return shared::instead(ui, words);
     };
     let whole = ui.available_rect_before_wrap();
     let strip = (0.75 * SMALL + 34.0).min(0.4 * whole.height());
