@@ -9,20 +9,39 @@ use nalgebra::Matrix3;
 pub(crate) const LANES: usize = 8;
 pub(crate) type Lanes = [f64; LANES];
 
-/// Four coordinates of many matches, one list each.
+/// Four coordinates of many matches, for eight matches after eight; beyond the last match zeros.
 #[derive(Debug, Clone)]
 pub(crate) struct Coordinates {
-    lists: [Vec<f64>; 4],
+    groups: Vec<[Lanes; 4]>,
+    len: usize,
     /// How much each match counts; empty if all count alike.
     weights: Vec<f64>,
 }
 
 impl Coordinates {
-    pub(crate) fn pixels(matches: &MatchSet) -> Self {
+    /// Some matches of four lists, in this order.
+    fn gathered(
+        indices: impl ExactSizeIterator<Item = usize>,
+        at: impl Fn(usize) -> [f64; 4],
+    ) -> Self {
+        let len = indices.len();
+        let mut groups = vec![[[0.0; LANES]; 4]; len.div_ceil(LANES)];
+        for (place, index) in indices.enumerate() {
+            let group = &mut groups[place / LANES];
+            for (lane, x) in group.iter_mut().zip(at(index)) {
+                lane[place % LANES] = x;
+            }
+        }
         Self {
-            lists: matches.coordinates().map(<[f64]>::to_vec),
+            groups,
+            len,
             weights: Vec::new(),
         }
+    }
+
+    pub(crate) fn pixels(matches: &MatchSet) -> Self {
+        let lists = matches.coordinates();
+        Self::gathered(0..matches.len(), |i| lists.map(|list| list[i]))
     }
 
     /// As [`pixels`](Self::pixels), where matches that meet in a pixel share its votes.
@@ -37,28 +56,29 @@ impl Coordinates {
     pub(crate) fn mapped(&self, frame: &CommonFrame) -> Self {
         let [c1, c2] = frame.centers;
         let offsets = [c1[0], c1[1], c2[0], c2[1]];
-        let mut lists = self.lists.clone();
-        for (list, offset) in lists.iter_mut().zip(offsets) {
-            for x in list.iter_mut() {
+        let moved = |i: usize| {
+            let mut at = self.at(i);
+            for (x, offset) in at.iter_mut().zip(offsets) {
                 *x = (*x - offset) * frame.scale;
             }
-        }
+            at
+        };
         Self {
-            lists,
             weights: self.weights.clone(),
+            ..Self::gathered(0..self.len, moved)
         }
     }
 
     /// Some of the matches, and how much each of them counts, besides what it counted before.
     pub(crate) fn weighted(&self, indices: &[usize], weights: &[f64]) -> Self {
         Self {
-            lists: [0, 1, 2, 3].map(|k: usize| indices.iter().map(|&i| self.lists[k][i]).collect()),
             weights: match self.weights(0) {
                 None => weights.to_vec(),
                 Some(votes) => (indices.iter().zip(weights))
                     .map(|(&i, weight)| votes[i] * weight)
                     .collect(),
             },
+            ..Self::gathered(indices.iter().copied(), |i| self.at(i))
         }
     }
 
@@ -85,29 +105,19 @@ impl Coordinates {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.lists[0].len()
+        self.len
     }
 
     #[inline(always)]
     pub(crate) fn at(&self, index: usize) -> [f64; 4] {
-        [0, 1, 2, 3].map(|k| self.lists[k][index])
+        let group = &self.groups[index / LANES];
+        [0, 1, 2, 3].map(|k: usize| group[k][index % LANES])
     }
 
-    /// Matches `start..start + 8`; beyond the end zeros, and the number of real ones.
+    /// Matches `start..start + 8`, where `start` is a multiple of 8; beyond the end zeros, and the number of real ones.
     #[inline(always)]
-    pub(crate) fn lanes(&self, start: usize) -> ([Lanes; 4], usize) {
-        let count = (self.len() - start).min(LANES);
-        let mut lanes = [[0.0; LANES]; 4];
-        if count == LANES {
-            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
-                lane.copy_from_slice(&list[start..start + LANES]);
-            }
-        } else {
-            for (lane, list) in lanes.iter_mut().zip(&self.lists) {
-                lane[..count].copy_from_slice(&list[start..]);
-            }
-        }
-        (lanes, count)
+    pub(crate) fn lanes(&self, start: usize) -> (&[Lanes; 4], usize) {
+        (&self.groups[start / LANES], (self.len - start).min(LANES))
     }
 }
 

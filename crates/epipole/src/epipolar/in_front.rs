@@ -132,7 +132,7 @@ dispatched! {
         factors.clear();
         for start in (0..coordinates.len()).step_by(LANES) {
             let (lanes, count) = coordinates.lanes(start);
-            let in_front = pose.in_front(&lanes);
+            let in_front = pose.in_front(lanes);
             factors.extend(in_front[..count].iter().map(|is| f64::from(u8::from(*is))));
         }
         factors.contains(&0.0)

@@ -31,7 +31,7 @@ pub(crate) fn support(
                 break;
             }
             let (lanes, count) = coordinates.lanes(start);
-            let errors = model.relative_errors(&lanes, per_threshold_sq);
+            let errors = model.relative_errors(lanes, per_threshold_sq);
             if let Some(votes) = coordinates.weights(start) {
                 for l in 0..count {
                     let fits = errors[l] < 1.0;
@@ -73,16 +73,18 @@ pub(crate) fn inliers(
     inliers: &mut Vec<usize>,
 ) {
     let per_threshold_sq = 1.0 / (max_error * max_error);
-    inliers.clear();
+    // Every index is written, and the next one over it unless it fits: no branch that cannot be foreseen.
+    let mut num_inliers = 0;
+    inliers.resize(coordinates.len(), 0);
     for start in (0..coordinates.len()).step_by(LANES) {
         let (lanes, count) = coordinates.lanes(start);
-        let errors = model.relative_errors(&lanes, per_threshold_sq);
+        let errors = model.relative_errors(lanes, per_threshold_sq);
         for (l, error) in errors[..count].iter().enumerate() {
-            if *error < 1.0 {
-                inliers.push(start + l);
-            }
+            inliers[num_inliers] = start + l;
+            num_inliers += usize::from(*error < 1.0);
         }
     }
+    inliers.truncate(num_inliers);
 }
 
 /// `½ Σ w ρ(e²)` over all matches.
@@ -91,7 +93,7 @@ pub(crate) fn cost(model: &impl LaneErrors, coordinates: &Coordinates, loss: &Ro
     let mut total = [0.0; LANES];
     for start in (0..coordinates.len()).step_by(LANES) {
         let (lanes, count) = coordinates.lanes(start);
-        let errors = model.relative_errors(&lanes, 1.0);
+        let errors = model.relative_errors(lanes, 1.0);
         weigh(coordinates, start, count, loss, &errors, &mut total);
     }
     0.5 * sum(&total)

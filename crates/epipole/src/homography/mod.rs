@@ -11,6 +11,7 @@ mod refine;
 mod refine_both;
 mod sampson;
 mod sums;
+mod sums_both;
 
 pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
 pub use estimate::{HomographyEstimator, estimate_homography};

@@ -90,6 +90,13 @@ pub(super) fn tangent_basis(h: &Matrix3<f64>) -> SMatrix<f64, 9, 8> {
     SMatrix::from_fn(|i, j| basis[j][i])
 }
 
+/// H after a step along its [`tangent_basis`], of unit norm.
+pub(super) fn moved(h: &Matrix3<f64>, delta: &SVector<f64, 8>) -> Matrix3<f64> {
+    let step = tangent_basis(h) * delta;
+    let moved = h + Matrix3::from_fn(|i, j| step[3 * i + j]);
+    moved / moved.norm()
+}
+
 impl FixedProblem<8> for Problem<'_> {
     type Parameters = Matrix3<f64>;
 
@@ -104,9 +111,7 @@ impl FixedProblem<8> for Problem<'_> {
     }
 
     fn plus(&self, h: &Matrix3<f64>, delta: &SVector<f64, 8>) -> Matrix3<f64> {
-        let step = tangent_basis(h) * delta;
-        let moved = h + Matrix3::from_fn(|i, j| step[3 * i + j]);
-        moved / moved.norm()
+        moved(h, delta)
     }
 }
 

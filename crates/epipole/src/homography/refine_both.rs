@@ -1,89 +1,33 @@
 //! Refinement of H by what the pixels of both images are off.
 
-use super::refine::tangent_basis;
+use super::refine::{moved, tangent_basis};
+use super::sums_both::{Whitening, cost, linearize, whitenings};
 use crate::epipolar::coordinates::Coordinates;
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, minimize_fixed};
+use nalgebra::{Matrix3, SVector};
 
-/// Matches whose transfer errors are measured by the noise that both images bring about.
-///
-/// With the derivative A of `x(H x1)` by pixel 1, noise of the same size in both images makes the transfer error scatter as
-/// `1 + A Aᵀ`. The errors are divided by the root of that at the start and keep it: its change with H is
-/// left to who repeats the refinement.
-struct BothImages {
-    /// A match, and what its transfer error is multiplied by.
-    matches: Vec<([f64; 4], Matrix2<f64>)>,
+/// Matches whose transfer errors are measured by the noise that both images bring about, as it is at the start: its change
+/// with H is left to who repeats the refinement.
+struct BothImages<'a> {
+    coordinates: &'a Coordinates,
+    whitenings: Vec<Whitening>,
 }
 
-impl BothImages {
-    /// `None` if H sends one of the pixels infinitely far away.
-    fn new(coordinates: &Coordinates, start: &Matrix3<f64>) -> Option<Self> {
-        let weights = coordinates.weights(0);
-        let whitened = |i: usize| {
-            let at = coordinates.at(i);
-            let (seen, x) = transferred(start, &at);
-            let a = derivative(start, &seen) * Matrix3x2::new(1.0, 0.0, 0.0, 1.0, 0.0, 0.0) / x.z;
-            // (1 + A Aᵀ)⁻¹ = Lᵀ L, of which 1 and A alike make 2 where H changes no length.
-            let scatter = 0.5 * (Matrix2::identity() + a * a.transpose());
-            let root = scatter.cholesky()?.l().try_inverse()?;
-            let weight = weights.map_or(1.0, |weights| weights[i]);
-            let whitening = root * weight.sqrt();
-            whitening
-                .iter()
-                .all(|x| x.is_finite())
-                .then_some((at, whitening))
-        };
-        let matches = (0..coordinates.len())
-            .map(whitened)
-            .collect::<Option<_>>()?;
-        Some(Self { matches })
-    }
-}
-
-type Matrix3x2 = SMatrix<f64, 3, 2>;
-
-/// Where H sends pixel 1, and the vector before its division.
-fn transferred(h: &Matrix3<f64>, [u1, v1, _, _]: &[f64; 4]) -> (Vector2<f64>, Vector3<f64>) {
-    let x = h * Vector3::new(*u1, *v1, 1.0);
-    (x.xy() / x.z, x)
-}
-
-/// The derivative of a transferred pixel by (u1, v1, 1), times z.
-fn derivative(h: &Matrix3<f64>, seen: &Vector2<f64>) -> SMatrix<f64, 2, 3> {
-    SMatrix::<f64, 2, 3>::new(1.0, 0.0, -seen.x, 0.0, 1.0, -seen.y) * h
-}
-
-impl FixedProblem<8> for BothImages {
+impl FixedProblem<8> for BothImages<'_> {
     type Parameters = Matrix3<f64>;
 
     fn accumulate(&self, h: &Matrix3<f64>, normal: &mut NormalEquations<8>) {
-        let basis = tangent_basis(h);
-        for (at, whitening) in &self.matches {
-            let (seen, x) = transferred(h, at);
-            let residual = seen - Vector2::new(at[2], at[3]);
-            let by = Vector3::new(at[0], at[1], 1.0) / x.z;
-            let by_entries = SMatrix::<f64, 2, 9>::from_fn(|row, entry| match entry / 3 {
-                2 => -seen[row] * by[entry % 3],
-                line if line == row => by[entry % 3],
-                _ => 0.0,
-            });
-            let jacobian = whitening * by_entries * basis;
-            normal.add(&(whitening * residual), &jacobian, &RobustLoss::Trivial);
-        }
+        let (hessian, gradient, cost) = linearize(self.coordinates, &self.whitenings, h);
+        normal.cost += cost;
+        normal.add_along(&tangent_basis(h), &hessian, &gradient);
     }
 
     fn cost(&self, h: &Matrix3<f64>) -> f64 {
-        let residual_sq = |(at, whitening): &([f64; 4], Matrix2<f64>)| {
-            let (seen, _) = transferred(h, at);
-            (whitening * (seen - Vector2::new(at[2], at[3]))).norm_squared()
-        };
-        0.5 * self.matches.iter().map(residual_sq).sum::<f64>()
+        cost(self.coordinates, &self.whitenings, h)
     }
 
     fn plus(&self, h: &Matrix3<f64>, delta: &SVector<f64, 8>) -> Matrix3<f64> {
-        let step = tangent_basis(h) * delta;
-        let moved = h + Matrix3::from_fn(|i, j| step[3 * i + j]);
-        moved / moved.norm()
+        moved(h, delta)
     }
 }
 
@@ -96,7 +40,10 @@ pub(super) fn refine_by_both_images(
     options: &LmOptions,
 ) -> Option<Matrix3<f64>> {
     let mut h = start / start.norm();
-    let problem = BothImages::new(coordinates, &h)?;
+    let problem = BothImages {
+        coordinates,
+        whitenings: whitenings(coordinates, &h)?,
+    };
     minimize_fixed(&problem, &mut h, options).ok()?;
     h.iter().all(|x| x.is_finite()).then_some(h)
 }
@@ -106,9 +53,9 @@ mod tests {
     use super::super::{homography_sampson_sq, transfer};
     use super::*;
     use crate::math::random::Random;
-    use crate::optim::check_jacobian;
+    use crate::optim::RobustLoss;
     use crate::robust::MatchSet;
-    use nalgebra::{DMatrix, DVector, Point2};
+    use nalgebra::{DMatrix, DVector, Matrix2, Point2};
 
     /// A plane that leans away: what it shows of image 1 is enlarged here and made smaller there.
     fn leaning() -> Matrix3<f64> {
@@ -131,38 +78,93 @@ mod tests {
     }
 
     #[test]
-    fn jacobian_and_error_are_those_of_sampson() {
+    fn derivatives_and_error_are_those_of_sampson() {
         let mut random = Random::new(1);
         let (coordinates, h) = (noisy(&mut random, 0.01), leaning());
-        let problem = BothImages::new(&coordinates, &h).unwrap();
-        let residuals = |h: &Matrix3<f64>| {
-            let one = |(at, whitening): &([f64; 4], Matrix2<f64>)| {
-                let (seen, _) = transferred(h, at);
-                let r = whitening * (seen - Vector2::new(at[2], at[3]));
-                [r.x, r.y]
-            };
-            DVector::from_vec(problem.matches.iter().flat_map(one).collect())
+        // Not only where a group of lanes is full.
+        assert_ne!(coordinates.len() % 8, 0);
+        let problem = BothImages {
+            coordinates: &coordinates,
+            whitenings: whitenings(&coordinates, &h).unwrap(),
         };
-        // The gradient by differences, as the Jacobian of the cost.
-        let cost = |delta: &DVector<f64>| {
-            let delta = SVector::<f64, 8>::from_column_slice(delta.as_slice());
-            DVector::from_element(1, problem.cost(&problem.plus(&h, &delta)))
+        // The square root of S⁻¹, another way: by the factor of Cholesky.
+        let whitened = |i: usize, h: &Matrix3<f64>| {
+            let [u1, v1, u2, v2] = coordinates.at(i);
+            let pixel1 = Point2::new(u1, v1);
+            let at =
+                |du: f64, dv: f64| transfer(&leaning(), &Point2::new(u1 + du, v1 + dv)).unwrap();
+            let step = 1e-6;
+            let a = Matrix2::from_columns(&[
+                (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step),
+                (at(0.0, step) - at(0.0, -step)) / (2.0 * step),
+            ]);
+            let scatter = 0.5 * (Matrix2::identity() + a * a.transpose());
+            let root = scatter.cholesky().unwrap().l().try_inverse().unwrap();
+            root * (transfer(h, &pixel1).unwrap() - Point2::new(u2, v2))
         };
-        let mut normal = NormalEquations::new();
-        problem.accumulate(&h, &mut normal);
-        let gradient = DMatrix::from_row_slice(1, 8, normal.gradient.as_slice());
-        assert!(check_jacobian(&gradient, &cost, 1e-6) < 1e-6);
-        let found = residuals(&h);
+        let mut total = 0.0;
         for i in 0..coordinates.len() {
             let [u1, v1, u2, v2] = coordinates.at(i);
             let sampson = homography_sampson_sq(&h, &Point2::new(u1, v1), &Point2::new(u2, v2));
-            let ours = found[2 * i] * found[2 * i] + found[2 * i + 1] * found[2 * i + 1];
+            let ours = whitened(i, &h).norm_squared();
+            total += 0.5 * ours;
             // They differ in where A is taken: at the match here, where H sends it there.
             assert!(
                 (ours - 2.0 * sampson).abs() < 0.1 * sampson + 1e-9,
                 "{ours} {sampson}"
             );
         }
+        let mut normal = NormalEquations::new();
+        problem.accumulate(&h, &mut normal);
+        assert!((normal.cost - total).abs() < 1e-6 * total);
+        assert!((normal.cost - problem.cost(&h)).abs() < 1e-12 * total);
+        // Gradient and Gauss–Newton matrix against the differences of the residuals.
+        let residuals = |delta: &DVector<f64>| {
+            let h = problem.plus(&h, &SVector::from_column_slice(delta.as_slice()));
+            let all = (0..coordinates.len()).flat_map(|i| whitened(i, &h).data.0[0]);
+            DVector::from_vec(all.collect())
+        };
+        let jacobian = {
+            let step = 1e-6;
+            let along = |k: usize, by: f64| {
+                residuals(&DVector::from_fn(8, |i, _| if i == k { by } else { 0.0 }))
+            };
+            let column = |k: usize| (along(k, step) - along(k, -step)) / (2.0 * step);
+            DMatrix::from_columns(&(0..8).map(column).collect::<Vec<_>>())
+        };
+        let gradient = jacobian.transpose() * residuals(&DVector::zeros(8));
+        let hessian = jacobian.transpose() * &jacobian;
+        for i in 0..8 {
+            assert!((gradient[i] - normal.gradient[i]).abs() < 1e-6 * gradient.amax());
+            for j in 0..8 {
+                let off = hessian[(i, j)] - normal.hessian[(i, j)];
+                assert!(off.abs() < 1e-6 * hessian.amax(), "{i} {j}: {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_match_that_does_not_count_changes_nothing() {
+        let mut random = Random::new(3);
+        let (coordinates, h) = (noisy(&mut random, 0.01), leaning());
+        let indices: Vec<_> = (0..40).collect();
+        let mut weights = vec![1.0; 40];
+        weights[30..].fill(0.0);
+        let some = coordinates.weighted(&indices[..30], &weights[..30]);
+        let with_rest = coordinates.weighted(&indices, &weights);
+        let options = LmOptions::default();
+        let refined = refine_by_both_images(&some, &h, &options).unwrap();
+        let again = refine_by_both_images(&with_rest, &h, &options).unwrap();
+        assert!((refined - again).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_pixel_sent_to_infinity_is_refused() {
+        let at = [(0.0, 1.0), (1.0, 1.0), (2.0, 0.0), (3.0, 5.0), (4.0, 2.0)];
+        let pixels = at.map(|(u, v)| Point2::new(u, v));
+        let coordinates = Coordinates::pixels(&MatchSet::new(&pixels, &pixels).unwrap());
+        let h = Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -2.0);
+        assert!(refine_by_both_images(&coordinates, &h, &LmOptions::default()).is_none());
     }
 
     /// Where both images are noisy and lengths change, it is nearer to the truth than the transfer error.

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// The transferred pixel minus its match, and 1/z, for eight matches.
 #[inline(always)]
-fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
+pub(super) fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
     let [u1, v1, u2, v2] = lanes;
     let (mut du, mut dv, mut per_z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for l in 0..LANES {
@@ -21,6 +21,15 @@ fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
         dv[l] = y * per_z[l] - v2[l];
     }
     (du, dv, per_z)
+}
+
+/// The symmetric matrix `Σ M ⊗ x xᵀ` of 9 × 9, where M and x xᵀ are of 3 × 3.
+///
+/// * `products`: for each entry of M, `M00 M01 M11 M02 M12 M22`, the sums with `x0x0 x0x1 x0x2 x1x1 x1x2 x2x2`
+pub(super) fn by_entries(products: &[[f64; 6]; 6]) -> SMatrix<f64, 9, 9> {
+    const BLOCK: [[usize; 3]; 3] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
+    const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+    SMatrix::from_fn(|i, j| products[BLOCK[i / 3][j / 3]][PLACE[i % 3][j % 3]])
 }
 
 /// The entries of H, row by row.
@@ -87,20 +96,20 @@ dispatched! {
         let mut total = [0.0; LANES];
         for start in (0..coordinates.len()).step_by(LANES) {
             let (lanes, count) = coordinates.lanes(start);
-            let (du, dv, per_z) = offsets(&h, &lanes);
-            let [u1, v1, u2, v2] = lanes;
+            let (du, dv, per_z) = offsets(&h, lanes);
+            let [u1, v1, u2, v2] = *lanes;
             let mut errors_sq = [0.0; LANES];
             for l in 0..LANES {
                 errors_sq[l] = du[l] * du[l] + dv[l] * dv[l];
             }
             let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             for l in 0..LANES {
-                // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
-                let (du, dv, z) = if weight[l] > 0.0 {
-                    (du[l], dv[l], per_z[l])
-                } else {
-                    (0.0, 0.0, 0.0)
-                };
+                // Lanes beyond the end may hold infinities, which a weight of 0 does not remove. Chosen one by one, as a
+                // branch for all of them would keep lanes from being computed together.
+                let counts = weight[l] > 0.0;
+                let du = if counts { du[l] } else { 0.0 };
+                let dv = if counts { dv[l] } else { 0.0 };
+                let z = if counts { per_z[l] } else { 0.0 };
                 let (u, v) = (du + u2[l], dv + v2[l]);
                 let x = [u1[l] * z, v1[l] * z, z];
                 let scaled = x.map(|value| value * weight[l]);
@@ -126,20 +135,9 @@ dispatched! {
                 }
             }
         }
-        const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
-        let mut hessian = SMatrix::zeros();
-        for i in 0..3 {
-            for j in 0..3 {
-                let [one, u, v, uv] = [0, 1, 2, 3].map(|k: usize| sum(&products[k][PLACE[i][j]]));
-                hessian[(i, j)] = one;
-                hessian[(3 + i, 3 + j)] = one;
-                hessian[(6 + i, 6 + j)] = uv;
-                hessian[(i, 6 + j)] = -u;
-                hessian[(6 + i, j)] = -u;
-                hessian[(3 + i, 6 + j)] = -v;
-                hessian[(6 + i, 3 + j)] = -v;
-            }
-        }
+        let [one, u, v, uv] = products.map(|block| block.map(|lanes| sum(&lanes)));
+        let none = [0.0; 6];
+        let hessian = by_entries(&[one, none, one, u.map(|x| -x), v.map(|x| -x), uv]);
         (
             hessian,
             SVector::from_fn(|i, _| sum(&gradient[i])),

@@ -84,6 +84,12 @@ pub trait Estimator {
     /// Squared distance of a datum from a model, px².
     fn error_sq(&self, model: &Self::Model, index: usize) -> f64;
 
+    /// Fills `errors_sq` with the [`error_sq`](Estimator::error_sq) of some data.
+    fn errors_sq(&self, model: &Self::Model, indices: &[usize], errors_sq: &mut Vec<f64>) {
+        errors_sq.clear();
+        errors_sq.extend(indices.iter().map(|&index| self.error_sq(model, index)));
+    }
+
     /// A better model from `model` and the data that fit it, or `None` if there is none.
     ///
     /// * `inliers`: indices of the data within the threshold
@@ -239,6 +245,10 @@ impl<E: Estimator + ?Sized> Estimator for &mut E {
 
     fn error_sq(&self, model: &E::Model, index: usize) -> f64 {
         (**self).error_sq(model, index)
+    }
+
+    fn errors_sq(&self, model: &E::Model, indices: &[usize], errors_sq: &mut Vec<f64>) {
+        (**self).errors_sq(model, indices, errors_sq);
     }
 
     fn refine(

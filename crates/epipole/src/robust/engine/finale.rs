@@ -122,6 +122,7 @@ impl<E: Estimator> Ransac<E> {
     fn explore_sharply(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         let mut explored = true;
+        let mut errors_sq = Vec::with_capacity(self.estimator.num_data());
         for &most in SHARP_THRESHOLDS[self.codimension_index()] {
             self.estimator
                 .inliers(&best.model, max_error_px, &mut self.inliers);
@@ -131,7 +132,9 @@ impl<E: Estimator> Ransac<E> {
             // A count of inliers is about the threshold that the caller gave.
             if self.options.score == ScoreKind::Msac {
                 let most_px = most * max_error_px;
-                self.judge_px = self.medians_of_errors_px(&best.model, SHARP_MEDIANS, most_px);
+                self.estimator
+                    .errors_sq(&best.model, &self.inliers, &mut errors_sq);
+                self.judge_px = self.medians_px(&mut errors_sq, SHARP_MEDIANS, most_px);
             }
             best.support = self.support(&best.model, f64::INFINITY);
             explored = self.explore(best);
@@ -235,7 +238,8 @@ impl<E: Estimator> Ransac<E> {
             return;
         }
         let mut model = candidate.model.clone();
-        let mut weights = Vec::new();
+        // Squared errors become weights where they stand.
+        let mut weights = Vec::with_capacity(self.estimator.num_data());
         let mut width_px = 0.0;
         let medians = WIDTH_MEDIANS[self.codimension_index()];
         for round in 0..REWEIGHTINGS {
@@ -246,16 +250,17 @@ impl<E: Estimator> Ransac<E> {
                     break;
                 }
                 let most_px = WIDTH_THRESHOLDS * max_error_px;
-                width_px = self.medians_of_errors_px(&model, medians, most_px);
+                self.estimator
+                    .errors_sq(&model, &self.inliers, &mut weights);
+                width_px = self.medians_px(&mut weights, medians, most_px);
             }
             let reach_px = max_error_px.max(2.0 * width_px);
             self.estimator.inliers(&model, reach_px, &mut self.inliers);
-            let error_sq = |&index: &usize| self.estimator.error_sq(&model, index);
-            weights.clear();
-            weights.extend(
-                (self.inliers.iter().map(error_sq))
-                    .map(|sq| libm::exp(-sq / (width_px * width_px))),
-            );
+            self.estimator
+                .errors_sq(&model, &self.inliers, &mut weights);
+            for weight in &mut weights {
+                *weight = libm::exp(-*weight / (width_px * width_px));
+            }
             let Some(polished) = self.estimator.polish(&model, &self.inliers, &weights) else {
                 break;
             };
@@ -280,11 +285,10 @@ impl<E: Estimator> Ransac<E> {
     /// How large the errors of the inliers are: so many times their median, between a quarter of the
     /// threshold and `most_px`. The threshold is a guess of the caller's; errors a tenth as large
     /// deserve a sharper weight, and those that fill it a wider one.
-    fn medians_of_errors_px(&self, model: &E::Model, medians: f64, most_px: f64) -> f64 {
-        let error_sq = |&index: &usize| self.estimator.error_sq(model, index);
-        let mut errors_sq: Vec<f64> = self.inliers.iter().map(error_sq).collect();
-        let middle = errors_sq.len() / 2;
-        let median_sq = at_rank(&mut errors_sq, middle);
+    ///
+    /// * `errors_sq`: the squared errors, one at least; comes back in another order
+    fn medians_px(&self, errors_sq: &mut [f64], medians: f64, most_px: f64) -> f64 {
+        let median_sq = at_rank(errors_sq, errors_sq.len() / 2);
         let least_px = 0.25 * self.options.max_error_px;
         (medians * median_sq.sqrt()).clamp(least_px, most_px)
     }

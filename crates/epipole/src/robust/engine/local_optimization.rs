@@ -3,6 +3,10 @@
 use super::{Candidate, Ransac};
 use crate::robust::Estimator;
 
+/// A model whose first fits bring it to the cost of the best one, up to this share, is improved no further where there are
+/// several ways to do so: most samples without outliers lead there.
+const KNOWN: f64 = 0.01;
+
 impl<E: Estimator> Ransac<E> {
     /// Takes the best model of a sample through recovery and local optimization, and keeps the
     /// outcome if nothing better is known. Returns whether it is kept, and as what.
@@ -44,12 +48,16 @@ impl<E: Estimator> Ransac<E> {
         let max_error_px = self.judge_px;
         let rough = candidate.model.clone();
         let mut changed = false;
-        for &reaches in self.first_reaches() {
+        let ways = self.first_reaches();
+        for &reaches in ways {
             let mut model = Some(rough.clone());
             for reach in reaches {
                 model = model.and_then(|model| self.fitted(&model, reach * max_error_px));
             }
             changed |= model.is_some_and(|model| self.replace_if_better(candidate, model));
+            if ways.len() > 1 && self.is_known(candidate) {
+                return changed;
+            }
         }
         for _ in 1..self.options.inner_iterations {
             let Some(model) = self.fitted(&candidate.model.clone(), max_error_px) else {
@@ -66,6 +74,15 @@ impl<E: Estimator> Ransac<E> {
             }
         }
         changed
+    }
+
+    /// Whether a model costs what the best one does, or nearly so: then it is on the way to the same optimum, around which
+    /// the end of the run looks anyway.
+    fn is_known(&self, candidate: &Candidate<E::Model>) -> bool {
+        self.best.as_ref().is_some_and(|best| {
+            let known = best.support.cost;
+            (candidate.support.cost - known).abs() < KNOWN * known.max(1.0)
+        })
     }
 
     /// How far the first fits look, in thresholds, way by way. Errors of two dimensions are small by chance so
