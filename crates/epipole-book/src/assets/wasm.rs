@@ -75,7 +75,7 @@ fn link(package: &str, feature: &str) -> (&'static [&'static str], &'static [&'s
                 "-C",
                 "llvm-args=-inline-threshold=25",
                 "-C",
-                "llvm-args=-unroll-threshold=40",
+                "llvm-args=-unroll-threshold=80",
                 "-C",
                 "llvm-args=-unroll-runtime=false",
                 "-C",
