@@ -61,12 +61,39 @@ fn profile(feature: &str) -> &'static str {
     }
 }
 
+/// How the module of a feature is linked: arguments of `cargo rustc`, and behind `--` those of the compiler.
+///
+/// Cargo leaves link-time optimization out where a library is an rlib as well as a cdylib, so the figures'
+/// computations are asked for as a cdylib alone. The whole is optimized once more then, in which nalgebra's small
+/// functions, compiled for size, go into the loops that call them; limits for inlining and unrolling give part of that
+/// back where it makes the module large and no faster.
+fn link(package: &str, feature: &str) -> (&'static [&'static str], &'static [&'static str]) {
+    match (package, feature) {
+        ("epipole-web", "jobs") => (
+            &["--crate-type", "cdylib"],
+            &[
+                "-C",
+                "llvm-args=-inline-threshold=25",
+                "-C",
+                "llvm-args=-unroll-threshold=80",
+                "-C",
+                "llvm-args=-unroll-runtime=false",
+                "-C",
+                "llvm-args=-force-vector-interleave=1",
+            ],
+        ),
+        _ => (&[], &[]),
+    }
+}
+
 /// Builds one module: a package with one of its features.
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     let target = super::target_folder(&tools.project);
     let profile = profile(feature);
+    let (of_cargo, of_compiler) = link(package, feature);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["build", "--package", package, "--lib"])
+        .args(["rustc", "--package", package, "--lib"])
+        .args(of_cargo)
         .args(["--no-default-features", "--features", feature])
         .args([
             "--target",
@@ -77,6 +104,8 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         ])
         .arg("--config")
         .arg(without_paths(&tools.project))
+        .arg("--")
+        .args(of_compiler)
         .current_dir(&tools.project)
         .stdout(Stdio::null())
         .status()
