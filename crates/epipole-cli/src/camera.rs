@@ -197,6 +197,7 @@ mod tests {
             focal_px,
             place: None,
             k: None,
+            lens: None,
             full_size: (width, height),
             sensor_size: (width, height),
             is_as_stored: true,

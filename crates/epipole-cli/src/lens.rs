@@ -5,6 +5,7 @@ use crate::files;
 use clap::ValueEnum;
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Intrinsics, Lens, LensKind};
+use nalgebra::Point2;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -32,15 +33,6 @@ impl From<Model> for LensKind {
     }
 }
 
-fn word(kind: LensKind) -> &'static str {
-    match kind {
-        LensKind::Brown => "brown",
-        LensKind::Rational => "rational",
-        LensKind::Fisheye => "fisheye",
-        LensKind::Division => "division",
-    }
-}
-
 /// `image`, `k` and `distortion`, as they stand in results and in files.
 pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
     let k = &camera.intrinsics;
@@ -53,9 +45,19 @@ pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
         ("k", json!([k.fu_px(), k.fv_px(), center.x, center.y])),
         (
             "distortion",
-            json!({ "model": word(camera.lens.kind()), "coefficients": camera.lens.coefficients() }),
+            json!({ "model": camera.lens.kind().name(), "coefficients": camera.lens.coefficients() }),
         ),
     ]
+}
+
+/// What share of a photograph a lens bends no ray to: beyond the fold of its model, or beyond straight backwards.
+pub(crate) fn unseen_share(camera: &CalibratedCamera) -> f64 {
+    const SIDE: u32 = 24;
+    let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;
+    let places = (0..SIDE * SIDE)
+        .map(|n| Point2::new(at(n % SIDE, camera.width), at(n / SIDE, camera.height)));
+    let unseen = places.filter(|place| camera.ray(place).is_err()).count();
+    unseen as f64 / f64::from(SIDE * SIDE)
 }
 
 /// Reads a camera from a file that `epipole calibrate` wrote.
@@ -102,7 +104,7 @@ pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<Calibrate
         LensKind::Division,
     ];
     let kind = (kinds.into_iter())
-        .find(|kind| word(*kind) == model)
+        .find(|kind| kind.name() == model)
         .ok_or_else(|| {
             malformed(
                 "distortion.model is none of brown, rational, fisheye and division".to_owned(),

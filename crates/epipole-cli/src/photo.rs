@@ -3,8 +3,10 @@
 use crate::failure::Failure;
 use crate::matrices::positive;
 use clap::Args;
-use epipole::calibration::{PrepareOptions, Undistortion, prepare_photo};
-use epipole::camera::Intrinsics;
+use epipole::calibration::{
+    CalibratedCamera, PrepareOptions, PreparedPhoto, Undistortion, prepare_photo,
+};
+use epipole::camera::{Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use epipole::math::Geodetic;
@@ -36,14 +38,39 @@ pub(crate) struct Photo {
     pub(crate) focal_px: Option<f64>,
     /// Where it was taken, from EXIF.
     pub(crate) place: Option<Geodetic>,
-    /// K, if the distortion of a known lens was removed.
+    /// K, if the camera is known, or if the distortion of its lens was removed.
     pub(crate) k: Option<Intrinsics>,
+    /// The lens, if it is known and the photograph shows what it did.
+    pub(crate) lens: Option<KeptLens>,
     /// Width and height before it was reduced.
     pub(crate) full_size: (u32, u32),
     /// Width and height before it was turned upright, too.
     pub(crate) sensor_size: (u32, u32),
     /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
     pub(crate) is_as_stored: bool,
+}
+
+/// A lens whose distortion a photograph keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct KeptLens {
+    pub(crate) lens: Lens,
+    /// By how many quarters of a turn the photograph became upright.
+    pub(crate) quarters: u8,
+}
+
+impl From<PreparedPhoto> for Photo {
+    fn from(photo: PreparedPhoto) -> Self {
+        Self {
+            color: photo.image,
+            focal_px: photo.focal_px,
+            place: photo.place,
+            k: photo.intrinsics,
+            lens: None,
+            full_size: photo.full_size,
+            sensor_size: photo.sensor_size,
+            is_as_stored: photo.is_as_stored,
+        }
+    }
 }
 
 impl Photo {
@@ -70,15 +97,35 @@ impl Photo {
         };
         let photo = prepare_photo(&bytes(path)?, &options)
             .map_err(|error| Failure::from(error).about(path))?;
-        Ok(Self {
-            color: photo.image,
-            focal_px: photo.focal_px,
-            place: photo.place,
-            k: photo.intrinsics,
-            full_size: photo.full_size,
-            sensor_size: photo.sensor_size,
-            is_as_stored: photo.is_as_stored,
-        })
+        Ok(Self::from(photo))
+    }
+
+    /// The same reduced, its distortion kept: K and the lens are those of the camera, if it has its size.
+    ///
+    /// # Errors
+    /// As [`Photo::read`].
+    pub(crate) fn by_camera(
+        path: &Path,
+        size: SizeArguments,
+        camera: &CalibratedCamera,
+    ) -> Result<Self, Failure> {
+        let options = PrepareOptions {
+            max_pixels: size.max_pixels(),
+            undistortion: None,
+        };
+        let about = |error: epipole::Error| Failure::from(error).about(path);
+        let prepared = prepare_photo(&bytes(path)?, &options).map_err(about)?;
+        let its_own = prepared.camera(camera).map_err(about)?;
+        let quarters = prepared.quarters.unwrap_or(0);
+        let mut photo = Self::from(prepared);
+        if let Some(camera) = its_own {
+            photo.k = Some(camera.intrinsics);
+            photo.lens = Some(KeptLens {
+                lens: camera.lens,
+                quarters,
+            });
+        }
+        Ok(photo)
     }
 
     /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows no other frame.

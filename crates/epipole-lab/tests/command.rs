@@ -238,7 +238,7 @@ fn files_that_are_reduced_and_freed_of_their_lens() {
     assert_eq!(
         project.recipe().unwrap().command,
         "epipole sfm 'photographs/b one.jpg' photographs/a.jpg photographs/upright.jpg photographs/other.jpg \
-         photographs/typed.jpg --max-megapixels 0.2 --camera camera.json --focals-px=-,-,-,-,750 --max-features 8192 \
+         photographs/typed.jpg --max-megapixels 0.2 --camera camera.json --undistort --focals-px=-,-,-,-,750 --max-features 8192 \
          --features sift --keep-focal --seed 0 -o sparse/0"
     );
     let folder = Folder::new("files");

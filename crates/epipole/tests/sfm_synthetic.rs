@@ -252,7 +252,7 @@ fn focal_length_and_distortion_are_found() {
     assert_eq!(first.num_registered(), 8);
     let focal_px = first.cameras[3].expect("a camera").intrinsics.fu_px();
     assert!((focal_px - 700.0).abs() < 3.0, "{focal_px}");
-    let k1 = first.distortion(3).k1;
+    let k1 = first.lens(3).coefficients()[0];
     assert!((k1 + 0.12).abs() < 0.02, "{k1}");
 }
 
@@ -311,7 +311,7 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
         let (focal_px, k1) = lenses[image % 2];
         let found_px = first.cameras[image].expect("a camera").intrinsics.fu_px();
         assert!((found_px - focal_px).abs() < 0.5, "{image}: {found_px}");
-        let found = first.distortion(image).k1;
+        let found = first.lens(image).coefficients()[0];
         assert!((found - k1).abs() < 0.005, "{image}: {found}");
     }
     assert!(first.mean_reprojection_px(&world.input.images) < 0.01);

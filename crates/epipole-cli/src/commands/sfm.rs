@@ -20,7 +20,6 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
-use epipole::camera::Distortion;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
     PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
@@ -40,10 +39,13 @@ use std::path::PathBuf;
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
     Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply, with --images also the\n\
     photographs, in images/.\n\n\
+    cameras.txt has PINHOLE cameras, or OPENCV, FULL_OPENCV, OPENCV_FISHEYE or DIVISION, as the lens is: that of\n\
+    --camera, or one whose distortion was refined. Give --undistort for programs that know PINHOLE alone.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
     begin, and one factor for all focal lengths is refined.\n\n\
-    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px and\n\
-    distortion with k1, k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\
+    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px, lens: brown,\n\
+    rational, fisheye or division, distortion: its coefficients as in the file of a camera, of a usual lens k1,\n\
+    k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\
     component; focal_refined (whether the focal lengths were), with --positions placed (whether it stands where they\n\
     say, in meters), position_rms_m, origin (where zero is, if positions are degrees), unregistered (name and reason of each photograph that is not in the largest\n\
     component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
@@ -64,7 +66,7 @@ pub(crate) struct Arguments {
     growth: GrowthArguments,
     #[command(flatten)]
     positions: PositionArguments,
-    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, without distortion), into OUT/images,
+    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, with --undistort without distortion), into OUT/images,
     /// for programs that go on from there. Files that were changed become JPEGs, also by name.
     #[arg(long, help_heading = "Options")]
     images: bool,
@@ -77,6 +79,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let input::Input {
         mut photos,
         intrinsics,
+        lenses,
         places,
         guesses,
         used,
@@ -86,8 +89,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         false => None,
     };
     let positions = arguments.positions.give(&mut photos, &places)?;
-    (arguments.growth).give_lenses(&mut photos, &intrinsics);
-    let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
+    let lenses = (arguments.growth).give_lenses(&mut photos, &intrinsics, &lenses);
+    (arguments.growth).tell_of_nothing_to_refine(&lenses, context);
+    let options = SfmOptions {
+        lenses,
+        ..(arguments.growth).options(&arguments.robust, context, some_unknown(&guesses))
+    };
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
         let then = if refine_focal { ", to be refined" } else { "" };
@@ -128,11 +135,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         images
             .filter_map(|(index, (image, camera))| {
                 let camera = camera.as_ref()?;
-                let Distortion { k1, k2, p1, p2, k3 } = component.distortion(index);
+                let lens = component.lens(index);
                 Some(json!({
                     "name": image.name,
                     "focal_px": camera.intrinsics.fu_px(),
-                    "distortion": [k1, k2, p1, p2, k3],
+                    "lens": lens.kind().name(),
+                    "distortion": lens.coefficients(),
                     "cam_from_world": Motion::from(&camera.cam_from_world),
                 }))
             })

@@ -1,7 +1,7 @@
 //! A reconstruction in words and numbers: the command line's JSON, and the command that does the same.
 
 use super::model::Order;
-use epipole::camera::{Distortion, RigidTransform};
+use epipole::camera::RigidTransform;
 use epipole::sfm::{Reconstruction, SfmImage};
 use serde_json::{Value, json};
 
@@ -17,11 +17,11 @@ pub(super) fn json(order: &Order<'_>, images: &[SfmImage], model: &Reconstructio
     let registered: Vec<Value> = (images.iter().zip(&model.cameras).enumerate())
         .filter_map(|(index, (image, camera))| {
             let camera = camera.as_ref()?;
-            let Distortion { k1, k2, p1, p2, k3 } = model.distortion(index);
             Some(json!({
                 "name": image.name,
                 "focal_px": camera.intrinsics.fu_px(),
-                "distortion": [k1, k2, p1, p2, k3],
+                "lens": model.lens(index).kind().name(),
+                "distortion": model.lens(index).coefficients(),
                 "cam_from_world": motion(&camera.cam_from_world),
             }))
         })

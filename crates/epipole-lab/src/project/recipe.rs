@@ -107,7 +107,7 @@ impl Project {
             say(format!("--max-megapixels {megapixels}"));
         }
         if parts.uses_camera {
-            say("--camera camera.json".to_owned());
+            say("--camera camera.json --undistort".to_owned());
         }
         let first = parts.list[0].focal_px;
         if parts.list.iter().any(|part| part.focal_px != first) {

@@ -152,7 +152,7 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
             .map(camera)
             .collect::<Result<_, _>>()?,
         // One lens took them all.
-        distortions: vec![distortion; component.cameras.len()],
+        lenses: vec![distortion.into(); component.cameras.len()],
         points: component.points.iter().map(point).collect(),
         is_placed: false,
     })

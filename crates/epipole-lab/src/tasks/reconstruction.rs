@@ -112,12 +112,13 @@ fn component(found: &Reconstruction) -> Component {
         error_px: point.error_px,
     };
     // One lens took them all.
-    let distortion = found.distortion(0);
+    let lens = found.lens(0);
+    let numbers = lens.coefficients();
     Component {
         cameras: (found.cameras.iter())
             .map(|c| c.as_ref().map(camera))
             .collect(),
-        distortion: [distortion.k1, distortion.k2],
+        distortion: [numbers[0], numbers[1]],
         points: found.points.iter().map(point).collect(),
     }
 }

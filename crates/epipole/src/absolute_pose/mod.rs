@@ -3,6 +3,7 @@
 mod dlt;
 mod estimate;
 mod estimate_focal;
+mod estimate_of_rays;
 mod local_problem;
 mod p3p;
 mod p4pf;
@@ -13,6 +14,7 @@ mod sides;
 pub use dlt::pose_dlt;
 pub use estimate::{AbsolutePoseEstimator, estimate_absolute_pose};
 pub use estimate_focal::{AbsolutePoseFocalEstimator, estimate_absolute_pose_and_focal};
+pub use estimate_of_rays::estimate_absolute_pose_of_rays;
 pub use p3p::pose_p3p;
 pub use p4pf::{AbsolutePoseWithFocal, pose_p4pf};
 pub use refine::{refine_absolute_pose, reprojection_error_px};

@@ -1,6 +1,6 @@
 //! A camera with its lens and the size of its photographs.
 
-use crate::camera::{Intrinsics, Lens};
+use crate::camera::{Intrinsics, Lens, SeenRay};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -55,6 +55,16 @@ impl CalibratedCamera {
     /// As [`Lens::ray`].
     pub fn ray(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
         self.lens.ray(&self.intrinsics.ray(pixel).xy().into())
+    }
+
+    /// A pixel with its ray, and how it moves with it: what
+    /// [`estimate_relative_pose_of_rays`](crate::epipolar::estimate_relative_pose_of_rays) and
+    /// [`estimate_absolute_pose_of_rays`](crate::absolute_pose::estimate_absolute_pose_of_rays) take of any lens.
+    ///
+    /// # Errors
+    /// As [`SeenRay::through`].
+    pub fn seen_ray(&self, pixel: &Point2<f64>) -> Result<SeenRay> {
+        SeenRay::through(&self.lens, &self.intrinsics, pixel)
     }
 
     /// The pixel where a camera with the same K and no distortion would see what this one sees at `pixel`.

@@ -1,6 +1,6 @@
 //! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is known, not too large.
 
-use super::Undistortion;
+use super::{CalibratedCamera, Undistortion};
 use crate::Result;
 use crate::camera::Intrinsics;
 use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
@@ -43,6 +43,8 @@ pub struct PreparedPhoto {
     pub full_size: (u32, u32),
     /// Width and height as the sensor gave it, before it was turned upright.
     pub sensor_size: (u32, u32),
+    /// By how many quarters of a turn, clockwise, it became upright; `None` if it was mirrored.
+    pub quarters: Option<u8>,
     /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
     pub is_as_stored: bool,
 }
@@ -51,6 +53,31 @@ impl PreparedPhoto {
     /// A focal length of the photograph before it was reduced, in its pixels now.
     pub fn reduced_focal_px(&self, focal_px: f64) -> f64 {
         focal_px * (f64::from(self.image.width()) / f64::from(self.full_size.0.max(1)))
+    }
+
+    /// The camera that took it as its pixels are now, turned and reduced with them; `None` if it is another one: the
+    /// sensor has another size, or the photograph was mirrored. For photographs that keep their distortion.
+    ///
+    /// * `of_sensor`: the camera as its sensor is
+    ///
+    /// # Errors
+    /// As [`Intrinsics::resized`].
+    pub fn camera(&self, of_sensor: &CalibratedCamera) -> Result<Option<CalibratedCamera>> {
+        let its_own = (of_sensor.width, of_sensor.height) == self.sensor_size;
+        let Some(quarters) = self.quarters.filter(|_| its_own) else {
+            return Ok(None);
+        };
+        let k = of_sensor.intrinsics.turned(quarters, self.sensor_size);
+        let (width, height) = self.image.dimensions();
+        Ok(Some(CalibratedCamera {
+            intrinsics: match self.full_size == (width, height) {
+                true => k,
+                false => k.resized(self.full_size, (width, height))?,
+            },
+            lens: of_sensor.lens.turned(quarters),
+            width,
+            height,
+        }))
     }
 }
 
@@ -105,6 +132,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
         intrinsics: intrinsics.map(|k| k.resized(full_size, size)).transpose()?,
         full_size,
         sensor_size,
+        quarters,
         is_as_stored: decoded.orientation == Orientation::NoTransforms
             && redrawn.is_none()
             && size == full_size,
@@ -127,7 +155,7 @@ fn quarters(orientation: Orientation) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::{CalibratedCamera, Keep};
+    use crate::calibration::Keep;
     use crate::camera::{Lens, LensKind};
     use image::{ExtendedColorType, ImageEncoder, Rgb};
 
@@ -192,6 +220,19 @@ mod tests {
                 photo.image.get_pixel(at.0, at.1),
                 lying.image.get_pixel(u, v)
             );
+            // With its distortion kept, the camera turns with it.
+            let kept = prepare_photo(&file(&smooth(), orientation), &PrepareOptions::default());
+            let kept = kept.unwrap().camera(&camera()).unwrap().unwrap();
+            let bent = camera().ray(&place(u, v)).unwrap();
+            let its_bent = kept.ray(&place(at.0, at.1)).unwrap();
+            let expected = match orientation {
+                6 => [-bent.y, bent.x],
+                3 => [-bent.x, -bent.y],
+                _ => [bent.y, -bent.x],
+            };
+            assert!((its_bent.x - expected[0]).abs() < 1e-12, "{orientation}");
+            assert!((its_bent.y - expected[1]).abs() < 1e-12, "{orientation}");
+            assert_eq!((kept.width, kept.height), photo.full_size);
             let its_ray = photo.intrinsics.unwrap().ray(&place(at.0, at.1));
             assert!((its_ray.x - turned[0]).abs() < 1e-12, "{orientation}");
             assert!((its_ray.y - turned[1]).abs() < 1e-12, "{orientation}");
@@ -210,12 +251,16 @@ mod tests {
         for bytes in [file(&upright, 1), file(&smooth(), 2)] {
             let photo = prepare_photo(&bytes, &options).unwrap();
             assert_eq!(photo.intrinsics, None);
+            assert_eq!(photo.camera(&camera()), Ok(None));
             let (width, height) = photo.image.dimensions();
             assert_eq!((2 * width, 2 * height), photo.full_size);
         }
         let photo = prepare_photo(&file(&smooth(), 6), &options).unwrap();
         let expected = flat.intrinsics.turned(1, (80, 60)).scaled(0.5).unwrap();
         assert_eq!(photo.intrinsics, Some(expected));
+        let kept = photo.camera(&camera()).unwrap().unwrap();
+        let turned = camera().intrinsics.turned(1, (80, 60));
+        assert_eq!(kept.intrinsics, turned.scaled(0.5).unwrap());
         assert!(prepare_photo(b"nothing", &options).is_err());
         let untouched = prepare_photo(&file(&smooth(), 1), &PrepareOptions::default()).unwrap();
         assert!(untouched.is_as_stored && untouched.image == smooth());

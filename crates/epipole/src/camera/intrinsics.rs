@@ -90,6 +90,27 @@ impl Intrinsics {
         )
     }
 
+    /// The same camera with both focal lengths multiplied by a factor; its principal point stays.
+    ///
+    /// # Errors
+    /// As [`Intrinsics::new`].
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::Intrinsics;
+    /// let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0)?;
+    /// assert_eq!(k.zoomed(2.0)?, Intrinsics::new(1000.0, 1020.0, 320.0, 240.0)?);
+    /// # Ok(()) }
+    /// ```
+    pub fn zoomed(&self, factor: f64) -> Result<Self> {
+        Self::new(
+            self.fu_px * factor,
+            self.fv_px * factor,
+            self.cu_px,
+            self.cv_px,
+        )
+    }
+
     /// The same camera after its image of size `from` was resized to `to`, whose shape may differ a little.
     ///
     /// * `from`, `to`: width and height, pixels

@@ -28,6 +28,16 @@ impl LensKind {
             Self::Division => 1,
         }
     }
+
+    /// Its name in files and results: brown, rational, fisheye or division.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Brown => "brown",
+            Self::Rational => "rational",
+            Self::Fisheye => "fisheye",
+            Self::Division => "division",
+        }
+    }
 }
 
 /// What a lens does to rays.
@@ -153,6 +163,39 @@ impl Lens {
             Self::Rational(r) => r.undistort(seen).map(at_one),
             Self::Fisheye(f) => f.ray(seen),
             Self::Division(d) => d.undistort(seen).map(at_one),
+        }
+    }
+
+    /// The same lens after its image was turned clockwise by so many quarters of a turn, as [`Intrinsics::turned`]
+    /// has it: only tangential terms know of a direction.
+    ///
+    /// [`Intrinsics::turned`]: super::Intrinsics::turned
+    ///
+    /// ```
+    /// use epipole::camera::{Distortion, Lens};
+    /// use nalgebra::{Point2, Vector3};
+    /// let lens = Lens::Brown(Distortion { k1: -0.1, p1: 0.01, p2: 0.02, ..Distortion::NONE });
+    /// // What is right of the axis is below it then.
+    /// let seen = lens.project(&Vector3::new(0.3, 0.1, 1.0)).unwrap();
+    /// let turned = lens.turned(1).project(&Vector3::new(-0.1, 0.3, 1.0)).unwrap();
+    /// assert!((turned - Point2::new(-seen.y, seen.x)).norm() < 1e-15);
+    /// ```
+    pub fn turned(&self, quarters: u8) -> Self {
+        let turn = |d: &Distortion| {
+            let mut turned = *d;
+            for _ in 0..quarters % 4 {
+                // (p2, p1) is a direction of the image.
+                (turned.p2, turned.p1) = (-turned.p1, turned.p2);
+            }
+            turned
+        };
+        match self {
+            Self::Brown(d) => Self::Brown(turn(d)),
+            Self::Rational(r) => Self::Rational(RationalDistortion {
+                numerator: turn(&r.numerator),
+                denominator: r.denominator,
+            }),
+            Self::Fisheye(_) | Self::Division(_) => *self,
         }
     }
 

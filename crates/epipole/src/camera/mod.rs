@@ -12,6 +12,7 @@ pub(crate) mod moving_pose;
 mod pixel_centers;
 mod rational;
 mod rigid;
+mod seen_ray;
 mod unbend;
 mod view;
 
@@ -24,4 +25,5 @@ pub use lens::{Lens, LensKind};
 pub use pixel_centers::{pixel_from_colmap, pixel_to_colmap};
 pub use rational::RationalDistortion;
 pub use rigid::{RigidTransform, cross_matrix, look_at, relative_motion};
+pub use seen_ray::SeenRay;
 pub use view::Camera;

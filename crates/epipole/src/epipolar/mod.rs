@@ -12,6 +12,7 @@ mod essential;
 mod essential_estimator;
 mod estimate_essential;
 mod estimate_fundamental;
+mod estimate_of_rays;
 mod estimate_pose_and_focal;
 mod estimate_with_gravity;
 mod five_point;
@@ -47,6 +48,7 @@ pub use estimate_essential::{
     estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
 };
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
+pub use estimate_of_rays::estimate_relative_pose_of_rays;
 pub use estimate_pose_and_focal::{
     FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
     estimate_relative_pose_and_focal_with,

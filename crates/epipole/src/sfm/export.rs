@@ -1,7 +1,8 @@
 //! Reconstructions as files: COLMAP's text model and PLY point clouds.
 
+use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, SfmImage};
-use crate::camera::{Distortion, pixel_to_colmap};
+use crate::camera::{LensKind, pixel_to_colmap};
 use std::fmt::Write;
 
 /// The three files of COLMAP's text model.
@@ -18,8 +19,10 @@ pub struct ColmapModel {
 impl Reconstruction {
     /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
     ///
-    /// Cameras are `PINHOLE`, or `OPENCV` if there is distortion, `FULL_OPENCV` if it has a k3; images with equal
-    /// size, intrinsics and distortion share one. Principal points and keypoints are moved by half a pixel,
+    /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if it has a k3, and for
+    /// the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the division model, which COLMAP has from its
+    /// version 4 on. Of a fisheye, COLMAP reads what was seen 90° and more off its axis, and takes it to be behind.
+    /// Images with equal size, intrinsics and lens share one. Principal points and keypoints are moved by half a pixel,
     /// from centers at integers to COLMAP's convention, as by [`pixel_to_colmap`]. Numbers of images, cameras and points
     /// start at 1; an image has the number of its place in the list plus 1. A name takes the rest of its line, so
     /// line breaks in it are written as `_`.
@@ -32,8 +35,12 @@ impl Reconstruction {
         let mut camera_of_image = vec![0; images.len()];
         for (index, (image, camera)) in images.iter().zip(&self.cameras).enumerate() {
             let Some(camera) = camera else { continue };
-            let distortion = self.distortion(index);
-            let kind = (image.width, image.height, camera.intrinsics, distortion);
+            let kind = (
+                image.width,
+                image.height,
+                camera.intrinsics,
+                self.lens(index),
+            );
             let id = kinds
                 .iter()
                 .position(|other| *other == kind)
@@ -43,16 +50,9 @@ impl Reconstruction {
                 });
             camera_of_image[index] = id + 1;
         }
-        for (id, (width, height, intrinsics, distortion)) in kinds.iter().enumerate() {
+        for (id, (width, height, intrinsics, lens)) in kinds.iter().enumerate() {
             let [fx, fy, cx, cy] = intrinsics.to_colmap();
-            let Distortion { k1, k2, p1, p2, k3 } = distortion;
-            let (model, more) = if distortion.is_none() {
-                ("PINHOLE", String::new())
-            } else if *k3 == 0.0 {
-                ("OPENCV", format!(" {k1} {k2} {p1} {p2}"))
-            } else {
-                ("FULL_OPENCV", format!(" {k1} {k2} {p1} {p2} {k3} 0 0 0"))
-            };
+            let (model, more) = model_of(lens);
             let id = id + 1;
             let _ = writeln!(
                 cameras,
@@ -155,10 +155,33 @@ impl Reconstruction {
     }
 }
 
+/// COLMAP's model of a lens, and its parameters behind those of the intrinsics.
+fn model_of(lens: &SfmLens) -> (&'static str, String) {
+    let all = lens.coefficients();
+    let (model, numbers) = match lens.kind() {
+        LensKind::Brown if lens.is_none() => ("PINHOLE", &[][..]),
+        LensKind::Brown if all[4] == 0.0 => ("OPENCV", &all[..4]),
+        LensKind::Brown | LensKind::Rational => ("FULL_OPENCV", all),
+        LensKind::Fisheye => ("OPENCV_FISHEYE", all),
+        LensKind::Division => ("DIVISION", all),
+    };
+    let mut more = String::new();
+    for number in numbers {
+        let _ = write!(more, " {number}");
+    }
+    // Below the line.
+    if model == "FULL_OPENCV" && numbers.len() == 5 {
+        more.push_str(" 0 0 0");
+    }
+    (model, more)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Camera, Intrinsics, RigidTransform};
+    use crate::camera::{
+        Camera, Distortion, Division, Fisheye, Intrinsics, Lens, RationalDistortion, RigidTransform,
+    };
     use crate::sfm::{ScenePoint, TrackElement};
     use nalgebra::{Point2, Point3};
 
@@ -221,6 +244,44 @@ mod tests {
         assert!((error - 140.0 / 2f64.sqrt()).abs() < 1e-9);
     }
 
+    /// The names and the order of the parameters are those of COLMAP 4's list of models.
+    #[test]
+    fn each_lens_has_its_model() {
+        let (mut reconstruction, images) = small();
+        let line = |reconstruction: &Reconstruction| {
+            let model = reconstruction.to_colmap(&images);
+            model.cameras.lines().nth(1).unwrap().to_owned()
+        };
+        for (lens, expected) in [
+            (
+                Lens::Fisheye(Fisheye {
+                    coefficients: [0.01, -0.02, 0.003, 0.0],
+                }),
+                "1 OPENCV_FISHEYE 640 480 700 700 320 240 0.01 -0.02 0.003 0",
+            ),
+            (
+                Lens::Division(Division { k: -0.25 }),
+                "1 DIVISION 640 480 700 700 320 240 -0.25",
+            ),
+            (
+                Lens::Rational(RationalDistortion {
+                    numerator: Distortion {
+                        k1: 0.5,
+                        k2: 0.25,
+                        p1: 0.001,
+                        p2: -0.002,
+                        k3: 0.125,
+                    },
+                    denominator: [0.75, 0.5, -0.25],
+                }),
+                "1 FULL_OPENCV 640 480 700 700 320 240 0.5 0.25 0.001 -0.002 0.125 0.75 0.5 -0.25",
+            ),
+        ] {
+            reconstruction.lenses = vec![lens.into(); 3];
+            assert_eq!(line(&reconstruction), expected);
+        }
+    }
+
     #[test]
     fn distortion_changes_the_camera_model() {
         let (mut reconstruction, images) = small();
@@ -230,7 +291,7 @@ mod tests {
             ..Distortion::NONE
         };
         let far = Distortion { k3: 0.5, ..bent };
-        reconstruction.distortions = vec![bent, Distortion::NONE, far];
+        reconstruction.lenses = vec![bent.into(), SfmLens::NONE, far.into()];
         let model = reconstruction.to_colmap(&images);
         let lines: Vec<&str> = model.cameras.lines().skip(1).collect();
         assert_eq!(

@@ -1,17 +1,18 @@
 //! Incremental structure from motion: start from two photographs, add one after the other.
 
-use super::builder::{Builder, undistorted};
+use super::builder::Builder;
 use super::bundle::PositionPrior;
+use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::shares::{Begin, Shares};
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
-use crate::camera::{Distortion, Intrinsics};
+use super::views::Views;
+use crate::camera::Intrinsics;
 use crate::progress::Progress;
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
 use crate::{Error, Result};
-use nalgebra::Point2;
 use std::ops::ControlFlow;
 
 /// What [`reconstruct`] needs: photographs, reduced to keypoints, and matches between them.
@@ -48,12 +49,13 @@ pub struct SfmOptions {
     pub refine_focal: bool,
     /// Refine where the principal points are, one shift for each lens. False: turning a camera looks much the same.
     pub refine_principal_point: bool,
-    /// Refine the radial terms k1 and k2 of each lens. False.
+    /// Refine the radial terms of each lens, as
+    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them. False.
     pub refine_distortion: bool,
-    /// Refine the tangential terms p1 and p2 of each lens. False.
+    /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
-    /// The distortion to start with, or to keep. None.
-    pub distortion: Distortion,
+    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
+    pub lenses: Vec<SfmLens>,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
 }
@@ -72,7 +74,7 @@ impl Default for SfmOptions {
             refine_principal_point: false,
             refine_distortion: false,
             refine_tangential: false,
-            distortion: Distortion::NONE,
+            lenses: Vec::new(),
             seed: 0,
         }
     }
@@ -226,8 +228,7 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
         }
     }
     pair_ransac(options).check()?;
-    let Distortion { k1, k2, p1, p2, k3 } = options.distortion;
-    Distortion::from_coefficients([k1, k2, p1, p2, k3])?;
+    options.lenses.iter().try_for_each(SfmLens::check)?;
     (input.images.iter())
         .filter_map(|image| image.position.as_ref())
         .try_for_each(PositionPrior::check)?;
@@ -256,7 +257,7 @@ pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrin
 /// # Errors
 /// [`Error::TooFew`] for fewer than two photographs, [`Error::SizeMismatch`] unless there is one
 /// set of intrinsics or one a photograph, [`Error::OutOfRange`] for options out of range or
-/// matches that refer to what is not there, [`Error::NotFinite`] for NaN and infinities.
+/// matches that refer to what is not there, [`Error::NotFinite`] for NaN and infinities, in a lens as well.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited".
 pub fn reconstruct(
@@ -334,9 +335,9 @@ fn reconstruct_telling(
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     // Bad indices are found before the work begins.
     build_tracks(&counts, &input.pairs)?;
-    let pixels = undistorted(images, &intrinsics, &distortions(images, options));
-    let verified = verify(input, options, &intrinsics, &pixels, &mut reporter);
-    grow(images, &intrinsics, pixels, &verified, options, reporter)
+    let views = Views::new(images, &intrinsics, &lenses(images, options));
+    let verified = verify(input, options, &intrinsics, &views, &mut reporter);
+    grow(images, &intrinsics, &views, &verified, options, reporter)
 }
 
 /// As [`reconstruct`], from pairs that [`verify_matches`](super::verify_matches) has tested already, wherever and in
@@ -361,24 +362,25 @@ pub fn reconstruct_verified(
         pairs: Vec::new(),
     };
     let intrinsics = check(&input, options)?;
-    let pixels = undistorted(images, &intrinsics, &distortions(images, options));
+    let views = Views::new(images, &intrinsics, &lenses(images, options));
     let reporter = Reporter {
         observer,
         watcher: None,
         canceled: false,
     };
-    grow(images, &intrinsics, pixels, verified, options, reporter)
+    grow(images, &intrinsics, &views, verified, options, reporter)
 }
 
 /// Of each image, as it is at the start.
-pub(super) fn distortions(images: &[SfmImage], options: &SfmOptions) -> Vec<Distortion> {
-    vec![options.distortion; images.len()]
+pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<SfmLens> {
+    let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
+    images.iter().map(of).collect()
 }
 
 fn grow(
     images: &[SfmImage],
     intrinsics: &[Intrinsics],
-    pixels: Vec<Vec<Point2<f64>>>,
+    views: &Views,
     verified: &[VerifiedPair],
     options: &SfmOptions,
     mut reporter: Reporter<'_>,
@@ -398,9 +400,9 @@ fn grow(
         let mut builder = Builder {
             images,
             options,
-            pixels: pixels.clone(),
+            views: views.clone(),
             intrinsics: intrinsics.to_vec(),
-            distortions: distortions(images, options),
+            lenses: lenses(images, options),
             tracks: &tracks,
             track_of: &track_of,
             taken: taken.clone(),
@@ -432,7 +434,7 @@ pub(super) fn verify(
     input: &SfmInput,
     options: &SfmOptions,
     intrinsics: &[Intrinsics],
-    pixels: &[Vec<Point2<f64>>],
+    views: &Views,
     reporter: &mut Reporter<'_>,
 ) -> Vec<VerifiedPair> {
     let total = input.pairs.len();
@@ -441,12 +443,10 @@ pub(super) fn verify(
     for (group, pairs) in input.pairs.chunks(8).enumerate() {
         let mut found: Vec<Option<VerifiedPair>> = vec![None; pairs.len()];
         crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
-            let pair = &pairs[n];
-            let (a, b) = (pair.image1, pair.image2);
             found[0] = verify_pair(
-                pair,
-                [&pixels[a], &pixels[b]],
-                [&intrinsics[a], &intrinsics[b]],
+                &pairs[n],
+                views,
+                intrinsics,
                 &pair_ransac(options),
                 options.min_num_inliers,
             );

@@ -1,13 +1,14 @@
 //! Visual odometry: where a camera went, frame after frame.
 
-use super::builder::{Builder, undistorted};
+use super::builder::Builder;
 use super::bundle::Sensor;
 use super::incremental::{
-    Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, distortions, verify,
+    Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, lenses, verify,
 };
 use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
+use super::views::Views;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
@@ -173,9 +174,9 @@ fn follow(
         watcher: None,
         canceled: false,
     };
-    let distortions = distortions(images, &options.sfm);
-    let pixels = undistorted(images, &intrinsics, &distortions);
-    let verified = verify(input, &options.sfm, &intrinsics, &pixels, &mut reporter);
+    let lenses = lenses(images, &options.sfm);
+    let views = Views::new(images, &intrinsics, &lenses);
+    let verified = verify(input, &options.sfm, &intrinsics, &views, &mut reporter);
     let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
     let tracks = build_tracks(&counts, &surviving)?;
     let mut track_of: Vec<Vec<u32>> = counts.iter().map(|n| vec![u32::MAX; *n]).collect();
@@ -187,9 +188,9 @@ fn follow(
     let mut builder = Builder {
         images,
         options: &options.sfm,
-        pixels,
+        views,
         intrinsics,
-        distortions,
+        lenses,
         tracks: &tracks,
         track_of: &track_of,
         taken: vec![false; images.len()],

@@ -1,8 +1,9 @@
 //! What structure from motion finds: cameras, points, and which saw which.
 
 use super::bundle::{Bundle, Observation, PositionPrior};
+use super::lens::SfmLens;
 use super::tracks::TrackElement;
-use crate::camera::{Camera, Distortion, RigidTransform};
+use crate::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
 /// A photograph, reduced to its keypoints.
@@ -18,7 +19,8 @@ pub struct SfmImage {
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.
     pub colors: Vec<[u8; 3]>,
-    /// Its lens: photographs with the same number share what is refined of it. 0.
+    /// Its lens, of [`SfmOptions::lenses`](super::SfmOptions::lenses): photographs with the same number share what is
+    /// refined of it. 0.
     pub lens: usize,
     /// Where it was taken, if that is known.
     pub position: Option<PositionPrior>,
@@ -43,8 +45,8 @@ pub struct ScenePoint {
 pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
     pub cameras: Vec<Option<Camera>>,
-    /// The lens distortion of each image; missing entries have none.
-    pub distortions: Vec<Distortion>,
+    /// The lens of each image; missing entries bend nothing.
+    pub lenses: Vec<SfmLens>,
     /// Whether it stands where the known positions of its photographs are, in their unit of length.
     pub is_placed: bool,
     /// The points.
@@ -57,9 +59,9 @@ impl Reconstruction {
         self.cameras.iter().flatten().count()
     }
 
-    /// The lens distortion of an image.
-    pub fn distortion(&self, image: usize) -> Distortion {
-        self.distortions.get(image).copied().unwrap_or_default()
+    /// The lens of an image.
+    pub fn lens(&self, image: usize) -> SfmLens {
+        self.lenses.get(image).copied().unwrap_or_default()
     }
 
     /// The same in another world: places are where `to_from_world` moves them.
@@ -88,23 +90,12 @@ impl Reconstruction {
         self.points.iter().map(|point| point.track.len()).sum()
     }
 
-    /// The pixel where a camera shows a point, distortion included; `None` if the image is not
-    /// registered or the point is not in front of its camera.
+    /// The pixel where a camera shows a point through its lens; `None` if the image is not
+    /// registered or the lens does not see the point: what is behind its camera, except by a fisheye.
     pub fn project(&self, image: usize, point: &Point3<f64>) -> Option<Point2<f64>> {
         let camera = self.cameras.get(image)?.as_ref()?;
         let p = camera.cam_from_world * point;
-        if p.z <= 0.0 {
-            return None;
-        }
-        let shown = self
-            .distortion(image)
-            .distort(&Point2::new(p.x / p.z, p.y / p.z));
-        let center = camera.intrinsics.principal_point();
-        let pixel = Point2::new(
-            camera.intrinsics.fu_px() * shown.x + center.x,
-            camera.intrinsics.fv_px() * shown.y + center.y,
-        );
-        (pixel.x.is_finite() && pixel.y.is_finite()).then_some(pixel)
+        self.lens(image).pixel(&camera.intrinsics, &p.coords)
     }
 
     /// Mean length of all reprojection errors, pixels; 0 without observations.
@@ -135,8 +126,8 @@ impl Reconstruction {
                 bundle.cameras.push(*camera);
                 let lens = lenses.number_of(images[image].lens);
                 bundle.lens_of_camera.push(lens);
-                if lens == bundle.distortions.len() {
-                    bundle.distortions.push(self.distortion(image));
+                if lens == bundle.lenses.len() {
+                    bundle.lenses.push(self.lens(image));
                 }
             }
         }

@@ -1,32 +1,61 @@
 //! A point from a track, some of whose keypoints may be wrong.
 
+use super::views::View;
 use crate::camera::Camera;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-use nalgebra::{Matrix3, Point2, Point3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector2, Vector3};
 
-/// A keypoint, its distortion undone, and the camera that saw it.
+/// A keypoint, without what the lens did, and the camera that saw it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
+pub(super) struct Sight<'a> {
     pub(super) camera: Camera,
-    pub(super) pixel: Point2<f64>,
+    pub(super) view: View<'a>,
 }
 
-impl Sight {
+impl Sight<'_> {
     fn ray(&self) -> Vector3<f64> {
-        self.camera.ray_in_world(&self.pixel).normalize()
+        match &self.view {
+            View::Pixel(pixel) => self.camera.ray_in_world(pixel).normalize(),
+            View::Ray(seen) => {
+                let rotation = &self.camera.cam_from_world.rotation;
+                rotation.inverse_transform_vector(&seen.ray())
+            }
+        }
     }
 
-    /// Squared reprojection error; infinite behind the camera.
+    /// Squared reprojection error; infinite behind the camera, or 90° and more off the ray.
     pub(super) fn error_sq(&self, point: &Point3<f64>) -> f64 {
-        self.camera
-            .project(point)
-            .map_or(f64::INFINITY, |pixel| (pixel - self.pixel).norm_squared())
+        match &self.view {
+            View::Pixel(pixel) => self
+                .camera
+                .project(point)
+                .map_or(f64::INFINITY, |seen| (seen - pixel).norm_squared()),
+            View::Ray(seen) => seen.error_sq(&(self.camera.cam_from_world * point).coords),
+        }
+    }
+
+    /// The reprojection error and its derivative by the point in the camera frame; `None` 90° and more off a ray.
+    fn residual(&self, p: &Point3<f64>) -> Option<(Vector2<f64>, SMatrix<f64, 2, 3>)> {
+        let pixel = match &self.view {
+            View::Pixel(pixel) => pixel,
+            View::Ray(seen) => return seen.offset_with_derivative(&p.coords),
+        };
+        let k = &self.camera.intrinsics;
+        let (x, y) = (p.x / p.z, p.y / p.z);
+        let center = k.principal_point();
+        let residual = Vector2::new(
+            k.fu_px() * x + center.x - pixel.x,
+            k.fv_px() * y + center.y - pixel.y,
+        );
+        let (fu, fv) = (k.fu_px() / p.z, k.fv_px() / p.z);
+        let by_p = SMatrix::<f64, 2, 3>::new(fu, 0.0, -fu * x, 0.0, fv, -fv * y);
+        Some((residual, by_p))
     }
 }
 
 /// The point nearest to all rays in the sense of `Σ ‖(I − d dᵀ)(X − C)‖²`; `None` if they are
 /// parallel.
-fn nearest_to_rays(sights: &[Sight], chosen: impl Fn(usize) -> bool) -> Option<Point3<f64>> {
+fn nearest_to_rays(sights: &[Sight<'_>], chosen: impl Fn(usize) -> bool) -> Option<Point3<f64>> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (_, sight) in sights.iter().enumerate().filter(|(i, _)| chosen(*i)) {
         let ray = sight.ray();
@@ -57,7 +86,7 @@ pub(super) fn widest_angle_rad<'a>(
 }
 
 struct Refinement<'a> {
-    sights: &'a [Sight],
+    sights: &'a [Sight<'a>],
     inliers: &'a [bool],
 }
 
@@ -73,15 +102,10 @@ impl FixedProblem<3> for Refinement<'_> {
         {
             let rotation = sight.camera.cam_from_world.rotation.to_rotation_matrix();
             let p = sight.camera.cam_from_world * point;
-            let k = &sight.camera.intrinsics;
-            let (x, y) = (p.x / p.z, p.y / p.z);
-            let center = k.principal_point();
-            let residual = Vector2::new(
-                k.fu_px() * x + center.x - sight.pixel.x,
-                k.fv_px() * y + center.y - sight.pixel.y,
-            );
-            let (fu, fv) = (k.fu_px() / p.z, k.fv_px() / p.z);
-            let by_p = SMatrix::<f64, 2, 3>::new(fu, 0.0, -fu * x, 0.0, fv, -fv * y);
+            let Some((residual, by_p)) = sight.residual(&p) else {
+                normal.cost = f64::INFINITY;
+                continue;
+            };
             normal.add(&residual, &(by_p * rotation.matrix()), &RobustLoss::Trivial);
         }
     }
@@ -114,7 +138,7 @@ impl FixedProblem<3> for Refinement<'_> {
 /// Every pair of sights (of long tracks, the pairs of some) proposes a point; that with the
 /// smallest truncated error is refined on its inliers.
 pub(super) fn triangulate_track(
-    sights: &[Sight],
+    sights: &[Sight<'_>],
     max_error_px: f64,
     min_angle_rad: f64,
 ) -> Option<(Point3<f64>, Vec<bool>)> {
@@ -182,7 +206,7 @@ mod tests {
     use super::*;
     use crate::camera::{Intrinsics, look_at};
 
-    fn sights(point: &Point3<f64>, count: usize, spread: f64) -> Vec<Sight> {
+    fn sights(point: &Point3<f64>, count: usize, spread: f64) -> Vec<Sight<'static>> {
         (0..count)
             .map(|i| {
                 let center = Point3::new(spread * i as f64, 0.1 * (i % 2) as f64, -5.0);
@@ -193,10 +217,16 @@ mod tests {
                 };
                 Sight {
                     camera,
-                    pixel: camera.project(point).unwrap(),
+                    view: View::Pixel(camera.project(point).unwrap()),
                 }
             })
             .collect()
+    }
+
+    fn shift(sight: &mut Sight<'_>, u: f64, v: f64) {
+        if let View::Pixel(pixel) = &mut sight.view {
+            *pixel += Vector2::new(u, v);
+        }
     }
 
     #[test]
@@ -214,8 +244,8 @@ mod tests {
     fn wrong_sights_are_left_out() {
         let truth = Point3::new(0.3, -0.2, 0.4);
         let mut list = sights(&truth, 6, 0.3);
-        list[1].pixel.x += 40.0;
-        list[4].pixel.y -= 25.0;
+        shift(&mut list[1], 40.0, 0.0);
+        shift(&mut list[4], 0.0, -25.0);
         let (point, inliers) = triangulate_track(&list, 2.0, 0.01).unwrap();
         assert!((point - truth).norm() < 1e-9);
         assert_eq!(inliers, [true, false, true, true, false, true]);
@@ -229,7 +259,7 @@ mod tests {
         let one = sights(&truth, 1, 1.0)[0];
         assert!(triangulate_track(&[one, one], 2.0, 0.0).is_none());
         let mut apart = sights(&truth, 2, 1.0);
-        apart[0].pixel.y += 200.0;
+        shift(&mut apart[0], 0.0, 200.0);
         assert!(triangulate_track(&apart, 2.0, 0.01).is_none());
         assert!(triangulate_track(&[], 2.0, 0.0).is_none());
     }

@@ -1,9 +1,10 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
-use super::builder::undistorted;
-use super::incremental::SfmOptions;
+use super::incremental::{SfmOptions, lenses};
+use super::lens::SfmLens;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
+use super::views::Views;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
@@ -32,7 +33,7 @@ pub struct VerifiedPair {
 ///
 /// * `pair`: matches of the photographs' keypoints
 /// * `images`, `intrinsics`: of the two photographs that the pair names
-/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::distortion`] and the
+/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::lenses`] and the
 ///   seed
 ///
 /// # Errors
@@ -55,17 +56,31 @@ pub fn verify_matches(
             value: f64::from(if i as usize >= counts[0] { i } else { j }),
         });
     }
-    let pixels = [0, 1].map(|n: usize| {
-        let image = core::slice::from_ref(images[n]);
-        undistorted(image, &[*intrinsics[n]], &[options.distortion]).swap_remove(0)
-    });
-    Ok(verify_pair(
-        pair,
-        [&pixels[0], &pixels[1]],
-        intrinsics,
+    let images = images.map(Clone::clone);
+    let intrinsics = intrinsics.map(|k| *k);
+    let of_each = lenses(&images, options);
+    of_each.iter().try_for_each(SfmLens::check)?;
+    let views = Views::new(&images, &intrinsics, &of_each);
+    // The two are all the images that there are.
+    let here = PairMatches {
+        image1: 0,
+        image2: 1,
+        matches: pair.matches.clone(),
+    };
+    let found = verify_pair(
+        &here,
+        &views,
+        &intrinsics,
         &pair_ransac(options),
         options.min_num_inliers,
-    ))
+    );
+    Ok(found.map(|found| VerifiedPair {
+        pair: PairMatches {
+            matches: found.pair.matches,
+            ..*pair
+        },
+        ..found
+    }))
 }
 
 /// How pairs are tested.
@@ -78,14 +93,23 @@ pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///
-/// * `pixels`: of all keypoints of both images, distortion undone
+/// * `views`, `intrinsics`: of all images
 pub(super) fn verify_pair(
     pair: &PairMatches,
-    pixels: [&[Point2<f64>]; 2],
-    intrinsics: [&Intrinsics; 2],
+    views: &Views,
+    intrinsics: &[Intrinsics],
     options: &RansacOptions,
     min_num_inliers: usize,
 ) -> Option<VerifiedPair> {
+    let both = [pair.image1, pair.image2];
+    let intrinsics = both.map(|image| &intrinsics[image]);
+    let pixels = match views {
+        Views::Pinhole(pixels) => both.map(|image| &pixels[image][..]),
+        Views::Rays { wide, seen } => {
+            let seen = both.map(|image| &seen[image][..]);
+            return (wide.verify)(pair, seen, options, min_num_inliers);
+        }
+    };
     if pair.matches.len() < min_num_inliers.max(5) {
         return None;
     }

@@ -1,8 +1,8 @@
 //! Why photographs are missing from a reconstruction.
 
-use super::builder::undistorted;
-use super::incremental::{SfmInput, SfmOptions, SfmResult, check, distortions};
+use super::incremental::{SfmInput, SfmOptions, SfmResult, check, lenses};
 use super::two_view_start::{pair_ransac, verify_pair};
+use super::views::Views;
 use crate::Result;
 
 /// Why a photograph is in no reconstruction.
@@ -91,11 +91,7 @@ pub fn why_unregistered(
     result: &SfmResult,
 ) -> Result<Vec<WhyUnregistered>> {
     let intrinsics = check(input, options)?;
-    let pixels = undistorted(
-        &input.images,
-        &intrinsics,
-        &distortions(&input.images, options),
-    );
+    let views = Views::new(&input.images, &intrinsics, &lenses(&input.images, options));
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
     // Which keypoints of placed photographs belong to points.
@@ -138,16 +134,7 @@ pub fn why_unregistered(
         }
         let verified: Vec<_> = with
             .iter()
-            .filter_map(|pair| {
-                let (a, b) = (pair.image1, pair.image2);
-                verify_pair(
-                    pair,
-                    [&pixels[a], &pixels[b]],
-                    [&intrinsics[a], &intrinsics[b]],
-                    &ransac,
-                    needed,
-                )
-            })
+            .filter_map(|pair| verify_pair(pair, &views, &intrinsics, &ransac, needed))
             .collect();
         if verified.is_empty() {
             return WhyUnregistered::NoMotion;

@@ -9,6 +9,7 @@ mod rotation;
 mod search;
 mod turn;
 mod turn_and_focal;
+mod turn_of_rays;
 
 pub use choice::{
     Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
@@ -20,3 +21,4 @@ pub use rotation::{RotationEstimator, estimate_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};
 pub use turn_and_focal::{TurnAndFocal, find_turn_and_focal};
+pub(crate) use turn_of_rays::only_turned;

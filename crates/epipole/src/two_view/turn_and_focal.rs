@@ -168,8 +168,8 @@ impl Search<'_> {
 
     /// The turn that explains the matches best with so many times the focal lengths.
     fn at(&self, factor: f64) -> Option<Candidate> {
-        let [k1, k2] = self.intrinsics.map(|k| with_focal(k, factor));
-        let (k1, k2) = (k1?, k2?);
+        let [k1, k2] = self.intrinsics;
+        let (k1, k2) = (k1.zoomed(factor).ok()?, k2.zoomed(factor).ok()?);
         let rays: Vec<[Vector3<f64>; 2]> = (self.pairs.iter())
             .map(|(p1, p2)| [k1.ray(p1).normalize(), k2.ray(p2).normalize()])
             .collect();
@@ -225,11 +225,6 @@ impl Search<'_> {
         }
         Some(libm::exp((low + high) / 2.0))
     }
-}
-
-fn with_focal(k: &Intrinsics, factor: f64) -> Option<Intrinsics> {
-    let center = k.principal_point();
-    Intrinsics::new(factor * k.fu_px(), factor * k.fv_px(), center.x, center.y).ok()
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                 ..Distortion::NONE
             };
             let reconstruction = Reconstruction {
-                distortions: vec![distortion; images.len()],
+                lenses: vec![distortion.into(); images.len()],
                 cameras,
                 points,
                 ..Reconstruction::default()
@@ -123,7 +123,7 @@ proptest! {
         let cameras = lines(&model.cameras);
         for (index, words) in cameras.iter().enumerate() {
             prop_assert_eq!(words[0], (index + 1).to_string());
-            let is_bent = !reconstruction.distortion(0).is_none();
+            let is_bent = !reconstruction.lens(0).is_none();
             prop_assert_eq!(words.len(), if is_bent { 12 } else { 8 });
             words[2..].iter().for_each(|word| { number(word); });
         }

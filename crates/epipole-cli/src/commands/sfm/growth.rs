@@ -2,10 +2,11 @@
 
 use crate::context::Context;
 use crate::matrices::positive;
+use crate::photo::KeptLens;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
-use epipole::camera::Intrinsics;
-use epipole::sfm::{Photo, SfmOptions};
+use epipole::camera::{Intrinsics, LensKind};
+use epipole::sfm::{Photo, SfmLens, SfmOptions};
 
 /// Which photographs share a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -20,7 +21,7 @@ enum Lenses {
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
     /// Which photographs share a lens, and with it what is refined: all ("one"), those of equal size and focal length
-    /// ("alike"), or none ("each").
+    /// ("alike"), or none ("each"). Those of --camera share none with others, nor with those that were turned otherwise.
     #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
     lenses: Lenses,
     /// Refine one factor for the focal lengths of each lens, also where they are known.
@@ -32,10 +33,11 @@ pub(super) struct GrowthArguments {
     /// Refine where the principal points are, one shift for each lens.
     #[arg(long)]
     refine_principal_point: bool,
-    /// Refine two terms of radial distortion for each lens.
+    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye four, of the division
+    /// model its one.
     #[arg(long)]
     refine_distortion: bool,
-    /// Refine two terms of tangential distortion for each lens.
+    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model have none.
     #[arg(long)]
     refine_tangential: bool,
     /// Fewest photographs that must see a point which is kept.
@@ -59,24 +61,43 @@ pub(super) struct GrowthArguments {
 }
 
 impl GrowthArguments {
-    /// Tells photographs which lens took them.
+    /// Tells photographs which lens took them, and answers what each lens is.
     ///
-    /// * `intrinsics`: of each photograph
-    pub(super) fn give_lenses(&self, photos: &mut [Photo], intrinsics: &[Intrinsics]) {
+    /// * `intrinsics`, `kept`: of each photograph
+    pub(super) fn give_lenses(
+        &self,
+        photos: &mut [Photo],
+        intrinsics: &[Intrinsics],
+        kept: &[Option<KeptLens>],
+    ) -> Vec<SfmLens> {
         let mut kinds = Vec::new();
-        for (index, (photo, k)) in photos.iter_mut().zip(intrinsics).enumerate() {
-            photo.lens = match self.lenses {
-                Lenses::One => 0,
-                Lenses::Each => index,
-                Lenses::Alike => {
-                    let kind = (photo.image.dimensions(), *k);
-                    let place = kinds.iter().position(|known| *known == kind);
-                    place.unwrap_or_else(|| {
-                        kinds.push(kind);
-                        kinds.len() - 1
-                    })
-                }
+        for (index, (photo, (k, kept))) in
+            (photos.iter_mut().zip(intrinsics.iter().zip(kept))).enumerate()
+        {
+            let alike = match self.lenses {
+                Lenses::One => None,
+                Lenses::Each => Some((index, None)),
+                Lenses::Alike => Some((0, Some((photo.image.dimensions(), *k)))),
             };
+            let kind = (alike, *kept);
+            let place = kinds.iter().position(|known| *known == kind);
+            photo.lens = place.unwrap_or_else(|| {
+                kinds.push(kind);
+                kinds.len() - 1
+            });
+        }
+        let lens = |kept: Option<KeptLens>| kept.map_or(SfmLens::NONE, |kept| kept.lens.into());
+        kinds.into_iter().map(|(_, kept)| lens(kept)).collect()
+    }
+
+    /// Says what is asked for and cannot be.
+    pub(super) fn tell_of_nothing_to_refine(&self, lenses: &[SfmLens], context: &Context) {
+        let has_tangential =
+            |lens: &SfmLens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
+        if self.refine_tangential && !lenses.iter().any(has_tangential) {
+            context.warn(
+                "--refine-tangential makes no difference here: the model of the lens has no tangential terms",
+            );
         }
     }
 
@@ -114,6 +135,7 @@ mod tests {
     use super::*;
     use crate::robust::PHOTO_MAX_ERROR;
     use clap::Parser;
+    use epipole::camera::{Fisheye, Lens};
 
     #[derive(Debug, Parser)]
     #[command(mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)))]
@@ -147,6 +169,36 @@ mod tests {
         let said = options(&words, false);
         assert_eq!((said.min_num_inliers, said.ransac.max_error_px), (30, 0.5));
         assert_eq!(said.ransac.confidence, 0.9);
+    }
+
+    #[test]
+    fn photographs_that_cannot_share_a_lens_have_their_own() {
+        let fisheye = KeptLens {
+            lens: Lens::Fisheye(Fisheye::default()),
+            quarters: 0,
+        };
+        let turned = KeptLens {
+            quarters: 1,
+            ..fisheye
+        };
+        let kept = [None, Some(fisheye), Some(fisheye), Some(turned), None];
+        let k = |focal_px| Intrinsics::centered(focal_px, 640, 480).unwrap();
+        let intrinsics = [k(500.0), k(500.0), k(600.0), k(600.0), k(500.0)];
+        for (words, numbers) in [
+            ("one", [0, 1, 1, 2, 0]),
+            ("alike", [0, 1, 2, 3, 0]),
+            ("each", [0, 1, 2, 3, 4]),
+        ] {
+            let all = All::try_parse_from(["epipole", "--lenses", words]).unwrap();
+            let mut photos = vec![Photo::default(); 5];
+            let lenses = (all.growth).give_lenses(&mut photos, &intrinsics, &kept);
+            let given: Vec<usize> = photos.iter().map(|photo| photo.lens).collect();
+            assert_eq!(given, numbers, "{words}");
+            for (photo, kept) in photos.iter().zip(kept) {
+                let expected = kept.map_or(SfmLens::NONE, |kept| kept.lens.into());
+                assert_eq!(lenses[photo.lens], expected);
+            }
+        }
     }
 
     #[test]

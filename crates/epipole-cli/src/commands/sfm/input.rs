@@ -4,7 +4,7 @@ use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::lens;
-use crate::photo::{Photo, SizeArguments};
+use crate::photo::{KeptLens, Photo, SizeArguments};
 use clap::Args;
 use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
 use epipole::camera::Intrinsics;
@@ -24,10 +24,14 @@ pub(super) struct InputArguments {
     /// by --camera, by its EXIF data, or to be guessed.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
-    /// A camera that `epipole calibrate` wrote: photographs of its size are freed of its distortion first, also those
-    /// that were taken upright.
+    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for photographs of its size, also those
+    /// that were taken upright. They stay as they are, up to their borders, and cameras.txt tells the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
+    /// Free the photographs of --camera of its distortion first: cameras.txt then tells pinhole cameras, for programs that
+    /// know no others. What a flat picture cannot keep is lost: of a fisheye the border.
+    #[arg(long, requires = "camera_file")]
+    undistort: bool,
     #[command(flatten)]
     size: SizeArguments,
 }
@@ -47,6 +51,8 @@ fn focal(text: &str) -> Result<Focal, String> {
 pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
     pub(super) intrinsics: Vec<Intrinsics>,
+    /// Of the photographs that keep the distortion of a known lens.
+    pub(super) lenses: Vec<Option<KeptLens>>,
     /// Where the files of the photographs say that they were taken.
     pub(super) places: Vec<Option<Geodetic>>,
     /// Of the focal lengths that nobody gave.
@@ -77,20 +83,27 @@ impl InputArguments {
         }
         let camera = self.camera_file.as_ref();
         let camera = camera.map(|path| lens::read(path, false)).transpose()?;
-        let flat = camera
-            .as_ref()
+        let flat = (camera.as_ref())
+            .filter(|_| self.undistort)
             .map(|camera| Undistortion::new(camera, Keep::Valid));
         let flat = flat.transpose()?;
+        if let (Some(camera), None) = (&camera, &flat) {
+            tell_of_unseen(camera, context)?;
+        }
         let mut input = Input {
             photos: Vec::new(),
             intrinsics: Vec::new(),
+            lenses: Vec::new(),
             places: Vec::new(),
             guesses: Vec::new(),
             used: Vec::new(),
         };
         let (mut sizes, mut others) = (Vec::new(), Vec::new());
         for (index, path) in paths.iter().enumerate() {
-            let photo = Photo::prepared(path, self.size, flat.as_ref())?;
+            let photo = match &camera {
+                Some(camera) if flat.is_none() => Photo::by_camera(path, self.size, camera)?,
+                _ => Photo::prepared(path, self.size, flat.as_ref())?,
+            };
             let (k, guess) = match self.focals_px.get(index) {
                 Some(Focal(Some(focal_px))) => (of_focal(*focal_px, &photo)?, None),
                 _ => self.camera.or_guess(&photo)?,
@@ -101,6 +114,7 @@ impl InputArguments {
             sizes.push(photo.full_size);
             input.guesses.extend(guess);
             input.intrinsics.push(k);
+            input.lenses.push(photo.lens);
             input.places.push(photo.place);
             input.used.push(Used {
                 path: path.clone(),
@@ -126,6 +140,30 @@ impl InputArguments {
         }
         Ok(input)
     }
+}
+
+/// A share of a photograph without rays that is more than the corners around the circle of a fisheye.
+const MUCH_UNSEEN: f64 = 0.3;
+/// So much that the file cannot be that of the camera.
+const MOST_UNSEEN: f64 = 0.75;
+
+/// Says that the lens model bends no ray to a large part of the photographs.
+///
+/// # Errors
+/// A sentence, if it is most of them.
+fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Result<(), Failure> {
+    let share = lens::unseen_share(camera);
+    let sentence = format!(
+        "the lens of --camera bends no ray to {:.0} % of its photographs: its model folds before it reaches there",
+        100.0 * share
+    );
+    if share > MOST_UNSEEN {
+        return Err(Failure::new("degenerate", sentence));
+    }
+    if share > MUCH_UNSEEN {
+        context.warn(&format!("{sentence}; what is seen there is left out"));
+    }
+    Ok(())
 }
 
 /// Says for which photographs the calibrated camera was not used.

@@ -141,11 +141,8 @@ fn turned_otherwise(
             report.inliers.clone(),
         )));
     }
-    let other = |k: &Intrinsics| {
-        let (center, factor) = (k.principal_point(), turn.focal_factor);
-        Intrinsics::new(factor * k.fu_px(), factor * k.fv_px(), center.x, center.y)
-    };
-    let better = estimate_two_view_calibrated(pixels1, pixels2, &other(k1)?, &other(k2)?, options)?;
+    let [k1, k2] = [k1.zoomed(turn.focal_factor)?, k2.zoomed(turn.focal_factor)?];
+    let better = estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, options)?;
     let count = |inliers: &[bool]| inliers.iter().filter(|inlier| **inlier).count() as f64;
     let gain = count(&better.inliers) / count(&report.inliers);
     let motion = better.cam2_from_cam1.filter(|_| gain > MIN_GAIN);

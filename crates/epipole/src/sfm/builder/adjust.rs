@@ -1,11 +1,12 @@
 //! Bundle adjustment of a growing reconstruction, or of a part of it.
 
-use super::{Builder, undistorted};
+use super::Builder;
 use crate::camera::Intrinsics;
 use crate::optim::{Iteration, LmOptions, RobustLoss};
 use crate::sfm::bundle::{Bundle, BundleOptions, Observation, Sensor, adjust_bundle};
 use crate::sfm::incremental::{Reporter, SfmStep};
 use crate::sfm::reconstruction::Lenses;
+use crate::sfm::views::Views;
 use std::ops::ControlFlow;
 
 impl Builder<'_> {
@@ -122,8 +123,8 @@ impl Builder<'_> {
     /// The number that the lens of an image has in a bundle, into which it comes if it is new there.
     fn lens_in(&self, bundle: &mut Bundle, lenses: &mut Lenses, image: usize) -> usize {
         let lens = lenses.number_of(self.images[image].lens);
-        if lens == bundle.distortions.len() {
-            bundle.distortions.push(self.distortions[image]);
+        if lens == bundle.lenses.len() {
+            bundle.lenses.push(self.lenses[image]);
         }
         lens
     }
@@ -151,7 +152,7 @@ impl Builder<'_> {
                 {
                     self.intrinsics[other] = k;
                 }
-                self.distortions[other] = bundle.distortions[lens];
+                self.lenses[other] = bundle.lenses[lens];
             }
         }
         for (camera, intrinsics) in self.cameras.iter_mut().zip(&self.intrinsics) {
@@ -159,6 +160,6 @@ impl Builder<'_> {
                 camera.intrinsics = *intrinsics;
             }
         }
-        self.pixels = undistorted(self.images, &self.intrinsics, &self.distortions);
+        self.views = Views::new(self.images, &self.intrinsics, &self.lenses);
     }
 }

@@ -6,14 +6,16 @@ mod points;
 
 use super::bundle::Sensor;
 use super::incremental::{Reporter, SfmOptions, SfmStep};
+use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
 use super::two_view_start::{VerifiedPair, pair_ransac};
+use super::views::{View, Views};
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::robust::{RansacOptions, SamplerKind};
-use nalgebra::{Point2, Point3};
+use nalgebra::Point3;
 
 /// A point and the elements of its track that agree with it.
 #[derive(Debug, Clone)]
@@ -25,11 +27,10 @@ pub(super) struct TrackPoint {
 pub(super) struct Builder<'a> {
     pub(super) images: &'a [SfmImage],
     pub(super) options: &'a SfmOptions,
-    /// Distortion undone.
-    pub(super) pixels: Vec<Vec<Point2<f64>>>,
+    pub(super) views: Views,
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Of each image.
-    pub(super) distortions: Vec<Distortion>,
+    pub(super) lenses: Vec<SfmLens>,
     pub(super) tracks: &'a [Vec<TrackElement>],
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: &'a [Vec<u32>],
@@ -41,38 +42,6 @@ pub(super) struct Builder<'a> {
     pub(super) points: Vec<Option<TrackPoint>>,
     /// Whether the world is that of the known positions.
     pub(super) is_placed: bool,
-}
-
-/// All keypoints as a camera without distortion would show them.
-pub(super) fn undistorted(
-    images: &[SfmImage],
-    intrinsics: &[Intrinsics],
-    distortions: &[Distortion],
-) -> Vec<Vec<Point2<f64>>> {
-    images
-        .iter()
-        .zip(intrinsics.iter().zip(distortions))
-        .map(|(image, (k, distortion))| {
-            if distortion.is_none() {
-                return image.keypoints.clone();
-            }
-            let center = k.principal_point();
-            image
-                .keypoints
-                .iter()
-                .map(|pixel| {
-                    let ray = k.ray(pixel);
-                    let bent = Point2::new(ray.x, ray.y);
-                    // Keypoints are finite, so there is always a nearest one.
-                    let straight = distortion.undistort_nearest(&bent).unwrap_or(bent);
-                    Point2::new(
-                        k.fu_px() * straight.x + center.x,
-                        k.fv_px() * straight.y + center.y,
-                    )
-                })
-                .collect()
-        })
-        .collect()
 }
 
 impl Builder<'_> {
@@ -105,15 +74,11 @@ impl Builder<'_> {
         self.points.iter().flatten().count()
     }
 
-    fn pixel(&self, element: TrackElement) -> Point2<f64> {
-        self.pixels[element.image as usize][element.keypoint as usize]
-    }
-
-    fn sight(&self, element: TrackElement) -> Option<Sight> {
-        self.cameras[element.image as usize].map(|camera| Sight {
-            camera,
-            pixel: self.pixel(element),
-        })
+    fn sight(&self, element: TrackElement) -> Option<Sight<'_>> {
+        let (image, keypoint) = (element.image as usize, element.keypoint as usize);
+        let camera = self.cameras[image]?;
+        let view = self.views.of(image, keypoint)?;
+        Some(Sight { camera, view })
     }
 
     /// Starts from the best pair that works.
@@ -302,21 +267,31 @@ impl Builder<'_> {
     /// Finds the camera of an image from the points it sees, and adds its observations.
     pub(super) fn register(&mut self, image: usize) -> Option<usize> {
         let visible = self.visible(image);
-        let (mut pixels, mut positions) = (Vec::new(), Vec::new());
-        for (element, track) in &visible {
-            if let Some(point) = &self.points[*track] {
-                pixels.push(self.pixel(*element));
-                positions.push(point.position);
-            }
-        }
         // Points come in no order.
         let ransac = RansacOptions {
             sampler: SamplerKind::Uniform,
             ..pair_ransac(self.options).within(self.options.max_registration_error_px)
         };
         let intrinsics = self.intrinsics[image];
+        let (mut pixels, mut rays, mut positions) = (Vec::new(), Vec::new(), Vec::new());
+        let mut of_visible = Vec::new();
+        for (n, (element, track)) in visible.iter().enumerate() {
+            let view = self.views.of(image, element.keypoint as usize);
+            if let (Some(point), Some(view)) = (&self.points[*track], view) {
+                match view {
+                    View::Pixel(pixel) => pixels.push(pixel),
+                    View::Ray(ray) => rays.push(*ray),
+                }
+                positions.push(point.position);
+                of_visible.push(n);
+            }
+        }
         // Without consensus the image is not registered, and may be later.
-        let found = estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac).ok()?;
+        let found = match &self.views {
+            Views::Pinhole(_) => estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac),
+            Views::Rays { wide, .. } => (wide.register)(&positions, &rays, &ransac),
+        };
+        let found = found.ok()?;
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
@@ -325,7 +300,8 @@ impl Builder<'_> {
             cam_from_world: found.model,
         };
         self.place(image, Some(camera));
-        for ((element, track), inlier) in visible.iter().zip(&found.inliers) {
+        for (n, inlier) in of_visible.into_iter().zip(&found.inliers) {
+            let (element, track) = &visible[n];
             if *inlier && let Some(point) = &mut self.points[*track] {
                 insert(&mut point.seen, *element);
             }
@@ -340,7 +316,7 @@ impl Builder<'_> {
     /// What there is.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
-            distortions: self.distortions.clone(),
+            lenses: self.lenses.clone(),
             is_placed: self.is_placed,
             points: (self.points.iter().flatten())
                 .map(|point| ScenePoint {

@@ -1,16 +1,21 @@
-//! Bundle adjustment of pinhole cameras.
+//! Bundle adjustment of cameras with their lenses.
 
 mod gauge;
+mod lens_state;
+#[cfg(test)]
+mod lens_tests;
 mod options;
 mod problem;
 #[cfg(test)]
 mod tests;
 
+use super::lens::SfmLens;
 use super::shares::iterations;
-use crate::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use crate::optim::{Iteration, LmReport, SchurSystem, minimize};
 use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
+use lens_state::{OF_ANY, OF_BROWN};
 use nalgebra::{Point2, Point3, Translation3, Vector2};
 use problem::{Problem, State};
 use std::ops::ControlFlow;
@@ -44,13 +49,13 @@ pub struct Sensor {
 /// Cameras, points and observations.
 ///
 /// Cameras of one lens share what is refined of it: a factor for their focal lengths, a shift of their principal
-/// points, and the distortion. One lens for all is the default; as many lenses as cameras give each its own.
+/// points, and its coefficients. One lens for all is the default; as many lenses as cameras give each its own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<Camera>,
-    /// How each lens distorts; missing entries do not.
-    pub distortions: Vec<Distortion>,
+    /// What each lens does to rays; missing entries bend nothing.
+    pub lenses: Vec<SfmLens>,
     /// The lens of each camera; missing entries are 0.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
@@ -93,9 +98,9 @@ impl Bundle {
         used.max().map_or(1, |last| last.saturating_add(1))
     }
 
-    /// Predicted minus observed pixel of an observation, given by its index; not finite if the
-    /// point is in the camera's center plane. Points behind the camera are mirrored through its
-    /// center, as in [`adjust_bundle`].
+    /// Predicted minus observed pixel of an observation, given by its index; not finite if the lens does not see the
+    /// point, or it is in the camera's center plane. Points behind the camera are mirrored through its
+    /// center, as in [`adjust_bundle`], except by a fisheye, which may see them.
     pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
         let o = &self.observations[observation];
         let eye = self.eye(observation);
@@ -103,8 +108,8 @@ impl Bundle {
         if let Some(sensor_from_camera) = eye.sensor_from_camera {
             p = sensor_from_camera * p;
         }
-        let distortion = self.distortions.get(eye.lens).copied().unwrap_or_default();
-        let shown = distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
+        let lens = self.lenses.get(eye.lens).copied().unwrap_or_default();
+        let shown = lens.shown(&p.coords);
         let center = eye.intrinsics.principal_point();
         Vector2::new(
             eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
@@ -172,7 +177,7 @@ pub(super) fn observation_pairs(
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
 /// camera or point that is not there, for a lens beyond the number of cameras and sensors, a standard deviation that is not positive, or
 /// for a loss that [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses,
-/// [`Error::NotFinite`] if a pixel, a known position or the cost at the start is not finite.
+/// [`Error::NotFinite`] if a pixel, a coefficient of a lens, a known position or the cost at the start is not finite.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
 /// is its §9.
@@ -235,6 +240,7 @@ pub fn adjust_bundle(
             value: sensor as f64,
         });
     }
+    bundle.lenses.iter().try_for_each(SfmLens::check)?;
     let num_lenses = bundle.num_lenses();
     if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
         return Err(Error::OutOfRange {
@@ -243,12 +249,43 @@ pub fn adjust_bundle(
             value: (num_lenses - 1) as f64,
         });
     }
+    // Room for more coefficients costs time, so it is taken only where some lens has more.
+    let more = (bundle.lenses.iter()).find(|lens| lens.kind() == LensKind::Rational);
+    match more.and_then(SfmLens::beyond_brown) {
+        Some(wide) => (wide.adjust)(bundle, options, observer),
+        None => adjust::<OF_BROWN>(bundle, pairs, options, observer),
+    }
+}
+
+/// [`adjust_bundle`] of a bundle that was checked, with room for the coefficients of any lens.
+pub(super) fn adjust_wide(
+    bundle: &mut Bundle,
+    options: &BundleOptions,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<LmReport> {
+    let pairs = observation_pairs(
+        &bundle.observations,
+        bundle.cameras.len(),
+        bundle.points.len(),
+    )?;
+    adjust::<OF_ANY>(bundle, pairs, options, observer)
+}
+
+/// * `S`: room for what is refined of a lens
+fn adjust<const S: usize>(
+    bundle: &mut Bundle,
+    pairs: Vec<(u32, u32)>,
+    options: &BundleOptions,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<LmReport> {
+    let num_lenses = bundle.num_lenses();
     let mut state = State::new(bundle);
-    let problem = Problem {
+    let problem = Problem::<S> {
         bundle,
         pairs,
         options,
         held_cameras: gauge::held_freedoms(bundle, options),
+        refined: lens_state::refined(bundle, options),
     };
     let mut system = SchurSystem::new(&problem);
     let report = minimize(&mut system, &mut state, &options.lm, observer)?;
@@ -266,10 +303,10 @@ pub fn adjust_bundle(
     (bundle.cameras, bundle.sensors) = (cameras, sensors);
     bundle.points = state.points;
     if options.refines_lens() {
-        let num_known = bundle.distortions.len().max(num_lenses);
-        bundle.distortions.resize(num_known, Distortion::NONE);
-        for (distortion, lens) in bundle.distortions.iter_mut().zip(&state.lenses) {
-            *distortion = lens.distortion;
+        let num_known = bundle.lenses.len().max(num_lenses);
+        bundle.lenses.resize(num_known, SfmLens::NONE);
+        for (lens, refined) in bundle.lenses.iter_mut().zip(&state.lenses) {
+            *lens = refined.lens;
         }
     }
     Ok(report)

@@ -1,5 +1,6 @@
 //! What a bundle adjustment refines, and what it is told besides.
 
+use crate::camera::{LensKind, MAX_COEFFICIENTS};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::{Error, Result};
 use nalgebra::{Point3, Vector3};
@@ -33,9 +34,10 @@ pub struct BundleOptions {
     pub refine_focal: bool,
     /// Refine where the principal points are: one shift for each lens, pixels.
     pub refine_principal_point: bool,
-    /// Refine the radial terms k1 and k2 of each lens.
+    /// Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational one, k1 to k4 of a
+    /// fisheye, k of the division model.
     pub refine_distortion: bool,
-    /// Refine the tangential terms p1 and p2 of each lens.
+    /// Refine the tangential terms p1 and p2 of each lens; fisheyes and the division model have none.
     pub refine_tangential: bool,
     /// What is known of where cameras are, by index; missing entries are unknown. Where there is any, no camera is
     /// held by the gauge.
@@ -51,6 +53,22 @@ impl BundleOptions {
             || self.refine_principal_point
             || self.refine_distortion
             || self.refine_tangential
+    }
+
+    /// Which coefficients of a lens are refined, in OpenCV's order.
+    pub(super) fn refined(&self, kind: LensKind) -> [bool; MAX_COEFFICIENTS] {
+        let (radial, tangential) = (self.refine_distortion, self.refine_tangential);
+        let mut refined = [false; MAX_COEFFICIENTS];
+        match kind {
+            LensKind::Brown => refined[..2].fill(radial),
+            LensKind::Rational => refined.fill(radial),
+            LensKind::Fisheye => refined[..4].fill(radial),
+            LensKind::Division => refined[0] = radial,
+        }
+        if matches!(kind, LensKind::Brown | LensKind::Rational) {
+            refined[2..4].fill(tangential);
+        }
+        refined
     }
 
     /// Refuses losses and priors that make no sense.

@@ -1,48 +1,12 @@
 //! What the solver sees of a bundle: residuals, their derivatives, and steps.
 
-use super::{Bundle, BundleOptions};
-use crate::Result;
+use super::lens_state::LensState;
+use super::{Bundle, BundleOptions, Eye};
+use crate::camera::MAX_COEFFICIENTS;
 use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
-use crate::camera::{Distortion, Intrinsics};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, RobustLoss};
-use nalgebra::{Point2, Point3, Vector2, Vector3};
-
-/// What is refined of a lens: a factor of the focal lengths, k1, k2, p1, p2, the principal point's shift. What is
-/// refined more often comes first: what is behind it costs nothing.
-pub(super) const OF_LENS: usize = 7;
-
-/// A lens, as far as it is refined.
-#[derive(Clone)]
-pub(super) struct LensState {
-    focal: f64,
-    shift_px: Vector2<f64>,
-    pub(super) distortion: Distortion,
-}
-
-impl LensState {
-    /// The intrinsics that became of these.
-    pub(super) fn refined(&self, k: &Intrinsics) -> Result<Intrinsics> {
-        let center = k.principal_point() + self.shift_px;
-        Intrinsics::new(
-            k.fu_px() * self.focal,
-            k.fv_px() * self.focal,
-            center.x,
-            center.y,
-        )
-    }
-
-    fn moved(&self, step: &[f64; OF_LENS]) -> Self {
-        let [focal, k1, k2, p1, p2, u, v] = *step;
-        let mut moved = self.clone();
-        moved.focal += focal;
-        moved.shift_px += Vector2::new(u, v);
-        moved.distortion.k1 += k1;
-        moved.distortion.k2 += k2;
-        moved.distortion.p1 += p1;
-        moved.distortion.p2 += p2;
-        moved
-    }
-}
+use crate::sfm::wide::Wide;
+use nalgebra::{Point2, Point3, Vector3};
 
 #[derive(Clone)]
 pub(super) struct State {
@@ -61,11 +25,8 @@ impl State {
                 PoseState::new(pose.rotation, pose.translation.vector)
             })
             .collect();
-        let lens = |index: usize| LensState {
-            focal: 1.0,
-            shift_px: Vector2::zeros(),
-            distortion: bundle.distortions.get(index).copied().unwrap_or_default(),
-        };
+        let lens =
+            |index: usize| LensState::new(bundle.lenses.get(index).copied().unwrap_or_default());
         Self {
             cameras,
             lenses: (0..bundle.num_lenses()).map(lens).collect(),
@@ -74,14 +35,123 @@ impl State {
     }
 }
 
-pub(super) struct Problem<'a> {
+pub(super) struct Problem<'a, const S: usize> {
     pub(super) bundle: &'a Bundle,
     pub(super) pairs: Vec<(u32, u32)>,
     pub(super) options: &'a BundleOptions,
     pub(super) held_cameras: Vec<[bool; 6]>,
+    /// Which coefficients are, lens by lens.
+    pub(super) refined: Vec<[bool; MAX_COEFFICIENTS]>,
 }
 
-impl BundleProblem<6, OF_LENS> for Problem<'_> {
+/// An observation, as the cameras and lenses of a state make it.
+struct Sight<'a> {
+    camera: &'a PoseState,
+    eye: Eye<'a>,
+    lens: &'a LensState,
+    /// The camera's, see [`PoseState::rotated`].
+    rotated: Vector3<f64>,
+    /// The point, in the frame of the eye.
+    p: Vector3<f64>,
+    pixel: Point2<f64>,
+}
+
+impl Sight<'_> {
+    /// The focal length that a row of the residual started with.
+    fn focal_px(&self, row: usize) -> f64 {
+        match row {
+            0 => self.eye.intrinsics.fu_px(),
+            _ => self.eye.intrinsics.fv_px(),
+        }
+    }
+}
+
+fn nothing<const S: usize>() -> ObservationTerms<6, S> {
+    ObservationTerms {
+        residual: [0.0; 2],
+        camera: [[0.0; 6]; 2],
+        shared: [[0.0; S]; 2],
+        point: [[0.0; 3]; 2],
+    }
+}
+
+impl<const S: usize> Problem<'_, S> {
+    #[inline]
+    fn sight<'a>(&'a self, state: &'a State, observation: usize) -> Sight<'a> {
+        let o = &self.bundle.observations[observation];
+        let camera = &state.cameras[o.camera];
+        let eye = self.bundle.eye(observation);
+        let rotated = camera.rotated(&state.points[o.point]);
+        let mut p = rotated + camera.translation;
+        if let Some(sensor_from_camera) = eye.sensor_from_camera {
+            p = (sensor_from_camera * Point3::from(p)).coords;
+        }
+        Sight {
+            lens: &state.lenses[eye.lens],
+            camera,
+            eye,
+            rotated,
+            p,
+            pixel: o.pixel,
+        }
+    }
+
+    /// Fills a row of the terms.
+    ///
+    /// * `shown`: where the lens shows the point, in units of the focal length
+    /// * `by_p`: how the pixel moves with the point, in the frame of the eye
+    /// * `by_coefficients`: how `shown` moves with the lens's
+    #[inline]
+    fn fill(
+        &self,
+        terms: &mut ObservationTerms<6, S>,
+        row: usize,
+        sight: &Sight<'_>,
+        shown: f64,
+        mut by_p: Vector3<f64>,
+        by_coefficients: &[f64],
+    ) {
+        let focal_px = sight.focal_px(row);
+        let f = focal_px * sight.lens.focal;
+        let center = sight.eye.intrinsics.principal_point() + sight.lens.shift_px;
+        terms.residual[row] = f * shown + center[row] - sight.pixel[row];
+        if let Some(sensor_from_camera) = sight.eye.sensor_from_camera {
+            by_p = sensor_from_camera.rotation.inverse() * by_p;
+        }
+        (terms.camera[row], terms.point[row]) = sight.camera.derivatives(&sight.rotated, &by_p);
+        let shared = &mut terms.shared[row];
+        shared[0] = focal_px * shown;
+        shared[S - 2 + row] = 1.0;
+        let refined = &self.refined[sight.eye.lens];
+        let slots = shared[1..S - 2].iter_mut().zip(by_coefficients);
+        for ((slope, by), refined) in slots.zip(refined) {
+            *slope = if *refined { f * by } else { 0.0 };
+        }
+    }
+
+    /// [`linearize`](BundleProblem::linearize) by the derivatives of any lens.
+    fn linearize_beyond_brown(&self, sight: &Sight<'_>, wide: &Wide) -> ObservationTerms<6, S> {
+        let (lens, p) = (&sight.lens.lens, &sight.p);
+        let shown = lens.shown(p);
+        let (by_point, by_coefficients) = lens.derivatives(wide, p);
+        let mut terms = nothing();
+        for row in 0..2 {
+            let f = sight.focal_px(row) * sight.lens.focal;
+            let by_p = by_point.row(row).transpose() * f;
+            self.fill(
+                &mut terms,
+                row,
+                sight,
+                shown[row],
+                by_p,
+                &by_coefficients[row],
+            );
+        }
+        terms
+    }
+}
+
+impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
     type Parameters = State;
 
     fn num_cameras(&self) -> usize {
@@ -108,15 +178,15 @@ impl BundleProblem<6, OF_LENS> for Problem<'_> {
     fn group(&self, observation: usize) -> usize {
         self.bundle.eye(observation).lens
     }
-    fn held_shared(&self) -> [bool; OF_LENS] {
-        let held = |refined: bool| !refined;
-        let focal = held(self.options.refine_focal);
-        let center = held(self.options.refine_principal_point);
-        let radial = held(self.options.refine_distortion);
-        let tangential = held(self.options.refine_tangential);
-        [
-            focal, radial, radial, tangential, tangential, center, center,
-        ]
+    fn held_shared(&self) -> [bool; S] {
+        let mut held = [true; S];
+        held[0] = !self.options.refine_focal;
+        // Held where no lens has it refined; of the others it has no derivative.
+        for (n, held) in held[1..S - 2].iter_mut().enumerate() {
+            *held = !self.refined.iter().any(|refined| refined[n]);
+        }
+        held[S - 2..].fill(!self.options.refine_principal_point);
+        held
     }
     fn prior(&self, state: &State, camera: usize) -> Option<PriorTerms<6>> {
         let known = (self.options.position_priors.get(camera)?).as_ref()?;
@@ -140,35 +210,26 @@ impl BundleProblem<6, OF_LENS> for Problem<'_> {
     }
 
     fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
-        let o = &self.bundle.observations[observation];
-        let camera = &state.cameras[o.camera];
-        let eye = self.bundle.eye(observation);
-        let mut p = camera.rotated(&state.points[o.point]) + camera.translation;
-        if let Some(sensor_from_camera) = eye.sensor_from_camera {
-            p = (sensor_from_camera * Point3::from(p)).coords;
-        }
-        let lens = &state.lenses[eye.lens];
-        let shown = lens.distortion.distort(&Point2::new(p.x / p.z, p.y / p.z));
-        let center = eye.intrinsics.principal_point() + lens.shift_px;
+        let sight = self.sight(state, observation);
+        let lens = sight.lens;
+        let shown = lens.lens.shown(&sight.p);
+        let center = sight.eye.intrinsics.principal_point() + lens.shift_px;
         [
-            lens.focal * eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
-            lens.focal * eye.intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
+            lens.focal * sight.eye.intrinsics.fu_px() * shown.x + center.x - sight.pixel.x,
+            lens.focal * sight.eye.intrinsics.fv_px() * shown.y + center.y - sight.pixel.y,
         ]
     }
 
-    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, OF_LENS> {
-        let o = &self.bundle.observations[observation];
-        let camera = &state.cameras[o.camera];
-        let eye = self.bundle.eye(observation);
-        let rotated = camera.rotated(&state.points[o.point]);
-        let mut p = rotated + camera.translation;
-        if let Some(sensor_from_camera) = eye.sensor_from_camera {
-            p = (sensor_from_camera * Point3::from(p)).coords;
+    fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, S> {
+        let sight = self.sight(state, observation);
+        let (p, lens) = (&sight.p, sight.lens);
+        if let Some(wide) = lens.lens.beyond_brown() {
+            return self.linearize_beyond_brown(&sight, wide);
         }
-        let lens = &state.lenses[eye.lens];
+        let distortion = lens.lens.brown();
         let ray = Point2::new(p.x / p.z, p.y / p.z);
-        let shown = lens.distortion.distort(&ray);
-        let bend = lens.distortion.jacobian(&ray);
+        let shown = distortion.distort(&ray);
+        let bend = distortion.jacobian(&ray);
         let (x, y) = (ray.x, ray.y);
         let r_sq = x * x + y * y;
         // What k1, k2, p1 and p2 move, before the focal length.
@@ -176,35 +237,25 @@ impl BundleProblem<6, OF_LENS> for Problem<'_> {
             [r_sq * x, r_sq * r_sq * x, 2.0 * x * y, r_sq + 2.0 * x * x],
             [r_sq * y, r_sq * r_sq * y, r_sq + 2.0 * y * y, 2.0 * x * y],
         ];
-        let center = eye.intrinsics.principal_point() + lens.shift_px;
-        let focals = [eye.intrinsics.fu_px(), eye.intrinsics.fv_px()];
-        let mut terms = ObservationTerms {
-            residual: [0.0; 2],
-            camera: [[0.0; 6]; 2],
-            shared: [[0.0; OF_LENS]; 2],
-            point: [[0.0; 3]; 2],
-        };
+        let mut terms = nothing();
         for row in 0..2 {
-            let f = focals[row] * lens.focal;
-            terms.residual[row] = f * shown[row] + center[row] - o.pixel[row];
+            let f = sight.focal_px(row) * lens.focal;
             // ∂p/∂P = 1/z [1 0 −x; 0 1 −y], with x and y after the division.
             let (a, b) = (f * bend[(row, 0)], f * bend[(row, 1)]);
-            let mut by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
-            if let Some(sensor_from_camera) = eye.sensor_from_camera {
-                by_p = sensor_from_camera.rotation.inverse() * by_p;
-            }
-            (terms.camera[row], terms.point[row]) = camera.derivatives(&rotated, &by_p);
-            let shared = &mut terms.shared[row];
-            shared[0] = focals[row] * shown[row];
-            shared[5 + row] = 1.0;
-            for (slope, by) in shared[1..5].iter_mut().zip(by_distortion[row]) {
-                *slope = f * by;
-            }
+            let by_p = Vector3::new(a / p.z, b / p.z, -(a * x + b * y) / p.z);
+            self.fill(
+                &mut terms,
+                row,
+                &sight,
+                shown[row],
+                by_p,
+                &by_distortion[row],
+            );
         }
         terms
     }
 
-    fn step(&self, from: &State, step: &BundleStep<6, OF_LENS>, into: &mut State) {
+    fn step(&self, from: &State, step: &BundleStep<6, S>, into: &mut State) {
         for ((old, new), d) in from
             .cameras
             .iter()

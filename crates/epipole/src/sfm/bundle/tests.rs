@@ -1,17 +1,16 @@
 //! Cameras around points, put right again after they were disturbed.
 
-use super::problem::OF_LENS;
 use super::*;
-use crate::camera::look_at;
+use crate::camera::{Distortion, look_at};
 use crate::math::random::Random;
 use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, Termination, check_jacobian};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Cameras on an arc look at a ball of points.
-fn arc(num_cameras: usize, num_points: usize, distortion: Distortion) -> Bundle {
+fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) -> Bundle {
     let mut random = Random::new(21);
     let mut bundle = Bundle {
-        distortions: vec![distortion],
+        lenses: vec![distortion.into()],
         ..Bundle::default()
     };
     let up = Vector3::new(0.0, -1.0, 0.0);
@@ -43,7 +42,7 @@ fn arc(num_cameras: usize, num_points: usize, distortion: Distortion) -> Bundle 
     bundle
 }
 
-fn disturb(bundle: &mut Bundle, amount: f64) {
+pub(super) fn disturb(bundle: &mut Bundle, amount: f64) {
     let mut random = Random::new(22);
     for camera in bundle.cameras.iter_mut().skip(1) {
         let turn = Vector3::from_fn(|_, _| amount * random.normal());
@@ -55,7 +54,7 @@ fn disturb(bundle: &mut Bundle, amount: f64) {
     }
 }
 
-fn go_on(_: &Iteration) -> ControlFlow<()> {
+pub(super) fn go_on(_: &Iteration) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
@@ -67,7 +66,7 @@ fn exact() -> LmOptions {
     }
 }
 
-fn everything() -> BundleOptions {
+pub(super) fn everything() -> BundleOptions {
     BundleOptions {
         lm: exact(),
         refine_focal: true,
@@ -105,27 +104,34 @@ fn jacobians_are_those_of_central_differences() {
     });
     bundle.sensor_of_observation = (0..15).map(|o| usize::from(o >= 8)).collect();
     bundle.lens_of_camera = vec![0, 1];
-    bundle.distortions.push(bent(0.05, 0.002));
-    let problem = Problem {
-        bundle: &bundle,
-        pairs: observation_pairs(&bundle.observations, 3, 5).unwrap(),
-        options: &options,
-        held_cameras: vec![[false; 6]; 3],
+    bundle.lenses.push(bent(0.05, 0.002).into());
+    check_derivatives::<OF_BROWN>(&bundle, &options);
+}
+
+/// The derivatives of every residual are those of differences; the second camera's position is known.
+pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &BundleOptions) {
+    let (num_cameras, num_points) = (bundle.cameras.len(), bundle.points.len());
+    let problem = Problem::<S> {
+        bundle,
+        pairs: observation_pairs(&bundle.observations, num_cameras, num_points).unwrap(),
+        options,
+        held_cameras: vec![[false; 6]; num_cameras],
+        refined: lens_state::refined(bundle, options),
     };
-    let state = State::new(&bundle);
+    let state = State::new(bundle);
     let nothing = BundleStep {
-        cameras: vec![[0.0; 6]; 3],
-        shared: vec![[0.0; OF_LENS]; 3],
-        points: vec![[0.0; 3]; 5],
+        cameras: vec![[0.0; 6]; num_cameras],
+        shared: vec![[0.0; S]; bundle.num_lenses()],
+        points: vec![[0.0; 3]; num_points],
     };
-    let moved = |step: &BundleStep<6, OF_LENS>| {
+    let moved = |step: &BundleStep<6, S>| {
         let mut moved = state.clone();
         problem.step(&state, step, &mut moved);
         moved
     };
     for (index, o) in bundle.observations.iter().enumerate() {
         let terms = problem.linearize(&state, index);
-        let mut analytic = DMatrix::zeros(2, 9 + OF_LENS);
+        let mut analytic = DMatrix::zeros(2, 9 + S);
         for row in 0..2 {
             for (column, value) in terms.camera[row]
                 .iter()
@@ -140,13 +146,25 @@ fn jacobians_are_those_of_central_differences() {
             let d = d.as_slice();
             let mut step = nothing.clone();
             step.cameras[o.camera].copy_from_slice(&d[..6]);
-            step.shared[problem.group(index)].copy_from_slice(&d[6..6 + OF_LENS]);
-            step.points[o.point].copy_from_slice(&d[6 + OF_LENS..]);
+            let group = problem.group(index);
+            step.shared[group].copy_from_slice(&d[6..6 + S]);
+            // What is not refined is not to be moved.
+            for (step, refined) in step.shared[group][1..]
+                .iter_mut()
+                .zip(problem.refined[group])
+            {
+                *step = if refined { *step } else { 0.0 };
+            }
+            step.shared[group][S - 2..].copy_from_slice(&d[4 + S..6 + S]);
+            step.points[o.point].copy_from_slice(&d[6 + S..]);
             DVector::from_row_slice(&problem.residual(&moved(&step), index))
         };
         assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
         let residual = bundle.residual_px(index);
         assert!((residual - Vector2::from(terms.residual)).norm() < 1e-9);
+    }
+    if options.position_priors.is_empty() {
+        return;
     }
     // What is known of the second camera's position.
     assert!(problem.prior(&state, 0).is_none() && problem.prior(&state, 2).is_none());
@@ -169,7 +187,7 @@ fn known(camera: &Camera, sigma: f64) -> Option<PositionPrior> {
 }
 
 /// The pixels of a bundle as it says that they are.
-fn photograph(bundle: &mut Bundle) {
+pub(super) fn photograph(bundle: &mut Bundle) {
     for index in 0..bundle.observations.len() {
         let off = bundle.residual_px(index);
         bundle.observations[index].pixel += off;
@@ -180,7 +198,9 @@ fn photograph(bundle: &mut Bundle) {
 fn each_lens_is_refined_by_what_was_seen_through_it() {
     let mut bundle = arc(9, 120, Distortion::NONE);
     bundle.lens_of_camera = (0..9).map(|camera| camera % 3).collect();
-    bundle.distortions = vec![bent(-0.1, 0.003), bent(0.06, -0.002), bent(-0.02, 0.001)];
+    bundle.lenses = [(-0.1, 0.003), (0.06, -0.002), (-0.02, 0.001)]
+        .map(|(k1, p1)| bent(k1, p1).into())
+        .to_vec();
     let k = [
         Intrinsics::new(800.0, 800.0, 322.0, 236.0).unwrap(),
         Intrinsics::new(900.0, 905.0, 315.0, 244.0).unwrap(),
@@ -204,7 +224,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         k3: 0.01,
         ..Distortion::NONE
     };
-    bundle.distortions = vec![only_third; 3];
+    bundle.lenses = vec![only_third.into(); 3];
     let report = adjust_bundle(&mut bundle, &everything(), &mut go_on).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
@@ -219,7 +239,8 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         );
         assert!((got.principal_point() - want.principal_point()).norm() < 1e-2);
     }
-    for (got, want) in bundle.distortions.iter().zip(&truth.distortions) {
+    for (got, want) in bundle.lenses.iter().zip(&truth.lenses) {
+        let (got, want) = (got.brown(), want.brown());
         for (got, want) in [
             (got.k1, want.k1),
             (got.k2, want.k2),
@@ -233,7 +254,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     // What all share is not what three lenses need.
     let mut shared = truth.clone();
     shared.lens_of_camera = Vec::new();
-    shared.distortions = vec![only_third];
+    shared.lenses = vec![only_third.into()];
     let report = adjust_bundle(&mut shared, &everything(), &mut go_on).unwrap();
     assert!(report.final_cost > 1.0, "{report:?}");
 }
@@ -251,7 +272,7 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
         };
         let mut bundle = before.clone();
         adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
-        let (new, old) = (bundle.distortions[0], before.distortions[0]);
+        let (new, old) = (bundle.lenses[0].brown(), before.lenses[0].brown());
         assert_eq!((new.p1, new.p2) == (old.p1, old.p2), !refine_tangential);
         assert_eq!((new.k1, new.k2) == (old.k1, old.k2), !refine_distortion);
         for (new, old) in bundle.cameras.iter().zip(&before.cameras) {
@@ -363,7 +384,7 @@ fn a_shared_focal_length_and_distortion_are_refined() {
         ..Distortion::NONE
     };
     let mut bundle = arc(6, 80, distortion);
-    bundle.distortions.clear();
+    bundle.lenses.clear();
     for camera in &mut bundle.cameras {
         camera.intrinsics = Intrinsics::centered(830.0, 640, 480).unwrap();
     }
@@ -377,8 +398,8 @@ fn a_shared_focal_length_and_distortion_are_refined() {
     let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     assert!((bundle.cameras[3].intrinsics.fu_px() - 800.0).abs() < 1e-4);
-    assert!((bundle.distortions[0].k1 + 0.08).abs() < 1e-6);
-    assert!((bundle.distortions[0].k2 - 0.02).abs() < 1e-5);
+    assert!((bundle.lenses[0].brown().k1 + 0.08).abs() < 1e-6);
+    assert!((bundle.lenses[0].brown().k2 - 0.02).abs() < 1e-5);
 }
 
 #[test]

@@ -1,0 +1,289 @@
+//! The pose of a camera with any lens from points of which many are wrongly matched.
+
+use super::estimate::usable;
+use super::p3p::solve;
+use super::refine::{Pose, rigid};
+use crate::camera::{RigidTransform, SeenRay};
+use crate::math::svd3;
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, Vector3};
+
+/// Poses from points and the rays on which they are seen, for RANSAC: three points a sample, errors in the pixels of
+/// the photograph.
+struct RayPoseEstimator {
+    points: Vec<Vector3<f64>>,
+    seen: Vec<SeenRay>,
+    unique: Unique,
+}
+
+impl Estimator for RayPoseEstimator {
+    /// R and t of `cam_from_world`.
+    type Model = Pose;
+
+    fn name(&self) -> &'static str {
+        "a camera pose from points"
+    }
+
+    fn sample_size(&self) -> usize {
+        3
+    }
+
+    fn codimension(&self) -> usize {
+        2
+    }
+
+    fn num_data(&self) -> usize {
+        self.points.len()
+    }
+
+    fn max_models(&self) -> usize {
+        4
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Pose>) {
+        let rays = core::array::from_fn(|i| self.seen[sample[i]].ray());
+        let points = core::array::from_fn(|i| self.points[sample[i]]);
+        let mut solutions = [(Matrix3::zeros(), Vector3::zeros()); 4];
+        let count = solve(&rays, &points, &mut solutions);
+        models.extend_from_slice(&solutions[..count]);
+    }
+
+    fn error_sq(&self, (rotation, t): &Pose, index: usize) -> f64 {
+        self.seen[index].error_sq(&(rotation * self.points[index] + t))
+    }
+
+    fn refine(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
+        let problem = RayPoseProblem {
+            points: &self.points,
+            seen: &self.seen,
+            used: inliers,
+            loss: RobustLoss::Truncated {
+                width: max_error_px,
+            },
+        };
+        let options = LmOptions {
+            max_iterations: 4,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..LmOptions::default()
+        };
+        let mut pose = *pose;
+        minimize_fixed(&problem, &mut pose, &options).ok()?;
+        // Products of many rotations drift from orthogonality.
+        let svd = svd3(&pose.0);
+        let rotation = svd.u * svd.v.transpose();
+        let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
+        finite.then_some((rotation, pose.1))
+    }
+
+    fn chance(&self, max_error_px: f64) -> Option<f64> {
+        let of = |axis: usize| self.seen.iter().map(|seen| seen.pixel()[axis]).collect();
+        Some(chance_near_point([of(0), of(1)], max_error_px))
+    }
+
+    fn unique(&self) -> Option<&Unique> {
+        Some(&self.unique)
+    }
+}
+
+/// The camera turns about its own center, and then moves.
+struct RayPoseProblem<'a> {
+    points: &'a [Vector3<f64>],
+    seen: &'a [SeenRay],
+    used: &'a [usize],
+    loss: RobustLoss,
+}
+
+impl FixedProblem<6> for RayPoseProblem<'_> {
+    type Parameters = Pose;
+
+    fn accumulate(&self, (rotation, t): &Pose, normal: &mut NormalEquations<6>) {
+        for &index in self.used {
+            let x = rotation * self.points[index] + t;
+            let Some((off, by_point)) = self.seen[index].offset_with_derivative(&x) else {
+                normal.cost = f64::INFINITY;
+                continue;
+            };
+            let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
+            let by_turn = by_point * -x.cross_matrix();
+            jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
+            jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_point);
+            normal.add(&off, &jacobian, &self.loss);
+        }
+    }
+
+    fn cost(&self, (rotation, t): &Pose) -> f64 {
+        let mut total = 0.0;
+        for &index in self.used {
+            let error_sq = self.seen[index].error_sq(&(rotation * self.points[index] + t));
+            if error_sq.is_infinite() {
+                return f64::INFINITY;
+            }
+            total += 0.5 * self.loss.rho(error_sq);
+        }
+        total
+    }
+
+    fn plus(&self, (rotation, t): &Pose, delta: &SVector<f64, 6>) -> Pose {
+        let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
+        let shift = Vector3::new(delta[3], delta[4], delta[5]);
+        (turn.into_inner() * rotation, turn * t + shift)
+    }
+}
+
+/// The pose `cam_from_world` that most points agree on, whatever lens saw them.
+///
+/// * `points_in_world`, `seen`: points, and the pixels with their rays where they are seen; wrong pairs are expected
+/// * `options`: [`RansacOptions::max_error_px`] bounds the error of an inlier, in the pixels of the photograph
+///
+/// The same as [`estimate_absolute_pose`](super::estimate_absolute_pose) but for lenses without a pinhole camera that
+/// could stand for them.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN, [`Error::TooFew`] for fewer than
+/// 4 different data, and as [`ransac`].
+///
+/// Source: Fischler & Bolles 1981, with P3P as the minimal solver.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::absolute_pose::estimate_absolute_pose_of_rays;
+/// use epipole::calibration::CalibratedCamera;
+/// use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
+/// use epipole::robust::RansacOptions;
+/// use nalgebra::{Point3, Vector3};
+/// let camera = CalibratedCamera {
+///     intrinsics: Intrinsics::centered(200.0, 640, 640)?,
+///     lens: Lens::Fisheye(Fisheye::default()),
+///     width: 640,
+///     height: 640,
+/// };
+/// let cam_from_world = RigidTransform::new(Vector3::new(0.3, -0.1, 0.2), Vector3::new(0.0, 0.4, 0.1));
+/// let (mut points, mut seen) = (Vec::new(), Vec::new());
+/// for i in 0..30 {
+///     // All around, some of them beside the camera.
+///     let x = Point3::new(f64::from(i * 7 % 11) - 5.0, f64::from(i * 3 % 7) - 3.0, 0.5 + f64::from(i * i % 5));
+///     seen.push(camera.seen_ray(&camera.project(&(cam_from_world * x))?)?);
+///     points.push(x);
+/// }
+/// let report = estimate_absolute_pose_of_rays(&points, &seen, &RansacOptions::default())?;
+/// assert_eq!(report.num_inliers, 30);
+/// assert!((report.model.to_matrix() - cam_from_world.to_matrix()).norm() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn estimate_absolute_pose_of_rays(
+    points_in_world: &[Point3<f64>],
+    seen: &[SeenRay],
+    options: &RansacOptions,
+) -> Result<RansacReport<RigidTransform>> {
+    let pixels: Vec<Point2<f64>> = seen.iter().map(SeenRay::pixel).collect();
+    let unique = usable(points_in_world, &pixels)?;
+    if unique.len() < 4 {
+        return Err(Error::TooFew {
+            what: "a camera pose from points",
+            needed: 4,
+            got: unique.len(),
+        });
+    }
+    let kept = unique.first_occurrences();
+    let estimator = RayPoseEstimator {
+        points: kept.iter().map(|&i| points_in_world[i].coords).collect(),
+        seen: kept.iter().map(|&i| seen[i]).collect(),
+        unique: unique.clone(),
+    };
+    let fixed = estimator.points[0];
+    Ok(ransac(estimator, options)?.map(|pose| rigid(&pose, &fixed)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::CalibratedCamera;
+    use crate::camera::{Intrinsics, Lens, LensKind};
+    use crate::math::random::Random;
+    use crate::optim::check_jacobian;
+    use nalgebra::{DMatrix, DVector, Vector2};
+
+    fn world(num: usize, seed: u64) -> (Vec<Point3<f64>>, Vec<SeenRay>, RigidTransform) {
+        let mut random = Random::new(seed);
+        let camera = CalibratedCamera {
+            intrinsics: Intrinsics::new(250.0, 252.0, 400.0, 390.0).unwrap(),
+            lens: Lens::from_coefficients(LensKind::Fisheye, &[-0.02, 0.004, -0.001, 0.0002])
+                .unwrap(),
+            width: 800,
+            height: 780,
+        };
+        let pose = RigidTransform::new(Vector3::new(-0.9, 0.1, 0.4), Vector3::new(0.1, 0.3, -0.2));
+        let (mut points, mut seen) = (Vec::new(), Vec::new());
+        while points.len() < num {
+            let x = Point3::from(4.0 * Vector3::from_fn(|_, _| random.normal()));
+            let in_cam = pose * x;
+            if in_cam.z < -0.2 * in_cam.coords.norm() || in_cam.coords.norm() < 1.0 {
+                continue;
+            }
+            let width = if points.len().is_multiple_of(3) {
+                80.0
+            } else {
+                0.4
+            };
+            let off = Vector2::from_fn(|_, _| width * random.normal());
+            let pixel = camera.project(&in_cam).unwrap() + off;
+            if let Ok(ray) = camera.seen_ray(&pixel) {
+                seen.push(ray);
+                points.push(x);
+            }
+        }
+        (points, seen, pose)
+    }
+
+    #[test]
+    fn a_fisheye_finds_its_place_among_wrong_matches() {
+        let (points, seen, truth) = world(300, 1);
+        let options = RansacOptions::default().within(3.0);
+        let report = estimate_absolute_pose_of_rays(&points, &seen, &options).unwrap();
+        assert!(report.num_inliers >= 198 && report.num_inliers < 210);
+        let off = report.model.to_matrix() - truth.to_matrix();
+        assert!(off.norm() < 0.005, "{off}");
+    }
+
+    #[test]
+    fn derivatives_are_differences() {
+        let (points, seen, truth) = world(20, 2);
+        let points: Vec<Vector3<f64>> = points.iter().map(|x| x.coords).collect();
+        let pose: Pose = (
+            truth.rotation.to_rotation_matrix().into_inner(),
+            truth.translation.vector,
+        );
+        for i in (0..20usize).filter(|i| !i.is_multiple_of(3)) {
+            let problem = RayPoseProblem {
+                points: &points,
+                seen: &seen,
+                used: &[i],
+                loss: RobustLoss::Trivial,
+            };
+            let at = |delta: &DVector<f64>| {
+                let moved = problem.plus(&pose, &SVector::from_column_slice(delta.as_slice()));
+                DVector::from_element(1, problem.cost(&moved))
+            };
+            let mut normal = NormalEquations::<6>::new();
+            problem.accumulate(&pose, &mut normal);
+            let analytic = DMatrix::from_row_slice(1, 6, normal.gradient.as_slice());
+            assert!(check_jacobian(&analytic, &at, 1e-6) < 1e-4);
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let (points, seen, _) = world(8, 3);
+        let options = RansacOptions::default();
+        let few = estimate_absolute_pose_of_rays(&points[..3], &seen[..3], &options);
+        assert!(matches!(few, Err(Error::TooFew { .. })));
+        let unlike = estimate_absolute_pose_of_rays(&points, &seen[..7], &options);
+        assert!(matches!(unlike, Err(Error::SizeMismatch { .. })));
+        let nowhere = vec![Point3::new(f64::NAN, 0.0, 1.0); 8];
+        let refused = estimate_absolute_pose_of_rays(&nowhere, &seen, &options);
+        assert!(matches!(refused, Err(Error::NotFinite { .. })));
+    }
+}

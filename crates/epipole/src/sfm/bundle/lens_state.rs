@@ -1,0 +1,63 @@
+//! What is refined of a lens.
+
+use super::{Bundle, BundleOptions};
+use crate::Result;
+use crate::camera::{Intrinsics, MAX_COEFFICIENTS};
+use crate::sfm::lens::SfmLens;
+use nalgebra::Vector2;
+
+/// Room for what is refined of a lens: a factor of the focal lengths, its first coefficients, the principal point's
+/// shift. Four are enough for Brown's model, of which k1, k2, p1 and p2 are refined, a fisheye and the division model.
+/// What is refined more often comes first: what is behind it costs nothing.
+pub(super) const OF_BROWN: usize = 4 + BESIDE_COEFFICIENTS;
+/// The same for the rational model, too.
+pub(super) const OF_ANY: usize = MAX_COEFFICIENTS + BESIDE_COEFFICIENTS;
+const BESIDE_COEFFICIENTS: usize = 3;
+
+/// A lens, as far as it is refined.
+#[derive(Clone)]
+pub(super) struct LensState {
+    /// A factor of the focal lengths.
+    pub(super) focal: f64,
+    /// Of the principal point.
+    pub(super) shift_px: Vector2<f64>,
+    pub(super) lens: SfmLens,
+}
+
+impl LensState {
+    /// As it is before it is refined.
+    pub(super) fn new(lens: SfmLens) -> Self {
+        Self {
+            focal: 1.0,
+            shift_px: Vector2::zeros(),
+            lens,
+        }
+    }
+
+    /// The intrinsics that became of these.
+    pub(super) fn refined(&self, k: &Intrinsics) -> Result<Intrinsics> {
+        let center = k.principal_point() + self.shift_px;
+        Intrinsics::new(
+            k.fu_px() * self.focal,
+            k.fv_px() * self.focal,
+            center.x,
+            center.y,
+        )
+    }
+
+    pub(super) fn moved<const S: usize>(&self, step: &[f64; S]) -> Self {
+        Self {
+            focal: self.focal + step[0],
+            shift_px: self.shift_px + Vector2::new(step[S - 2], step[S - 1]),
+            lens: self.lens.moved(&step[1..S - 2]),
+        }
+    }
+}
+
+/// Which coefficients are refined, lens by lens.
+pub(super) fn refined(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; MAX_COEFFICIENTS]> {
+    let of = |lens: usize| bundle.lenses.get(lens).copied().unwrap_or_default();
+    (0..bundle.num_lenses())
+        .map(|lens| options.refined(of(lens).kind()))
+        .collect()
+}

@@ -1,0 +1,238 @@
+//! Bundles seen through lenses beyond Brown's model.
+
+use super::tests::{check_derivatives, disturb, everything, go_on, photograph};
+use super::*;
+use crate::camera::{Distortion, Division, Fisheye, Lens};
+use crate::math::random::Random;
+use nalgebra::Vector3;
+
+fn lens(kind: LensKind) -> SfmLens {
+    let numbers: &[f64] = match kind {
+        LensKind::Brown => &[-0.05, 0.01, 0.002, -0.001, 0.0],
+        LensKind::Rational => &[0.3, 0.05, 0.001, -0.002, 0.01, 0.5, 0.1, 0.005],
+        LensKind::Fisheye => &[-0.03, 0.008, -0.003, 0.0004],
+        LensKind::Division => &[-0.15],
+    };
+    Lens::from_coefficients(kind, numbers).unwrap().into()
+}
+
+/// Cameras amid points that are all around them, each point seen by those whose lens sees it within so many degrees of
+/// its axis.
+fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_deg: f64) -> Bundle {
+    let mut random = Random::new(31);
+    let mut bundle = Bundle {
+        lenses: lenses.to_vec(),
+        lens_of_camera: (0..num_cameras).map(|i| i % lenses.len()).collect(),
+        ..Bundle::default()
+    };
+    for _ in 0..num_cameras {
+        let turn = 0.3 * Vector3::from_fn(|_, _| random.normal());
+        let shift = 0.6 * Vector3::from_fn(|_, _| random.normal());
+        bundle.cameras.push(Camera {
+            intrinsics: Intrinsics::new(300.0, 303.0, 500.0, 490.0).unwrap(),
+            cam_from_world: RigidTransform::new(shift, turn),
+        });
+    }
+    for _ in 0..num_points {
+        let direction = Vector3::from_fn(|_, _| random.normal()).normalize();
+        bundle
+            .points
+            .push(Point3::from(direction * random.uniform(3.0, 6.0)));
+    }
+    for camera in 0..num_cameras {
+        for point in 0..num_points {
+            let p = bundle.cameras[camera].cam_from_world * bundle.points[point];
+            if p.coords.angle(&Vector3::z()) < half_deg.to_radians() {
+                bundle.observations.push(Observation {
+                    camera,
+                    point,
+                    pixel: Point2::origin(),
+                });
+            }
+        }
+    }
+    photograph(&mut bundle);
+    bundle
+}
+
+#[test]
+fn derivatives_of_every_lens_are_those_of_central_differences() {
+    let all = [
+        LensKind::Fisheye,
+        LensKind::Division,
+        LensKind::Brown,
+        LensKind::Rational,
+    ];
+    let options = everything();
+    let few = surrounded(
+        3,
+        60,
+        &all[..3].iter().map(|k| lens(*k)).collect::<Vec<_>>(),
+        60.0,
+    );
+    check_derivatives::<OF_BROWN>(&few, &options);
+    let mut any = surrounded(4, 60, &all.map(lens), 60.0);
+    check_derivatives::<OF_ANY>(&any, &options);
+    // Beside the camera and behind it.
+    check_derivatives::<OF_BROWN>(
+        &surrounded(2, 90, &[lens(LensKind::Fisheye)], 100.0),
+        &options,
+    );
+    // Through a sensor that looks from the side.
+    any.sensors.push(Sensor {
+        sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), Vector3::y() * 0.2),
+        intrinsics: Intrinsics::new(310.0, 312.0, 480.0, 500.0).unwrap(),
+        lens: 0,
+    });
+    any.sensor_of_observation = (0..any.observations.len()).map(|o| o % 2).collect();
+    photograph(&mut any);
+    check_derivatives::<OF_ANY>(&any, &options);
+}
+
+/// From a wrong focal length, principal point and coefficients back to the exact ones.
+fn comes_back(lenses: &[SfmLens], start: &[SfmLens], half_deg: f64) -> Bundle {
+    let mut bundle = surrounded(6, 200, lenses, half_deg);
+    let truth = bundle.clone();
+    disturb(&mut bundle, 0.005);
+    for camera in &mut bundle.cameras {
+        camera.intrinsics = Intrinsics::new(309.0, 312.09, 502.0, 487.0).unwrap();
+    }
+    bundle.lenses = start.to_vec();
+    let report = adjust_bundle(&mut bundle, &everything(), &mut go_on).unwrap();
+    assert!(report.final_cost < 1e-9, "{report:?}");
+    for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
+        let (got, want) = (got.intrinsics, want.intrinsics);
+        assert!((got.fu_px() - want.fu_px()).abs() < 0.01, "{got:?}");
+        assert!((got.fv_px() - want.fv_px()).abs() < 0.01, "{got:?}");
+        assert!(
+            (got.principal_point() - want.principal_point()).norm() < 0.01,
+            "{got:?}"
+        );
+    }
+    bundle
+}
+
+#[test]
+fn a_fisheye_of_180_degrees_finds_its_coefficients() {
+    let truth = lens(LensKind::Fisheye);
+    let bundle = comes_back(&[truth], &[Fisheye::default().into()], 90.0);
+    for (got, want) in bundle.lenses[0]
+        .coefficients()
+        .iter()
+        .zip(truth.coefficients())
+    {
+        assert!((got - want).abs() < 1e-5, "{got} {want}");
+    }
+}
+
+#[test]
+fn lenses_of_all_models_in_one_bundle_find_theirs() {
+    let kinds = [LensKind::Division, LensKind::Fisheye, LensKind::Brown];
+    let start = [
+        SfmLens::from(Division { k: -0.1 }),
+        Fisheye::default().into(),
+        Distortion::NONE.into(),
+    ];
+    let bundle = comes_back(&kinds.map(lens), &start, 55.0);
+    for (got, want) in bundle.lenses.iter().zip(kinds.map(lens)) {
+        assert_eq!(got.kind(), want.kind());
+        for (got, want) in got.coefficients().iter().zip(want.coefficients()) {
+            assert!((got - want).abs() < 1e-3, "{got} {want}");
+        }
+    }
+}
+
+/// Eight numbers say much the same twice, so the bending is compared, not the numbers.
+#[test]
+fn a_rational_lens_finds_how_it_bends() {
+    let truth = lens(LensKind::Rational);
+    let mut bundle = surrounded(6, 300, &[truth], 60.0);
+    let exact = bundle.clone();
+    disturb(&mut bundle, 0.003);
+    let start = [0.28, 0.05, 0.0, 0.0, 0.01, 0.5, 0.1, 0.005];
+    bundle.lenses = vec![
+        Lens::from_coefficients(LensKind::Rational, &start)
+            .unwrap()
+            .into(),
+    ];
+    let options = BundleOptions {
+        refine_focal: false,
+        refine_principal_point: false,
+        ..everything()
+    };
+    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    assert!(report.final_cost < 1e-6, "{report:?}");
+    for degrees in [10.0f64, 30.0, 50.0, 59.0] {
+        let ray = Vector3::new(libm::tan(degrees.to_radians()), 0.1, 1.0);
+        let off = bundle.lenses[0].shown(&ray) - truth.shown(&ray);
+        assert!(off.norm() < 1e-5, "{degrees} {off}");
+    }
+    assert_eq!(bundle.cameras[0].intrinsics, exact.cameras[0].intrinsics);
+}
+
+#[test]
+fn what_is_not_to_be_refined_stays_the_same_bits() {
+    for kind in [LensKind::Fisheye, LensKind::Rational, LensKind::Division] {
+        let mut bundle = surrounded(3, 80, &[lens(kind)], 60.0);
+        disturb(&mut bundle, 0.005);
+        for (refine_distortion, refine_tangential) in [(false, true), (true, false), (false, false)]
+        {
+            let options = BundleOptions {
+                refine_distortion,
+                refine_tangential,
+                ..BundleOptions::default()
+            };
+            let mut bundle = bundle.clone();
+            adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+            let changed: Vec<bool> = (bundle.lenses[0].coefficients().iter())
+                .zip(lens(kind).coefficients())
+                .map(|(new, old)| new != old)
+                .collect();
+            let refined = options.refined(kind);
+            assert_eq!(changed, refined[..changed.len()], "{kind:?}");
+        }
+    }
+}
+
+#[test]
+fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
+    let good = surrounded(3, 80, &[lens(LensKind::Fisheye)], 80.0);
+    for k in [f64::NAN, f64::INFINITY] {
+        let mut bundle = good.clone();
+        bundle.lenses = vec![
+            Fisheye {
+                coefficients: [0.0, k, 0.0, 0.0],
+            }
+            .into(),
+        ];
+        let refused = adjust_bundle(&mut bundle, &everything(), &mut go_on);
+        assert!(
+            matches!(refused, Err(Error::NotFinite { .. })),
+            "{refused:?}"
+        );
+        assert!(refused.unwrap_err().to_string().contains("coefficient"));
+    }
+    // A point straight behind a fisheye is seen everywhere and nowhere.
+    let mut behind = good.clone();
+    let o = behind.observations[0];
+    let camera = behind.cameras[o.camera].cam_from_world;
+    behind.points[o.point] = camera.inverse() * Point3::new(0.0, 0.0, -2.0);
+    behind.cameras[o.camera].cam_from_world = camera;
+    match adjust_bundle(&mut behind, &everything(), &mut go_on) {
+        Ok(_) => assert!(
+            behind
+                .points
+                .iter()
+                .all(|p| p.iter().all(|x| x.is_finite()))
+        ),
+        Err(error) => assert!(matches!(error, Error::NotFinite { .. }), "{error}"),
+    }
+    // A cushion does not see rays beyond its fold.
+    let mut folded = good;
+    folded.lenses = vec![Division { k: 0.5 }.into()];
+    let refused = adjust_bundle(&mut folded, &everything(), &mut go_on);
+    assert!(
+        matches!(refused, Err(Error::NotFinite { .. })),
+        "{refused:?}"
+    );
+}
