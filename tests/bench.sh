@@ -38,10 +38,7 @@ for threads in 1 "$all_threads"; do
 done
 
 cargo build --quiet -p epipole-tests --example kernels --target wasm32-unknown-unknown --profile web-worker
-node web/node_modules/binaryen/bin/wasm-opt -O2 --enable-simd --enable-bulk-memory --enable-bulk-memory-opt \
-    --enable-nontrapping-float-to-int --enable-sign-ext --enable-mutable-globals --enable-reference-types --enable-multivalue \
-    "$target/wasm32-unknown-unknown/web-worker/examples/kernels.wasm" -o "$target/kernels.wasm"
-node tests/browser/opencv.mjs "$target/kernels.wasm"
+node tests/browser/opencv.mjs "$target/wasm32-unknown-unknown/web-worker/examples/kernels.wasm"
 echo
 cargo run --quiet --bin epipole-book -- build >/dev/null
 cargo build --quiet --package epipole-web --lib --no-default-features --features figures \
