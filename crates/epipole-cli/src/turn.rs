@@ -4,7 +4,7 @@ use epipole::camera::Intrinsics;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Degeneracy, ExplainingTurn, TwoViewOptions, find_degeneracy, find_explaining_turn,
-    find_turn_and_focal,
+    find_turn_and_focal, find_unmoved,
 };
 use nalgebra::Point2;
 
@@ -18,11 +18,7 @@ pub(crate) fn find_turn(
     inliers: &[bool],
     ransac: &RansacOptions,
 ) -> epipole::Result<Option<ExplainingTurn>> {
-    let options = TwoViewOptions {
-        ransac: *ransac,
-        ..TwoViewOptions::default()
-    };
-    find_explaining_turn(pixels1, pixels2, k1, k2, inliers, &options)
+    find_explaining_turn(pixels1, pixels2, k1, k2, inliers, &judging(ransac))
 }
 
 /// What there is to warn of.
@@ -58,36 +54,51 @@ pub(crate) fn sentence_of_other_focal(
     }))
 }
 
-/// What the inliers of a model leave open, as a sentence, where they do.
-///
-/// * `is_epipolar`: whether the model is F, which neither a plane nor a turn determines
+/// What the inliers of F leave open, as a sentence, where they do: neither a plane nor a turn determines it.
 pub(crate) fn left_open(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     inliers: &[bool],
-    is_epipolar: bool,
     ransac: &RansacOptions,
 ) -> epipole::Result<Option<String>> {
-    let options = TwoViewOptions {
+    let found = find_degeneracy(pixels1, pixels2, inliers, &judging(ransac))?;
+    Ok(found.map(|found| sentence_of_degeneracy(&found)))
+}
+
+/// The same of a homography, which planes and turns determine.
+pub(crate) fn left_open_by_homography(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    inliers: &[bool],
+    ransac: &RansacOptions,
+) -> epipole::Result<Option<String>> {
+    let found = find_unmoved(pixels1, pixels2, inliers, &judging(ransac))?;
+    Ok(found.map(|found| sentence_of_degeneracy(&found)))
+}
+
+/// * `ransac`: the options that the model was found with
+fn judging(ransac: &RansacOptions) -> TwoViewOptions {
+    TwoViewOptions {
         ransac: *ransac,
         ..TwoViewOptions::default()
-    };
-    let found = find_degeneracy(pixels1, pixels2, inliers, &options)?;
-    Ok(match found {
-        Some(Degeneracy::Unmoved {
+    }
+}
+
+fn sentence_of_degeneracy(found: &Degeneracy) -> String {
+    match found {
+        Degeneracy::Unmoved {
             num_unmoved,
             num_inliers,
-        }) => Some(format!(
+        } => format!(
             "{num_unmoved} of the {num_inliers} inliers are where they were in image 1, but for noise: the \
              camera hardly moved, or the matches are of something that moves with it"
-        )),
-        Some(Degeneracy::Homography {
+        ),
+        Degeneracy::Homography {
             num_explained,
             num_inliers,
-        }) if is_epipolar => Some(format!(
+        } => format!(
             "a homography explains {num_explained} of the {num_inliers} inliers: they show a plane, or the camera \
              only turned, and the fundamental matrix is not determined"
-        )),
-        _ => None,
-    })
+        ),
+    }
 }

@@ -7,7 +7,7 @@ use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::rows;
-use crate::turn::{self, find_turn, left_open};
+use crate::turn::{self, find_turn, left_open, left_open_by_homography};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
@@ -184,11 +184,10 @@ fn fit(
             let found = robust.run(HomographyEstimator::new(set()?)?, context)?;
             let h = found.model;
             let errors = pairs().map(|(a, b)| transfer_error_px(&h, a, b)).collect();
-            let open = left_open(
+            let open = left_open_by_homography(
                 pixels1,
                 pixels2,
                 &found.inliers,
-                false,
                 &robust.options(context).within(found.max_error_px),
             )?;
             Ok(told(of_matrix(found, &h, errors), open, context))
@@ -201,7 +200,6 @@ fn fit(
                 pixels1,
                 pixels2,
                 &found.inliers,
-                true,
                 &robust.options(context).within(found.max_error_px),
             )?;
             Ok(told(of_matrix(found, &f, errors), open, context))

@@ -66,12 +66,7 @@ impl AbsolutePoseEstimator {
         loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Pose> {
-        let options = LmOptions {
-            max_iterations,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(max_iterations);
         let problem = PoseProblem {
             points: &self.points,
             pixels: &self.pixels,

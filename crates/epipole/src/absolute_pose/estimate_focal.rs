@@ -104,12 +104,7 @@ impl AbsolutePoseFocalEstimator {
     }
 
     fn refined(&self, model: &PoseFocal, problem: &PoseProblem<'_>) -> Option<PoseFocal> {
-        let options = LmOptions {
-            max_iterations: 4,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(4);
         refine_with_focal(problem, model, &options).filter(|found| self.is_usable(found.2))
     }
 

@@ -4,7 +4,7 @@ use super::estimate::usable;
 use super::p3p::solve;
 use super::refine::{Pose, rigid};
 use crate::camera::{RigidTransform, SeenRay};
-use crate::math::svd3;
+use crate::math::nearest_orthogonal;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
 use crate::{Error, Result};
@@ -63,17 +63,10 @@ impl Estimator for RayPoseEstimator {
                 width: max_error_px,
             },
         };
-        let options = LmOptions {
-            max_iterations: 4,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(4);
         let mut pose = *pose;
         minimize_fixed(&problem, &mut pose, &options).ok()?;
-        // Products of many rotations drift from orthogonality.
-        let svd = svd3(&pose.0);
-        let rotation = svd.u * svd.v.transpose();
+        let rotation = nearest_orthogonal(&pose.0);
         let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
         finite.then_some((rotation, pose.1))
     }

@@ -2,7 +2,7 @@
 
 use super::refine::{Pose, PoseProblem};
 use crate::camera::Intrinsics;
-use crate::math::svd3;
+use crate::math::nearest_orthogonal;
 use nalgebra::{Matrix3, Point3, Rotation3, SMatrix, SVector, Vector2, Vector3};
 
 /// A pose problem in a frame of its own: the pose turns about a point amid the data, and moves in
@@ -60,9 +60,7 @@ impl<'a> LocalProblem<'a> {
 
     /// `None` if the pose is not finite.
     pub(super) fn in_world(&self, (rotation, pivot_in_cam): &LocalPose) -> Option<Pose> {
-        // Products of many rotations drift from orthogonality.
-        let svd = svd3(rotation);
-        let rotation = svd.u * svd.v.transpose();
+        let rotation = nearest_orthogonal(rotation);
         let t = pivot_in_cam - rotation * self.pivot;
         let finite = rotation.iter().chain(t.iter()).all(|x| x.is_finite());
         finite.then_some((rotation, t))

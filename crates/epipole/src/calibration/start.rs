@@ -5,7 +5,7 @@ use super::closed_form::{focals_from_planes, intrinsics_from_planes};
 use super::{Board, BoardView};
 use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
 use crate::homography::fit_homography;
-use crate::math::svd3;
+use crate::math::nearest_orthogonal;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 
@@ -90,8 +90,7 @@ pub(super) fn board_pose(
             why: "its marks fit no plane in front of the camera",
         });
     }
-    let svd = svd3(&Matrix3::from_columns(&[r1, r2, r1.cross(&r2)]));
-    let rotation = svd.u * svd.v.transpose();
+    let rotation = nearest_orthogonal(&Matrix3::from_columns(&[r1, r2, r1.cross(&r2)]));
     Ok(RigidTransform::from_parts(
         t.into(),
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),

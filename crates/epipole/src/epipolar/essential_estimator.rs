@@ -162,15 +162,6 @@ impl EssentialEstimator {
 /// the pose that is wrong rather than they: refinement heeds them all.
 const FEW_BEHIND: f64 = 0.8;
 
-pub(super) fn steps(max_iterations: usize) -> LmOptions {
-    LmOptions {
-        max_iterations,
-        cost_tolerance: 1e-5,
-        step_tolerance: 1e-9,
-        ..LmOptions::default()
-    }
-}
-
 impl Estimator for EssentialEstimator {
     type Model = RelativePose;
 
@@ -220,7 +211,7 @@ impl Estimator for EssentialEstimator {
         max_error_px: f64,
     ) -> Option<RelativePose> {
         self.refined_by(model, inliers, max_error_px, |near, rays, loss| {
-            refine_pose_in_frame(near, rays, model, loss, &steps(2))
+            refine_pose_in_frame(near, rays, model, loss, &LmOptions::few_steps(2))
         })
     }
 
@@ -231,7 +222,13 @@ impl Estimator for EssentialEstimator {
         weights: &[f64],
     ) -> Option<RelativePose> {
         self.polished_by(near, weights, |near, rays| {
-            refine_pose_in_frame(near, rays, model, RobustLoss::Trivial, &steps(4))
+            refine_pose_in_frame(
+                near,
+                rays,
+                model,
+                RobustLoss::Trivial,
+                &LmOptions::few_steps(4),
+            )
         })
     }
 

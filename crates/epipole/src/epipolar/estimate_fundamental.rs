@@ -66,12 +66,7 @@ impl FundamentalEstimator {
         loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<Matrix3<f64>> {
-        let options = LmOptions {
-            max_iterations,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(max_iterations);
         let start = self.frame.fundamental_to_frame(fundamental);
         let refined = refine_in_frame(coordinates, &start, loss, &options)?;
         unit_norm(&self.frame.fundamental_to_pixels(&refined)).ok()

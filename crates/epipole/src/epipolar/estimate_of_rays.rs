@@ -147,12 +147,7 @@ impl Estimator for RayMotionEstimator {
                 width: max_error_px,
             },
         };
-        let options = LmOptions {
-            max_iterations: 4,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(4);
         let mut pose = motion.pose;
         minimize_fixed(&problem, &mut pose, &options).ok()?;
         orthogonal(&pose).map(Motion::from)

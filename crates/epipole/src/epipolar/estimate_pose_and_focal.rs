@@ -131,12 +131,7 @@ impl FocalEstimator {
         loss: RobustLoss,
         max_iterations: usize,
     ) -> Option<PoseWithFocal> {
-        let options = LmOptions {
-            max_iterations,
-            cost_tolerance: 1e-5,
-            step_tolerance: 1e-9,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::few_steps(max_iterations);
         let (pose, focal_px) = refine_pose_and_focal_in_frame(
             coordinates,
             &self.centers_in_frame,

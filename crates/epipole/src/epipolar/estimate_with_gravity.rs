@@ -1,11 +1,11 @@
 //! The relative pose of cameras that know where down is, from matches of which many are wrong.
 
 use super::RelativePose;
-use super::essential_estimator::{EssentialEstimator, steps};
+use super::essential_estimator::EssentialEstimator;
 use super::refine_gravity::refine_upright_in_frame;
 use super::three_point::{MAX_SOLUTIONS, Upright, solve};
 use crate::camera::Intrinsics;
-use crate::optim::RobustLoss;
+use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{
@@ -104,7 +104,14 @@ impl Estimator for GravityEstimator {
         let gravity2 = self.upright.gravity2;
         self.free
             .refined_by(model, inliers, max_error_px, |near, rays, loss| {
-                refine_upright_in_frame(near, rays, model, &gravity2, loss, &steps(2))
+                refine_upright_in_frame(
+                    near,
+                    rays,
+                    model,
+                    &gravity2,
+                    loss,
+                    &LmOptions::few_steps(2),
+                )
             })
     }
 
@@ -117,7 +124,7 @@ impl Estimator for GravityEstimator {
         let gravity2 = self.upright.gravity2;
         self.free.polished_by(near, weights, |near, rays| {
             let loss = RobustLoss::Trivial;
-            refine_upright_in_frame(near, rays, model, &gravity2, loss, &steps(4))
+            refine_upright_in_frame(near, rays, model, &gravity2, loss, &LmOptions::few_steps(4))
         })
     }
 

@@ -1,5 +1,6 @@
 //! The second motion that a plane allows.
 
+use crate::math::nearest_orthogonal;
 use nalgebra::{Matrix3, Vector3};
 
 /// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ; this gives the other one.
@@ -34,8 +35,7 @@ pub(super) fn other_motion_of_plane(
     let other_u = normal * w.norm() - other_normal * half;
     let other_t_normal = Matrix3::identity() + other_u * other_normal.transpose();
     let other_rotation = homography * other_t_normal.try_inverse()?;
-    let svd = crate::math::svd3(&other_rotation);
-    let other_rotation = svd.u * svd.v.transpose();
+    let other_rotation = nearest_orthogonal(&other_rotation);
     let other_direction = (other_rotation * other_u).try_normalize(1e-12)?;
     let finite = other_rotation
         .iter()

@@ -8,7 +8,7 @@ use super::sampson::{cost, linearize};
 use crate::Error;
 use crate::Result;
 use crate::camera::{Intrinsics, cross_matrix};
-use crate::math::svd3;
+use crate::math::nearest_orthogonal;
 use crate::math::svd3::perpendicular;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::robust::MatchSet;
@@ -188,8 +188,7 @@ pub(crate) fn refine_pose_in_frame(
 
 /// Products of many rotations drift from orthogonality.
 pub(super) fn orthogonal((rotation, direction): &Pose) -> Option<Pose> {
-    let svd = svd3(rotation);
-    let rotation = svd.u * svd.v.transpose();
+    let rotation = nearest_orthogonal(rotation);
     let mut entries = rotation.iter().chain(direction.iter());
     entries
         .all(|x| x.is_finite())

@@ -80,17 +80,13 @@ impl HomographyEstimator {
         max_iterations: usize,
     ) -> Option<Matrix3<f64>> {
         let start = to_frame(&self.frame, homography);
-        let refined = refine_in_frame(coordinates, &start, loss, &steps(max_iterations))?;
+        let refined = refine_in_frame(
+            coordinates,
+            &start,
+            loss,
+            &LmOptions::few_steps(max_iterations),
+        )?;
         to_pixels(&self.frame, &refined)
-    }
-}
-
-fn steps(max_iterations: usize) -> LmOptions {
-    LmOptions {
-        max_iterations,
-        cost_tolerance: 1e-5,
-        step_tolerance: 1e-9,
-        ..LmOptions::default()
     }
 }
 
@@ -158,7 +154,7 @@ impl Estimator for HomographyEstimator {
     ) -> Option<Matrix3<f64>> {
         let near = self.in_frame.weighted(near, weights);
         let start = to_frame(&self.frame, model);
-        let refined = refine_by_both_images(&near, &start, &steps(4))?;
+        let refined = refine_by_both_images(&near, &start, &LmOptions::few_steps(4))?;
         to_pixels(&self.frame, &refined)
     }
 

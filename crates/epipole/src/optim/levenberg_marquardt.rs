@@ -66,6 +66,18 @@ pub struct LmOptions {
     pub patience: usize,
 }
 
+impl LmOptions {
+    /// A few steps amid robust estimation: the next round begins where they end, so they need not be exact.
+    pub(crate) fn few_steps(max_iterations: usize) -> Self {
+        Self {
+            max_iterations,
+            cost_tolerance: 1e-5,
+            step_tolerance: 1e-9,
+            ..Self::default()
+        }
+    }
+}
+
 impl Default for LmOptions {
     fn default() -> Self {
         Self {

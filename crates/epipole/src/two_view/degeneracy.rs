@@ -68,23 +68,13 @@ pub fn find_degeneracy(
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> Result<Option<Degeneracy>> {
-    options.check()?;
+    let unmoved = find_unmoved(pixels1, pixels2, inliers, options)?;
+    if unmoved.is_some() {
+        return Ok(unmoved);
+    }
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
     let num_inliers = in1.len();
-    let needed = options.max_homography_share * num_inliers as f64;
-    let nearly_all = |count: usize| num_inliers > 0 && count as f64 >= needed;
     let in_two_dimensions = options.in_two_dimensions();
-    let reach_px = in_two_dimensions.max_error_px;
-    let pairs = in1.iter().zip(&in2);
-    let num_unmoved = pairs
-        .filter(|(p1, p2)| (*p1 - *p2).norm() < reach_px)
-        .count();
-    if nearly_all(num_unmoved) {
-        return Ok(Some(Degeneracy::Unmoved {
-            num_unmoved,
-            num_inliers,
-        }));
-    }
     let ransac = RansacOptions {
         max_iterations: in_two_dimensions.max_iterations.min(MAX_SAMPLES),
         ..in_two_dimensions
@@ -94,10 +84,55 @@ pub fn find_degeneracy(
         Err(Error::TooFew { .. } | Error::NoConsensus { .. } | Error::Degenerate { .. }) => 0,
         Err(error) => return Err(error),
     };
-    Ok(nearly_all(num_explained).then_some(Degeneracy::Homography {
+    let explained = nearly_all(num_explained, num_inliers, options);
+    Ok(explained.then_some(Degeneracy::Homography {
         num_explained,
         num_inliers,
     }))
+}
+
+/// Whether nearly all inliers of a model are where they were: [`Degeneracy::Unmoved`], or `None`. It is all that there
+/// is to ask of a homography, which planes and turns determine; [`find_degeneracy`] asks it first.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] if the lists differ in length, and as [`TwoViewOptions::check`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::two_view::{Degeneracy, TwoViewOptions, find_unmoved};
+/// use nalgebra::Point2;
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
+/// let (all, options) = ([true; 60], TwoViewOptions::default());
+/// let unmoved = Degeneracy::Unmoved { num_unmoved: 60, num_inliers: 60 };
+/// assert_eq!(find_unmoved(&p1, &p1, &all, &options)?, Some(unmoved));
+/// let moved: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
+/// assert_eq!(find_unmoved(&p1, &moved, &all, &options)?, None);
+/// # Ok(()) }
+/// ```
+pub fn find_unmoved(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    inliers: &[bool],
+    options: &TwoViewOptions,
+) -> Result<Option<Degeneracy>> {
+    options.check()?;
+    let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
+    let reach_px = options.in_two_dimensions().max_error_px;
+    let pairs = in1.iter().zip(&in2);
+    let num_unmoved = pairs
+        .filter(|(p1, p2)| (*p1 - *p2).norm() < reach_px)
+        .count();
+    let num_inliers = in1.len();
+    Ok(
+        nearly_all(num_unmoved, num_inliers, options).then_some(Degeneracy::Unmoved {
+            num_unmoved,
+            num_inliers,
+        }),
+    )
+}
+
+fn nearly_all(count: usize, num_inliers: usize, options: &TwoViewOptions) -> bool {
+    num_inliers > 0 && count as f64 >= options.max_homography_share * num_inliers as f64
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ pub use choice::{
     Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
     estimate_two_view_calibrated_with, estimate_two_view_with,
 };
-pub use degeneracy::{Degeneracy, find_degeneracy};
+pub use degeneracy::{Degeneracy, find_degeneracy, find_unmoved};
 pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
 pub use rotation::{RotationEstimator, estimate_rotation};
 pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
