@@ -6,7 +6,8 @@ use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, LensKind, RigidTransfor
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, Observation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions, SfmResult,
-    adjust_bundle, align_points, keep_going, reconstruct, verify_matches, why_unregistered,
+    VerifiedPair, adjust_bundle, align_points, keep_going, reconstruct, verify_matches,
+    why_unregistered,
 };
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 use std::ops::ControlFlow;
@@ -378,5 +379,79 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
             assert!(report.final_cost.is_finite());
         }
         assert!(wrong.points.iter().all(|p| p.iter().all(|x| x.is_finite())));
+    }
+}
+
+/// What a pair of photographs of random points on a plane, or of points with depth, is taken for.
+fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool) -> VerifiedPair {
+    let mut random = Random::new(12);
+    // A narrow picture is one by a long lens.
+    let zoom = 45.0 / half_deg;
+    let k = k().zoomed(zoom).unwrap();
+    let reach = 3.0 * half_deg.to_radians().min(1.2).tan();
+    let mut images = [0, 1].map(|n| SfmImage {
+        name: format!("{n}.png"),
+        width: SIZE,
+        height: SIZE,
+        ..SfmImage::default()
+    });
+    while images[0].keypoints.len() < 300 {
+        let depth = if is_wall {
+            3.0
+        } else {
+            random.uniform(2.5, 6.0)
+        };
+        let aside = [(); 2].map(|()| random.uniform(-reach, reach));
+        let x = Point3::new(aside[0], aside[1], depth);
+        let seen = [x, motion * x].map(|x| {
+            let seen = making.lens.project(&x.coords)?;
+            let noise = Vector2::from_fn(|_, _| making.noise_px * random.normal());
+            let center = k.principal_point();
+            let pixel = Point2::new(k.fu_px() * seen.x + center.x, k.fv_px() * seen.y + center.y);
+            let is_inside = pixel.iter().all(|x| (0.0..f64::from(SIZE)).contains(x));
+            is_inside.then_some(pixel + noise)
+        });
+        if let [Some(one), Some(two)] = seen {
+            images[0].keypoints.push(one);
+            images[1].keypoints.push(two);
+        }
+    }
+    let pair = PairMatches {
+        image1: 0,
+        image2: 1,
+        matches: (0..300).map(|i| (i, i)).collect(),
+    };
+    let options = SfmOptions {
+        lenses: vec![making.lens.into()],
+        ..SfmOptions::default()
+    };
+    let found = verify_matches(&pair, [&images[0], &images[1]], [&k, &k], &options);
+    found.unwrap().unwrap()
+}
+
+/// Narrow lenses of every model are asked what pinhole cameras are, and wide ones as well.
+#[test]
+fn planes_and_turns_are_told_from_depth_through_every_lens() {
+    let turn = Vector3::new(0.04, -0.06, 0.03);
+    let step = RigidTransform::new(Vector3::new(-0.4, 0.1, 0.1), turn);
+    let still = RigidTransform::rotation(turn);
+    for (kind, half_deg) in [
+        (LensKind::Brown, 15.0),
+        (LensKind::Division, 15.0),
+        (LensKind::Rational, 15.0),
+        (LensKind::Division, 45.0),
+        (LensKind::Fisheye, 60.0),
+    ] {
+        let making = Making {
+            lens: lens(kind),
+            ..fisheye()
+        };
+        let told = |motion, is_wall| pair_of(making, half_deg, motion, is_wall);
+        let deep = told(&step, false);
+        assert!(!deep.is_flat && deep.median_angle_rad > 0.02, "{kind:?}");
+        let wall = told(&step, true);
+        assert!(wall.is_flat && wall.median_angle_rad > 0.02, "{kind:?}");
+        let turned = told(&still, false);
+        assert!(turned.is_flat && turned.median_angle_rad == 0.0, "{kind:?}");
     }
 }

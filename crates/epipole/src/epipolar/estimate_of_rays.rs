@@ -5,8 +5,11 @@ use super::five_point::{pose_in_front, solve};
 use super::refine_pose::{Pose, essential_derivatives, moved_pose, orthogonal};
 use crate::camera::{RigidTransform, SeenRay, cross_matrix};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, ransac};
+#[cfg(doc)]
+use crate::robust::ransac;
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Trial, ransac_with};
 use crate::{Error, Result};
+use core::ops::ControlFlow;
 use nalgebra::{
     Matrix3, Matrix3x2, Point2, Rotation3, SVector, Translation3, UnitQuaternion, Vector2, Vector3,
 };
@@ -82,6 +85,16 @@ struct RayMotionEstimator {
 struct Motion {
     pose: Pose,
     essential: Matrix3<f64>,
+}
+
+impl Motion {
+    fn to_transform(self) -> RigidTransform {
+        let (rotation, direction) = self.pose;
+        RigidTransform::from_parts(
+            Translation3::from(direction),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
+        )
+    }
 }
 
 impl From<Pose> for Motion {
@@ -249,6 +262,41 @@ pub fn estimate_relative_pose_of_rays(
     seen2: &[SeenRay],
     options: &RansacOptions,
 ) -> Result<RansacReport<RigidTransform>> {
+    estimate_relative_pose_of_rays_with(seen1, seen2, options, |_| ControlFlow::Continue(()))
+}
+
+/// As [`estimate_relative_pose_of_rays`], and shows every trial to `watch`, which may end the run by
+/// [`ControlFlow::Break`]; the report is then about the best model so far.
+///
+/// # Errors
+/// As [`estimate_relative_pose_of_rays`] and [`ransac_with`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, Lens, LensKind, SeenRay};
+/// use epipole::epipolar::estimate_relative_pose_of_rays_with;
+/// use epipole::robust::{RansacOptions, StopReason};
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let (k, lens) = (Intrinsics::centered(600.0, 640, 480)?, Lens::from_coefficients(LensKind::Division, &[-0.1])?);
+/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
+/// for i in 0..60 {
+///     seen1.push(see(i * 37 % 640, i * 71 % 480)?);
+///     seen2.push(see(i * 37 % 640 - 5 - i * 13 % 31, i * 71 % 480)?);
+/// }
+/// let report = estimate_relative_pose_of_rays_with(&seen1, &seen2, &RansacOptions::default(), |trial| {
+///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
+/// # Ok(()) }
+/// ```
+pub fn estimate_relative_pose_of_rays_with(
+    seen1: &[SeenRay],
+    seen2: &[SeenRay],
+    options: &RansacOptions,
+    mut watch: impl FnMut(&Trial<'_, RigidTransform>) -> ControlFlow<()>,
+) -> Result<RansacReport<RigidTransform>> {
     let pixels = [seen1, seen2]
         .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
     let matches = MatchSet::new(&pixels[0], &pixels[1])?;
@@ -268,14 +316,57 @@ pub fn estimate_relative_pose_of_rays(
         what: "a relative pose from rays",
         why: "a lens folds where a pixel was seen",
     })?;
-    let report = ransac(RayMotionEstimator { matches, pairs }, options)?;
-    Ok(report.map(|motion| {
-        let (rotation, direction) = motion.pose;
-        RigidTransform::from_parts(
-            Translation3::from(direction),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation)),
-        )
-    }))
+    let estimator = RayMotionEstimator { matches, pairs };
+    let report = ransac_with(estimator, options, |trial: &Trial<'_, Motion>| {
+        watch(&Trial {
+            iteration: trial.iteration,
+            sample: trial.sample,
+            num_models: trial.num_models,
+            model: trial.model.map(|motion| motion.to_transform()),
+            score: trial.score,
+            num_inliers: trial.num_inliers,
+            required_iterations: trial.required_iterations,
+            is_best: trial.is_best,
+            refined: trial.refined.map(|motion| motion.to_transform()),
+        })
+    })?;
+    Ok(report.map(|motion| motion.to_transform()))
+}
+
+/// The Sampson error of two matching rays and a motion, in the pixels of both photographs; infinite where they cannot
+/// meet in front of both cameras.
+///
+/// * `cam2_from_cam1`: the length of its step means nothing
+/// * `seen1`, `seen2`: what both cameras saw
+///
+/// Source: Hartley & Zisserman 2004, §11.4.3, through the derivative of each lens.
+///
+/// ```
+/// use epipole::camera::{RigidTransform, SeenRay};
+/// use epipole::epipolar::sampson_px_of_rays;
+/// use nalgebra::{Matrix2x3, Point2, Vector3};
+/// // Pinhole cameras with 100 pixels, and rays straight ahead; the step is to the right.
+/// let by_ray = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
+/// let seen1 = SeenRay::new(Point2::new(0.0, 0.0), Vector3::z(), by_ray).unwrap();
+/// let step = RigidTransform::translation(-1.0, 0.0, 0.0);
+/// // A pixel that is too low by 2: each photograph is off by half of it.
+/// let seen2 = SeenRay::new(Point2::new(-5.0, 2.0), Vector3::new(-0.05, 0.02, 1.0), by_ray).unwrap();
+/// assert!((sampson_px_of_rays(&step, &seen1, &seen2) - 2.0_f64.sqrt()).abs() < 0.01);
+/// // It would have to be left of where it was.
+/// let seen2 = SeenRay::new(Point2::new(50.0, 0.0), Vector3::new(0.5, 0.0, 1.0), by_ray).unwrap();
+/// assert_eq!(sampson_px_of_rays(&step, &seen1, &seen2), f64::INFINITY);
+/// ```
+pub fn sampson_px_of_rays(
+    cam2_from_cam1: &RigidTransform,
+    seen1: &SeenRay,
+    seen2: &SeenRay,
+) -> f64 {
+    let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
+    let motion = Motion::from((rotation, cam2_from_cam1.translation.vector));
+    match RayPair::new([seen1, seen2]) {
+        Some(pair) if pair.in_front(&motion.pose) => pair.sampson_sq(&motion.essential).sqrt(),
+        _ => f64::INFINITY,
+    }
 }
 
 #[cfg(test)]

@@ -48,7 +48,9 @@ pub use estimate_essential::{
     estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
 };
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
-pub use estimate_of_rays::estimate_relative_pose_of_rays;
+pub use estimate_of_rays::{
+    estimate_relative_pose_of_rays, estimate_relative_pose_of_rays_with, sampson_px_of_rays,
+};
 pub use estimate_pose_and_focal::{
     FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
     estimate_relative_pose_and_focal_with,

@@ -5,6 +5,7 @@
 
 mod decompose;
 mod estimate;
+mod estimate_of_rays;
 mod four_point;
 mod linear;
 mod refine;
@@ -15,6 +16,7 @@ mod sums_both;
 
 pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
 pub use estimate::{HomographyEstimator, estimate_homography};
+pub use estimate_of_rays::{estimate_homography_of_rays, estimate_homography_of_rays_with};
 pub use four_point::homography_4point;
 pub use linear::{fit_homography, transfer, transfer_error_px, transfer_error_sq};
 pub use refine::refine_homography;

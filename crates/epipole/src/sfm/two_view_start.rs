@@ -107,7 +107,7 @@ pub(super) fn verify_pair(
         Views::Pinhole(pixels) => both.map(|image| &pixels[image][..]),
         Views::Rays { wide, seen } => {
             let seen = both.map(|image| &seen[image][..]);
-            return (wide.verify)(pair, seen, options, min_num_inliers);
+            return (wide.verify)(pair, seen, intrinsics, options, min_num_inliers);
         }
     };
     if pair.matches.len() < min_num_inliers.max(5) {

@@ -12,7 +12,9 @@ use crate::camera::{Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, RigidTransform
 use crate::epipolar::estimate_relative_pose_of_rays;
 use crate::optim::{Iteration, LmReport};
 use crate::robust::{RansacOptions, RansacReport};
-use crate::two_view::{TwoViewOptions, only_turned};
+use crate::two_view::{
+    TwoViewOptions, find_explaining_turn_of_rays, find_turn_and_focal, plane_of_rays,
+};
 use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
 use std::ops::ControlFlow;
 
@@ -25,8 +27,13 @@ type Adjust = fn(
     &BundleOptions,
     &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<LmReport>;
-type Verify =
-    fn(&PairMatches, [&[Option<SeenRay>]; 2], &RansacOptions, usize) -> Option<VerifiedPair>;
+type Verify = fn(
+    &PairMatches,
+    [&[Option<SeenRay>]; 2],
+    [&Intrinsics; 2],
+    &RansacOptions,
+    usize,
+) -> Option<VerifiedPair>;
 type Register =
     fn(&[Point3<f64>], &[SeenRay], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
 
@@ -52,6 +59,9 @@ pub(super) static WIDE: Wide = Wide {
     adjust: adjust_wide,
 };
 
+/// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
+const NARROW: f64 = 0.642_787_609_686_539_3;
+
 fn shown(kind: LensKind, numbers: &Numbers, p: &Vector3<f64>) -> Point2<f64> {
     let flat = || Point2::new(p.x / p.z, p.y / p.z);
     match Lens::of(kind, *numbers) {
@@ -73,11 +83,11 @@ fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> S
     rays
 }
 
-/// As `verify_pair`, from rays. Whether a plane explains the matches is not asked: the wide views of such lenses tell
-/// the motion over a plane.
+/// As `verify_pair`, from rays.
 fn verify(
     pair: &PairMatches,
     seen: [&[Option<SeenRay>]; 2],
+    intrinsics: [&Intrinsics; 2],
     options: &RansacOptions,
     min_num_inliers: usize,
 ) -> Option<VerifiedPair> {
@@ -107,7 +117,10 @@ fn verify(
     }
     angles.sort_by(f64::total_cmp);
     let judging = TwoViewOptions::default().within(report.max_error_px);
-    let has_turned = only_turned(&inliers, &judging);
+    let flat = plane_of_rays(&inliers, &judging);
+    let has_turned = find_explaining_turn_of_rays(&inliers, &judging).is_some()
+        || (flat.as_ref())
+            .is_some_and(|flat| turned_otherwise(&inliers, intrinsics, &flat.inliers, &judging));
     let median_angle_rad = match has_turned {
         true => 0.0,
         false => angles.get(angles.len() / 2).copied().unwrap_or(0.0),
@@ -119,6 +132,30 @@ fn verify(
         },
         cam2_from_cam1,
         median_angle_rad,
-        is_flat: has_turned,
+        is_flat: has_turned || flat.is_some(),
     })
+}
+
+/// Whether a turn by another focal length explains what lies on a plane. Of matches seen far to the side nothing is said:
+/// [`find_turn_and_focal`] knows pinhole cameras.
+fn turned_otherwise(
+    inliers: &[[SeenRay; 2]],
+    intrinsics: [&Intrinsics; 2],
+    on_plane: &[bool],
+    judging: &TwoViewOptions,
+) -> bool {
+    let straight = |side: usize| -> Option<Vec<Point2<f64>>> {
+        let pixel = |pair: &[SeenRay; 2]| {
+            let ray = pair[side].ray();
+            let k = (ray.z > NARROW).then_some(intrinsics[side])?;
+            k.project(&ray.into()).ok()
+        };
+        inliers.iter().map(pixel).collect()
+    };
+    let (Some(pixels1), Some(pixels2)) = (straight(0), straight(1)) else {
+        return false;
+    };
+    let [k1, k2] = intrinsics;
+    find_turn_and_focal(&pixels1, &pixels2, k1, k2, on_plane, judging)
+        .is_ok_and(|turn| turn.is_some())
 }

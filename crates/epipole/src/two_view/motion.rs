@@ -3,10 +3,10 @@
 use super::pairs::Pairs;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::epipolar::{RelativePose, decompose_essential, sampson_sq, select_pose, signed_depths};
-use crate::homography::decompose_homography;
+use crate::homography::{PlaneMotion, decompose_homography};
 use crate::math::order::at_rank;
 use crate::robust::RansacReport;
-use nalgebra::{Matrix3, Point2, Rotation3};
+use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 
 pub(super) fn pose_of_fundamental(
     pairs: &Pairs<'_>,
@@ -47,34 +47,58 @@ pub(super) fn planar_motions(
         pairs.different().filter(fits).count()
     };
     let mut motions: Vec<RelativePose> = essential.iter().map(|report| report.model).collect();
-    for motion in decompose_homography(&homography.model, k1, k2).unwrap_or_default() {
-        // Points of the plane must be in front of camera 1, n · x < 0 for the inliers' rays: most of
-        // them, as an inlier may be wrong.
+    let rays1 = (pairs.among(&homography.inliers)).map(|(p1, _)| k1.ray(p1));
+    let decomposed = decompose_homography(&homography.model, k1, k2).unwrap_or_default();
+    for (rotation, direction) in in_front_of_plane(&decomposed, rays1) {
+        motions.push(RelativePose::new(rotation, direction, k1, k2));
+    }
+    let scores: Vec<usize> = motions.iter().map(score).collect();
+    let pose = |i: usize| (motions[i].rotation, motions[i].direction);
+    best_and_rival(&scores, pose).map(|place| place.map(|i| motions[i]))
+}
+
+/// Rotations and directions of the motions that put most of a plane's points in front of camera 1: n · x < 0 for the
+/// rays of its inliers, of which some may be wrong.
+pub(super) fn in_front_of_plane(
+    motions: &[PlaneMotion],
+    rays1: impl Iterator<Item = Vector3<f64>> + Clone,
+) -> Vec<(Matrix3<f64>, Vector3<f64>)> {
+    let mut kept = Vec::new();
+    for motion in motions {
         let (mut in_front, mut count) = (0, 0);
-        for (p1, _) in pairs.among(&homography.inliers) {
-            in_front += usize::from(motion.normal_in_cam1.dot(&k1.ray(p1)) < 0.0);
+        for ray1 in rays1.clone() {
+            in_front += usize::from(motion.normal_in_cam1.dot(&ray1) < 0.0);
             count += 1;
         }
         let t = motion.cam2_from_cam1.translation.vector;
         if let (true, Some(direction)) = (2 * in_front > count, t.try_normalize(1e-12)) {
             let rotation = motion.cam2_from_cam1.rotation.to_rotation_matrix();
-            motions.push(RelativePose::new(rotation.into_inner(), direction, k1, k2));
+            kept.push((rotation.into_inner(), direction));
         }
     }
-    let scores: Vec<usize> = motions.iter().map(score).collect();
-    // The first of equals: E comes before the decompositions.
-    let best = (0..motions.len()).rev().max_by_key(|&i| scores[i]);
+    kept
+}
+
+/// The motion with the most support, the first of equals, and another one with nearly as much, if there is one.
+///
+/// * `pose`: rotation and direction of each motion, by its place in `scores`
+pub(super) fn best_and_rival(
+    scores: &[usize],
+    pose: impl Fn(usize) -> (Matrix3<f64>, Vector3<f64>),
+) -> [Option<usize>; 2] {
+    let best = (0..scores.len()).rev().max_by_key(|&i| scores[i]);
     let other = best.and_then(|best| {
+        let (rotation, direction) = pose(best);
         let rival = |&i: &usize| {
-            let turn = motions[i].rotation * motions[best].rotation.transpose();
+            let turn = pose(i).0 * rotation.transpose();
             let turn_rad = Rotation3::from_matrix_unchecked(turn).angle();
-            let apart = (motions[i].direction - motions[best].direction).norm();
+            let apart = (pose(i).1 - direction).norm();
             scores[i] as f64 >= AS_WELL * scores[best] as f64
                 && (turn_rad > SAME_MOTION || apart > SAME_MOTION)
         };
-        (0..motions.len()).filter(rival).max_by_key(|&i| scores[i])
+        (0..scores.len()).filter(rival).max_by_key(|&i| scores[i])
     });
-    [best, other].map(|place| place.map(|i| motions[i]))
+    [best, other]
 }
 
 pub(super) fn median_angle(

@@ -54,7 +54,7 @@ impl<'a> Pairs<'a> {
     pub(super) fn among<'b>(
         &self,
         mask: &'b [bool],
-    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, 'b> {
+    ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + Clone + use<'a, 'b> {
         let pairs = self.pixels1.iter().zip(self.pixels2);
         pairs
             .zip(mask)

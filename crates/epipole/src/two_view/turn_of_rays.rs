@@ -1,44 +1,71 @@
 //! Whether a camera with any lens only turned.
 
-use super::TwoViewOptions;
 use super::rotation::align_rays;
+use super::turn::motion_of_turn;
+use super::{ExplainingTurn, TwoViewOptions};
 use crate::camera::SeenRay;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// How often the turn is found again from the half of the matches that fits it best.
 const ROUNDS: usize = 10;
 
-/// Whether a turn explains nearly all matches, as [`find_explaining_turn`](super::find_explaining_turn) says of
-/// pinhole cameras. These are the inliers of a motion, so few of them are wrong.
+/// The turn that explains nearly all matches, if there is one, as [`find_explaining_turn`](super::find_explaining_turn)
+/// has it of pinhole cameras. These are the inliers of a motion, so few of them are wrong.
+///
+/// * `inliers`: what both cameras saw
+/// * `options`: as of `find_explaining_turn`; errors are in image 2, and given 1.25 √2 times the threshold
 ///
 /// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets" (concentration steps).
-pub(crate) fn only_turned(inliers: &[[SeenRay; 2]], options: &TwoViewOptions) -> bool {
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Intrinsics, Lens, LensKind, SeenRay};
+/// use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
+/// use nalgebra::Point2;
+/// let (k, lens) = (Intrinsics::centered(600.0, 640, 480)?, Lens::from_coefficients(LensKind::Fisheye, &[0.0; 4])?);
+/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let mut still = Vec::new();
+/// for i in 0..60 {
+///     still.push([see(i * 37 % 640, i * 71 % 480)?; 2]);
+/// }
+/// let turn = find_explaining_turn_of_rays(&still, &TwoViewOptions::default()).unwrap();
+/// assert_eq!(turn.num_explained, 60);
+/// assert!(turn.cam2_from_cam1.rotation.angle() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn find_explaining_turn_of_rays(
+    inliers: &[[SeenRay; 2]],
+    options: &TwoViewOptions,
+) -> Option<ExplainingTurn> {
     // Two matches fit a turn always.
     if inliers.len() < 3 {
-        return false;
+        return None;
     }
     let rays: Vec<[Vector3<f64>; 2]> = inliers.iter().map(|pair| pair.map(|s| s.ray())).collect();
     let mut order: Vec<usize> = (0..rays.len()).collect();
     let half = rays.len().div_ceil(2).max(3);
     let mut num_used = rays.len();
     let mut errors_sq = vec![0.0; rays.len()];
+    let mut best = Matrix3::identity();
     for _ in 0..ROUNDS {
-        let Some(rotation) = align_rays(order[..num_used].iter().map(|&i| &rays[i])) else {
-            return false;
-        };
+        let rotation = align_rays(order[..num_used].iter().map(|&i| &rays[i]))?;
         for ((error_sq, [_, seen2]), [ray1, _]) in errors_sq.iter_mut().zip(inliers).zip(&rays) {
             *error_sq = seen2.error_sq(&(rotation * ray1));
         }
         order.sort_by(|&a, &b| errors_sq[a].total_cmp(&errors_sq[b]).then(a.cmp(&b)));
         num_used = half;
+        best = rotation;
     }
-    // In the second image alone the error has both images' noise.
-    let reach_px = core::f64::consts::SQRT_2 * options.reach_in_two_dimensions_px();
-    let explained = errors_sq
-        .iter()
+    let reach_px = options.in_two_dimensions().max_error_px;
+    let num_explained = (errors_sq.iter())
         .filter(|e| **e < reach_px * reach_px)
         .count();
-    explained as f64 >= options.max_homography_share * rays.len() as f64
+    let is_explained = num_explained as f64 >= options.max_homography_share * rays.len() as f64;
+    is_explained.then(|| ExplainingTurn {
+        cam2_from_cam1: motion_of_turn(&best),
+        num_explained,
+        num_inliers: rays.len(),
+    })
 }
 
 #[cfg(test)]
@@ -79,8 +106,13 @@ mod tests {
                 };
                 pairs.push([see(x), see(other)]);
             }
-            assert_eq!(only_turned(&pairs, &TwoViewOptions::default()), expected);
+            let found = find_explaining_turn_of_rays(&pairs, &TwoViewOptions::default());
+            assert_eq!(found.is_some(), expected);
+            if let Some(found) = found {
+                let off = found.cam2_from_cam1.rotation.angle_to(&motion.rotation);
+                assert!(off < 1e-3, "{off}");
+            }
         }
-        assert!(!only_turned(&[], &TwoViewOptions::default()));
+        assert!(find_explaining_turn_of_rays(&[], &TwoViewOptions::default()).is_none());
     }
 }
