@@ -13,7 +13,6 @@ mod files;
 #[cfg(test)]
 mod fuzz;
 mod interrupt;
-mod known_camera;
 mod lens;
 mod matrices;
 mod photo;

@@ -1,8 +1,7 @@
 //! What `epipole sfm` writes: the model, and the photographs that it speaks of.
 
-use super::input::Used;
+use super::input::{Used, name};
 use crate::failure::Failure;
-use crate::known_camera::name;
 use crate::{files, photo, picture};
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use std::collections::BTreeSet;
