@@ -388,7 +388,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     // A narrow picture is one by a long lens.
     let zoom = 45.0 / half_deg;
     let k = k().zoomed(zoom).unwrap();
-    let reach = 3.0 * half_deg.to_radians().min(1.2).tan();
+    let reach = 3.0 * libm::tan(half_deg.to_radians().min(1.2));
     let mut images = [0, 1].map(|n| SfmImage {
         name: format!("{n}.png"),
         width: SIZE,
