@@ -7,7 +7,7 @@ use crate::robust::Estimator;
 /// several ways to do so: most samples without outliers lead there.
 ///
 /// Where there is one way, the rule would gain little and is not asked. On photographs with known cameras, ten orders of the
-/// matches each, F took 4 to 7 % less time with it and E none, and the AUC up to 10° changed by +.21 to −.23 for F (less in
+/// matches each, F took 1 to 6 % less time with it and E none, and the AUC up to 10° changed by +.21 to −.23 for F (less in
 /// three of seven sets, more in one; orders alone spread it by up to 3) and by .01 at most for E.
 const KNOWN: f64 = 0.01;
 
