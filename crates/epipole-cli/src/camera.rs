@@ -7,7 +7,7 @@ use clap::Args;
 use epipole::camera::Intrinsics;
 
 /// How the intrinsics of photographs are given.
-#[derive(Debug, Clone, Copy, Args)]
+#[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct CameraArguments {
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]

@@ -13,6 +13,7 @@ mod files;
 #[cfg(test)]
 mod fuzz;
 mod interrupt;
+mod known_camera;
 mod lens;
 mod matrices;
 mod photo;

@@ -4,13 +4,12 @@
 
 mod common;
 
+use common::lens::photograph;
 use common::{Folder, epipole, fails, json, motion, numbers, parse, path};
 use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform, look_at};
+use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform, look_at};
 use epipole::sfm::{AlignmentKind, align_points};
-use epipole::synthetic::{Sampling, Scene};
-use image::{Rgb, RgbImage};
-use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -27,56 +26,6 @@ fn camera() -> CalibratedCamera {
         width: SIZE,
         height: SIZE,
     }
-}
-
-/// The sides of a cube around the camera that a fisheye sees: the rows are the axes of each.
-fn sides() -> [Matrix3<f64>; 5] {
-    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
-    [[x, y, z], [-z, y, x], [z, y, -x], [x, -z, y], [x, z, -y]]
-        .map(|axes| Matrix3::from_rows(&axes.map(|axis| axis.transpose())))
-}
-
-/// What the fisheye sees of the still life: the sides of a cube, each rendered by a pinhole camera, and read where the
-/// rays of its pixels meet them.
-fn photograph(cam_from_world: &RigidTransform) -> RgbImage {
-    let side = 500;
-    let k = Intrinsics::centered(0.48 * f64::from(side), side, side).unwrap();
-    let scene = Scene::still_life();
-    let shown = sides().map(|axes| {
-        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        let camera = Camera {
-            intrinsics: k,
-            cam_from_world: RigidTransform::from_parts(Vector3::zeros().into(), turn)
-                * cam_from_world,
-        };
-        scene
-            .render(&camera, side, side, Sampling::Full)
-            .unwrap()
-            .image
-    });
-    RgbImage::from_fn(SIZE, SIZE, |u, v| {
-        let Ok(ray) = camera().ray(&Point2::new(f64::from(u), f64::from(v))) else {
-            return Rgb([0; 3]);
-        };
-        let turned = sides().map(|axes| axes * ray);
-        let facing = |i: &usize| turned[*i].z / turned[*i].amax() > 0.999_999;
-        let Some(n) = (0..5).find(facing) else {
-            return Rgb([0; 3]);
-        };
-        let place = k.project(&turned[n].into()).unwrap();
-        let (left, top) = (place.x.floor(), place.y.floor());
-        let mut color = [0.5; 3];
-        for (du, dv) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-            let weight = (1.0 - (place.x - left - du).abs()) * (1.0 - (place.y - top - dv).abs());
-            let last = f64::from(side - 1);
-            let at = |x: f64| x.clamp(0.0, last) as u32;
-            let pixel = shown[n].get_pixel(at(left + du), at(top + dv));
-            for (sum, value) in color.iter_mut().zip(pixel.0) {
-                *sum += weight * f64::from(value);
-            }
-        }
-        Rgb(color.map(|value: f64| value as u8))
-    })
 }
 
 /// Five views of the table from an arc.
@@ -120,7 +69,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     let mut files: Vec<PathBuf> = Vec::new();
     for (n, pose) in poses().iter().enumerate() {
         files.push(folder.file(&format!("{n}.png")));
-        photograph(pose).save(&files[n]).unwrap();
+        photograph(&camera(), pose).save(&files[n]).unwrap();
     }
     let camera = folder.write("camera.json", &camera_json(&COEFFICIENTS));
     let out = folder.file("out");
@@ -167,7 +116,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     assert!(off_px < 0.5, "{off_px}");
 
     // Photographs of another size are by another camera, and share no lens with it.
-    let small = image::imageops::thumbnail(&photograph(&poses()[2]), 200, 200);
+    let small = image::imageops::thumbnail(&photograph(&camera(), &poses()[2]), 200, 200);
     small.save(folder.file("5.png")).unwrap();
     let mut arguments = vec!["sfm", "--camera", path(&camera), "-o", path(&out), "--json"];
     arguments.extend(files.iter().map(|file| path(file)));

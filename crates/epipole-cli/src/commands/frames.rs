@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     files::make_folder(&arguments.output)?;
     let (mut written, mut chosen) = (Vec::new(), Vec::new());
     for (index, value) in best.into_iter().flatten() {
-        let name = super::sfm::name(&paths[index]);
+        let name = crate::known_camera::name(&paths[index]);
         let target = arguments.output.join(&name);
         if written.contains(&target.display().to_string()) {
             return Err(Failure::usage(format!(

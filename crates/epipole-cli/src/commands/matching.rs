@@ -1,9 +1,11 @@
 //! `epipole match`: features of two photographs that look alike.
 
+use crate::camera::{self, CameraArguments};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, rows};
-use crate::photo::{Photo, Size, SizeArguments};
+use crate::known_camera::{CameraFile, seen_rays};
+use crate::photo::{Size, SizeArguments};
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;
@@ -14,13 +16,17 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example: epipole match left.jpg right.jpg --ratio 0.8 --mutual --png matches.png\n\n\
     JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad,\n\
-    response] each), matches ([place in keypoints1, place in keypoints2, distance, ratio] each)."
+    response] each), matches ([place in keypoints1, place in keypoints2, distance, ratio] each); with --camera\n\
+    rays1 and rays2: for each keypoint the direction that it is seen in, x to the right, y down and z ahead, of length\n\
+    1, or null where the lens bends no ray to."
 )]
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
     first: PathBuf,
     /// A PNG, JPEG or WebP file.
     second: PathBuf,
+    #[command(flatten)]
+    camera: CameraFile,
     #[command(flatten)]
     size: SizeArguments,
     #[command(flatten)]
@@ -33,10 +39,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let photos = [
-        Photo::prepared(&arguments.first, arguments.size, None)?,
-        Photo::prepared(&arguments.second, arguments.size, None)?,
-    ];
+    let paths = [&*arguments.first, &*arguments.second];
+    let photos = arguments.camera.read(paths, arguments.size, context)?;
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run(&found1, &found2)?;
@@ -57,7 +61,26 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| (m.index1, m.index2, m.distance, m.ratio))
         .collect();
-    Ok(Report::default()
+    let mut report = Report::default();
+    if arguments.camera.is_given() {
+        let cameras = CameraArguments::default();
+        for (name, photo, found) in [
+            ("rays1", &photos[0], &found1),
+            ("rays2", &photos[1], &found2),
+        ] {
+            let (k, guess) = cameras.or_guess(photo)?;
+            if let Some(sentence) = camera::sentence(guess.as_slice()) {
+                context.warn(&sentence);
+            }
+            let pixels = found.keypoints.iter().map(|keypoint| keypoint.point());
+            let rays = seen_rays(photo, &k, pixels).into_iter();
+            let rays: Vec<Option<[f64; 3]>> = rays
+                .map(|seen| seen.map(|seen| seen.ray().into()))
+                .collect();
+            report = report.field(name, rays);
+        }
+    }
+    Ok(report
         .field(
             "images",
             photos.each_ref().map(|photo| Size::from(&photo.color)),

@@ -1,10 +1,11 @@
 //! `epipole odometry`: the path of a camera, or of a stereo rig, from its frames.
 
-use super::sfm::{name, photos};
+use super::sfm::photos;
 use crate::camera::{CameraArguments, sentence};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::known_camera::name;
 use crate::matrices::{Motion, positive};
 use crate::photo::Photo;
 use crate::progress::Progress;

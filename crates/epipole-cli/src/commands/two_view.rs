@@ -1,6 +1,7 @@
 //! `epipole two-view`: the geometry of two photographs.
 
 mod focal;
+mod rays;
 mod search;
 
 use self::search::estimate;
@@ -8,8 +9,9 @@ use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
+use crate::known_camera::CameraFile;
 use crate::matrices::{Motion, positive, row_major};
-use crate::photo::{Photo, SizeArguments};
+use crate::photo::SizeArguments;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments, threshold_words};
 use clap::{Args, ValueEnum};
@@ -37,12 +39,16 @@ enum Model {
          times it, or with --model homography the distance in image 2; \"auto\" finds it from the \
          noise of the matches"
     ).default_value(PHOTO_MAX_ERROR)),
+    mut_arg("camera_file", |argument| argument.conflicts_with_all(["k", "k2", "focal_px"])),
     after_help = "Example: epipole two-view left.jpg right.jpg --focal-px 1200\n\n\
     With --model essential, a focal length that neither --k, --focal-px nor EXIF data tell is found from\n\
     the matches, if they tell it, or else taken to be 1.2 times the longer side.\n\n\
     A match can miss an epipolar line in one dimension, a plane or a turn in two. So, when auto finds\n\
     one of these, its inliers have a Sampson error of H of up to 1.25 times --max-error-px.\n\n\
+    With --camera E and H are of rays, x2ᵀ E x1 = 0 and x2 ∝ H x1, and there is no F. Errors stay those of the\n\
+    photographs: of H in image 2, where those of an auto search may be 1.25 √2 times --max-error-px.\n\n\
     JSON: model_kind (fundamental, essential or homography), model (9 numbers row by row),\n\
+    model_of (pixels; rays with --camera; of an E always rays),\n\
     num_keypoints (of both photographs), num_matches, num_inliers, matches ([u1, v1, u2, v2, 1 for an\n\
     inlier or 0] each), cam2_from_cam1 (rotation and translation of length 1, or 0 if the camera only\n\
     turned; null if unknown), other_cam2_from_cam1 (of a plane: another motion that fits as well, or\n\
@@ -61,6 +67,8 @@ pub(crate) struct Arguments {
     model: Model,
     #[command(flatten)]
     camera: PairArguments,
+    #[command(flatten)]
+    known: CameraFile,
     #[command(flatten)]
     size: SizeArguments,
     #[command(flatten)]
@@ -102,10 +110,14 @@ impl Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
-    let photos = [
-        Photo::prepared(&arguments.first, arguments.size, None)?,
-        Photo::prepared(&arguments.second, arguments.size, None)?,
-    ];
+    if arguments.known.is_given() && arguments.model == Model::Fundamental {
+        return Err(Failure::usage(
+            "with --camera there is no fundamental matrix, which knows no lens: give --model auto, essential or \
+             homography, or what epipole undistort makes of the photographs",
+        ));
+    }
+    let paths = [&*arguments.first, &*arguments.second];
+    let photos = arguments.known.read(paths, arguments.size, context)?;
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run_best_first(&found1, &found2)?;
@@ -121,7 +133,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
     }
-    let found = estimate(arguments, context, &photos, &pixels1, &pixels2)?;
+    let found = match arguments.known.is_given() {
+        true => rays::estimate(arguments, context, &photos, [&pixels1, &pixels2])?,
+        false => estimate(arguments, context, &photos, &pixels1, &pixels2)?,
+    };
 
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
     let of_inliers = found
@@ -150,6 +165,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("configuration", found.configuration)
         .field("model_kind", found.kind)
         .field("model", row_major(&found.model))
+        .field(
+            "model_of",
+            match arguments.known.is_given() || found.kind == "essential" {
+                true => "rays",
+                false => "pixels",
+            },
+        )
         .field("num_keypoints", counts)
         .field("num_matches", rows.len())
         .field("num_inliers", num_inliers)

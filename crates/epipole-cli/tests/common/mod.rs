@@ -7,6 +7,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 pub(crate) mod exif;
+pub(crate) mod lens;
 
 use epipole::camera::{Camera, RigidTransform};
 use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};

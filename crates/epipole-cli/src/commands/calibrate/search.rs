@@ -43,7 +43,7 @@ pub(super) fn search(
     drop(progress);
     let names: Vec<String> = paths
         .iter()
-        .map(|path| crate::commands::sfm::name(path))
+        .map(|path| crate::known_camera::name(path))
         .collect();
     let mut photographs = Photographs {
         names,

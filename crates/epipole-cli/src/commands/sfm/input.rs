@@ -3,14 +3,15 @@
 use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::known_camera::{name, tell_of_others, tell_of_unseen};
 use crate::lens;
 use crate::photo::{KeptLens, Photo, SizeArguments};
 use clap::Args;
-use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
+use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::Intrinsics;
 use epipole::math::Geodetic;
 use epipole::sfm::Photo as SfmPhoto;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Photographs and cameras.
 #[derive(Debug, Args)]
@@ -140,59 +141,6 @@ impl InputArguments {
         }
         Ok(input)
     }
-}
-
-/// A share of a photograph without rays that is more than the corners around the circle of a fisheye.
-const MUCH_UNSEEN: f64 = 0.3;
-/// So much that the file cannot be that of the camera.
-const MOST_UNSEEN: f64 = 0.75;
-
-/// Says that the lens model bends no ray to a large part of the photographs.
-///
-/// # Errors
-/// A sentence, if it is most of them.
-fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Result<(), Failure> {
-    let share = lens::unseen_share(camera);
-    let sentence = format!(
-        "the lens of --camera bends no ray to {:.0} % of its photographs: its model folds before it reaches there",
-        100.0 * share
-    );
-    if share > MOST_UNSEEN {
-        return Err(Failure::new("degenerate", sentence));
-    }
-    if share > MUCH_UNSEEN {
-        context.warn(&format!("{sentence}; what is seen there is left out"));
-    }
-    Ok(())
-}
-
-/// Says for which photographs the calibrated camera was not used.
-fn tell_of_others(
-    camera: &CalibratedCamera,
-    others: &[(String, (u32, u32))],
-    num_photos: usize,
-    context: &Context,
-) {
-    let Some((name, (width, height))) = others.first() else {
-        return;
-    };
-    let why = match (*height, *width) == (camera.width, camera.height) {
-        true => "stands upright, and its file does not say how it was turned",
-        false => "has another size",
-    };
-    context.warn(&format!(
-        "the camera of --camera is used for {} of {num_photos} photographs: it was calibrated for {} × {}, and {name}, \
-         {width} × {height}, {why}",
-        num_photos - others.len(),
-        camera.width,
-        camera.height
-    ));
-}
-
-/// The name of a file without its folder.
-pub(crate) fn name(path: &Path) -> String {
-    path.file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// The files given, folders replaced by the photographs in them, sorted.

@@ -1,7 +1,8 @@
 //! What `epipole sfm` writes: the model, and the photographs that it speaks of.
 
-use super::input::{Used, name};
+use super::input::Used;
 use crate::failure::Failure;
+use crate::known_camera::name;
 use crate::{files, photo, picture};
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use std::collections::BTreeSet;

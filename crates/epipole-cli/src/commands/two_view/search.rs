@@ -182,13 +182,23 @@ fn warn_of_turn(
     Ok(())
 }
 
+/// The word for what two views show.
+pub(super) fn word(configuration: Configuration) -> &'static str {
+    match configuration {
+        Configuration::General => "general",
+        Configuration::Planar => "planar",
+        Configuration::Panoramic => "panoramic",
+        Configuration::Degenerate => "degenerate",
+    }
+}
+
 /// Whether no more matches agree than wrong ones might.
 fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool {
     report.could_be_chance() || report.num_unique_inliers < options.min_num_inliers
 }
 
 /// What the views show, if it is enough to be anything.
-fn configuration<M>(
+pub(super) fn configuration<M>(
     report: &RansacReport<M>,
     otherwise: &'static str,
     options: &TwoViewOptions,
@@ -235,11 +245,6 @@ fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f
         inliers: report.inliers,
         cam2_from_cam1: report.cam2_from_cam1,
         other_cam2_from_cam1: report.other_cam2_from_cam1,
-        configuration: match report.configuration {
-            Configuration::General => "general",
-            Configuration::Planar => "planar",
-            Configuration::Panoramic => "panoramic",
-            Configuration::Degenerate => "degenerate",
-        },
+        configuration: word(report.configuration),
     }
 }

@@ -1,0 +1,243 @@
+//! The searches of `epipole two-view` where the camera is known with its lens: from rays.
+
+use super::search::{Found, configuration, word};
+use super::{Arguments, Model};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::known_camera::seen_rays;
+use crate::photo::Photo;
+use crate::turn;
+use epipole::camera::{RigidTransform, SeenRay, cross_matrix};
+use epipole::epipolar::{
+    decompose_essential, estimate_relative_pose_of_rays_with, sampson_px_of_rays,
+};
+use epipole::homography::estimate_homography_of_rays_with;
+use epipole::two_view::{
+    TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_of_rays_with,
+    find_explaining_turn_of_rays,
+};
+use nalgebra::{Matrix3, Point2};
+
+/// The matches that the lenses see.
+struct Seen {
+    rays: [Vec<SeenRay>; 2],
+    /// Of each match, whether they do.
+    is_seen: Vec<bool>,
+}
+
+impl Seen {
+    /// A list of all matches, from one of those that are seen.
+    fn of_all<T: Clone>(&self, values: &[T], unseen: &T) -> Vec<T> {
+        let mut values = values.iter();
+        let place = |is_seen: &bool| match is_seen {
+            true => values.next().unwrap_or(unseen).clone(),
+            false => unseen.clone(),
+        };
+        self.is_seen.iter().map(place).collect()
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = (&SeenRay, &SeenRay)> {
+        self.rays[0].iter().zip(&self.rays[1])
+    }
+
+    /// As the core found it among the matches that are seen, for all of them.
+    fn told(&self, found: Found) -> Found {
+        Found {
+            inliers: self.of_all(&found.inliers, &false),
+            errors_px: self.of_all(&found.errors_px, &f64::INFINITY),
+            ..found
+        }
+    }
+
+    fn motion_errors_px(&self, motion: &RigidTransform) -> Vec<f64> {
+        self.pairs()
+            .map(|(a, b)| sampson_px_of_rays(motion, a, b))
+            .collect()
+    }
+
+    /// Of that motion of E which a match agrees with best: where the configuration is degenerate none is chosen.
+    fn essential_errors_px(&self, essential: &Matrix3<f64>) -> epipole::Result<Vec<f64>> {
+        let mut least = vec![f64::INFINITY; self.rays[0].len()];
+        for motion in decompose_essential(essential)? {
+            for (least, error) in least.iter_mut().zip(self.motion_errors_px(&motion)) {
+                *least = least.min(error);
+            }
+        }
+        Ok(least)
+    }
+
+    /// In image 2.
+    fn homography_errors_px(&self, homography: &Matrix3<f64>) -> Vec<f64> {
+        let error = |(a, b): (&SeenRay, &SeenRay)| {
+            let off = b.offset_px(&(homography * a.ray()));
+            off.map_or(f64::INFINITY, |off| off.norm())
+        };
+        self.pairs().map(error).collect()
+    }
+
+    fn inliers(&self, mask: &[bool]) -> Vec<[SeenRay; 2]> {
+        let kept = self.pairs().zip(mask).filter(|(_, is)| **is);
+        kept.map(|((a, b), _)| [*a, *b]).collect()
+    }
+}
+
+/// Both rays of the matches.
+///
+/// # Errors
+/// As [`PairArguments::or_guess`](crate::camera::PairArguments::or_guess).
+fn see(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels: [&[Point2<f64>]; 2],
+) -> Result<Seen, Failure> {
+    let (intrinsics, guess) = arguments.camera.or_guess(photos)?;
+    if let Some(sentence) = guess {
+        context.warn(&sentence);
+    }
+    let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
+    let (seen1, seen2) = (side(0), side(1));
+    let mut seen = Seen {
+        rays: [Vec::new(), Vec::new()],
+        is_seen: Vec::new(),
+    };
+    for pair in seen1.into_iter().zip(seen2) {
+        if let (Some(ray1), Some(ray2)) = pair {
+            seen.rays[0].push(ray1);
+            seen.rays[1].push(ray2);
+        }
+        seen.is_seen.push(matches!(pair, (Some(_), Some(_))));
+    }
+    let num_unseen = seen.is_seen.iter().filter(|is| !**is).count();
+    if num_unseen > 0 {
+        context.warn(&format!(
+            "{num_unseen} of {} matches are left out: the lens of --camera bends no ray to where they are",
+            seen.is_seen.len()
+        ));
+    }
+    Ok(seen)
+}
+
+/// Looks for the model that was asked for.
+///
+/// # Errors
+/// As the core's searches.
+pub(super) fn estimate(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels: [&[Point2<f64>]; 2],
+) -> Result<Found, Failure> {
+    let seen = see(arguments, context, photos, pixels)?;
+    let options = arguments.options(context);
+    let found = match arguments.model {
+        Model::Homography => homography(arguments, context, &seen, &options)?,
+        Model::Essential => essential(arguments, context, &seen, &options)?,
+        Model::Auto | Model::Fundamental => auto(arguments, context, &seen, &options)?,
+    };
+    Ok(seen.told(found))
+}
+
+fn auto(
+    arguments: &Arguments,
+    context: &Context,
+    seen: &Seen,
+    options: &TwoViewOptions,
+) -> Result<Found, Failure> {
+    let mut look = arguments.robust.look(context);
+    let mut end = (0, 0);
+    let mut observer = |trial: &TwoViewTrial| {
+        end = (trial.iteration, trial.required_iterations);
+        look(trial.iteration, trial.required_iterations)
+    };
+    let [rays1, rays2] = &seen.rays;
+    let report = estimate_two_view_of_rays_with(rays1, rays2, options, &mut observer)?;
+    drop(look);
+    arguments
+        .robust
+        .warn_of_stop(report.stop, end.0, end.1, context);
+    let (kind, model, errors_px) = match report.model {
+        TwoViewModel::Homography(h) => ("homography", h, seen.homography_errors_px(&h)),
+        TwoViewModel::Essential(e) | TwoViewModel::Fundamental(e) => {
+            ("essential", e, seen.essential_errors_px(&e)?)
+        }
+    };
+    Ok(Found {
+        kind,
+        model,
+        errors_px,
+        max_error_px: report.max_error_px,
+        focals_px: None,
+        inliers: report.inliers,
+        cam2_from_cam1: report.cam2_from_cam1,
+        other_cam2_from_cam1: report.other_cam2_from_cam1,
+        configuration: word(report.configuration),
+    })
+}
+
+fn essential(
+    arguments: &Arguments,
+    context: &Context,
+    seen: &Seen,
+    options: &TwoViewOptions,
+) -> Result<Found, Failure> {
+    let [rays1, rays2] = &seen.rays;
+    let report = arguments.robust.watched(context, |options, watch| {
+        estimate_relative_pose_of_rays_with(rays1, rays2, options, watch)
+    })?;
+    let motion = report.model;
+    let rotation = motion.rotation.to_rotation_matrix().into_inner();
+    let model = cross_matrix(&motion.translation.vector) * rotation;
+    let judging = options.within(report.max_error_px);
+    let mut found = Found {
+        kind: "essential",
+        errors_px: seen.motion_errors_px(&motion),
+        model: model / model.norm(),
+        cam2_from_cam1: Some(motion),
+        other_cam2_from_cam1: None,
+        focals_px: None,
+        configuration: configuration(&report, "general", options),
+        max_error_px: report.max_error_px,
+        inliers: report.inliers,
+    };
+    if found.configuration == "degenerate" {
+        found.cam2_from_cam1 = None;
+    } else if let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&found.inliers), &judging)
+    {
+        context.warn(&turn::sentence(&turn));
+        found.configuration = "panoramic";
+        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+    }
+    Ok(found)
+}
+
+fn homography(
+    arguments: &Arguments,
+    context: &Context,
+    seen: &Seen,
+    options: &TwoViewOptions,
+) -> Result<Found, Failure> {
+    let [rays1, rays2] = &seen.rays;
+    let report = arguments.robust.watched(context, |options, watch| {
+        estimate_homography_of_rays_with(rays1, rays2, options, watch)
+    })?;
+    let judging = options.within(report.max_error_px);
+    let mut found = Found {
+        kind: "homography",
+        errors_px: seen.homography_errors_px(&report.model),
+        model: report.model,
+        cam2_from_cam1: None,
+        other_cam2_from_cam1: None,
+        focals_px: None,
+        configuration: configuration(&report, "planar", options),
+        max_error_px: report.max_error_px,
+        inliers: report.inliers,
+    };
+    if found.configuration == "planar"
+        && let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&found.inliers), &judging)
+    {
+        found.configuration = "panoramic";
+        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+    }
+    Ok(found)
+}

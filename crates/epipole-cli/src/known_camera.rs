@@ -1,0 +1,131 @@
+//! The calibrated camera of photographs, from a file.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::lens;
+use crate::photo::{Photo, SizeArguments};
+use clap::Args;
+use epipole::calibration::CalibratedCamera;
+use epipole::camera::{Distortion, Intrinsics, Lens, SeenRay};
+use nalgebra::Point2;
+use std::path::{Path, PathBuf};
+
+/// A share of a photograph without rays that is more than the corners around the circle of a fisheye.
+const MUCH_UNSEEN: f64 = 0.3;
+/// So much that the file cannot be that of the camera.
+const MOST_UNSEEN: f64 = 0.75;
+
+/// Says that the lens model bends no ray to a large part of the photographs.
+///
+/// # Errors
+/// A sentence, if it is most of them.
+pub(crate) fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Result<(), Failure> {
+    let share = lens::unseen_share(camera);
+    let sentence = format!(
+        "the lens of --camera bends no ray to {:.0} % of its photographs: its model folds before it reaches there",
+        100.0 * share
+    );
+    if share > MOST_UNSEEN {
+        return Err(Failure::new("degenerate", sentence));
+    }
+    if share > MUCH_UNSEEN {
+        context.warn(&format!("{sentence}; what is seen there is left out"));
+    }
+    Ok(())
+}
+
+/// Says for which photographs the calibrated camera was not used.
+///
+/// * `others`: their names, and width and height as the sensor gave them
+pub(crate) fn tell_of_others(
+    camera: &CalibratedCamera,
+    others: &[(String, (u32, u32))],
+    num_photos: usize,
+    context: &Context,
+) {
+    let Some((name, (width, height))) = others.first() else {
+        return;
+    };
+    let why = match (*height, *width) == (camera.width, camera.height) {
+        true => "stands upright, and its file does not say how it was turned",
+        false => "has another size",
+    };
+    context.warn(&format!(
+        "the camera of --camera is used for {} of {num_photos} photographs: it was calibrated for {} × {}, and {name}, \
+         {width} × {height}, {why}",
+        num_photos - others.len(),
+        camera.width,
+        camera.height
+    ));
+}
+
+/// The name of a file without its folder.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// The camera of two photographs.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct CameraFile {
+    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for photographs of its size, also those
+    /// that were taken upright. They stay as they are; results are of the rays that their pixels see.
+    #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
+    camera_file: Option<PathBuf>,
+}
+
+impl CameraFile {
+    pub(crate) fn is_given(&self) -> bool {
+        self.camera_file.is_some()
+    }
+
+    /// Reads two photographs, which keep what the lens did.
+    ///
+    /// # Errors
+    /// A sentence, for files that cannot be read, and where neither photograph is by the camera.
+    pub(crate) fn read(
+        &self,
+        paths: [&Path; 2],
+        size: SizeArguments,
+        context: &Context,
+    ) -> Result<[Photo; 2], Failure> {
+        let Some(file) = &self.camera_file else {
+            let [first, second] = paths.map(|path| Photo::prepared(path, size, None));
+            return Ok([first?, second?]);
+        };
+        let camera = lens::read(file, false)?;
+        tell_of_unseen(&camera, context)?;
+        let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera));
+        let photos = [first?, second?];
+        let others: Vec<(String, (u32, u32))> = (photos.iter().zip(paths))
+            .filter(|(photo, _)| photo.lens.is_none())
+            .map(|(photo, path)| (name(path), photo.sensor_size))
+            .collect();
+        if others.len() == 2 {
+            return Err(Failure::new(
+                "size-mismatch",
+                format!(
+                    "the camera of --camera was calibrated for {} × {}, and neither photograph has this size",
+                    camera.width, camera.height
+                ),
+            ));
+        }
+        tell_of_others(&camera, &others, 2, context);
+        Ok(photos)
+    }
+}
+
+/// What a photograph shows at some pixels; `None` where its lens bends no ray to.
+///
+/// * `k`: of the photograph
+pub(crate) fn seen_rays(
+    photo: &Photo,
+    k: &Intrinsics,
+    pixels: impl Iterator<Item = Point2<f64>>,
+) -> Vec<Option<SeenRay>> {
+    let straight = Lens::Brown(Distortion::NONE);
+    let lens = photo.lens.map_or(straight, |kept| kept.lens);
+    pixels
+        .map(|pixel| SeenRay::through(&lens, k, &pixel).ok())
+        .collect()
+}

@@ -1,0 +1,226 @@
+//! `epipole two-view` and `match` of photographs by a known camera, whatever its lens.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use common::lens::{photograph, wall_photograph};
+use common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
+use epipole::calibration::CalibratedCamera;
+use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform, look_at};
+use image::RgbImage;
+use nalgebra::{Point2, Point3, Vector3};
+use serde_json::Value;
+use std::path::PathBuf;
+
+const SIZE: u32 = 420;
+
+/// A lens of each model: 175° wide, or as narrow as 36°.
+fn camera(kind: LensKind) -> CalibratedCamera {
+    let (focal_px, numbers): (f64, &[f64]) = match kind {
+        LensKind::Brown => (400.0, &[-0.1, 0.02, 0.001, -0.001, 0.0]),
+        LensKind::Rational => (320.0, &[0.3, 0.05, 0.001, -0.001, 0.01, 0.5, 0.1, 0.005]),
+        LensKind::Fisheye => (140.0, &[-0.02, 0.006, -0.002, 0.0003]),
+        LensKind::Division => (640.0, &[-0.3]),
+    };
+    CalibratedCamera {
+        intrinsics: Intrinsics::new(focal_px, focal_px, 210.5, 208.0).unwrap(),
+        lens: Lens::from_coefficients(kind, numbers).unwrap(),
+        width: SIZE,
+        height: SIZE,
+    }
+}
+
+const KINDS: [LensKind; 4] = [
+    LensKind::Brown,
+    LensKind::Rational,
+    LensKind::Fisheye,
+    LensKind::Division,
+];
+
+fn write(folder: &Folder, camera: &CalibratedCamera) -> PathBuf {
+    let k = &camera.intrinsics;
+    let center = k.principal_point();
+    let text = format!(
+        r#"{{ "image": {{ "width": {}, "height": {} }}, "k": [{}, {}, {}, {}],
+        "distortion": {{ "model": "{}", "coefficients": {:?} }} }}"#,
+        camera.width,
+        camera.height,
+        k.fu_px(),
+        k.fv_px(),
+        center.x,
+        center.y,
+        camera.lens.kind().name(),
+        camera.lens.coefficients()
+    );
+    folder.write("camera.json", &text)
+}
+
+/// The table from two places, as seen through `camera` from so near that it fills the picture.
+fn table(camera: &CalibratedCamera) -> [RigidTransform; 2] {
+    let up = Vector3::new(0.0, -1.0, 0.0);
+    let back = (camera.intrinsics.fu_px() / 140.0).min(3.0) * 0.55;
+    [-0.12, 0.12].map(|x: f64| {
+        let center = Point3::new(x * back / 0.55, -0.35, -back);
+        look_at(&center, &Point3::new(0.03, -0.1, 0.05), &up).unwrap()
+    })
+}
+
+fn pair(folder: &Folder, photographs: [RgbImage; 2]) -> [PathBuf; 2] {
+    let files = ["a.png", "b.png"].map(|name| folder.file(name));
+    for (file, photograph) in files.iter().zip(photographs) {
+        photograph.save(file).unwrap();
+    }
+    files
+}
+
+fn two_view(files: &[PathBuf; 2], camera: &PathBuf, model: &str) -> Value {
+    let [a, b] = files.each_ref().map(|file| path(file));
+    json(&["two-view", a, b, "--camera", path(camera), "--model", model])
+}
+
+/// Degrees of turn and of direction.
+fn off_deg(found: &Value, truth: &RigidTransform) -> [f64; 2] {
+    let found = motion(found);
+    [
+        found.rotation.angle_to(&truth.rotation).to_degrees(),
+        angle_deg(&found.translation.vector, &truth.translation.vector),
+    ]
+}
+
+#[test]
+fn every_lens_gives_the_motion_between_its_photographs() {
+    for kind in KINDS {
+        let folder = Folder::new(&format!("known-{}", kind.name()));
+        let camera = camera(kind);
+        let poses = table(&camera);
+        let truth = poses[1] * poses[0].inverse();
+        let files = pair(&folder, poses.map(|pose| photograph(&camera, &pose)));
+        let file = write(&folder, &camera);
+        for model in ["auto", "essential"] {
+            let found = two_view(&files, &file, model);
+            assert_eq!(found["configuration"], "general", "{kind:?} {model}");
+            assert_eq!(found["model_of"], "rays");
+            assert_eq!(found["model_kind"], "essential");
+            let [turn, direction] = off_deg(&found["cam2_from_cam1"], &truth);
+            assert!(
+                turn < 0.3 && direction < 1.5,
+                "{kind:?} {model}: {turn} {direction}"
+            );
+            let mean_px = found["mean_sampson_px"].as_f64().unwrap();
+            assert!(mean_px > 0.0 && mean_px < 0.7, "{kind:?}: {mean_px}");
+            // E is that of the motion.
+            let found_motion = motion(&found["cam2_from_cam1"]);
+            let e = found_motion.translation.vector.cross_matrix()
+                * found_motion.rotation.to_rotation_matrix().into_inner();
+            let told = common::matrix(&found["model"]);
+            let off = (told - e / e.norm())
+                .norm()
+                .min((told + e / e.norm()).norm());
+            assert!(off < 1e-9, "{off}");
+        }
+    }
+}
+
+#[test]
+fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
+    for kind in [LensKind::Fisheye, LensKind::Division] {
+        let folder = Folder::new(&format!("known-flat-{}", kind.name()));
+        let camera = camera(kind);
+        let file = write(&folder, &camera);
+        let back = camera.intrinsics.fu_px() / 140.0;
+        let first = RigidTransform::new(Vector3::new(0.0, 0.0, back), Vector3::new(0.1, 0.3, 0.0));
+        let turn = RigidTransform::rotation(Vector3::new(0.03, -0.09, 0.05));
+        let step = RigidTransform::translation(-0.3, 0.05, 0.1) * turn;
+        let wall = [first, step * first].map(|pose| wall_photograph(&camera, &pose));
+        let files = pair(&folder, wall);
+        let found = two_view(&files, &file, "auto");
+        assert_eq!(found["configuration"], "planar", "{kind:?}: {found}");
+        let offs = ["cam2_from_cam1", "other_cam2_from_cam1"].map(|name| match &found[name] {
+            Value::Null => f64::INFINITY,
+            told => off_deg(told, &step).iter().fold(0.0, |a, b| b.max(a)),
+        });
+        assert!(offs[0].min(offs[1]) < 3.0, "{kind:?}: {offs:?}");
+        let homography = two_view(&files, &file, "homography");
+        assert_eq!(homography["configuration"], "planar");
+        // Both are of the one plane.
+        let [one, other] = [&found, &homography].map(|found| common::matrix(&found["model"]));
+        let off = (one - other).norm().min((one + other).norm());
+        assert!(off < 0.02, "{kind:?}: {off}");
+
+        let poses = table(&camera);
+        let turned = [poses[0], turn * poses[0]].map(|pose| photograph(&camera, &pose));
+        let files = pair(&folder, turned);
+        for model in ["auto", "essential", "homography"] {
+            let found = two_view(&files, &file, model);
+            assert_eq!(found["configuration"], "panoramic", "{kind:?} {model}");
+            let told = motion(&found["cam2_from_cam1"]);
+            let off = told.rotation.angle_to(&turn.rotation).to_degrees();
+            assert!(
+                off < 0.1 && told.translation.vector.norm() == 0.0,
+                "{kind:?}: {off}"
+            );
+        }
+    }
+}
+
+#[test]
+fn matches_tell_the_rays_of_their_keypoints() {
+    let folder = Folder::new("known-rays");
+    let camera = camera(LensKind::Fisheye);
+    let poses = table(&camera);
+    let files = pair(&folder, poses.map(|pose| photograph(&camera, &pose)));
+    let file = write(&folder, &camera);
+    let [a, b] = files.each_ref().map(|file| path(file));
+    let found = json(&["match", a, b, "--camera", path(&file)]);
+    for (keypoints, rays) in [("keypoints1", "rays1"), ("keypoints2", "rays2")] {
+        let [keypoints, rays] = [keypoints, rays].map(|name| found[name].as_array().unwrap());
+        assert!(keypoints.len() == rays.len() && rays.len() > 100);
+        for (keypoint, ray) in keypoints.iter().zip(rays).filter(|(_, ray)| !ray.is_null()) {
+            let place = numbers(keypoint);
+            let truth = camera
+                .ray(&Point2::new(place[0], place[1]))
+                .unwrap()
+                .normalize();
+            assert!((Vector3::from_row_slice(&numbers(ray)) - truth).norm() < 1e-12);
+        }
+    }
+    assert!(json(&["match", a, b]).get("rays1").is_none());
+}
+
+#[test]
+fn cameras_that_do_not_fit_get_a_sentence() {
+    let folder = Folder::new("known-bad");
+    let [a, b] = ["a.png", "b.png"].map(|name| folder.blank(name, (SIZE, SIZE)));
+    let file = write(&folder, &camera(LensKind::Fisheye));
+    let with = |command, more: &[&'static str], status, expected: &str| {
+        let mut arguments = vec![command, path(&a), path(&b), "--camera", path(&file)];
+        arguments.extend(more);
+        fails(&folder, &arguments, status, expected);
+    };
+    with(
+        "two-view",
+        &["--model", "fundamental"],
+        2,
+        "no fundamental matrix",
+    );
+    with("two-view", &["--focal-px", "100"], 2, "--focal-px");
+    with("two-view", &["--k", "1,1,0,0"], 2, "--k");
+    let small = ["c.png", "d.png"].map(|name| folder.blank(name, (100, 80)));
+    for command in ["two-view", "match"] {
+        let [c, d] = small.each_ref().map(|file| path(file));
+        let arguments = [command, c, d, "--camera", path(&file)];
+        fails(&folder, &arguments, 1, "neither photograph has this size");
+        // One of them is by the camera: the other is guessed at, and told of.
+        let output = epipole(&[command, path(&a), d, "--camera", path(&file)]);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(told.contains("is used for 1 of 2 photographs"), "{told}");
+    }
+    let folds = CalibratedCamera {
+        lens: Lens::from_coefficients(LensKind::Fisheye, &[-3.0, 0.0, 0.0, 0.0]).unwrap(),
+        ..camera(LensKind::Fisheye)
+    };
+    let file = write(&folder, &folds);
+    let arguments = ["two-view", path(&a), path(&b), "--camera", path(&file)];
+    fails(&folder, &arguments, 1, "bends no ray to 9");
+}
