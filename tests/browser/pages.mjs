@@ -11,7 +11,8 @@ const { prerenderer } = await import(`${root}/web/prerender.mjs`);
 /** Where the script for the head of such a page is. */
 export const made = await mkdtemp(join(tmpdir(), "epipole-"));
 const { build } = await import(`${root}/web/node_modules/esbuild/lib/main.js`);
-await build({ entryPoints: [`${root}/web/src/early.ts`], outdir: made, bundle: true, format: "iife" });
+const { look } = await import(`${root}/web/look.mjs`);
+await build({ entryPoints: [`${root}/web/src/early.ts`], outdir: made, bundle: true, format: "iife", plugins: [look] });
 const prerender = await prerenderer();
 
 /** What figures have computed, by name and key of the question: many pages ask the same. */
