@@ -119,8 +119,9 @@ async function begin(page, figure) {
   await ready(figure);
   await expect(figure.locator("[aria-busy]")).toHaveCount(0, { timeout: 90_000 });
   await settled(figure);
-  // The browser itself holds what the mouse has pressed last, with the tree that it was in.
+  // The browser itself holds what the mouse has pressed last and dragged something over, with the tree that it was in.
   await page.mouse.click(1, 1);
+  await page.getByRole("link", { name: "a link" }).dragTo(page.getByRole("heading", { name: "Figures" }));
   return holds(page);
 }
 
