@@ -131,6 +131,11 @@ for (const [index, { name }] of figures.entries()) {
     await keepMemory(page);
     const random = generator(1000 * SEED + index);
     let figure = await open(page, [name], { settle: false });
+    // The largest picture that hands can ask for has its memory from the beginning.
+    await resize(page, 1920, 1080);
+    await ready(figure);
+    await figure.evaluate((element) => element.toPng().then(() => undefined));
+    await resize(page, 1000, 900);
     const before = await begin(page, figure);
     const next = deeds(page, figure, random);
     const done = [];
