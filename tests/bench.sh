@@ -41,7 +41,8 @@ cargo build --quiet -p epipole-tests --example kernels --target wasm32-unknown-u
 node tests/browser/opencv.mjs "$target/wasm32-unknown-unknown/web-worker/examples/kernels.wasm"
 echo
 cargo run --quiet --bin epipole-book -- build >/dev/null
-cargo build --quiet --package epipole-web --lib --no-default-features --features figures \
+# Linked as one, as readers get it.
+cargo rustc --quiet --package epipole-web --lib --crate-type cdylib --no-default-features --features figures \
     --target wasm32-unknown-unknown --profile web
 python3 tests/weight.py "$target/wasm32-unknown-unknown/web/epipole_web.wasm" "$target"/book/assets/epipole-figures-*.wasm
 echo

@@ -11,6 +11,7 @@ import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync,
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
+import { look } from "./look.mjs";
 import { manifest } from "./manifest.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -50,6 +51,7 @@ await build({
     EPIPOLE_JOBS_WASM: '"./epipole-jobs.wasm"',
     EPIPOLE_WORKER: '"./worker.js"',
   },
+  plugins: [look],
   format: "esm",
   logLevel: "warning",
 });

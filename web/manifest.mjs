@@ -1,7 +1,7 @@
 // What tools for custom elements want to know of <epipole-figure>, read off its sources: custom-elements.json.
 // https://github.com/webcomponents/custom-elements-manifest
 
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import ts from "typescript";
@@ -66,7 +66,8 @@ export function manifest() {
   }
   const index = parse("index.ts");
   const [events] = find(index, (node) => ts.isInterfaceDeclaration(node) && node.name.text === "EpipoleEvents");
-  const css = readFileSync(join(here, "src/figure.css"), "utf8");
+  const look = join(here, "src/look");
+  const css = readdirSync(look).map((name) => readFileSync(join(look, name), "utf8")).join("");
   const properties = [...new Set(css.match(/var\(--epipole-[a-z-]+/g).map((use) => use.slice("var(".length)))].sort();
   return {
     schemaVersion: "2.1.0",

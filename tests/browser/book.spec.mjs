@@ -97,3 +97,13 @@ if (book) {
     await lands(ids[4]);
   });
 }
+
+test("figures have their look before their own style sheet and script have come", async ({ page, library, complaints }) => {
+  // Some browsers paint a tree before what its `<link>` names is there.
+  await page.route(/assets[/](figure|index)-/, () => {});
+  await page.goto(`${library}/epipolar.html`, { waitUntil: "commit" });
+  const figure = page.locator("epipole-figure").first();
+  await expect.poll(() => figure.evaluate(({ shadowRoot }) => shadowRoot?.adoptedStyleSheets.length ?? 0)).toBe(1);
+  expect(await figure.evaluate(({ shadowRoot }) => shadowRoot.adoptedStyleSheets[0].cssRules.length)).toBeGreaterThan(100);
+  complaints.length = 0;
+});

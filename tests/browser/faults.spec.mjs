@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, ready, settled, test, told } from "./fixtures.mjs";
 import { figurePage, made } from "./pages.mjs";
-import { book, elements, here, jobsWasm, loadBindings, root, script, wasm } from "./places.mjs";
+import { book, elements, here, jobsWasm, loadBindings, script, wasm } from "./places.mjs";
 import { POLICY, serve, TYPES } from "./server.mjs";
 
 const { Figure, compute } = await loadBindings();
@@ -65,7 +65,7 @@ async function faulty() {
     response.setHeader("Content-Security-Policy", POLICY);
     (fault ?? send(type))(response, bytes, type);
   };
-  const pages = { figures: figurePage, made, pages: join(here, "pages"), source: join(root, "web/src") };
+  const pages = { figures: figurePage, made, pages: join(here, "pages") };
   const server = await serve({ mounts: { ...pages, elements: files(elements), book: files(book ?? elements) } });
   return Object.assign(site, server);
 }
@@ -232,7 +232,7 @@ test("isolated from other origins, and frozen while it computes, a figure comes 
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Embedder-Policy": "require-corp",
   };
-  const mounts = { figures: figurePage, made, elements, pages: join(here, "pages"), source: join(root, "web/src") };
+  const mounts = { figures: figurePage, made, elements, pages: join(here, "pages") };
   const site = await serve({ mounts, more: isolated });
   let release;
   const released = new Promise((resolve) => (release = resolve));

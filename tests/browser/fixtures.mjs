@@ -4,7 +4,7 @@ import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect } from "@playwright/test";
 import { join } from "node:path";
 import { figurePage, made, shareAnswers } from "./pages.mjs";
-import { bindings, book, elements, here, loadBindings, root } from "./places.mjs";
+import { bindings, book, elements, here, loadBindings } from "./places.mjs";
 import { serve } from "./server.mjs";
 
 const module = await loadBindings();
@@ -28,7 +28,6 @@ const test = base.extend({
         mounts: {
           figures: figurePage,
           pages: join(here, "pages"),
-          source: join(root, "web/src"),
           made,
           elements,
           bindings,

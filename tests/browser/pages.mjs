@@ -8,10 +8,12 @@ import { loadBindings, root, script } from "./places.mjs";
 const { Figure, compute, figures } = await loadBindings();
 const known = JSON.parse(figures());
 const { prerenderer } = await import(`${root}/web/prerender.mjs`);
-/** Where the script for the head of such a page is. */
+/** Where the script for the head of such a page is, and the figures' style sheet. */
 export const made = await mkdtemp(join(tmpdir(), "epipole-"));
 const { build } = await import(`${root}/web/node_modules/esbuild/lib/main.js`);
-await build({ entryPoints: [`${root}/web/src/early.ts`], outdir: made, bundle: true, format: "iife" });
+const { look } = await import(`${root}/web/look.mjs`);
+const entryPoints = ["early.ts", "figure.css"].map((name) => `${root}/web/src/${name}`);
+await build({ entryPoints, outdir: made, bundle: true, format: "iife", plugins: [look] });
 const prerender = await prerenderer();
 
 /** What figures have computed, by name and key of the question: many pages ask the same. */
@@ -74,7 +76,7 @@ function standIn(name, attributes, width) {
   const [across, down] = [Math.round(layout.width), Math.round(layout.height)];
   const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${across}" height="${down}"><rect width="100%" height="100%" fill="#ddd"/></svg>`;
   const poster = `<img src="data:image/svg+xml,${encodeURIComponent(svg)}" alt="Poster of ${name}" width="${across}" height="${down}">`;
-  const sheet = "/source/figure.css";
+  const sheet = "/made/figure.css";
   return `<template shadowrootmode="open">${tree.replace("{{figure.css}}", sheet)}</template><picture>${poster}</picture>`;
 }
 

@@ -66,7 +66,8 @@ declare const EPIPOLE_JOBS_WASM: string;
 /** Where the worker's script is, likewise. */
 declare const EPIPOLE_WORKER: string;
 
-declare module "*.css" {
+/** The style sheet `figure.css` with all that it imports, in one piece; the bundler puts it in. */
+declare module "epipole-look" {
   const text: string;
   export default text;
 }

@@ -9,8 +9,9 @@ const KEPT_MS = 10_000;
 /** Device pixels to a pixel of the layout in a saved picture. */
 const SCALE = 2;
 
-/** The picture as it is now, a PNG. */
-export function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
+/** The picture as it is once nothing is left to refine, a PNG. */
+export async function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
+  await session.sharpen();
   const canvas = session.portrait(scale);
   return new Promise((resolve) => (canvas ? canvas.toBlob(resolve) : resolve(null)));
 }

@@ -163,7 +163,16 @@ export class Session {
     if (this.#stale) this.#draw();
   }
 
-  /** The picture at full quality on a canvas of its own. */
+  /** Refines all that is left, in slices between which the page goes on. */
+  async sharpen(): Promise<void> {
+    for (let more = true; more && !this.#ended; ) {
+      const start = performance.now();
+      while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
+      await new Promise((resolve) => setTimeout(resolve));
+    }
+  }
+
+  /** The picture at full quality on a canvas of its own: at once after `sharpen`. */
   portrait(scale: number, theme: Theme = this.#theme): HTMLCanvasElement | undefined {
     if (this.#width === 0) return undefined;
     const canvas = document.createElement("canvas");

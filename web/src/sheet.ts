@@ -1,6 +1,6 @@
 /** The look of the figures. */
 
-import text from "./figure.css" with { type: "text" };
+import text from "epipole-look" with { type: "text" };
 
 let shared: CSSStyleSheet | undefined;
 

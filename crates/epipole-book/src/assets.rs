@@ -143,10 +143,10 @@ pub(crate) fn make(
     let tools = Tools::find(&options.project)?;
     let mut assets = Assets::default();
     fonts::add(&tools, letters, &mut assets)?;
-    scripts::add_pages(&tools, options.live, &mut assets)?;
+    let look = scripts::add_look(&tools, options.live, &mut assets)?;
+    scripts::add_pages(&tools, &look, options.live, &mut assets)?;
     if let Some(modules) = modules {
-        scripts::add_elements(&tools, modules, options.live, &mut assets)?;
-        scripts::add_figure_styles(&tools, options.live, &mut assets)?;
+        scripts::add_elements(&tools, modules, &look, options.live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);

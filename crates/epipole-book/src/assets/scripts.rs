@@ -11,8 +11,16 @@ use std::process::Command;
 /// How the style sheet names fonts, before they have their hashed names.
 const FONT: &str = "stix-two:";
 
-/// The style sheet and the scripts that every page uses.
-pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
+/// How scripts name the figures' style sheet.
+const LOOK: &str = "epipole-look";
+
+/// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
+pub(super) fn add_pages(
+    tools: &Tools,
+    look: &Path,
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<()> {
     // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
     let mut css = bundle(
         tools,
@@ -34,7 +42,9 @@ pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Resul
     }
     assets.css = add_hashed(&mut assets.files, "book", "css", text.into_bytes());
 
-    let head = bundle(tools, "web/book/head.ts", &["--format=iife"], fast, assets)?;
+    let look = format!("--alias:{LOOK}={}", look.display());
+    let before = ["--format=iife", &look];
+    let head = bundle(tools, "web/book/head.ts", &before, fast, assets)?;
     assets.head = head
         .get("head")
         .cloned()
@@ -50,11 +60,12 @@ pub(super) fn add_pages(tools: &Tools, fast: bool, assets: &mut Assets) -> Resul
 
 /// The custom elements: `web/src/worker.ts` first, as the elements name it, then
 /// `web/src/index.ts`. The sources find the other files beside their own through the constants
-/// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, and the generated bindings as the modules
-/// `epipole-web` and `epipole-jobs`.
+/// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, the generated bindings as the modules
+/// `epipole-web` and `epipole-jobs`, and the file `look` as `epipole-look`.
 pub(super) fn add_elements(
     tools: &Tools,
     modules: &Modules,
+    look: &Path,
     fast: bool,
     assets: &mut Assets,
 ) -> Result<()> {
@@ -70,6 +81,7 @@ pub(super) fn add_elements(
         "--format=esm".to_owned(),
         format!("--alias:epipole-web={}", figures.glue.display()),
         format!("--alias:epipole-jobs={}", jobs.glue.display()),
+        format!("--alias:{LOOK}={}", look.display()),
         define("EPIPOLE_WASM", &figures_wasm),
         define("EPIPOLE_JOBS_WASM", &jobs_wasm),
     ];
@@ -138,11 +150,14 @@ pub(super) fn add_lab(
     Ok((css, script))
 }
 
-/// The style sheet that a figure's shadow root names while no script has run.
-pub(super) fn add_figure_styles(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
+/// The style sheet of the figures: scripts carry it, and a shadow root names it while none has run.
+/// Returns the bundled file.
+pub(super) fn add_look(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<PathBuf> {
     let made = bundle(tools, "web/src/figure.css", &[], fast, assets)?;
-    assets.figure_css = made.get("figure").cloned();
-    Ok(())
+    let path = made.get("figure").context("esbuild made no figure.css")?;
+    assets.figure_css = Some(path.clone());
+    let name = path.trim_start_matches("assets/");
+    Ok(tools.work.join("bundle/figure").join(name))
 }
 
 fn borrowed(flags: &[String]) -> Vec<&str> {
@@ -186,6 +201,8 @@ fn bundle(
             "--bundle",
             "--target=es2022,chrome107,firefox104,safari16",
             "--log-level=warning",
+            // What is imported for what it does must not be left out.
+            "--log-override:ignored-bare-import=error",
         ])
         .args([
             "--entry-names=[name]-[hash]",

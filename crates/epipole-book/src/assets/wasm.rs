@@ -33,10 +33,11 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
     })
 }
 
-/// A setting of cargo by which the paths of this machine stay out of the modules, where panics name the file that
-/// they come from: the same source gives the same bytes wherever it is built. Cargo joins it to what
-/// `.cargo/config.toml` says.
-fn without_paths(project: &Path) -> String {
+/// A setting of cargo: what the compiler is told of every crate. Cargo joins it to what `.cargo/config.toml` says.
+///
+/// By it the paths of this machine stay out of the modules, where panics name the file that they come from: the same
+/// source gives the same bytes wherever it is built.
+fn for_every_crate(project: &Path, more: &[&str]) -> String {
     let home = std::env::var_os("CARGO_HOME")
         .map(PathBuf::from)
         .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
@@ -45,6 +46,7 @@ fn without_paths(project: &Path) -> String {
         .into_iter()
         .chain([(project.to_path_buf(), "epipole")])
         .map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()))
+        .chain(more.iter().map(|&flag| flag.to_owned()))
         .map(|flag| format!("{flag:?}"))
         .collect();
     format!(
@@ -61,28 +63,47 @@ fn profile(feature: &str) -> &'static str {
     }
 }
 
-/// How the module of a feature is linked: arguments of `cargo rustc`, and behind `--` those of the compiler.
+/// How a module is compiled beyond its profile.
+#[derive(Default)]
+struct Way {
+    /// Arguments of `cargo rustc`.
+    of_cargo: &'static [&'static str],
+    /// Arguments of the compiler for every crate.
+    of_every_crate: &'static [&'static str],
+    /// Its arguments where the module is linked.
+    of_linking: &'static [&'static str],
+}
+
+/// How the module of a feature is compiled.
 ///
-/// Cargo leaves link-time optimization out where a library is an rlib as well as a cdylib, so the figures'
+/// Cargo leaves link-time optimization out where a library is an rlib as well as a cdylib, so the figures and their
 /// computations are asked for as a cdylib alone. The whole is optimized once more then, in which nalgebra's small
-/// functions, compiled for size, go into the loops that call them; limits for inlining and unrolling give part of that
-/// back where it makes the module large and no faster.
-fn link(package: &str, feature: &str) -> (&'static [&'static str], &'static [&'static str]) {
+/// functions, compiled for size, go into the loops that call them. Computations are compiled for speed; limits for
+/// inlining and unrolling, in every crate, since most of both is done before the whole is linked, give back what makes
+/// the module large and hardly faster.
+fn way(package: &str, feature: &str) -> Way {
+    const AS_ONE: &[&str] = &["--crate-type", "cdylib"];
     match (package, feature) {
-        ("epipole-web", "jobs") => (
-            &["--crate-type", "cdylib"],
-            &[
+        ("epipole-web", "jobs") => Way {
+            of_cargo: AS_ONE,
+            of_every_crate: &[
                 "-C",
                 "llvm-args=-inline-threshold=25",
                 "-C",
-                "llvm-args=-unroll-threshold=80",
+                "llvm-args=-unroll-threshold=120",
+            ],
+            of_linking: &[
                 "-C",
                 "llvm-args=-unroll-runtime=false",
                 "-C",
                 "llvm-args=-force-vector-interleave=1",
             ],
-        ),
-        _ => (&[], &[]),
+        },
+        ("epipole-web", "figures") => Way {
+            of_cargo: AS_ONE,
+            ..Way::default()
+        },
+        _ => Way::default(),
     }
 }
 
@@ -90,10 +111,10 @@ fn link(package: &str, feature: &str) -> (&'static [&'static str], &'static [&'s
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     let target = super::target_folder(&tools.project);
     let profile = profile(feature);
-    let (of_cargo, of_compiler) = link(package, feature);
+    let way = way(package, feature);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["rustc", "--package", package, "--lib"])
-        .args(of_cargo)
+        .args(way.of_cargo)
         .args(["--no-default-features", "--features", feature])
         .args([
             "--target",
@@ -103,9 +124,9 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
             "--quiet",
         ])
         .arg("--config")
-        .arg(without_paths(&tools.project))
+        .arg(for_every_crate(&tools.project, way.of_every_crate))
         .arg("--")
-        .args(of_compiler)
+        .args(way.of_linking)
         .current_dir(&tools.project)
         .stdout(Stdio::null())
         .status()
@@ -149,9 +170,10 @@ mod tests {
 
     #[test]
     fn paths_of_this_machine_are_named_anew() {
-        let setting = without_paths(Path::new("/a place/epipole"));
+        let setting = for_every_crate(Path::new("/a place/epipole"), &["-C"]);
         assert!(setting.starts_with("target.wasm32-unknown-unknown.rustflags=["));
         assert!(setting.contains("\"--remap-path-prefix=/a place/epipole=epipole\""));
         assert!(setting.contains("registry"));
+        assert!(setting.ends_with(", \"-C\"]"));
     }
 }

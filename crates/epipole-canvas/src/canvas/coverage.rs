@@ -72,7 +72,7 @@ impl Coverage {
 
     /// Blends a color where the picture is covered, and covers nothing again.
     pub(super) fn blend(&mut self, pixels: &mut [u8], color: Rgb, opacity: f64) {
-        let opacity = (opacity.clamp(0.0, 1.0) * 256.0).round() as u32;
+        let opacity = (opacity.clamp(0.0, 1.0) * 256.0).round() as u16;
         let ink = Ink::new(color);
         for row in std::mem::take(&mut self.rows) {
             let columns = std::mem::take(&mut self.touched[row]);
@@ -80,8 +80,9 @@ impl Coverage {
             let alphas = &mut self.alpha[start..][..self.width - columns.start];
             let touched = &mut alphas[..columns.len()];
             if opacity < 256 {
+                // Sixteen bits hold it, so that a vector holds eight.
                 for alpha in touched.iter_mut() {
-                    *alpha = ((u32::from(*alpha) * opacity + 128) >> 8) as u8;
+                    *alpha = ((u16::from(*alpha) * opacity + 128) >> 8) as u8;
                 }
             }
             // What is not covered stays as it is, and together with it nothing is left over.
@@ -108,8 +109,8 @@ const BYTES: usize = 4 * AT_ONCE;
 
 /// A color to be blended into pixels of red, green, blue and an alpha of 255.
 pub(super) struct Ink {
-    /// The bytes of [`AT_ONCE`] pixels of the color.
-    color: [u16; BYTES],
+    /// The bytes of two pixels of the color.
+    color: [u16; 8],
 }
 
 impl Ink {
@@ -126,9 +127,13 @@ impl Ink {
         let (chunks, last_pixels) = pixels.as_chunks_mut::<BYTES>();
         let (alpha_chunks, last_alphas) = alphas.as_chunks::<AT_ONCE>();
         for (pixels, alphas) in chunks.iter_mut().zip(alpha_chunks) {
-            // Most marks are small or narrow in what they touch.
-            if *alphas != [0; AT_ONCE] {
-                self.mix(pixels, alphas);
+            // Most marks are small or narrow in what they touch, and large ones are even inside.
+            if *alphas == [0; AT_ONCE] {
+                continue;
+            }
+            match *alphas == [alphas[0]; AT_ONCE] {
+                true => self.mix_evenly(pixels, alphas[0]),
+                false => self.mix(pixels, alphas),
             }
         }
         let count = last_alphas.len();
@@ -146,10 +151,25 @@ impl Ink {
     /// nothing branches.
     #[inline(always)]
     fn mix(&self, pixels: &mut [u8; BYTES], alphas: &[u8; AT_ONCE]) {
-        let shares: [u16; BYTES] = std::array::from_fn(|byte| u16::from(alphas[byte / 4]));
-        for byte in 0..BYTES {
-            let paper = u16::from(pixels[byte]) * (255 - shares[byte]);
-            pixels[byte] = nearest_255th(self.color[byte] * shares[byte] + paper);
+        let twos = pixels.as_chunks_mut::<8>().0.iter_mut();
+        for (two, &[first, second]) in twos.zip(alphas.as_chunks::<2>().0) {
+            for (index, byte) in two.iter_mut().enumerate() {
+                let share = u16::from(if index < 4 { first } else { second });
+                let paper = u16::from(*byte) * (255 - share);
+                *byte = nearest_255th(self.color[index] * share + paper);
+            }
+        }
+    }
+
+    /// [`mix`](Self::mix) where all pixels are covered to the same share.
+    #[inline(always)]
+    fn mix_evenly(&self, pixels: &mut [u8; BYTES], alpha: u8) {
+        let share = u16::from(alpha);
+        let ink: [u16; 8] = std::array::from_fn(|byte| self.color[byte] * share);
+        for two in pixels.as_chunks_mut::<8>().0 {
+            for (byte, ink) in two.iter_mut().zip(ink) {
+                *byte = nearest_255th(ink + u16::from(*byte) * (255 - share));
+            }
         }
     }
 }

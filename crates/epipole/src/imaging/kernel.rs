@@ -98,6 +98,7 @@ pub(crate) enum Row<'a> {
 
 impl Row<'_> {
     /// Columns as numbers to be overwritten. Each is asked for once, in order.
+    #[inline]
     pub(crate) fn columns(&mut self, columns: Range<usize>) -> &mut [f32] {
         match self {
             Self::Over(row) => &mut row[columns],

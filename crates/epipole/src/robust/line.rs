@@ -163,6 +163,7 @@ impl<'a> LineEstimator<'a> {
         Ok(Self { points, unique })
     }
 
+    #[inline]
     fn point(&self, index: usize) -> &Point2<f64> {
         &self.points[self.unique.first_occurrences()[index]]
     }

@@ -60,13 +60,13 @@ fn advance<const BLOCK: usize>(
     let n = costs.len();
     let jump = minimum.saturating_add(p2);
     let mut least = [u8::MAX; BLOCK];
-    let blocks = costs
-        .chunks_exact(BLOCK)
-        .zip(before[..n].chunks_exact(BLOCK))
-        .zip(before[1..n + 1].chunks_exact(BLOCK))
-        .zip(before[2..n + 2].chunks_exact(BLOCK))
-        .zip(next.chunks_exact_mut(BLOCK));
-    for ((((cost, below), same), above), after) in blocks {
+    // Counted rather than zipped: this runs for every pixel, and five slices in step cost more to begin than to walk.
+    let [below, same, above] = [0, 1, 2].map(|first| before[first..first + n].as_chunks().0);
+    let (costs, next) = (costs.as_chunks().0, next.as_chunks_mut().0);
+    for block in 0..n / BLOCK {
+        let [cost, below, same, above]: [&[u8; BLOCK]; 4] =
+            [&costs[block], &below[block], &same[block], &above[block]];
+        let after: &mut [u8; BLOCK] = &mut next[block];
         for i in 0..BLOCK {
             let beside = below[i].min(above[i]).saturating_add(p1);
             let best = same[i].min(beside).min(jump).wrapping_sub(minimum);

@@ -188,6 +188,7 @@ impl Body {
 
     /// A point of the world in the frame of this body. Whatever its size, the frame is that of the
     /// body as it was built, so equal views are computed from equal numbers.
+    #[inline]
     pub(crate) fn local_point(&self, point: &Vector3<f64>, placed: &Placement) -> Vector3<f64> {
         let from_center = point - self.center * placed.scale - placed.foot;
         self.local_from_world * (from_center / placed.scale)
@@ -201,6 +202,7 @@ impl Body {
     }
 
     /// A ray of the world in the frame of this body.
+    #[inline]
     pub(crate) fn local_ray(&self, ray: &Ray, placed: &Placement) -> Ray {
         Ray {
             origin: self.local_point(&ray.origin, placed),
