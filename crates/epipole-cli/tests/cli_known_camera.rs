@@ -76,7 +76,18 @@ fn pair(folder: &Folder, photographs: [RgbImage; 2]) -> [PathBuf; 2] {
 
 fn two_view(files: &[PathBuf; 2], camera: &PathBuf, model: &str) -> Value {
     let [a, b] = files.each_ref().map(|file| path(file));
-    json(&["two-view", a, b, "--camera", path(camera), "--model", model])
+    // In so small a picture what is 2 px off may be on the next square of the cloth.
+    json(&[
+        "two-view",
+        a,
+        b,
+        "--camera",
+        path(camera),
+        "--model",
+        model,
+        "--max-error-px",
+        "1",
+    ])
 }
 
 /// Degrees of turn and of direction.
@@ -97,28 +108,43 @@ fn every_lens_gives_the_motion_between_its_photographs() {
         let truth = poses[1] * poses[0].inverse();
         let files = pair(&folder, poses.map(|pose| photograph(&camera, &pose)));
         let file = write(&folder, &camera);
-        for model in ["auto", "essential"] {
-            let found = two_view(&files, &file, model);
-            assert_eq!(found["configuration"], "general", "{kind:?} {model}");
-            assert_eq!(found["model_of"], "rays");
-            assert_eq!(found["model_kind"], "essential");
-            let [turn, direction] = off_deg(&found["cam2_from_cam1"], &truth);
-            assert!(
-                turn < 0.3 && direction < 1.5,
-                "{kind:?} {model}: {turn} {direction}"
-            );
-            let mean_px = found["mean_sampson_px"].as_f64().unwrap();
-            assert!(mean_px > 0.0 && mean_px < 0.7, "{kind:?}: {mean_px}");
-            // E is that of the motion.
-            let found_motion = motion(&found["cam2_from_cam1"]);
-            let e = found_motion.translation.vector.cross_matrix()
-                * found_motion.rotation.to_rotation_matrix().into_inner();
-            let told = common::matrix(&found["model"]);
-            let off = (told - e / e.norm())
-                .norm()
-                .min((told + e / e.norm()).norm());
-            assert!(off < 1e-9, "{off}");
-        }
+        let found = two_view(&files, &file, "essential");
+        assert_eq!(found["configuration"], "general", "{kind:?}");
+        assert_eq!(found["model_of"], "rays");
+        assert_eq!(found["model_kind"], "essential");
+        let [turn, direction] = off_deg(&found["cam2_from_cam1"], &truth);
+        // PoseLib finds 1.04° and 2.72° from the rays of the narrowest, ours .87° and 2.70°: more is not in its matches.
+        let within = match kind {
+            LensKind::Division => [1.0, 3.0],
+            _ => [0.3, 0.5],
+        };
+        assert!(
+            turn < within[0] && direction < within[1],
+            "{kind:?}: {turn} {direction}"
+        );
+        let mean_px = found["mean_sampson_px"].as_f64().unwrap();
+        assert!(mean_px > 0.0 && mean_px < 0.5, "{kind:?}: {mean_px}");
+        // E is that of the motion.
+        let found_motion = motion(&found["cam2_from_cam1"]);
+        let e = found_motion.translation.vector.cross_matrix()
+            * found_motion.rotation.to_rotation_matrix().into_inner();
+        let told = common::matrix(&found["model"]);
+        let off = (told - e / e.norm())
+            .norm()
+            .min((told + e / e.norm()).norm());
+        assert!(off < 1e-9, "{off}");
+        // Of what the Brown camera sees four fifths are on the table, which is a plane then.
+        let chosen = two_view(&files, &file, "auto");
+        let expected = match kind {
+            LensKind::Brown => "planar",
+            _ => "general",
+        };
+        assert_eq!(chosen["configuration"], expected, "{kind:?}");
+        let [turn, direction] = off_deg(&chosen["cam2_from_cam1"], &truth);
+        assert!(
+            turn < within[0].max(0.5) && direction < within[1].max(1.5),
+            "{kind:?}: {turn} {direction}"
+        );
     }
 }
 

@@ -116,7 +116,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     assert!(off_px < 0.5, "{off_px}");
 
     // Photographs of another size are by another camera, and share no lens with it.
-    let small = image::imageops::thumbnail(&photograph(&camera(), &poses()[2]), 200, 200);
+    let small = image::imageops::thumbnail(&photograph(&self::camera(), &poses()[2]), 200, 200);
     small.save(folder.file("5.png")).unwrap();
     let mut arguments = vec!["sfm", "--camera", path(&camera), "-o", path(&out), "--json"];
     arguments.extend(files.iter().map(|file| path(file)));

@@ -15,12 +15,7 @@ const FONT: &str = "stix-two:";
 const LOOK: &str = "epipole-look";
 
 /// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
-pub(super) fn add_pages(
-    tools: &Tools,
-    look: &Path,
-    fast: bool,
-    assets: &mut Assets,
-) -> Result<()> {
+pub(super) fn add_pages(tools: &Tools, look: &Path, fast: bool, assets: &mut Assets) -> Result<()> {
     // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
     let mut css = bundle(
         tools,
