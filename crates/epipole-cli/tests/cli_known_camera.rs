@@ -11,7 +11,7 @@ use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform, look_at};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const SIZE: u32 = 420;
 
@@ -74,7 +74,7 @@ fn pair(folder: &Folder, photographs: [RgbImage; 2]) -> [PathBuf; 2] {
     files
 }
 
-fn two_view(files: &[PathBuf; 2], camera: &PathBuf, model: &str) -> Value {
+fn two_view(files: &[PathBuf; 2], camera: &Path, model: &str) -> Value {
     let [a, b] = files.each_ref().map(|file| path(file));
     // In so small a picture what is 2 px off may be on the next square of the cloth.
     json(&[
