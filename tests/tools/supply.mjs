@@ -134,10 +134,11 @@ function words({ manifest_path: manifest }, license) {
 
 async function bundled(scripts) {
   const { build } = await import(join(root, "web/node_modules/esbuild/lib/main.js"));
+  const { look } = await import(join(root, "web/look.mjs"));
   const entryPoints = scripts.map((path) => join(root, path));
   const external = ["epipole-web", "epipole-jobs", "epipole-lab*", "stix-two:*"];
   const { metafile } = await build({
-    absWorkingDir: root, entryPoints, external, bundle: true, write: false, metafile: true, outdir: "out", format: "esm", loader: { ".css": "text" }, logLevel: "error",
+    absWorkingDir: root, entryPoints, external, bundle: true, write: false, metafile: true, outdir: "out", format: "esm", plugins: [look], logLevel: "error",
   });
   const names = Object.keys(metafile.inputs).map((path) => /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(path)?.[1]);
   return [...new Set(names.filter(Boolean))].sort();
