@@ -233,15 +233,13 @@ export class Session {
       while (more && remaining() > 0) more = this.ask((engine) => engine.refine()) === true;
       if (more) this.#warm();
     };
-    // Safari has no idle callbacks.
-    if (typeof requestIdleCallback === "function") {
-      requestIdleCallback((deadline) => work(() => Math.min(SLICE_MS, deadline.timeRemaining())));
-      return;
-    }
-    setTimeout(() => {
+    const slice = (deadline?: IdleDeadline) => {
       const start = performance.now();
-      work(() => SLICE_MS - (performance.now() - start));
-    }, IDLE_MS);
+      work(() => Math.min(SLICE_MS - (performance.now() - start), deadline?.timeRemaining() ?? SLICE_MS));
+    };
+    // Safari has no idle callbacks.
+    if (typeof requestIdleCallback === "function") requestIdleCallback(slice);
+    else setTimeout(() => slice(), IDLE_MS);
   }
 
   /** Lets time pass in a running figure. */

@@ -16,7 +16,7 @@ use image::RgbImage;
 const DRAFT_FACTOR: f64 = 1.0 / 6.0;
 
 /// Rows of the full picture that one slice renders.
-const ROWS_PER_SLICE: u32 = 16;
+const ROWS_PER_SLICE: u32 = 4;
 
 /// One photograph of a scene, kept until the camera or the scene changes.
 #[derive(Default)]

@@ -13,8 +13,8 @@ use std::sync::Arc;
 const NEAR: f64 = 1e-9;
 
 /// What one step of [`Scene::prepare`] computes: cells of light maps, or texels.
-const CELLS_PER_STEP: usize = 1024;
-const TEXELS_PER_STEP: usize = 16_384;
+const CELLS_PER_STEP: usize = 256;
+const TEXELS_PER_STEP: usize = 4096;
 
 /// The first surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
