@@ -226,16 +226,17 @@ export class Session {
   #warm(): void {
     if (this.#warming || !this.#rough) return;
     this.#warming = true;
-    const work = (remaining: () => number) => {
+    const slice = (deadline?: IdleDeadline) => {
       this.#warming = false;
       if (!this.#held || !this.#inSight || this.#ended) return;
-      let more = true;
-      while (more && remaining() > 0) more = this.ask((engine) => engine.refine()) === true;
-      if (more) this.#warm();
-    };
-    const slice = (deadline?: IdleDeadline) => {
       const start = performance.now();
-      work(() => Math.min(SLICE_MS - (performance.now() - start), deadline?.timeRemaining() ?? SLICE_MS));
+      let more = true;
+      while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
+      if (!more) return;
+      // An idle moment has room for several slices; between them the page is heard.
+      this.#warming = (deadline?.timeRemaining() ?? 0) > SLICE_MS;
+      if (this.#warming) setTimeout(() => slice(deadline));
+      else this.#warm();
     };
     // Safari has no idle callbacks.
     if (typeof requestIdleCallback === "function") requestIdleCallback(slice);
