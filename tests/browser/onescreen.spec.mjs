@@ -61,6 +61,50 @@ function hiding(figure) {
   });
 }
 
+/** The tree of a figure's stand-in and what stands around it, as the page has it. */
+const TEXT = /<figure class="epipole"[^]*<\/figure>/;
+
+/**
+ * Shows as much of a page's figure as has come when its text ends at each of `cuts`, and names what is seen then in
+ * another place than once all of it is there.
+ */
+function strayed(page, text, cuts) {
+  return page.evaluate(
+    ({ text, cuts }) => {
+      const main = document.querySelector("main");
+      const sheets = document.querySelector("epipole-figure").shadowRoot.adoptedStyleSheets;
+      const places = (html) => {
+        main.querySelector("figure").remove();
+        main.insertAdjacentHTML("beforeend", "<div></div>");
+        const room = main.lastElementChild;
+        room.setHTMLUnsafe(html);
+        room.replaceWith(...room.childNodes);
+        const { shadowRoot } = main.querySelector("epipole-figure");
+        shadowRoot.adoptedStyleSheets = sheets;
+        const all = [...shadowRoot.querySelectorAll(".root, .root *:not(svg *, option)")];
+        return all.map((part) => {
+          const { x, y, width, height } = part.getBoundingClientRect();
+          const seen = width * height > 0 && part.checkVisibility({ visibilityProperty: true });
+          return { name: part.className || part.localName, seen, x, y };
+        });
+      };
+      const whole = places(text);
+      const found = [];
+      for (const cut of cuts) {
+        for (const [index, { name, seen, x, y }] of places(text.slice(0, cut)).entries()) {
+          const then = whole[index];
+          // What the browser counts as a shift: three pixels.
+          if (seen && Math.max(Math.abs(x - then.x), Math.abs(y - then.y)) >= 3) {
+            found.push(`${name} at ${x}, ${y}, later at ${then.x}, ${then.y}: ${text.slice(cut - 60, cut)}`);
+          }
+        }
+      }
+      return found;
+    },
+    { text, cuts },
+  );
+}
+
 for (const { name } of figures) {
   test.describe(name, () => {
     test("320 px wide, and enlarged to 200 %, nothing has to be scrolled sideways", async ({ browser, open, complaints }) => {
@@ -145,6 +189,21 @@ for (const { name } of figures) {
         if (options === PHONE) expect(await hiding(figure)).toEqual([]);
         else expect(await height(figure, CORE), `at ${width} × ${down}`).toBeLessThanOrEqual(HIGHEST_PX);
         await context.close();
+      }
+    });
+
+    test("what a page has brought of it so far stays where it is as the rest comes", async ({ page, open }) => {
+      prepare(name);
+      await page.route(/\/elements\/.*\.js$/, (route) => route.fulfill({ body: "", contentType: "text/javascript" }));
+      for (const [width, height] of [[1280, 720], [700, 720], [390, 844]]) {
+        await page.setViewportSize({ width, height });
+        await open(page, [name], { query: { wide: "1", poster: String(widthOf(name, width)) }, wait: false });
+        const text = (await page.evaluate(async () => (await fetch(location.href)).text())).match(TEXT)[0];
+        const unstyled = text.replace(/<link[^>]*>/, "");
+        const ends = [...unstyled.matchAll(/>/g)].map(({ index }) => index + 1);
+        const inTree = ends.filter((end) => end > unstyled.indexOf("<template") && end < unstyled.indexOf("</template>"));
+        expect(inTree.length).toBeGreaterThan(40);
+        expect(await strayed(page, unstyled, inTree.filter((_, nth) => nth % 3 === 0)), `at ${width}`).toEqual([]);
       }
     });
 
