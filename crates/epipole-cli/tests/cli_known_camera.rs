@@ -211,7 +211,20 @@ fn matches_tell_the_rays_of_their_keypoints() {
             assert!((Vector3::from_row_slice(&numbers(ray)) - truth).norm() < 1e-12);
         }
     }
+    let count = |name: &str| {
+        let rays = found[name].as_array().unwrap();
+        rays.iter().filter(|ray| !ray.is_null()).count()
+    };
+    let row = format!(
+        "seen by the lens  {} and {}",
+        count("rays1"),
+        count("rays2")
+    );
+    let said = |arguments: &[&str]| String::from_utf8(epipole(arguments).stdout).unwrap();
+    let told = said(&["match", a, b, "--camera", path(&file)]);
+    assert!(told.contains(&row), "{row}: {told}");
     assert!(json(&["match", a, b]).get("rays1").is_none());
+    assert!(!said(&["match", a, b]).contains("lens"));
 }
 
 #[test]

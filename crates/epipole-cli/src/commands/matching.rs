@@ -61,9 +61,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| (m.index1, m.index2, m.distance, m.ratio))
         .collect();
-    let mut report = Report::default();
+    let nums_keypoints = format!("{} and {}", found1.keypoints.len(), found2.keypoints.len());
+    let mut report = Report::default().row("keypoints", nums_keypoints);
     if arguments.camera.is_given() {
         let cameras = CameraArguments::default();
+        let mut nums_seen = Vec::new();
         for (name, photo, found) in [
             ("rays1", &photos[0], &found1),
             ("rays2", &photos[1], &found2),
@@ -77,8 +79,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             let rays: Vec<Option<[f64; 3]>> = rays
                 .map(|seen| seen.map(|seen| seen.ray().into()))
                 .collect();
+            nums_seen.push(rays.iter().flatten().count().to_string());
             report = report.field(name, rays);
         }
+        report = report.row("seen by the lens", nums_seen.join(" and "));
     }
     Ok(report
         .field(
@@ -88,9 +92,5 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("keypoints1", rows(&found1.keypoints))
         .field("keypoints2", rows(&found2.keypoints))
         .field("matches", list)
-        .row(
-            "keypoints",
-            format!("{} and {}", found1.keypoints.len(), found2.keypoints.len()),
-        )
         .row("matches", matches.len()))
 }

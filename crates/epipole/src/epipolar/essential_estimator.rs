@@ -8,11 +8,13 @@ use super::other_motion::other_motion_of_plane;
 use super::plane_recovery::PlaneRecovery;
 use super::refine_pose::{Pose, RaysInFrame, refine_pose_in_frame};
 use super::{RelativePose, sampson};
+#[cfg(doc)]
+use crate::Error;
+use crate::Result;
 use crate::camera::Intrinsics;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::robust::{Estimator, MatchSet, Support};
-use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
@@ -50,13 +52,7 @@ impl EssentialEstimator {
     /// [`Error::TooFew`] for fewer than 5 different matches, [`Error::Degenerate`] if all pixels
     /// of an image lie on one line, or are equal.
     pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
-        if matches.len() < 5 {
-            return Err(Error::TooFew {
-                what: "an essential matrix from matches",
-                needed: 5,
-                got: matches.len(),
-            });
-        }
+        matches.at_least(5, "an essential matrix from matches")?;
         refuse_collinear(&matches, "an essential matrix from matches")?;
         let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);

@@ -39,13 +39,7 @@ impl FundamentalEstimator {
     /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] if all pixels
     /// of an image lie on one line, or are equal.
     pub fn new(matches: MatchSet) -> Result<Self> {
-        if matches.len() < 7 {
-            return Err(Error::TooFew {
-                what: "a fundamental matrix from matches",
-                needed: 7,
-                got: matches.len(),
-            });
-        }
+        matches.at_least(7, "a fundamental matrix from matches")?;
         refuse_collinear(&matches, "a fundamental matrix from matches")?;
         let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);

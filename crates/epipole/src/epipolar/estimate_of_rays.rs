@@ -300,13 +300,7 @@ pub fn estimate_relative_pose_of_rays_with(
     let pixels = [seen1, seen2]
         .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
     let matches = MatchSet::new(&pixels[0], &pixels[1])?;
-    if matches.len() < 5 {
-        return Err(Error::TooFew {
-            what: "a relative pose from rays",
-            needed: 5,
-            got: matches.len(),
-        });
-    }
+    matches.at_least(5, "a relative pose from rays")?;
     let kept = matches.unique().first_occurrences();
     let pairs: Option<Vec<RayPair>> = kept
         .iter()

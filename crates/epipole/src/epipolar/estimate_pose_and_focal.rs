@@ -93,13 +93,7 @@ impl FocalEstimator {
         principal1: &Point2<f64>,
         principal2: &Point2<f64>,
     ) -> Result<Self> {
-        if matches.len() < 6 {
-            return Err(Error::TooFew {
-                what: NAME,
-                needed: 6,
-                got: matches.len(),
-            });
-        }
+        matches.at_least(6, NAME)?;
         let centers = [*principal1, *principal2];
         if !centers.iter().all(|c| c.x.is_finite() && c.y.is_finite()) {
             return Err(Error::NotFinite {

@@ -59,7 +59,7 @@ pub fn refine_fundamental(
     loss: RobustLoss,
 ) -> Result<Matrix3<f64>> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
-    enough(&matches, 7, "a refined fundamental matrix")?;
+    matches.at_least(7, "a refined fundamental matrix")?;
     loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);
@@ -85,17 +85,6 @@ pub fn refine_fundamental(
 pub(super) const NO_ERROR_AT_THE_START: Error = Error::NotFinite {
     what: "the Sampson error of every match at the start",
 };
-
-pub(super) fn enough(matches: &MatchSet, needed: usize, what: &'static str) -> Result<()> {
-    if matches.len() < needed {
-        return Err(Error::TooFew {
-            what,
-            needed,
-            got: matches.len(),
-        });
-    }
-    Ok(())
-}
 
 /// The same loss for residuals that are `factor` times as large.
 pub(crate) fn scaled(loss: RobustLoss, factor: f64) -> RobustLoss {

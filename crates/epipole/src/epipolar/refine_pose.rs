@@ -2,7 +2,7 @@
 
 use super::RelativePose;
 use super::coordinates::{CommonFrame, Coordinates};
-use super::refine::{NO_ERROR_AT_THE_START, enough, flatten, project, scaled};
+use super::refine::{NO_ERROR_AT_THE_START, flatten, project, scaled};
 use super::sampson::{cost, linearize};
 #[cfg(doc)]
 use crate::Error;
@@ -58,7 +58,7 @@ pub fn refine_relative_pose(
     loss: RobustLoss,
 ) -> Result<RelativePose> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
-    enough(&matches, 5, "a refined relative pose")?;
+    matches.at_least(5, "a refined relative pose")?;
     loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);

@@ -48,13 +48,7 @@ impl HomographyEstimator {
     /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::Degenerate`] if all pixels of an image lie
     /// on one line.
     pub fn new(matches: MatchSet) -> Result<Self> {
-        if matches.len() < 4 {
-            return Err(Error::TooFew {
-                what: "a homography from matches",
-                needed: 4,
-                got: matches.len(),
-            });
-        }
+        matches.at_least(4, "a homography from matches")?;
         let [u1, v1, u2, v2] = matches.coordinates();
         if is_line(u1, v1) || is_line(u2, v2) {
             return Err(Error::Degenerate {

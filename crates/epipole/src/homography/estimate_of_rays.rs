@@ -1,11 +1,13 @@
 //! H of a plane from rays of which many are wrongly matched: for lenses that no pinhole camera stands for.
 
+#[cfg(doc)]
+use crate::Error;
+use crate::Result;
 use crate::camera::SeenRay;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Trial, ransac_with};
-use crate::{Error, Result};
 use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
@@ -189,6 +191,30 @@ pub fn estimate_homography_of_rays(
 ///
 /// # Errors
 /// As [`estimate_homography_of_rays`] and [`ransac_with`].
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
+/// use epipole::homography::estimate_homography_of_rays_with;
+/// use epipole::robust::{RansacOptions, StopReason};
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
+/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
+/// for i in 0..60 {
+///     seen1.push(see(120 + i * 37 % 400, 120 + i * 71 % 400)?);
+///     // Every third match is wrong.
+///     let off = if i % 3 == 0 { i * 53 % 90 } else { 0 };
+///     seen2.push(see(120 + i * 37 % 400 + off, 120 + i * 71 % 400)?);
+/// }
+/// let options = RansacOptions::default();
+/// let report = estimate_homography_of_rays_with(&seen1, &seen2, &options, |trial| {
+///     if trial.iteration == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!((report.iterations, report.stop), (5, StopReason::Canceled));
+/// # Ok(()) }
+/// ```
 pub fn estimate_homography_of_rays_with(
     seen1: &[SeenRay],
     seen2: &[SeenRay],
@@ -198,13 +224,7 @@ pub fn estimate_homography_of_rays_with(
     let pixels = [seen1, seen2]
         .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
     let matches = MatchSet::new(&pixels[0], &pixels[1])?;
-    if matches.len() < 4 {
-        return Err(Error::TooFew {
-            what: "a homography of rays",
-            needed: 4,
-            got: matches.len(),
-        });
-    }
+    matches.at_least(4, "a homography of rays")?;
     let kept = matches.unique().first_occurrences();
     let rays1 = kept.iter().map(|&i| seen1[i].ray()).collect();
     let seen2 = kept.iter().map(|&i| seen2[i]).collect();
@@ -219,6 +239,7 @@ pub fn estimate_homography_of_rays_with(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
     use crate::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;

@@ -45,13 +45,7 @@ pub fn refine_homography(
     loss: RobustLoss,
 ) -> Result<Matrix3<f64>> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
-    if matches.len() < 4 {
-        return Err(Error::TooFew {
-            what: "a refined homography",
-            needed: 4,
-            got: matches.len(),
-        });
-    }
+    matches.at_least(4, "a refined homography")?;
     loss.check()?;
     let frame = CommonFrame::new(&matches);
     let coordinates = Coordinates::pixels(&matches).mapped(&frame);

@@ -139,6 +139,17 @@ impl MatchSet {
         [&self.u1, &self.v1, &self.u2, &self.v2]
     }
 
+    /// That there are enough matches to find `what` in.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than `needed`.
+    pub(crate) fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
+        match self.len() {
+            got if got < needed => Err(Error::TooFew { what, needed, got }),
+            _ => Ok(()),
+        }
+    }
+
     /// The probability that a pixel anywhere in image 2 is nearer than so much to a given one.
     pub(crate) fn chance_near_point2(&self, radius_px: f64) -> f64 {
         chance_near_point([self.u2.clone(), self.v2.clone()], radius_px)

@@ -71,13 +71,7 @@ impl PlaneSimilarity {
 /// ```
 pub fn fit_similarity(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<PlaneSimilarity> {
     let matches = MatchSet::of_all(pixels1, pixels2)?;
-    if matches.len() < 2 {
-        return Err(Error::TooFew {
-            what: "a similarity from matches",
-            needed: 2,
-            got: matches.len(),
-        });
-    }
+    matches.at_least(2, "a similarity from matches")?;
     fit(pixels1.len(), |i| (pixels1[i], pixels2[i])).ok_or(Error::Degenerate {
         what: "a similarity from matches",
         why: "all points of the first image are equal",

@@ -89,6 +89,28 @@ pub fn estimate_two_view_of_rays(
 ///
 /// # Errors
 /// As [`estimate_two_view_of_rays`]; [`Error::Canceled`] if nothing was found until then.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
+/// use epipole::two_view::{TwoViewOptions, TwoViewTrial, estimate_two_view_of_rays_with};
+/// use nalgebra::Point2;
+/// use std::ops::ControlFlow;
+/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
+/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
+/// for i in 0..60 {
+///     seen1.push(see(120 + i * 37 % 400, 120 + i * 71 % 400)?);
+///     seen2.push(see(120 + i * 37 % 400 - 3 - i * 13 % 29, 120 + i * 71 % 400)?);
+/// }
+/// let mut num_trials = 0;
+/// let report = estimate_two_view_of_rays_with(&seen1, &seen2, &TwoViewOptions::default(), &mut |_: &TwoViewTrial| {
+///     num_trials += 1;
+///     ControlFlow::Continue(())
+/// })?;
+/// assert!(num_trials > 0 && report.inliers.len() == 60);
+/// # Ok(()) }
+/// ```
 pub fn estimate_two_view_of_rays_with(
     seen1: &[SeenRay],
     seen2: &[SeenRay],

@@ -1,10 +1,12 @@
 //! Pure rotations: what two views share when the camera only turned.
 
+#[cfg(doc)]
+use crate::Error;
+use crate::Result;
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
 use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
-use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
@@ -28,13 +30,7 @@ impl RotationEstimator {
     /// # Errors
     /// [`Error::TooFew`] for fewer than 2 different matches.
     pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
-        if matches.len() < 2 {
-            return Err(Error::TooFew {
-                what: "a rotation from matches",
-                needed: 2,
-                got: matches.len(),
-            });
-        }
+        matches.at_least(2, "a rotation from matches")?;
         let rays = (0..matches.len())
             .map(|i| {
                 let (p1, p2) = matches.pair(i);
