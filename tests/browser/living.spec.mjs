@@ -329,6 +329,23 @@ test.describe("the life of an element", () => {
     expect(after.heap - before.heap).toBeLessThanOrEqual(4 << 20);
   });
 
+  test("a figure that has just said that its link is copied goes with its name", async ({ page, open, context }) => {
+    await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+    const figure = await open(page, ["ransac-budget"]);
+    // By script: the browser itself holds what the mouse has pressed last.
+    await figure.getByRole("button", { name: "Copy link" }).evaluate((button) => button.click());
+    await expect(figure.getByRole("button", { name: "Copied" })).toBeVisible();
+    const gone = await figure.evaluateHandle(async (element) => {
+      const root = new WeakRef(element.shadowRoot.querySelector(".root"));
+      element.setAttribute("name", "four-poses");
+      await element.whenReady();
+      return root;
+    });
+    const devtools = await page.context().newCDPSession(page);
+    for (let round = 0; round < 3; round += 1) await devtools.send("HeapProfiler.collectGarbage");
+    expect(await gone.evaluate((root) => root.deref() === undefined)).toBe(true);
+  });
+
   test("Reset starts a computation again that was stopped", async ({ page, open }) => {
     for (const name of ["ransac-epipolar", "two-view-sfm"]) {
       let hold = true;

@@ -257,6 +257,7 @@ export class Shell {
     this.unmark();
     this.speaker.silence();
     this.jobs.end();
+    this.#toolbar.end();
     this.#controls.clear();
     this.photos.forget();
   }

@@ -25,6 +25,7 @@ export class Toolbar {
   #file: HTMLButtonElement | undefined;
   readonly #save: HTMLButtonElement;
   readonly #say: (sentence: string) => void;
+  #copied: ReturnType<typeof setTimeout> | undefined;
 
   constructor(deeds: Deeds, say: (sentence: string) => void) {
     this.#deeds = deeds;
@@ -101,7 +102,13 @@ export class Toolbar {
     const label = button.querySelector("span");
     if (!label) return;
     setText(label, "Copied");
-    setTimeout(() => setText(label, "Copy link"), COPIED_MS);
+    this.end();
+    this.#copied = setTimeout(() => setText(label, "Copy link"), COPIED_MS);
+  }
+
+  /** Nobody looks any more: a button that waited for its words would keep the whole figure. */
+  end(): void {
+    clearTimeout(this.#copied);
   }
 
   /** Clipboards can be out of reach, in frames for one: then the reader copies by hand. */
