@@ -410,6 +410,9 @@ test("work that is stopped ends by itself, before its worker is ended", async ({
   await blank.locator("#photographs").setInputFiles([file("one.png", 1800, 1400), file("two.png", 1900, 1400)]);
   await press(blank, "button", "Features");
   await expect(blank.locator("#widgets").getByRole("button", { name: "Stop", exact: true })).toHaveCount(1);
+  // Reading tells too seldom to hear of a stop in time; finding features goes on for long.
+  await expect(blank.locator("#widgets")).toContainText("Finding features in", { timeout: 60_000 });
+  await blank.evaluate(() => (window.heard = []));
   await blank.waitForFunction(() => window.heard.includes("words"));
   await press(blank, "button", "Stop");
   await blank.waitForFunction(() => window.heard.includes("stopped"));

@@ -74,13 +74,21 @@ const tell = ({ frames, works, tasks }, what) => {
   say("of a frame the Lab's own work: median, p95", `${[0.5, 0.95].map((share) => (works[Math.floor(share * works.length)] ?? 0).toFixed(1)).join(", ")} ms`);
 };
 
-/** Resident memory of every process of the browser, MB. */
+/** Whether a process was started by this one, or by one that was: others may have browsers, too. */
+const isOurs = (id) => {
+  for (let at = id; at > 1; ) {
+    if (at === process.pid) return true;
+    at = Number(readFileSync(`/proc/${at}/status`, "utf8").match(/^PPid:\s+(\d+)/m)?.[1] ?? 0);
+  }
+  return false;
+};
+/** Resident memory of the page and its workers, MB. */
 const memory = () => {
   let total = 0;
   for (const id of readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
     try {
       const words = readFileSync(`/proc/${id}/cmdline`, "utf8");
-      if (!words.includes("--type=renderer")) continue;
+      if (!words.includes("--type=renderer") || !isOurs(Number(id))) continue;
       total += Number(readFileSync(`/proc/${id}/smaps_rollup`, "utf8").match(/^Pss:\s+(\d+)/m)?.[1] ?? 0) / 1024;
     } catch {
       // It has ended meanwhile.

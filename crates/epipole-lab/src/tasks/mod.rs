@@ -87,8 +87,12 @@ fn ask(progress: Progress<'_>, share: f32) -> Result<(), String> {
 
 /// A message as bytes.
 pub(crate) fn to_bytes<T: serde::Serialize>(message: &T) -> Vec<u8> {
+    // Bytes that grow by doubling would take three times their room for a while, and what a page once took it never gives
+    // back.
+    let size = postcard::serialize_with_flavor(message, postcard::ser_flavors::Size::default());
+    let bytes = Vec::with_capacity(size.unwrap_or_default());
     // Writing to memory cannot fail, and none of the messages has a length unknown beforehand.
-    postcard::to_allocvec(message).unwrap_or_default()
+    postcard::to_extend(message, bytes).unwrap_or_default()
 }
 
 impl Request {
@@ -122,6 +126,27 @@ impl Answer {
             Ok(Self::Depth(pair)) if !pair.is_whole() => Err(broken.to_owned()),
             Ok(answer) => Ok(answer),
             Err(_) => Err(broken.to_owned()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_takes_the_room_of_its_bytes_alone() {
+        let file = |len: usize| Request::Photograph {
+            source: Source::File(vec![7; len].into()),
+            max_pixels: 3_000_000,
+            camera: None,
+        };
+        for len in [0, 100, 1_000_003] {
+            let request = file(len);
+            let bytes = request.to_bytes();
+            assert!((len..len + 20).contains(&bytes.len()), "{}", bytes.len());
+            assert_eq!(bytes.capacity(), bytes.len());
+            assert_eq!(Request::from_bytes(&bytes), Ok(request));
         }
     }
 }

@@ -6,13 +6,15 @@ pub(crate) mod depth;
 #[cfg(feature = "panels")]
 pub(crate) mod desk;
 pub(crate) mod growing;
+pub(crate) mod measured;
 #[cfg(feature = "panels")]
 pub(crate) mod raster;
 
-use epipole_lab::project::{Event, Project};
+use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::Blob;
 use epipole_lab::tasks::{Answer, Request, Sample, compute};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use std::io::Cursor;
 use std::ops::ControlFlow;
 
 /// Computes until nothing is wanted. Returns how many tasks that took.
@@ -75,4 +77,25 @@ pub(crate) fn jpeg(image: &RgbImage, orientation: u16) -> Blob {
         .write_image(image.as_raw(), width, height, ExtendedColorType::Rgb8)
         .unwrap();
     bytes.into()
+}
+
+/// A PNG file of a picture with colors.
+pub(crate) fn png(width: u32, height: u32) -> Blob {
+    let image = RgbImage::from_fn(width, height, |u, v| {
+        image::Rgb([(u * 7 % 256) as u8, (v * 9 % 256) as u8, 90])
+    });
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner().into()
+}
+
+/// The sentence of every photograph, and that of the step "Reconstruction".
+pub(crate) fn sentences(project: &mut Project) -> (Vec<String>, String) {
+    project.update(Event::Show(Step::Reconstruction));
+    let photos = &project.document().photos;
+    let words = photos
+        .iter()
+        .map(|photo| project.fate_words(photo))
+        .collect();
+    (words, project.describe())
 }

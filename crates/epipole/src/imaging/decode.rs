@@ -2,10 +2,12 @@
 
 use super::exif::Facts;
 use super::gray::{GrayImage32, from_vec, rgb_to_gray};
+use super::jpeg;
 use crate::math::Geodetic;
 use crate::{Error, Result};
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbImage};
+use std::borrow::Cow;
 use std::io::Cursor;
 
 /// What [`decode_gray`] and [`decode_rgb`] accept.
@@ -49,6 +51,11 @@ pub struct Decoded<I> {
 /// # Errors
 /// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
 /// [`Error::TooManyPixels`] beyond the limit.
+///
+/// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or are for
+/// more blocks than the picture has. It has no checksum: data that were changed and still make
+/// sense are another picture. Bytes too many between its parts or behind it do no harm, nor does an
+/// end-of-image marker that is missing behind the last block.
 ///
 /// ```
 /// use epipole::imaging::{DecodeOptions, decode_gray};
@@ -119,17 +126,19 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
             why: "the file is empty".to_owned(),
         });
     }
-    let reader = ImageReader::new(Cursor::new(bytes))
+    let mut bytes = Cow::from(bytes);
+    if image::guess_format(&bytes).is_ok_and(|format| format == ImageFormat::Jpeg) {
+        let end = jpeg::check(&bytes, options.max_pixels);
+        if let jpeg::End::Unmarked(at) = end.map_err(|why| Error::BadImage { why })? {
+            // The decoder would take the last rows for lost.
+            bytes = [&bytes[..at], &[0xFF, 0xD9]].concat().into();
+        }
+    }
+    let mut reader = ImageReader::new(Cursor::new(&*bytes))
         .with_guessed_format()
         .map_err(|error| Error::BadImage {
             why: error.to_string(),
         })?;
-    if reader.format() == Some(image::ImageFormat::Jpeg) && !jpeg_is_whole(bytes) {
-        return Err(Error::BadImage {
-            why: "the JPEG file ends before its picture does".to_owned(),
-        });
-    }
-    let mut reader = reader;
     // Width times height is checked below, against the caller's own limit.
     reader.no_limits();
     let mut decoder = reader.into_decoder().map_err(|error| bad(&error))?;
@@ -160,32 +169,6 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
         place: facts.and_then(|facts| facts.place()),
         orientation,
     })
-}
-
-/// Whether a JPEG file reaches its end-of-image marker; the decoder alone would fill what is
-/// missing with gray.
-fn jpeg_is_whole(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    while at + 1 < bytes.len() {
-        if bytes[at] != 0xFF {
-            // Entropy-coded data, or padding between segments.
-            at += 1;
-            continue;
-        }
-        match bytes[at + 1] {
-            0xD9 => return true,
-            // A stuffed byte, a fill byte, a restart or another marker without a length.
-            0xFF => at += 1,
-            0x00 | 0x01 | 0xD0..=0xD8 => at += 2,
-            _ => {
-                let Some(length) = bytes.get(at + 2..at + 4) else {
-                    return false;
-                };
-                at += 2 + usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);
-            }
-        }
-    }
-    false
 }
 
 #[cfg(test)]

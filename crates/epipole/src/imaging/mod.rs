@@ -21,6 +21,8 @@ mod gaussian;
 mod gradient;
 mod gray;
 mod integral;
+#[cfg(feature = "decode")]
+mod jpeg;
 pub(crate) mod kernel;
 mod pyramid;
 mod reduce;
