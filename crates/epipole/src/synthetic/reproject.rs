@@ -119,6 +119,8 @@ impl Photograph {
     }
 
     /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
+    // Not inlined where all is compiled for size.
+    #[inline(never)]
     fn zoom(&self, from: &Camera, to: &Camera, target: &mut [u32]) {
         let (width, height) = self.image.dimensions();
         let (here, there) = (&from.intrinsics, &to.intrinsics);

@@ -143,6 +143,7 @@ impl Reprojected {
 }
 
 /// A row at the width of another picture, 256 times as bright.
+#[inline(never)]
 fn stretch(row: &[[u8; 3]], columns: &[(usize, usize, u32)], target: &mut [u16]) {
     let pixels = target.as_chunks_mut::<3>().0;
     for (pixel, &(left, right, across)) in pixels.iter_mut().zip(columns) {
@@ -154,19 +155,23 @@ fn stretch(row: &[[u8; 3]], columns: &[(usize, usize, u32)], target: &mut [u16])
 }
 
 /// Mixes two such rows; `down` is 256 times the way to the second of them.
+// Views are compiled for size: inlined into one, it would lose its vectors.
+#[inline(never)]
 fn mix([above, below]: [&[u16]; 2], down: u32, target: &mut [u8]) {
     // Sixteen at once, which vector instructions do, and what is left over.
     const AT_ONCE: usize = 16;
-    let mixed = |a: u16, b: u16| {
-        ((u32::from(a) * (256 - down) + u32::from(b) * down + 32_768) >> 16) as u8
-    };
+    let mixed =
+        |a: u16, b: u16| ((u32::from(a) * (256 - down) + u32::from(b) * down + 32_768) >> 16) as u8;
     let (targets, last) = target.as_chunks_mut::<AT_ONCE>();
     let (above, last_above) = above.as_chunks::<AT_ONCE>();
     let (below, last_below) = below.as_chunks::<AT_ONCE>();
     for ((target, above), below) in targets.iter_mut().zip(above).zip(below) {
+        // In a place of its own, which is not the rows' memory.
+        let mut here = [0; AT_ONCE];
         for i in 0..AT_ONCE {
-            target[i] = mixed(above[i], below[i]);
+            here[i] = mixed(above[i], below[i]);
         }
+        *target = here;
     }
     for ((target, &above), &below) in last.iter_mut().zip(last_above).zip(last_below) {
         *target = mixed(above, below);
