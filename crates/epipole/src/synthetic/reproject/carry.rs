@@ -123,6 +123,9 @@ impl Carry {
                     false => colors.len() - 1 - step,
                 };
                 let side = squares.side[index] as usize;
+                if side == 0 {
+                    continue;
+                }
                 let (left, top) = (squares.left[index] as usize, squares.top[index] as usize);
                 let [r, g, b] = colors[index];
                 let pixel = u32::from_le_bytes([r, g, b, 255]);
@@ -134,7 +137,7 @@ impl Carry {
                     (rows[width], rows[width + 1]) = (pixel, pixel);
                 } else if side == 1 {
                     target[at] = pixel;
-                } else if side != 0 {
+                } else {
                     for row in top..(top + side).min(height) {
                         let end = (left + side).min(width);
                         target[row * width + left..row * width + end].fill(pixel);
