@@ -147,6 +147,38 @@ impl Ink {
         }
     }
 
+    /// Blends this color into a row of pixels and another one over it, each covering them to its own shares.
+    // Inlined, it would lose that nothing of what it is given lies in the same memory, and its vectors.
+    #[inline(never)]
+    pub(super) fn blend_row_under(
+        &self,
+        over: &Self,
+        pixels: &mut [u8],
+        alphas: &[u8],
+        alphas_over: &[u8],
+    ) {
+        let (chunks, last_pixels) = pixels.as_chunks_mut::<BYTES>();
+        let (chunks_under, last_under) = alphas.as_chunks::<AT_ONCE>();
+        let (chunks_over, last_over) = alphas_over.as_chunks::<AT_ONCE>();
+        for ((pixels, alphas), alphas_over) in chunks.iter_mut().zip(chunks_under).zip(chunks_over)
+        {
+            if *alphas_over == [255; AT_ONCE] {
+                over.mix_evenly(pixels, 255);
+                continue;
+            }
+            if *alphas != [0; AT_ONCE] {
+                self.mix(pixels, alphas);
+            }
+            if *alphas_over != [0; AT_ONCE] {
+                over.mix(pixels, alphas_over);
+            }
+        }
+        if !last_under.is_empty() {
+            self.blend_row(last_pixels, last_under);
+            over.blend_row(last_pixels, last_over);
+        }
+    }
+
     /// Made for vector instructions, eight bytes of pixels at once in sixteen bits each, into which a mixture fits;
     /// nothing branches.
     #[inline(always)]
@@ -243,6 +275,22 @@ mod tests {
                 assert!(error <= 0.5 + 1e-9, "{index} {channel}: {error}");
             }
         }
+    }
+
+    #[test]
+    fn two_colors_together_blend_as_one_after_the_other() {
+        let alphas: Vec<u8> = (0..43).map(|k| (k * 53 % 256) as u8).collect();
+        let over = [[0; 8], [255; 8], [0, 7, 255, 255, 9, 200, 0, 255], [0; 8]];
+        let over: Vec<u8> = over.concat().into_iter().chain([255; 11]).collect();
+        let before: Vec<u8> = (0..4 * alphas.len())
+            .map(|k| (k * 37 % 256) as u8)
+            .collect();
+        let inks = [Ink::new([200, 10, 90]), Ink::new([3, 250, 40])];
+        let (mut together, mut in_turn) = (before.clone(), before);
+        inks[0].blend_row_under(&inks[1], &mut together, &alphas, &over);
+        inks[0].blend_row(&mut in_turn, &alphas);
+        inks[1].blend_row(&mut in_turn, &over);
+        assert_eq!(together, in_turn);
     }
 
     #[test]

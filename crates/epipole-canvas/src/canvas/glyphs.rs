@@ -108,6 +108,7 @@ fn cover(mut contours: Vec<Vec<At>>, casing: f32) -> Stamp {
         top: top as i32,
         width,
         alpha: coverage.into_alpha(),
+        over: Vec::new(),
     }
 }
 

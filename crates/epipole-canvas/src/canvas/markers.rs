@@ -27,12 +27,12 @@ struct Key {
     width: u32,
     /// Place within the pixel, in steps.
     step: (u8, u8),
-    /// How much shows through it, of 256.
-    see_through: u8,
+    /// Whether it is a disk with a rim, whose radius stands in place of the width.
+    is_dot: bool,
 }
 
 /// How much shows through the rim of a dot, of 256.
-const RIM_SEE_THROUGH: u8 = 115;
+const RIM_SEE_THROUGH: u16 = 115;
 /// Width of that rim, CSS pixels.
 const RIM: f64 = 0.7;
 /// Sizes of dots are kept in steps of this, device pixels: a cloud has as many sizes as depths.
@@ -65,7 +65,7 @@ pub(super) fn draw(
         radius: radius.to_bits(),
         width: width.to_bits(),
         step: (step_x, step_y),
-        see_through: 0,
+        is_dot: false,
     };
     let color = canvas.theme.color(role);
     KEPT.with_borrow_mut(|kept| {
@@ -78,26 +78,33 @@ pub(super) fn draw(
 pub(super) fn draw_dot(canvas: &mut Canvas, (x, y): Place, radius: f64, color: Rgb) {
     let scale = canvas.scale;
     let ((x, step_x), (y, step_y)) = (pixel_and_step(x * scale), pixel_and_step(y * scale));
+    let kept = |radius: f64| ((radius * scale / DOT_STEP).round() * DOT_STEP) as f32;
+    let key = Key {
+        shape: Shape::Disk,
+        radius: kept(radius).to_bits(),
+        width: kept(radius + RIM).to_bits(),
+        step: (step_x, step_y),
+        is_dot: true,
+    };
     let rim = canvas.theme.color(Role::Muted);
-    let disks = [(RIM, RIM_SEE_THROUGH, rim), (0.0, 0, color)];
     KEPT.with_borrow_mut(|kept| {
-        for (more, see_through, color) in disks {
-            let radius = ((radius + more) * scale / DOT_STEP).round() * DOT_STEP;
-            let key = Key {
-                shape: Shape::Disk,
-                radius: (radius as f32).to_bits(),
-                width: 0,
-                step: (step_x, step_y),
-                see_through,
-            };
-            kept.stamp(key, cover)
-                .blend(&mut canvas.pixmap, (x, y), color);
-        }
+        kept.stamp(key, cover)
+            .blend_both(&mut canvas.pixmap, (x, y), [rim, color]);
     });
 }
 
 fn cover(key: Key) -> Stamp {
     let (radius, width) = (f32::from_bits(key.radius), f32::from_bits(key.width));
+    if !key.is_dot {
+        return stamp(key, radius, width, 256);
+    }
+    // What is wider than the disk shows its rim.
+    let rim = stamp(key, width, 0.0, 256 - RIM_SEE_THROUGH);
+    rim.bearing(&stamp(key, radius, 0.0, 256))
+}
+
+/// * `opacity`: of 256
+fn stamp(key: Key, radius: f32, width: f32, opacity: u16) -> Stamp {
     // Corners reach farther than the radius, and strokes half their width farther.
     let margin = (1.3 * radius + 0.5 * width).ceil() as i32 + 2;
     let side = 2 * margin as usize + 1;
@@ -107,10 +114,9 @@ fn cover(key: Key) -> Stamp {
     let mut coverage = Coverage::default().sized(stride, side);
     add(&mut coverage, center, radius, key.shape, width);
     let mut alpha = coverage.into_alpha();
-    if key.see_through > 0 {
-        let kept = 256 - u16::from(key.see_through);
+    if opacity < 256 {
         for alpha in &mut alpha {
-            *alpha = ((u16::from(*alpha) * kept + 128) >> 8) as u8;
+            *alpha = ((u16::from(*alpha) * opacity + 128) >> 8) as u8;
         }
     }
     Stamp::trimmed((-margin, -margin), stride, &alpha)

@@ -2,6 +2,7 @@
 
 use super::coverage::{AT_ONCE, Ink};
 use crate::theme::Rgb;
+use std::ops::Range;
 use tiny_skia::Pixmap;
 
 /// Steps of a place within a pixel.
@@ -60,6 +61,8 @@ pub(super) struct Stamp {
     pub(super) width: usize,
     /// Rows of `width` pixels, 0 to 255.
     pub(super) alpha: Vec<u8>,
+    /// The same of what lies on it; nothing if it bears nothing.
+    pub(super) over: Vec<u8>,
 }
 
 impl Stamp {
@@ -89,11 +92,55 @@ impl Stamp {
             top: top + first_row as i32,
             width: stride,
             alpha,
+            over: Vec::new(),
         }
     }
 
+    /// With another shape of the same place on it, of which it keeps what lies within its own rows and columns.
+    pub(super) fn bearing(mut self, other: &Self) -> Self {
+        self.over = vec![0; self.alpha.len()];
+        if self.width == 0 || other.width == 0 {
+            return self;
+        }
+        let (own, others) = (
+            self.over.chunks_exact_mut(self.width),
+            other.alpha.chunks_exact(other.width),
+        );
+        let right = (other.left - self.left).max(0) as usize;
+        let down = (other.top - self.top).max(0) as usize;
+        for (own, other) in own.skip(down).zip(others) {
+            let own = &mut own[right.min(self.width)..];
+            let count = own.len().min(other.len());
+            own[..count].copy_from_slice(&other[..count]);
+        }
+        self
+    }
+
     /// Blends a color where the shape covers the picture.
-    pub(super) fn blend(&self, pixmap: &mut Pixmap, (x, y): (i32, i32), color: Rgb) {
+    pub(super) fn blend(&self, pixmap: &mut Pixmap, at: (i32, i32), color: Rgb) {
+        let ink = Ink::new(color);
+        self.rows(pixmap, at, |pixels, places| {
+            ink.blend_row(pixels, &self.alpha[places]);
+        });
+    }
+
+    /// Blends a color where the shape covers the picture, and another one over it where what lies on it does.
+    pub(super) fn blend_both(&self, pixmap: &mut Pixmap, at: (i32, i32), colors: [Rgb; 2]) {
+        let [under, over] = colors.map(Ink::new);
+        self.rows(pixmap, at, |pixels, places| {
+            let (alphas, alphas_over) = (&self.alpha[places.clone()], &self.over[places]);
+            under.blend_row_under(&over, pixels, alphas, alphas_over);
+        });
+    }
+
+    /// The part of each row that is on the picture: its bytes there, and its places in the stamp.
+    #[inline(always)]
+    fn rows(
+        &self,
+        pixmap: &mut Pixmap,
+        (x, y): (i32, i32),
+        mut draw: impl FnMut(&mut [u8], Range<usize>),
+    ) {
         if self.width == 0 {
             return;
         }
@@ -106,15 +153,14 @@ impl Stamp {
             return;
         }
         let data = pixmap.data_mut();
-        let ink = Ink::new(color);
-        for (row, alphas) in self.alpha.chunks_exact(self.width).enumerate() {
-            let row = top + row as i64;
+        for (index, first) in (0..self.alpha.len()).step_by(self.width).enumerate() {
+            let row = top + index as i64;
             if !(0..height).contains(&row) {
                 continue;
             }
             let start = ((row * width + left + from) * 4) as usize;
-            let alphas = &alphas[from as usize..to as usize];
-            ink.blend_row(&mut data[start..][..alphas.len() * 4], alphas);
+            let places = first + from as usize..first + to as usize;
+            draw(&mut data[start..][..places.len() * 4], places);
         }
     }
 }

@@ -102,6 +102,8 @@ pub(crate) struct Body {
     pub(crate) local_from_world: Matrix3<f64>,
     /// The origin of its own frame, in the world.
     pub(crate) center: Vector3<f64>,
+    /// No point of it is farther from there than this, meters.
+    reach_m: f64,
     /// One per chart of the shape.
     pub(crate) paints: Vec<Paint>,
     /// Simple stand-ins that darken their surroundings.
@@ -116,8 +118,10 @@ impl Body {
     #[inline(never)]
     pub(crate) fn new(name: &'static str, shape: Shape, center: [f64; 3], paint: &Paint) -> Self {
         let paints = vec![paint.clone(); shape.num_charts()];
+        let (half, middle) = shape.bounds();
         Self {
             name,
+            reach_m: middle.norm() + half.norm(),
             shape,
             local_from_world: Matrix3::identity(),
             center: Vector3::from(center),
@@ -218,7 +222,30 @@ impl Body {
         near: f64,
         far: f64,
     ) -> Option<Contact> {
+        if self.is_aside(ray, placed, far) {
+            return None;
+        }
         self.shape.meet(&self.local_ray(ray, placed), near, far)
+    }
+
+    /// Whether a ray passes by all of it, or meets it beyond `far` or not at all: by a sphere around it, which most rays
+    /// miss, in a fraction of the time that its shape takes. The room is never aside.
+    #[inline]
+    fn is_aside(&self, ray: &Ray, placed: &Placement, far: f64) -> bool {
+        // With a hair of margin, for what is rounded.
+        const HAIR: f64 = 1e-9;
+        let to_center = self.center * placed.scale + placed.foot - ray.origin;
+        let reach_m = self.reach_m * placed.scale * (1.0 + HAIR);
+        let length_sq = ray.direction.norm_squared();
+        // All of it times the square of the direction's length.
+        let along = to_center.dot(&ray.direction);
+        let away_sq = to_center.norm_squared() * length_sq;
+        let reach_sq = reach_m * reach_m * length_sq + HAIR * away_sq;
+        let beyond = along - far * length_sq;
+        !self.is_room()
+            && (away_sq - along * along > reach_sq
+                || (along < 0.0 && away_sq > reach_sq)
+                || (beyond > 0.0 && beyond * beyond > reach_sq))
     }
 
     pub(crate) fn normal_in_world(&self, normal: &Vector3<f64>) -> Vector3<f64> {

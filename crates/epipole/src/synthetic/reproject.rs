@@ -119,6 +119,8 @@ impl Photograph {
     }
 
     /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
+    // Not inlined where all is compiled for size.
+    #[inline(never)]
     fn zoom(&self, from: &Camera, to: &Camera, target: &mut [u32]) {
         let (width, height) = self.image.dimensions();
         let (here, there) = (&from.intrinsics, &to.intrinsics);
@@ -130,7 +132,10 @@ impl Photograph {
                 (source >= 0.0 && source < f64::from(size)).then_some(source as usize)
             })
         };
-        let columns: Vec<_> = sources(width, center.x, new_center.x, zoom_u).collect();
+        // Those that come are neighbors.
+        let columns = sources(width, center.x, new_center.x, zoom_u);
+        let skipped = columns.clone().take_while(Option::is_none).count();
+        let columns: Vec<usize> = columns.flatten().collect();
         let rows = sources(height, center.y, new_center.y, zoom_v);
         let width = width as usize;
         let pixels = self.image.as_raw().as_chunks::<3>().0;
@@ -138,8 +143,9 @@ impl Photograph {
             let Some(source) = source else { continue };
             let row = source * width..(source + 1) * width;
             let (row, depths) = (&pixels[row.clone()], &self.depth_m.as_raw()[row]);
-            for (column, target) in columns.iter().zip(target) {
-                if let Some(column) = column.filter(|&column| depths[column] > 0.0) {
+            let target = target.iter_mut().skip(skipped);
+            for (&column, target) in columns.iter().zip(target) {
+                if depths[column] > 0.0 {
                     let [r, g, b] = row[column];
                     *target = u32::from_le_bytes([r, g, b, 255]);
                 }

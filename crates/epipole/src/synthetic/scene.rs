@@ -394,6 +394,42 @@ mod tests {
         (camera1, camera2)
     }
 
+    #[test]
+    fn a_ray_passes_by_nothing_that_it_meets() {
+        use crate::math::random::Random;
+        use crate::synthetic::{MovableKind, MovableObject};
+        let mut random = Random::new(4);
+        let ball = MovableObject {
+            kind: MovableKind::Ball,
+            x_m: 0.2,
+            z_m: 1.7,
+        };
+        let scenes = [Scene::still_life(), Scene::long_table(ball).unwrap()];
+        let mut num_things = 0;
+        for scene in &scenes {
+            for _ in 0..4000 {
+                let mut point = |reach: f64| Vector3::from_fn(|_, _| random.uniform(-reach, reach));
+                let (origin, direction) = (point(0.8), point(1.0));
+                let ray = Ray { origin, direction };
+                // All shapes, without a look at whether they are aside.
+                let contacts = scene.placed().filter_map(|(body, placed)| {
+                    let local = body.local_ray(&ray, &placed);
+                    let contact = body.shape.meet(&local, NEAR, f64::INFINITY)?;
+                    Some((contact.along, body.name))
+                });
+                let nearest = contacts.min_by(|a, b| a.0.total_cmp(&b.0));
+                let hit = scene.cast(&origin.into(), &direction);
+                let found = hit.map(|hit| (hit.distance_along, hit.object));
+                assert_eq!(
+                    found.map(|(along, _)| along),
+                    nearest.map(|(along, _)| along)
+                );
+                num_things += usize::from(found.is_some_and(|(_, name)| name != "the wall"));
+            }
+        }
+        assert!(num_things > 1000, "{num_things}");
+    }
+
     /// Points found by rays obey x2ᵀ F x1 = 0 with F from the cameras, and go back to where they
     /// came from.
     #[test]

@@ -27,10 +27,21 @@ struct Seen<'a> {
     /// Pixels that may show it: columns and rows, both ends included.
     columns: (i64, i64),
     rows: (i64, i64),
+    /// The same: left, right, top and bottom.
+    edges: [f64; 4],
     /// No point of it is nearer than this depth; infinite for the room, which is behind all.
     nearest: f64,
     /// Its number in the scene.
     number: usize,
+}
+
+impl Seen<'_> {
+    /// Whether the ray through an image point may meet it.
+    #[inline(always)]
+    fn may_be_at(&self, u: f64, v: f64) -> bool {
+        let [left, right, top, bottom] = self.edges;
+        (u >= left) & (u <= right) & (v >= top) & (v <= bottom)
+    }
 }
 
 /// What one ray found.
@@ -87,6 +98,7 @@ impl<'a> View<'a> {
                     scale: placed.scale,
                     columns,
                     rows,
+                    edges: [columns.0, columns.1, rows.0, rows.1].map(|edge| edge as f64),
                     nearest,
                     number,
                 }
@@ -162,6 +174,10 @@ impl<'a> View<'a> {
             let seen = &self.seen[usize::from(index)];
             if seen.nearest > nearest.along {
                 break;
+            }
+            // A tile shows much that one ray passes by.
+            if !seen.may_be_at(u, v) {
+                continue;
             }
             let ray = Ray {
                 origin: seen.origin,

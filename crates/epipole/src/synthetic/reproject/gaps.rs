@@ -58,63 +58,52 @@ impl Reprojected {
             return;
         }
         let columns: Vec<_> = (0..width).map(|u| between(u, width, draft_width)).collect();
-        let draft = draft
-            .as_raw()
-            .as_chunks::<3>()
-            .0
-            .chunks_exact(draft_width as usize);
-        let draft: Vec<&[[u8; 3]]> = draft.collect();
-        // The two rows of the draft around a row, mixed once: 2¹⁶ times as bright, with what rounds, and
-        // 256 times the way to the next column.
-        let mut mixed = vec![[[0i32; 3]; 2]; draft_width as usize];
+        let draft = draft.as_raw().as_chunks::<3>().0;
+        let draft: Vec<&[[u8; 3]]> = draft.chunks_exact(draft_width as usize).collect();
+        // The two rows of the draft around a row, stretched to its width and kept while they last: then they are
+        // mixed along memory.
+        let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0; 3 * width as usize]));
+        let image: &mut [u8] = &mut self.image;
         for runs in by_rows(&self.missing, width) {
             let start = runs[0].start / width * width;
             let (above, below, down) = between(runs[0].start / width, height, draft_height);
-            let (first, last) = (runs[0].start - start, runs[runs.len() - 1].end - 1 - start);
-            let (down, last) = (down as i32, columns[last as usize].1);
-            let rows = [draft[above], draft[below]];
-            let mut here = mixture(rows, columns[first as usize].0, down);
-            for at in columns[first as usize].0..=last {
-                let next = if at < last {
-                    mixture(rows, at + 1, down)
-                } else {
-                    here
-                };
-                for i in 0..3 {
-                    mixed[at][0][i] = here[i] * 256 + 32_768;
-                    mixed[at][1][i] = next[i] - here[i];
-                }
-                here = next;
+            if stretched[1].0 == above {
+                stretched.swap(0, 1);
             }
-            let pixels = self.image.as_chunks_mut::<3>().0;
-            for run in runs {
-                let columns = &columns[(run.start - start) as usize..(run.end - start) as usize];
-                let pixels = &mut pixels[run.start as usize..run.end as usize];
-                for (pixel, &(left, _, across)) in pixels.iter_mut().zip(columns) {
-                    let [color, step] = mixed[left];
-                    let across = across as i32;
-                    for i in 0..3 {
-                        pixel[i] = ((color[i] + step[i] * across) >> 16) as u8;
-                    }
+            for ((known, row), wanted) in stretched.iter_mut().zip([above, below]) {
+                if *known != wanted {
+                    stretch(draft[wanted], &columns, row);
+                    *known = wanted;
                 }
+            }
+            let rows = [&stretched[0].1, &stretched[1].1];
+            for run in runs {
+                let places = [run.start, run.end].map(|place| 3 * (place - start) as usize);
+                let pixels = &mut image[3 * run.start as usize..3 * run.end as usize];
+                mix(rows.map(|row| &row[places[0]..places[1]]), down, pixels);
             }
         }
     }
 
     /// A picture of this size of which all is missing.
     pub fn clear(&mut self, (width, height): (u32, u32)) {
-        self.begin((width, height));
+        self.begin_image((width, height));
+        self.pixels.clear();
         self.image.fill(0);
         let rows = (0..height).map(|row| row * width..(row + 1) * width);
         self.missing.extend(rows.filter(|row| !row.is_empty()));
     }
 
     pub(super) fn begin(&mut self, (width, height): (u32, u32)) {
+        self.begin_image((width, height));
+        self.pixels.clear();
+        self.pixels.resize(width as usize * height as usize, 0);
+    }
+
+    fn begin_image(&mut self, (width, height): (u32, u32)) {
         if self.image.dimensions() != (width, height) {
             self.image = RgbImage::new(width, height);
         }
-        self.pixels.clear();
-        self.pixels.resize(width as usize * height as usize, 0);
         self.missing.clear();
     }
 
@@ -153,12 +142,40 @@ impl Reprojected {
     }
 }
 
-/// A color between two rows, 256 times as bright; `down` is 256 times the way to the second of them.
-#[inline(always)]
-fn mixture(rows: [&[[u8; 3]]; 2], at: usize, down: i32) -> [i32; 3] {
-    let [a, b] = [rows[0][at], rows[1][at]];
-    let mix = |i: usize| i32::from(a[i]) * (256 - down) + i32::from(b[i]) * down;
-    [mix(0), mix(1), mix(2)]
+/// A row at the width of another picture, 256 times as bright.
+#[inline(never)]
+fn stretch(row: &[[u8; 3]], columns: &[(usize, usize, u32)], target: &mut [u16]) {
+    let pixels = target.as_chunks_mut::<3>().0;
+    for (pixel, &(left, right, across)) in pixels.iter_mut().zip(columns) {
+        let (a, b, across) = (row[left], row[right], across as u16);
+        for i in 0..3 {
+            pixel[i] = u16::from(a[i]) * (256 - across) + u16::from(b[i]) * across;
+        }
+    }
+}
+
+/// Mixes two such rows; `down` is 256 times the way to the second of them.
+// Views are compiled for size: inlined into one, it would lose its vectors.
+#[inline(never)]
+fn mix([above, below]: [&[u16]; 2], down: u32, target: &mut [u8]) {
+    // Sixteen at once, which vector instructions do, and what is left over.
+    const AT_ONCE: usize = 16;
+    let mixed =
+        |a: u16, b: u16| ((u32::from(a) * (256 - down) + u32::from(b) * down + 32_768) >> 16) as u8;
+    let (targets, last) = target.as_chunks_mut::<AT_ONCE>();
+    let (above, last_above) = above.as_chunks::<AT_ONCE>();
+    let (below, last_below) = below.as_chunks::<AT_ONCE>();
+    for ((target, above), below) in targets.iter_mut().zip(above).zip(below) {
+        // In a place of its own, which is not the rows' memory.
+        let mut here = [0; AT_ONCE];
+        for i in 0..AT_ONCE {
+            here[i] = mixed(above[i], below[i]);
+        }
+        *target = here;
+    }
+    for ((target, &above), &below) in last.iter_mut().zip(last_above).zip(last_below) {
+        *target = mixed(above, below);
+    }
 }
 
 /// Runs that are in order, row by row.
