@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{finish, sentences, solved};
+use common::{finish, sentences, solved, steps_between};
 use epipole_lab::project::{Event, Fate, Project, Step};
 use epipole_lab::tasks::Sample;
 
@@ -108,13 +108,7 @@ fn some_upright_and_some_not_go_together_and_that_is_told() {
     );
     // On the arc around the table neighbors are equally far from each other, however the camera was held.
     let component = project.component().unwrap();
-    let centers: Vec<_> = (component.cameras.iter())
-        .map(|camera| camera.as_ref().unwrap().center())
-        .collect();
-    let steps: Vec<f64> = centers
-        .windows(2)
-        .map(|two| (two[1] - two[0]).norm())
-        .collect();
+    let steps = steps_between(&component.cameras);
     for step in &steps {
         assert!((step / steps[0] - 1.0).abs() < 0.02, "{steps:?}");
     }

@@ -7,13 +7,12 @@ mod common;
 use common::depth::every_pixel_has_its_depth;
 use common::growing::it_grows_as_one_watches;
 use common::measured::{a_known_length_sets_the_scale, three_points_set_the_floor};
-use common::{answer, finish, sentences, solved};
+use common::{exported, finish, sentences, solved, steps_between};
 use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal};
 use epipole_lab::tasks::{Answer, FeatureKind, Sample};
 use image::RgbImage;
-use std::io::{Cursor, Read};
 use std::ops::ControlFlow;
 
 #[test]
@@ -27,13 +26,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
     assert!(found.mean_error_px[0] < 0.6, "{}", found.mean_error_px[0]);
 
     // Against the truth: neighbors are equally far from each other.
-    let centers: Vec<_> = (component.cameras.iter())
-        .map(|camera| camera.as_ref().unwrap().center())
-        .collect();
-    let steps: Vec<f64> = centers
-        .windows(2)
-        .map(|two| (two[1] - two[0]).norm())
-        .collect();
+    let steps = steps_between(&component.cameras);
     let mean = steps.iter().sum::<f64>() / 8.0;
     for step in &steps {
         assert!((step / mean - 1.0).abs() < 0.01, "{steps:?}");
@@ -106,19 +99,7 @@ fn parts_that_nothing_joins_are_told(project: &mut Project) {
 }
 
 fn the_files_can_be_read_again(project: &Project) {
-    let Ok(Answer::Archive(bytes)) = answer(&project.export_request().unwrap()) else {
-        panic!("the export is no archive");
-    };
-    let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
-    let mut read = |name: &str| {
-        let mut content = Vec::new();
-        archive
-            .by_name(name)
-            .unwrap()
-            .read_to_end(&mut content)
-            .unwrap();
-        content
-    };
+    let mut read = exported(project);
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     let points = project.component().unwrap().points.len();
     let lines = |text: &str| text.lines().filter(|line| !line.starts_with('#')).count();

@@ -1,6 +1,6 @@
 //! The depth of every pixel of a pair of the sample, against what the photographs were rendered from.
 
-use super::{answer, finish};
+use super::{answer, exported, finish};
 use epipole::camera::{Camera, look_at};
 use epipole::stereo::DisparityImage;
 use epipole::synthetic::{Scene, still_life_camera};
@@ -10,7 +10,6 @@ use epipole_lab::tasks::{
 };
 use image::{RgbImage, imageops};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
-use std::io::{Cursor, Read};
 
 /// The camera that a photograph of the table was rendered with.
 pub(crate) fn true_camera(index: usize) -> Camera {
@@ -185,19 +184,7 @@ fn depth(project: &Project, first: usize, second: usize) -> Dense {
 
 fn in_the_files(project: &mut Project, [a, b]: [u32; 2], pair: &Dense) {
     project.update(Event::Dense(a, b, true));
-    let Ok(Answer::Archive(bytes)) = answer(&project.export_request().unwrap()) else {
-        panic!("the export is no archive");
-    };
-    let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
-    let mut read = |name: &str| {
-        let mut content = Vec::new();
-        archive
-            .by_name(name)
-            .unwrap()
-            .read_to_end(&mut content)
-            .unwrap();
-        content
-    };
+    let mut read = exported(project);
     let depths = DisparityImage::from_pfm(&read("depth/table-4_table-5.pfm")).unwrap();
     let scale = project.scale().map_or(1.0, |scale| scale.meters_per_unit);
     for (u, v) in [(100, 100), (240, 180), (300, 200)] {

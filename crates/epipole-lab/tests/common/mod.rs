@@ -12,9 +12,9 @@ pub(crate) mod raster;
 
 use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::Blob;
-use epipole_lab::tasks::{Answer, Request, Sample, compute};
+use epipole_lab::tasks::{Answer, CameraFound, Request, Sample, compute};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
-use std::io::Cursor;
+use std::io::{Cursor, Read};
 use std::ops::ControlFlow;
 
 /// Computes until nothing is wanted. Returns how many tasks that took.
@@ -41,6 +41,29 @@ pub(crate) fn solved(sample: Sample) -> Project {
 pub(crate) fn answer(request: &Request) -> Result<Answer, String> {
     let bytes = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()))?;
     Answer::from_bytes(&bytes)
+}
+
+/// Reads the files of a project's export by their names.
+pub(crate) fn exported(project: &Project) -> impl FnMut(&str) -> Vec<u8> + use<> {
+    let request = project.export_request().expect("there is something");
+    let Ok(Answer::Archive(bytes)) = answer(&request) else {
+        panic!("the export is no archive");
+    };
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes.to_vec())).expect("it can be read");
+    move |name| {
+        let mut content = Vec::new();
+        let mut file = archive.by_name(name).expect("the file is there");
+        file.read_to_end(&mut content).expect("it is whole");
+        content
+    }
+}
+
+/// How far neighbors are from each other, in units of the reconstruction.
+pub(crate) fn steps_between(cameras: &[Option<CameraFound>]) -> Vec<f64> {
+    let centers: Vec<_> = (cameras.iter().flatten().map(CameraFound::center)).collect();
+    assert_eq!(centers.len(), cameras.len());
+    let steps = centers.windows(2).map(|two| (two[1] - two[0]).norm());
+    steps.collect()
 }
 
 /// The project as it is after it was saved and opened again.
