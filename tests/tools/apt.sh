@@ -10,4 +10,8 @@ command -v apt-get >/dev/null 2>&1 || {
 echo "installing $* for $what_for" >&2
 sudo=
 [ "$(id -u)" = 0 ] || sudo="sudo -n"
-{ $sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "$@"; } >&2
+# Another installation may be under way: it is waited for, and the lists that it read will do.
+{
+    $sudo apt-get update -qq || true
+    DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends -o DPkg::Lock::Timeout=300 "$@"
+} >&2

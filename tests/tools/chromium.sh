@@ -15,7 +15,8 @@ apt_install() {
     command -v apt-get >/dev/null 2>&1 || return 0
     sudo=
     [ "$(id -u)" = 0 ] || sudo="sudo -n"
-    { $sudo apt-get update -qq && $sudo apt-get install -y -qq "$1"; } >&2 || true
+    # Another installation may be under way: it is waited for, and the lists that it read will do.
+    { $sudo apt-get update -qq || true; $sudo apt-get install -y -qq -o DPkg::Lock::Timeout=300 "$1"; } >&2 || true
 }
 found "${CHROMIUM:-}" chromium-headless-shell && exit
 echo "installing a headless Chromium for the browser tests" >&2
