@@ -166,16 +166,23 @@ pub fn detect_sift_with_progress(
         let mut octave = Octave::new(grid, memory, options);
         next = None;
         for layer in 1..=options.layers_per_octave {
-            octave.advance_to(layer);
+            // A blur of the first octave takes as long as all that follows from a small one, and so do
+            // some hundred descriptors: who wants to stop is asked after each.
+            while octave.advance_towards(layer) {
+                tell(done)?;
+            }
             if layer == 1 {
                 next = octave.next_grid();
             }
             let mut extrema = extrema::find(&octave, layer, options);
             strongest.keep(&mut extrema);
-            let described = parallel::map_with(&extrema, Samples::default, |samples, extremum| {
-                describe(&octave, extremum, options, samples)
-            });
-            found.extend(described.into_iter().flatten());
+            for (k, piece) in extrema.chunks(DESCRIBED_AT_ONCE).enumerate() {
+                tell(done + share * (k * DESCRIBED_AT_ONCE) as f64 / extrema.len() as f64)?;
+                let described = parallel::map_with(piece, Samples::default, |samples, extremum| {
+                    describe(&octave, extremum, options, samples)
+                });
+                found.extend(described.into_iter().flatten());
+            }
             done += share;
             tell(done)?;
         }
@@ -184,6 +191,9 @@ pub fn detect_sift_with_progress(
     }
     Ok(collect(&found, options.max_features))
 }
+
+/// How many extrema are described between two reports.
+const DESCRIBED_AT_ONCE: usize = 512;
 
 /// The features at one extremum: one for each of its directions.
 fn describe(

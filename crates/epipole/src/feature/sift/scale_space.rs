@@ -110,18 +110,25 @@ impl Octave {
 
     /// Makes the layers that extrema of `layer` need: up to `layer + 2`.
     pub(super) fn advance_to(&mut self, layer: usize) {
-        while self.newest < layer + 2 {
-            let from = self.newest % 4;
-            let to = (self.newest + 1) % 4;
-            let mut target = std::mem::take(&mut self.layers[to]);
-            blurred(
-                &self.layers[from],
-                self.increments[self.newest],
-                &mut target,
-            );
-            self.layers[to] = target;
-            self.newest += 1;
+        while self.advance_towards(layer) {}
+    }
+
+    /// Makes one of the layers that extrema of `layer` still need; false where none was left to make.
+    pub(super) fn advance_towards(&mut self, layer: usize) -> bool {
+        if self.newest == layer + 2 {
+            return false;
         }
+        let from = self.newest % 4;
+        let to = (self.newest + 1) % 4;
+        let mut target = std::mem::take(&mut self.layers[to]);
+        blurred(
+            &self.layers[from],
+            self.increments[self.newest],
+            &mut target,
+        );
+        self.layers[to] = target;
+        self.newest += 1;
+        true
     }
 
     /// A layer among the last four.
