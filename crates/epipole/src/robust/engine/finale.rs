@@ -9,6 +9,11 @@ use crate::{Error, Result};
 /// Starts around the best model that are tried at the end, at most.
 const EXPLORATIONS: usize = 30;
 
+/// Where errors fill the threshold and a wider look follows, so many starts in a row that find nothing better are enough:
+/// they end wherever the edge of the threshold stops them, and hardly one leads back. On photographs and drawn planes ten
+/// did as well as all, six did worse.
+const IN_VAIN: usize = 10;
+
 /// A start fits some of the data within so many thresholds of the best model: those outside of
 /// one threshold are what another model would claim.
 const START_REACH: f64 = 3.0;
@@ -123,21 +128,26 @@ impl<E: Estimator> Ransac<E> {
         let max_error_px = self.options.max_error_px;
         let mut explored = true;
         let mut errors_sq = Vec::with_capacity(self.estimator.num_data());
-        for &most in SHARP_THRESHOLDS[self.codimension_index()] {
+        let looks = SHARP_THRESHOLDS[self.codimension_index()];
+        for (look, &most) in looks.iter().enumerate() {
             self.estimator
                 .inliers(&best.model, max_error_px, &mut self.inliers);
             if self.inliers.is_empty() {
                 break;
             }
+            let mut patience = EXPLORATIONS;
             // A count of inliers is about the threshold that the caller gave.
             if self.options.score == ScoreKind::Msac {
                 let most_px = most * max_error_px;
                 self.estimator
                     .errors_sq(&best.model, &self.inliers, &mut errors_sq);
                 self.judge_px = self.medians_px(&mut errors_sq, SHARP_MEDIANS, most_px);
+                if self.judge_px == most_px && look + 1 < looks.len() {
+                    patience = IN_VAIN;
+                }
             }
             best.support = self.support(&best.model, f64::INFINITY);
-            explored = self.explore(best);
+            explored = self.explore(best, patience);
         }
         self.judge_px = max_error_px;
         best.support = self.support(&best.model, f64::INFINITY);
@@ -147,11 +157,11 @@ impl<E: Estimator> Ransac<E> {
     }
 
     /// Looks for a better optimum nearby: starts that fit a few of the nearest data by least squares
-    /// lie around the model, and local optimization leads some of them elsewhere. Where several lead back,
-    /// the search ends early. False where there are too few such data, or the estimator has no such fit.
+    /// lie around the model, and local optimization leads some of them elsewhere. Where several lead back, or `patience` of
+    /// them in a row find nothing better, the search ends early. False where there are too few such data, or the estimator has no such fit.
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
-    fn explore(&mut self, best: &mut Candidate<E::Model>) -> bool {
+    fn explore(&mut self, best: &mut Candidate<E::Model>, patience: usize) -> bool {
         let max_error_px = self.judge_px;
         let size = 2 * self.estimator.sample_size();
         let mut subset = Vec::with_capacity(size);
@@ -159,10 +169,14 @@ impl<E: Estimator> Ransac<E> {
         let reach_px = START_REACH * max_error_px;
         let needed =
             (RETURNED_INLIERS / best.support.num_inliers.max(1)).clamp(RETURNS, EXPLORATIONS);
-        let mut returns = 0;
+        let (mut returns, mut in_vain) = (0, 0);
         let mut around = Vec::with_capacity(self.estimator.num_data());
         let mut moved = true;
         for _ in 0..EXPLORATIONS {
+            if returns == needed || in_vain == patience {
+                break;
+            }
+            in_vain += 1;
             if moved {
                 self.estimator.inliers(&best.model, reach_px, &mut around);
                 moved = false;
@@ -195,12 +209,10 @@ impl<E: Estimator> Ransac<E> {
                 if !back && self.replace_if_better(best, model) {
                     self.improve(best);
                     moved = true;
+                    in_vain = 0;
                 }
             }
             returns += usize::from(back);
-            if returns == needed {
-                break;
-            }
         }
         true
     }
