@@ -179,7 +179,7 @@ impl CloudView {
             theme,
             photographs: match self.photographs {
                 true => (project.taking_part().into_iter())
-                    .filter(|photo| project.photograph(photo).is_some())
+                    .filter(|photo| project.shown(photo).is_some())
                     .count(),
                 false => 0,
             },
@@ -240,7 +240,7 @@ impl CloudView {
                     color,
                 );
                 if self.photographs
-                    && let Some(pixels) = project.photograph(photo)
+                    && let Some(pixels) = project.shown(photo)
                 {
                     let size = (size.width, size.height);
                     let picture = standing(camera, size, reach, &pixels.small);

@@ -16,7 +16,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let Some(given) = project.document().photo(project.view().photo) else {
         return;
     };
-    let Some(pixels) = project.photograph(given) else {
+    let Some(pixels) = project.shown(given) else {
         return knobs::instead(ui, &project.describe());
     };
     let rect = ui.available_rect_before_wrap();

@@ -36,11 +36,13 @@ impl Pictures {
             self.full.insert(key, Strips::new(size, small));
         }
         let mut picture = self.full[&key].clone();
-        picture.bring(ui, &key.to_string(), |rows| {
-            let of_rows = 3 * size[0] * rows.start..3 * size[0] * rows.end;
-            ColorImage::from_rgb([size[0], rows.len()], &photograph.rgb[of_rows])
-        });
-        self.full.insert(key, picture.clone());
+        if photograph.has_pixels() {
+            picture.bring(ui, &key.to_string(), |rows| {
+                let of_rows = 3 * size[0] * rows.start..3 * size[0] * rows.end;
+                ColorImage::from_rgb([size[0], rows.len()], &photograph.rgb[of_rows])
+            });
+            self.full.insert(key, picture.clone());
+        }
         picture
     }
 

@@ -18,7 +18,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
         return knobs::instead(ui, "A pair needs two photographs.");
     };
-    let (Some(one), Some(two)) = (project.photograph(first), project.photograph(second)) else {
+    let (Some(one), Some(two)) = (project.shown(first), project.shown(second)) else {
         return knobs::instead(ui, &project.describe());
     };
     let whole = ui.available_rect_before_wrap();
@@ -232,7 +232,7 @@ fn patches(
     const SIDE: f32 = 136.0;
     ui.horizontal(|ui| {
         for (photo, index) in photos.into_iter().zip(features) {
-            let (Some(pixels), Some(found)) = (project.photograph(photo), project.features(photo))
+            let (Some(pixels), Some(found)) = (project.shown(photo), project.features(photo))
             else {
                 continue;
             };
