@@ -34,15 +34,16 @@ impl Orbit {
         let (mut middle, mut size) = (Point3::origin(), 1.0);
         if !scene.points.is_empty() {
             let along = |axis: usize| {
-                let finite = scene.points.iter().map(|(p, _)| f64::from(p[axis]));
-                let mut values: Vec<f64> = finite.filter(|v| v.is_finite()).collect();
-                values.sort_by(f64::total_cmp);
-                let at = |share: f64| {
-                    let last = values.len().saturating_sub(1) as f64;
-                    values
-                        .get((share * last).round() as usize)
-                        .copied()
-                        .unwrap_or(0.0)
+                let mut values = Vec::with_capacity(scene.points.len());
+                let all = scene.points.iter().map(|(p, _)| p[axis]);
+                values.extend(all.filter(|v| v.is_finite()));
+                let mut at = |share: f64| {
+                    let last = values.len().saturating_sub(1);
+                    let place = (share * last as f64).round() as usize;
+                    match values.is_empty() {
+                        true => 0.0,
+                        false => f64::from(*values.select_nth_unstable_by(place, f32::total_cmp).1),
+                    }
                 };
                 (at(0.1), at(0.5), at(0.9))
             };

@@ -22,6 +22,8 @@ pub(crate) struct Order<'a> {
     pub(crate) focal_refined: bool,
     pub(crate) left_out: &'a [(String, String)],
     pub(crate) recipe: &'a Recipe,
+    /// Reads the pixels of a photograph that came without.
+    pub(crate) read: &'a dyn Fn(&Source) -> Result<Photograph, String>,
     pub(crate) dense: &'a [(String, Dense)],
 }
 
@@ -38,7 +40,7 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
     let mut images = sfm_images(order.images);
     let mut written = BTreeSet::new();
     for (photograph, image) in order.photographs.iter().zip(&mut images) {
-        let (name, bytes) = picture(photograph)?;
+        let (name, bytes) = picture(photograph, order.read)?;
         if !written.insert(name.clone()) {
             return Err(format!("two photographs are called {name}"));
         }
@@ -94,11 +96,24 @@ fn scale(model: &mut Reconstruction, factor: f64) {
 }
 
 /// The file of a photograph as it was reconstructed, and its name.
-fn picture(photograph: &Packed) -> Result<(String, Vec<u8>), String> {
+fn picture(
+    photograph: &Packed,
+    read: &dyn Fn(&Source) -> Result<Photograph, String>,
+) -> Result<(String, Vec<u8>), String> {
     let used = photograph.used.as_ref();
     let used = used.ok_or_else(|| format!("{} has no pixels", photograph.name))?;
+    if let (Source::File(bytes), true) = (&photograph.source, used.as_given) {
+        return Ok((photograph.name.clone(), bytes.to_vec()));
+    }
+    let once_more;
+    let used = match used.has_pixels() {
+        true => used,
+        false => {
+            once_more = read(&photograph.source)?;
+            &once_more
+        }
+    };
     match &photograph.source {
-        Source::File(bytes) if used.as_given => Ok((photograph.name.clone(), bytes.to_vec())),
         Source::File(_) => Ok((renamed(&photograph.name, "jpg"), jpeg(used)?)),
         Source::Rendered(..) => Ok((photograph.name.clone(), png(used)?)),
     }

@@ -8,6 +8,7 @@ use crate::tasks::{Blob, Component};
 use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 use epipole_canvas::theme::{Role, Theme};
+use std::time::Duration;
 
 /// What the color of a point says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -58,6 +59,8 @@ pub(super) struct CloudView {
     num_fixed_lines: usize,
     frame: Frame,
     texture: Option<TextureHandle>,
+    /// Until when it counts as moving, seconds.
+    moves_until: f64,
     drawn: Option<Drawn>,
 }
 
@@ -73,6 +76,7 @@ impl Default for CloudView {
             num_fixed_lines: 0,
             frame: Frame::default(),
             texture: None,
+            moves_until: 0.0,
             drawn: None,
         }
     }
@@ -82,6 +86,10 @@ impl Default for CloudView {
 /// picture of the screen.
 const MAX_MOVING: usize = 100_000;
 const MAX_MOVING_PIXELS: usize = 200_000;
+
+/// What was moved counts as moving for so long, seconds: a hand that turns it rests between two frames now and then, and
+/// every point would be drawn in each such rest.
+const REST_S: f64 = 0.15;
 
 /// By how much width and height of a frame of so many pixels are divided while something moves.
 fn coarseness((width, height): (usize, usize)) -> usize {
@@ -121,9 +129,18 @@ impl CloudView {
             (rect.height() * pixels).max(1.0) as usize,
         );
         let mut orbit = self.orbit?;
-        let moving = steer(&mut orbit, ui, &response, size, pixels);
+        let now = ui.input(|input| input.time);
+        if steer(&mut orbit, ui, &response, size, pixels) {
+            self.moves_until = now + REST_S;
+        }
+        let rest = (self.scene.points.len() > MAX_MOVING).then_some(self.moves_until - now);
+        let coarse = rest.filter(|rest| *rest > 0.0);
+        if let Some(rest) = coarse {
+            let rest = Duration::from_secs_f64(rest);
+            ui.ctx().request_repaint_after(rest);
+        }
         self.orbit = Some(orbit);
-        self.draw(project, ui, orbit, size, moving);
+        self.draw(project, ui, orbit, size, coarse.is_some());
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
             ui.painter_at(rect)
@@ -179,7 +196,7 @@ impl CloudView {
             theme,
             photographs: match self.photographs {
                 true => (project.taking_part().into_iter())
-                    .filter(|photo| project.photograph(photo).is_some())
+                    .filter(|photo| project.shown(photo).is_some())
                     .count(),
                 false => 0,
             },
@@ -240,7 +257,7 @@ impl CloudView {
                     color,
                 );
                 if self.photographs
-                    && let Some(pixels) = project.photograph(photo)
+                    && let Some(pixels) = project.shown(photo)
                 {
                     let size = (size.width, size.height);
                     let picture = standing(camera, size, reach, &pixels.small);
@@ -259,9 +276,8 @@ impl CloudView {
         ui: &Ui,
         orbit: Orbit,
         size: (usize, usize),
-        moving: bool,
+        coarse: bool,
     ) {
-        let coarse = moving && self.scene.points.len() > MAX_MOVING;
         let now = Drawn {
             orbit,
             size,
@@ -304,9 +320,6 @@ impl CloudView {
                     .load_texture("space", image, TextureOptions::NEAREST);
                 self.texture = Some(texture);
             }
-        }
-        if coarse {
-            ui.ctx().request_repaint();
         }
     }
 }

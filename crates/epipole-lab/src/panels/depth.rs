@@ -3,11 +3,13 @@
 use super::app::Memory;
 use super::depth_words::{disparities, legend, pixel};
 use super::knobs::{self, Turned};
+use super::strips::Strips;
 use super::{look, photo};
 use crate::project::{Event, Key, Project, Step};
 use crate::tasks::{Dense, DepthMethod};
-use egui::{Color32, ColorImage, Rect, Slider, TextureHandle, TextureOptions, Ui};
+use egui::{Color32, ColorImage, Rect, Slider, Ui};
 use epipole_canvas::theme::{Role, Theme};
+use std::ops::Range;
 
 /// The pictures of a pair, kept between frames.
 #[derive(Default)]
@@ -18,42 +20,47 @@ pub(super) struct DepthView {
     /// The pixel of the first picture that was clicked.
     probe: Option<[u32; 2]>,
     made: Option<(Key, Theme)>,
-    textures: Vec<TextureHandle>,
+    pictures: Vec<Strips>,
     range: Option<[f64; 2]>,
 }
 
 impl DepthView {
     fn make(&mut self, ui: &Ui, key: Key, pair: &Dense) {
         let theme = look::theme(ui);
-        if self.made == Some((key, theme)) {
-            return;
-        }
-        if self.made.is_none_or(|(before, _)| before != key) {
-            self.row = if pair.is_vertical {
-                pair.width / 2
-            } else {
-                pair.height / 2
-            };
-            self.probe = None;
-            self.range = pair.depth_range();
-        }
-        self.made = Some((key, theme));
         let size = [pair.width as usize, pair.height as usize];
-        let images = [
-            unbordered(size, &pair.left),
-            unbordered(size, &pair.right),
-            heat(pair, self.range, theme),
-        ];
-        let names = ["rectified first", "rectified second", "depth"];
-        let load = |(image, name)| ui.ctx().load_texture(name, image, TextureOptions::LINEAR);
-        self.textures = images.into_iter().zip(names).map(load).collect();
+        if self.made != Some((key, theme)) {
+            if self.made.is_none_or(|(before, _)| before != key) {
+                self.row = if pair.is_vertical {
+                    pair.width / 2
+                } else {
+                    pair.height / 2
+                };
+                self.probe = None;
+                self.range = pair.depth_range();
+            }
+            self.made = Some((key, theme));
+            self.pictures = vec![Strips::new(size, None); 3];
+        }
+        let range = self.range;
+        for (n, picture) in self.pictures.iter_mut().enumerate() {
+            match n {
+                0 => picture.bring(ui, "rectified first", |rows| {
+                    unbordered(size[0], rows, &pair.left)
+                }),
+                1 => picture.bring(ui, "rectified second", |rows| {
+                    unbordered(size[0], rows, &pair.right)
+                }),
+                _ => picture.bring(ui, "depth", |rows| heat(pair, rows, range, theme)),
+            }
+        }
     }
 }
 
-/// A rectified photograph, which stands turned: the black beyond its edges is left out.
-fn unbordered(size: [usize; 2], rgb: &[u8]) -> ColorImage {
-    let mut image = ColorImage::from_rgb(size, rgb);
-    for row in image.pixels.chunks_mut(size[0].max(1)) {
+/// Rows of a rectified photograph, which stands turned: the black beyond its edges is left out.
+fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
+    let size = [width, rows.len()];
+    let mut image = ColorImage::from_rgb(size, &rgb[3 * width * rows.start..3 * width * rows.end]);
+    for row in image.pixels.chunks_mut(width.max(1)) {
         let is_beyond = |pixel: &&mut Color32| **pixel == Color32::BLACK;
         let ends = row.iter_mut().take_while(is_beyond);
         ends.for_each(|pixel| *pixel = Color32::TRANSPARENT);
@@ -64,9 +71,10 @@ fn unbordered(size: [usize; 2], rgb: &[u8]) -> ColorImage {
 }
 
 /// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the background.
-fn heat(pair: &Dense, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
+fn heat(pair: &Dense, rows: Range<usize>, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
     let none = look::of(theme, Role::Surface);
-    let pixels = (0..pair.height).flat_map(|v| (0..pair.width).map(move |u| (u, v)));
+    let size = [pair.width as usize, rows.len()];
+    let pixels = rows.flat_map(|v| (0..pair.width).map(move |u| (u, v as u32)));
     let color = |(u, v)| match (pair.depth(u, v), range) {
         (Some(depth), Some(range)) => {
             let [r, g, b] = theme.scale(nearness(depth, range));
@@ -74,10 +82,7 @@ fn heat(pair: &Dense, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
         }
         _ => none,
     };
-    ColorImage::new(
-        [pair.width as usize, pair.height as usize],
-        pixels.map(color).collect(),
-    )
+    ColorImage::new(size, pixels.map(color).collect())
 }
 
 /// 0 for the far end of the range, 1 for the near one.
@@ -118,12 +123,12 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
         "depth of every pixel".to_owned(),
     ];
     let mut shown = Vec::new();
-    for ((rect, texture), label) in [first, second, depth]
+    for ((rect, picture), label) in [first, second, depth]
         .into_iter()
-        .zip(&view.textures)
+        .zip(&view.pictures)
         .zip(&labels)
     {
-        shown.push(photo::show(ui, rect, texture, &mut view.lens, label));
+        shown.push(photo::show(ui, rect, picture, &mut view.lens, label));
     }
     for (index, shown) in shown.iter().enumerate() {
         if let Some([u, v]) = shown.clicked() {
@@ -223,7 +228,7 @@ mod tests {
         let gray = |level: u8| [level; 3];
         let rows = [[0, 7, 0, 7, 0], [0, 0, 0, 0, 0]].concat();
         let rgb: Vec<u8> = rows.into_iter().flat_map(gray).collect();
-        let image = unbordered([5, 2], &rgb);
+        let image = unbordered(5, 0..2, &rgb);
         let is_out: Vec<bool> = image.pixels.iter().map(|p| p.a() == 0).collect();
         assert_eq!(is_out[..5], [true, false, false, false, true]);
         assert_eq!(is_out[5..], [true; 5]);

@@ -16,14 +16,14 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let Some(given) = project.document().photo(project.view().photo) else {
         return;
     };
-    let Some(pixels) = project.photograph(given) else {
+    let Some(pixels) = project.shown(given) else {
         return knobs::instead(ui, &project.describe());
     };
     let rect = ui.available_rect_before_wrap();
-    let texture = memory
+    let full = memory
         .pictures
-        .texture(ui, project.key_of_photograph(given), pixels);
-    let shown = photo::show(ui, rect, texture, &mut memory.lenses[0], &given.name);
+        .full(ui, project.key_of_photograph(given), pixels);
+    let shown = photo::show(ui, rect, &full, &mut memory.lenses[0], &given.name);
     let Some(found) = project.features(given) else {
         return;
     };

@@ -102,6 +102,8 @@ pub(super) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project
         .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
         .sum();
     let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
+    // At once: growing step by step would leave half as much again behind.
+    points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
     for (.., pair) in pairs {
         let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
         points.extend(pair.points(every).map(plain));

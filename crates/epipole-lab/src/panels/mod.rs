@@ -23,6 +23,7 @@ mod photographs;
 mod reconstruction;
 mod steer;
 mod steps;
+mod strips;
 mod two_views;
 mod videos;
 mod work;

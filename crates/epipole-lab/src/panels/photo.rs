@@ -1,11 +1,12 @@
 //! A photograph in a rectangle, enlarged and moved by the reader, with marks on it.
 
 use super::look;
+use super::strips::Strips;
 use crate::project::Key as Name;
 use crate::tasks::Photograph;
 use egui::{
     Color32, ColorImage, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, TextureHandle,
-    TextureOptions, Ui, Vec2, pos2, vec2,
+    TextureOptions, Ui, Vec2, vec2,
 };
 use epipole_canvas::theme::{Role, Theme};
 use std::collections::BTreeMap;
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 /// The pictures that the screen holds.
 #[derive(Default)]
 pub(super) struct Pictures {
-    full: BTreeMap<Name, TextureHandle>,
+    full: BTreeMap<Name, Strips>,
     small: BTreeMap<Name, TextureHandle>,
 }
 
@@ -23,22 +24,26 @@ const MAX_FULL: usize = 6;
 const MAX_SMALL: usize = 200;
 
 impl Pictures {
-    /// The photograph as a texture.
-    pub(super) fn texture(
-        &mut self,
-        ui: &Ui,
-        key: Name,
-        photograph: &Photograph,
-    ) -> &TextureHandle {
-        if !self.full.contains_key(&key) && self.full.len() >= MAX_FULL {
-            self.full.clear();
+    /// The photograph, as much of it as has come.
+    pub(super) fn full(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> Strips {
+        let size = [photograph.width as usize, photograph.height as usize];
+        if !self.full.contains_key(&key) {
+            if self.full.len() >= MAX_FULL {
+                self.full.clear();
+            }
+            let has_small = !photograph.small.rgb.is_empty();
+            let small = has_small.then(|| self.small(ui, key, photograph).clone());
+            self.full.insert(key, Strips::new(size, small));
         }
-        self.full.entry(key).or_insert_with(|| {
-            let size = [photograph.width as usize, photograph.height as usize];
-            let image = ColorImage::from_rgb(size, &photograph.rgb);
-            ui.ctx()
-                .load_texture(key.to_string(), image, TextureOptions::LINEAR)
-        })
+        let mut picture = self.full[&key].clone();
+        if photograph.has_pixels() {
+            picture.bring(ui, &key.to_string(), |rows| {
+                let of_rows = 3 * size[0] * rows.start..3 * size[0] * rows.end;
+                ColorImage::from_rgb([size[0], rows.len()], &photograph.rgb[of_rows])
+            });
+            self.full.insert(key, picture.clone());
+        }
+        picture
     }
 
     /// The same, small.
@@ -154,13 +159,13 @@ impl Shown {
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
-    texture: &TextureHandle,
+    picture: &Strips,
     lens: &mut Lens,
     name: &str,
 ) -> Shown {
     let id = ui.make_persistent_id(("photograph", name, rect.min.x as i32, rect.min.y as i32));
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    let size = texture.size_vec2();
+    let size = picture.size();
     let keyed = crosshair(ui, &response, lens, size);
     let label = match response.has_focus() {
         true => {
@@ -214,8 +219,7 @@ pub(super) fn show(
     let place = Rect::from_min_size(rect.center() - lens.middle * shown, shown);
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, look::color(ui, Role::Surface));
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    painter.image(texture.id(), place, whole, Color32::WHITE);
+    picture.paint(&painter, place);
     if response.clicked()
         && keyed.is_none()
         && let Some(pointer) = response.interact_pointer_pos()

@@ -54,7 +54,7 @@ fn card(
     ui.painter()
         .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
     let is_out = !matches!(fate, Fate::Registered(_) | Fate::Open);
-    if let Some(pixels) = project.photograph(photo) {
+    if let Some(pixels) = project.shown(photo) {
         let key = project.key_of_photograph(photo);
         let texture = memory.pictures.small(ui, key, pixels);
         let size = texture.size_vec2();
@@ -133,7 +133,7 @@ pub(super) fn knobs(
 fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
     ui.strong(&photo.name);
     ui.label(project.fate_words(photo));
-    if let (Some(pixels), Some(camera)) = (project.photograph(photo), project.camera(photo)) {
+    if let (Some(pixels), Some(camera)) = (project.shown(photo), project.camera(photo)) {
         let (width, height) = pixels.full_size;
         let mut size = format!("{width} × {height}");
         if (pixels.width, pixels.height) != pixels.full_size {

@@ -18,22 +18,20 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
         return knobs::instead(ui, "A pair needs two photographs.");
     };
-    let (Some(one), Some(two)) = (project.photograph(first), project.photograph(second)) else {
+    let (Some(one), Some(two)) = (project.shown(first), project.shown(second)) else {
         return knobs::instead(ui, &project.describe());
     };
     let whole = ui.available_rect_before_wrap();
     let (left, right) = halves(whole);
     let [lens1, lens2] = &mut memory.lenses;
-    let texture = memory
+    let full = memory
         .pictures
-        .texture(ui, project.key_of_photograph(first), one)
-        .clone();
-    let shown1 = photo::show(ui, left, &texture, lens1, &first.name);
-    let texture = memory
+        .full(ui, project.key_of_photograph(first), one);
+    let shown1 = photo::show(ui, left, &full, lens1, &first.name);
+    let full = memory
         .pictures
-        .texture(ui, project.key_of_photograph(second), two)
-        .clone();
-    let shown2 = photo::show(ui, right, &texture, lens2, &second.name);
+        .full(ui, project.key_of_photograph(second), two);
+    let shown2 = photo::show(ui, right, &full, lens2, &second.name);
     let (Some(places), Some(pair)) = (
         project.match_places(first, second),
         project.two_views(first, second),
@@ -234,7 +232,7 @@ fn patches(
     const SIDE: f32 = 136.0;
     ui.horizontal(|ui| {
         for (photo, index) in photos.into_iter().zip(features) {
-            let (Some(pixels), Some(found)) = (project.photograph(photo), project.features(photo))
+            let (Some(pixels), Some(found)) = (project.shown(photo), project.features(photo))
             else {
                 continue;
             };
@@ -242,18 +240,21 @@ fn patches(
                 continue;
             };
             let key = project.key_of_photograph(photo);
-            let texture = memory.pictures.texture(ui, key, pixels);
+            let full = memory.pictures.full(ui, key, pixels);
             let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), egui::Sense::hover());
             let words = format!("Patch of the match in {}", photo.name);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
             // Four by four cells of three times the scale.
             let half = (6.0 * feature.scale_px).max(4.0);
-            let size = texture.size_vec2();
+            let size = full.size();
             let middle = (vec2(feature.u as f32, feature.v as f32) + vec2(0.5, 0.5)) / size;
-            let reach = vec2(half, half) / size;
-            let part = Rect::from_min_max((middle - reach).to_pos2(), (middle + reach).to_pos2());
             let painter = ui.painter_at(rect);
-            painter.image(texture.id(), rect, part, egui::Color32::WHITE);
+            painter.rect_filled(rect, 0.0, look::color(ui, Role::Surface));
+            let whole = size * SIDE / (2.0 * half);
+            full.paint(
+                &painter,
+                Rect::from_min_size(rect.center() - middle * whole, whole),
+            );
             let grip = egui::Stroke::new(1.6, look::of(Theme::Dark, Role::Grip));
             let radius = SIDE / 2.0 * feature.scale_px / half;
             painter.circle_stroke(rect.center(), radius, grip);

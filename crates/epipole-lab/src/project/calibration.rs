@@ -192,7 +192,7 @@ impl Project {
     pub fn of_size(&self, size: (u32, u32)) -> Vec<&Given> {
         let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
         let fits = |photo: &&Given| {
-            self.photograph(photo)
+            self.shown(photo)
                 .is_some_and(|pixels| pixels.sensor_size == size)
         };
         let photos = self.document.photos.iter();

@@ -166,7 +166,7 @@ impl Project {
     }
 
     fn is_of_unknown_turn(&self, photo: &Given) -> bool {
-        let (Some(camera), Some(pixels)) = (&self.document.camera, self.photograph(photo)) else {
+        let (Some(camera), Some(pixels)) = (&self.document.camera, self.shown(photo)) else {
             return false;
         };
         let (width, height) = camera.size;
@@ -176,7 +176,7 @@ impl Project {
 
     /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is none.
     pub fn unused_camera_words(&self, photo: &Given) -> String {
-        let (Some(camera), Some(pixels)) = (&self.document.camera, self.photograph(photo)) else {
+        let (Some(camera), Some(pixels)) = (&self.document.camera, self.shown(photo)) else {
             return String::new();
         };
         if pixels.k.is_some() {

@@ -15,6 +15,7 @@ mod keys;
 mod link;
 mod measure;
 mod pairs;
+mod pixels;
 mod recipe;
 mod reconstruction_words;
 mod results;
@@ -45,7 +46,7 @@ pub(crate) use words::count;
 
 use crate::tasks::{Answer, Blob, Component, Reconstructed};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the reader looks at; undo leaves it alone.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +75,10 @@ pub struct Project {
     future: Vec<Document>,
     next_id: PhotoId,
     paused: bool,
+    /// Photographs whose pixels were let go of and are read once more.
+    reading: BTreeSet<Key>,
+    /// Those of them that could not be read once more.
+    unread: BTreeSet<Key>,
     /// What there is of the reconstruction that is on its way.
     growing: Option<(Key, Reconstructed)>,
     /// How often anything has changed.
@@ -99,6 +104,8 @@ impl Default for Project {
             future: Vec::new(),
             next_id: 0,
             paused: false,
+            reading: BTreeSet::new(),
+            unread: BTreeSet::new(),
             growing: None,
             revision: 0,
             fates: RefCell::default(),
@@ -152,11 +159,13 @@ impl Project {
                         .fail(key, "an unexpected answer arrived".to_owned());
                 }
             }
+            Err(_) if self.reading.contains(&key) => drop(self.unread.insert(key)),
             Err(sentence) => self.results.fail(key, sentence),
         }
         let needed = self.needed();
         self.results.tidy(|key| needed.contains(&key));
         self.take_brought();
+        self.balance_pixels();
     }
 
     /// Takes the sentence why computing a result broke down, through no fault of what it is computed from: memory is
@@ -166,13 +175,20 @@ impl Project {
         if self.growing.as_ref().is_some_and(|(of, _)| *of == key) {
             self.growing = None;
         }
-        self.results.break_down(key, sentence);
+        match self.reading.contains(&key) {
+            true => drop(self.unread.insert(key)),
+            false => self.results.break_down(key, sentence),
+        }
+        self.balance_pixels();
     }
 
     /// Whether computing something that is needed broke down.
     pub fn can_try_again(&self) -> bool {
         let broken = self.results.broken();
-        !broken.is_empty() && self.needed().intersection(broken).next().is_some()
+        let is_needed = |keys: &BTreeSet<Key>| {
+            !keys.is_empty() && self.needed().intersection(keys).next().is_some()
+        };
+        is_needed(broken) || is_needed(&self.unread)
     }
 
     /// Takes what there is of a reconstruction that is on its way. Anything else is left alone.
@@ -201,8 +217,8 @@ impl Project {
     }
 
     /// The keys of what the project is made of now.
-    fn needed(&self) -> std::collections::BTreeSet<Key> {
-        let mut keys = std::collections::BTreeSet::new();
+    fn needed(&self) -> BTreeSet<Key> {
+        let mut keys = BTreeSet::new();
         let photos = &self.document.photos;
         for photo in photos {
             keys.insert(self.photograph_key(photo));

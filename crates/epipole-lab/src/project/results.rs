@@ -2,7 +2,8 @@
 
 use super::keys::Key;
 use crate::tasks::{
-    Answer, BoardFound, Calibration, Dense, Features, Match, Photograph, Reconstructed, TwoViews,
+    Answer, Blob, BoardFound, Calibration, Dense, Features, Match, Photograph, Reconstructed,
+    TwoViews,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -105,10 +106,11 @@ impl Results {
         }
     }
 
-    /// Whether there is an answer, or a sentence why there is none. A photograph without its pixels is none.
+    /// Whether there is an answer, or a sentence why there is none. A photograph whose
+    /// pixels were never there is none.
     pub(super) fn is_settled(&self, key: Key) -> bool {
         let is_there = match self.get(key) {
-            Some(Kept::Photograph(found)) => found.has_pixels(),
+            Some(Kept::Photograph(found)) => found.was_read(),
             Some(_) => true,
             None => false,
         };
@@ -135,6 +137,31 @@ impl Results {
         match self.get(key)? {
             Kept::Photograph(found) => Some(found),
             _ => None,
+        }
+    }
+
+    /// The photographs with their pixels, those that came first first.
+    pub(super) fn at_hand(&self) -> Vec<Key> {
+        let with_pixels = |kept: &Kept| match kept {
+            Kept::Photograph(found) => found.has_pixels(),
+            _ => false,
+        };
+        let all = self.kept.iter().filter(|(_, (kept, ..))| with_pixels(kept));
+        let mut all: Vec<(u64, Key)> = all.map(|(key, (.., age))| (*age, *key)).collect();
+        all.sort_unstable();
+        all.into_iter().map(|(_, key)| key).collect()
+    }
+
+    /// Lets go of the pixels of a photograph, but for the small ones.
+    pub(super) fn let_go(&mut self, key: Key) {
+        if let Some((Kept::Photograph(found), bytes, _)) = self.kept.get_mut(&key) {
+            *bytes = bytes.saturating_sub(found.rgb.len());
+            self.bytes = self.bytes.saturating_sub(found.rgb.len());
+            let small = Photograph {
+                rgb: Blob::default(),
+                ..(**found).clone()
+            };
+            *found = Rc::new(small);
         }
     }
 

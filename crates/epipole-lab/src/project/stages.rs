@@ -91,6 +91,11 @@ impl Project {
         self.results.photograph(self.photograph_key(photo))
     }
 
+    /// A photograph that can be shown, small at least: its pixels may have to be read once more.
+    pub fn shown(&self, photo: &Given) -> Option<&Rc<Photograph>> {
+        self.frame(photo).filter(|found| found.was_read())
+    }
+
     /// Its size and its lens, if they are known: its pixels may be to come.
     pub(super) fn frame(&self, photo: &Given) -> Option<&Rc<Photograph>> {
         self.results.frame(self.photograph_key(photo))

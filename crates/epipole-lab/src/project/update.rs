@@ -11,6 +11,11 @@ impl Project {
     /// Carries out an event. Whatever is wrong with it, the state stays as it was.
     pub fn update(&mut self, event: Event) {
         self.revision += 1;
+        self.carry_out(event);
+        self.balance_pixels();
+    }
+
+    fn carry_out(&mut self, event: Event) {
         let before = self.document.clone();
         match event {
             Event::Undo => return self.step_back(),
@@ -19,7 +24,10 @@ impl Project {
             Event::Look(id) => self.look(id),
             Event::LookAtPair(first, second) => self.look_at_pair(first, second),
             Event::LookAtComponent(component) => self.view.component = component,
-            Event::TryAgain => self.results.try_again(),
+            Event::TryAgain => {
+                self.results.try_again();
+                self.unread.clear();
+            }
             Event::Pause(paused) => self.paused = paused,
             Event::Add(files) => self.add(files),
             Event::Begin(files) => {

@@ -47,6 +47,7 @@ impl Project {
         let mut want = |key: Key, about: About| {
             let is_whole = match about {
                 About::Features(id) => !to_describe.contains(&id),
+                About::Photograph(_) => !self.reading.contains(&key),
                 _ => true,
             };
             let is_settled = is_whole && self.results.is_settled(key);
@@ -60,7 +61,7 @@ impl Project {
                 want(*key, *about);
             }
         }
-        for photo in &self.document.photos {
+        for photo in self.by_need() {
             want(self.photograph_key(photo), About::Photograph(photo.id));
         }
         let photos = self.taking_part();
@@ -117,11 +118,11 @@ impl Project {
 
     /// Photographs whose features came without descriptors, which are asked for now: somebody looks at them, or matches
     /// have to be found anew.
-    fn to_describe(&self) -> BTreeSet<PhotoId> {
+    pub(super) fn to_describe(&self) -> BTreeSet<PhotoId> {
         let photos = self.taking_part();
         let is_bare = |photo: &Given| {
             let found = self.features(photo);
-            self.photograph(photo).is_some() && found.is_some_and(|found| !found.has_descriptors())
+            self.shown(photo).is_some() && found.is_some_and(|found| !found.has_descriptors())
         };
         if !photos.iter().any(|photo| is_bare(photo)) {
             return BTreeSet::new();
@@ -232,7 +233,7 @@ impl Project {
     /// Whether there is a reconstruction to save, and all of its photographs.
     pub fn can_export(&self) -> bool {
         let mut photos = self.taking_part().into_iter();
-        self.component().is_some() && photos.all(|photo| self.photograph(photo).is_some())
+        self.component().is_some() && photos.all(|photo| self.shown(photo).is_some())
     }
 
     /// The request for the zip file of what is looked at; `None` while there is no reconstruction.
@@ -243,7 +244,7 @@ impl Project {
             Some(Packed {
                 name: photo.name.clone(),
                 source: photo.source.clone(),
-                used: Some((**self.photograph(photo)?).clone()),
+                used: Some((**self.shown(photo)?).clone()),
             })
         };
         Some(Request::Export {
@@ -260,6 +261,8 @@ impl Project {
                 .map(|photo| (photo.name.clone(), self.fate_words(photo)))
                 .collect(),
             recipe: self.recipe()?,
+            max_pixels: self.max_pixels(),
+            camera: self.document.camera.clone(),
             dense: (self.dense_pairs().into_iter())
                 .map(|(_, first, second, dense)| {
                     (Self::pair_name(first, second), (**dense).clone())

@@ -11,7 +11,8 @@ pub struct Photograph {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Red, green, blue, row by row. None where only its size and lens are known, and the pixels are to come.
+    /// Red, green, blue, row by row. None where only its size and lens are known and the pixels are to come, or where they
+    /// were let go of and can be read once more.
     pub rgb: Blob,
     /// The same, small; nothing where pixels are to come, and of a board, which is in no list.
     pub small: Thumbnail,
@@ -32,6 +33,16 @@ impl Photograph {
     /// Whether its pixels are there.
     pub fn has_pixels(&self) -> bool {
         !self.rgb.is_empty()
+    }
+
+    /// Whether its pixels are there, or were and can be read once more: it can be shown, small at least.
+    pub fn was_read(&self) -> bool {
+        self.has_pixels() || !self.small.rgb.is_empty()
+    }
+
+    /// How many bytes its pixels take, wherever they are.
+    pub fn num_bytes(&self) -> usize {
+        3 * self.width as usize * self.height as usize
     }
 }
 

@@ -111,6 +111,8 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
             focal_refined,
             left_out,
             recipe,
+            max_pixels,
+            camera,
             dense,
         } => Answer::Archive(
             export::reconstruction(&export::Order {
@@ -122,6 +124,10 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
                 focal_refined,
                 left_out: &left_out,
                 recipe: &recipe,
+                read: &|source| {
+                    let go_on = &mut |_: super::Told<'_>| std::ops::ControlFlow::Continue(());
+                    photograph::photograph(source, max_pixels, camera.as_ref(), go_on)
+                },
                 dense: &dense,
             })?
             .into(),

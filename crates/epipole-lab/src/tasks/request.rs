@@ -199,7 +199,7 @@ pub enum Request {
     Export {
         /// The photographs, as they were reconstructed.
         images: Vec<ImagePoints>,
-        /// The same with their pixels.
+        /// The same with their pixels, or without: then those are read once more.
         photographs: Vec<Packed>,
         /// What was found.
         found: Reconstructed,
@@ -213,6 +213,10 @@ pub enum Request {
         left_out: Vec<(String, String)>,
         /// What is written beside it: how to do the same elsewhere.
         recipe: Recipe,
+        /// The largest number of pixels of a photograph.
+        max_pixels: u32,
+        /// Whose distortion was removed from photographs of its size.
+        camera: Option<LensCamera>,
         /// Names of pairs, and the depth of their pixels.
         dense: Vec<(String, Dense)>,
     },

@@ -56,8 +56,8 @@ fn large(project: &Project, memory: &mut Memory, ui: &mut Ui, rect: Rect, given:
         return;
     };
     let key = project.key_of_board(given);
-    let texture = memory.pictures.texture(ui, key, &found.picture).clone();
-    let shown = photo::show(ui, rect, &texture, &mut memory.board.lens, &given.name);
+    let full = memory.pictures.full(ui, key, &found.picture);
+    let shown = photo::show(ui, rect, &full, &mut memory.board.lens, &given.name);
     let grip = look::of(Theme::Dark, Role::Grip);
     let at = |found: &BoardFound, mark: [f64; 2]| {
         let [u, v] = found.in_picture(mark);
