@@ -137,6 +137,8 @@ async function drag({ moves }) {
   const element = document.querySelector("epipole-figure");
   const stage = element.shadowRoot.querySelector(".picture");
   const context = element.shadowRoot.querySelector("canvas").getContext("2d");
+  // What the last slider did stands in the page with the next frame: until then the grip is where it was.
+  element.flush();
   const box = element.shadowRoot.querySelector(".grip").getBoundingClientRect();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   const fire = (type, dx, dy) =>

@@ -5,6 +5,8 @@ use epipole::camera::Camera;
 use epipole::epipolar::epipolar_line2;
 use epipole::math::{Line2, random::Random};
 use nalgebra::{Matrix3, Point2};
+use std::cell::RefCell;
+use std::rc::Rc;
 
 /// The most matches that F can be estimated from.
 pub(crate) const MAX_USED: usize = 60;
@@ -49,6 +51,13 @@ pub(crate) fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) 
     Some(line.signed_distance(pixel2).abs())
 }
 
+/// Matches of so many seeds are kept: of the first ones, as a fresh figure has them, and of the last one.
+const MOST_KEPT: usize = 8;
+
+thread_local! {
+    static KEPT: RefCell<Vec<(u64, Rc<Matches>)>> = const { RefCell::new(Vec::new()) };
+}
+
 /// Matches to estimate F from, and matches to judge it by.
 pub(crate) struct Matches {
     exact: Vec<Match>,
@@ -58,8 +67,21 @@ pub(crate) struct Matches {
 }
 
 impl Matches {
-    /// Draws places of photograph 1 and follows them to photograph 2.
-    pub(crate) fn draw(seed: u64) -> Self {
+    /// Draws places of photograph 1 and follows them to photograph 2. What was drawn is kept: with each change, a
+    /// fresh figure that it is compared with asks for the same again.
+    pub(crate) fn draw(seed: u64) -> Rc<Self> {
+        KEPT.with_borrow_mut(|kept| {
+            if let Some((_, known)) = kept.iter().find(|(of, _)| *of == seed) {
+                return Rc::clone(known);
+            }
+            let matches = Rc::new(Self::drawn(seed));
+            kept.truncate(MOST_KEPT - 1);
+            kept.push((seed, Rc::clone(&matches)));
+            matches
+        })
+    }
+
+    fn drawn(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let (mut exact, mut held_out): (Vec<Match>, Vec<Match>) = (Vec::new(), Vec::new());
         for _ in 0..MAX_TRIED {

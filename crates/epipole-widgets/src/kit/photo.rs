@@ -11,12 +11,16 @@ use epipole::Error;
 use epipole::camera::Camera;
 use epipole::synthetic::{Moved, Photograph, Reprojected, Sampling, Scene};
 use image::RgbImage;
+use std::ops::Range;
 
 /// Pixels of a draft for every pixel of the full picture, along each side.
 const DRAFT_FACTOR: f64 = 1.0 / 6.0;
 
 /// Rows of the full picture that one slice renders.
 const ROWS_PER_SLICE: u32 = 4;
+
+/// Columns and rows of a draft.
+type Part = [Range<u32>; 2];
 
 /// One photograph of a scene, kept until the camera or the scene changes.
 #[derive(Default)]
@@ -28,6 +32,8 @@ pub(crate) struct Photo {
     num_rows_done: u32,
     /// What stands for a sharp one meanwhile, and what it shows.
     draft: Option<Photograph>,
+    /// From where and how large the draft is, if it is whole, and its pixels of what can be moved.
+    drafted: Option<(Camera, (u32, u32), Part)>,
     meanwhile: Reprojected,
     shown: Option<(Camera, [f64; 3])>,
     follow: Option<Follow>,
@@ -64,6 +70,11 @@ impl Photo {
             follow: Some(follow),
             ..Self::default()
         }
+    }
+
+    /// Forgets what is sharp, or was to become so.
+    pub(crate) fn forget(&mut self) {
+        (self.sharp, self.growing, self.shown) = (None, None, None);
     }
 
     /// The best picture that there is now.
@@ -105,8 +116,21 @@ impl Photo {
                 intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
                 ..*camera
             };
-            let wanted = self.meanwhile.wanted(small_size);
+            let mut wanted = self.meanwhile.wanted(small_size);
+            let is_whole = wanted.iter().all(|&wanted| wanted);
+            let moving = scene.pixels_of_movable(&small_camera, small_size);
+            if let Some((from, size, before)) = self.drafted.take()
+                && (from, size) == (small_camera, small_size)
+            {
+                // All others are as they were.
+                let parts = [&before, &moving];
+                for (place, wanted) in (0..).zip(&mut wanted) {
+                    let (u, v) = (place % size.0, place / size.0);
+                    *wanted &= (parts.iter()).any(|[us, vs]| us.contains(&u) && vs.contains(&v));
+                }
+            }
             scene.render_draft(&small_camera, &wanted, &mut draft)?;
+            self.drafted = is_whole.then_some((small_camera, small_size, moving));
             self.meanwhile.fill(&draft.image);
             self.draft = Some(draft);
             self.shown = Some((*camera, arrangement));

@@ -3,12 +3,13 @@
 use super::body::{Body, Placement};
 use super::light::{Decal, Detail, LightMap, Lighting};
 use super::render::Sampling;
-use super::scene::Scene;
+use super::scene::{SHADE_M, Scene};
 use super::shading::{self, Look};
 use super::shape::TOP;
 use super::shape::{Contact, Ray};
 use crate::camera::Camera;
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
+use std::ops::Range;
 
 /// Side of the squares of pixels that share a list of candidates.
 pub(super) const TILE: u32 = 8;
@@ -233,11 +234,22 @@ fn outline(camera: &Camera, body: &Body, placed: &Placement) -> ((i64, i64), (i6
         return (everywhere, everywhere, f64::INFINITY);
     }
     let (half, center) = body.shape.bounds();
-    let corners: [Point3<f64>; 8] = std::array::from_fn(|corner| {
+    let corners = corners(&half).map(|offset| body.world_point(&(center + offset), placed));
+    outline_of_box(camera, &corners)
+}
+
+/// Where the corners of a box with these half sides are from its middle.
+fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
+    std::array::from_fn(|corner| {
         let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        let local = center + half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
-        camera.cam_from_world * Point3::from(body.world_point(&local, placed))
-    });
+        half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)))
+    })
+}
+
+/// The same of a box with these corners in the world.
+#[inline(never)]
+fn outline_of_box(camera: &Camera, corners: &[Vector3<f64>; 8]) -> ((i64, i64), (i64, i64), f64) {
+    let corners = corners.map(|corner| camera.cam_from_world * Point3::from(corner));
     let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |x_in_cam: &Point3<f64>| {
@@ -272,4 +284,45 @@ fn outline(camera: &Camera, body: &Body, placed: &Placement) -> ((i64, i64), (i6
         )
     };
     (range(0), range(1), nearest)
+}
+
+impl Scene {
+    /// Columns and rows that may show the thing that can be moved, or its shade; no other pixel tells where it is. None
+    /// in a scene without one.
+    ///
+    /// * `camera`: for a picture of this width and height
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::synthetic::{MovableKind, MovableObject, Scene, long_table_camera};
+    /// let ball = MovableObject { kind: MovableKind::Ball, x_m: 0.0, z_m: 3.5 };
+    /// let camera = long_table_camera(0.0, 640, 480)?;
+    /// let [columns, rows] = Scene::long_table(ball)?.pixels_of_movable(&camera, (640, 480));
+    /// // It is 700 / 3.5 · 0.22 = 44 px wide, and its shade reaches farther; most of the picture is not concerned.
+    /// assert!(columns.start < 298 && columns.end > 342);
+    /// assert!(columns.len() < 320 && rows.len() < 120);
+    /// # Ok(()) }
+    /// ```
+    pub fn pixels_of_movable(
+        &self,
+        camera: &Camera,
+        (width, height): (u32, u32),
+    ) -> [Range<u32>; 2] {
+        let Some((movable, placed)) = &self.movable else {
+            return [0..0, 0..0];
+        };
+        let half = Vector3::new(1.0, 0.0, 1.0) * (0.5 * SHADE_M * placed.scale);
+        let shade = corners(&half).map(|offset| placed.foot + offset);
+        let (mut columns, mut rows, _) = outline_of_box(camera, &shade);
+        // What is not before the camera has no columns and rows, and joined to others makes them a corner more.
+        let join = |a: (i64, i64), b: (i64, i64)| (a.0.min(b.0), a.1.max(b.1));
+        for body in &movable.bodies {
+            let own = outline(camera, body, placed);
+            (columns, rows) = (join(columns, own.0), join(rows, own.1));
+        }
+        [(columns, width), (rows, height)].map(|((first, last), size)| {
+            let place = |at: i64| at.clamp(0, i64::from(size)) as u32;
+            place(first)..place(last.saturating_add(1))
+        })
+    }
 }

@@ -75,7 +75,6 @@ impl Both {
 /// The model of `column-sizes`.
 pub(crate) struct ColumnSizes {
     settings: Settings,
-    matches: Matches,
     both: Result<Both, String>,
 }
 
@@ -95,7 +94,8 @@ impl ColumnSizes {
 
     fn compute(&mut self) {
         let scale = self.width_px() / f64::from(PHOTO_WIDTH);
-        let matches = self.matches.noisy(self.count(), NOISE_PX);
+        let matches = Matches::draw(self.settings.count(&SEED) as u64);
+        let matches = matches.noisy(self.count(), NOISE_PX);
         let scaled: Vec<Match> = (matches.iter())
             .map(|(pixel1, pixel2)| (pixel1 * scale, pixel2 * scale))
             .collect();
@@ -111,10 +111,8 @@ impl Declared for ColumnSizes {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        let settings = Settings::new(KNOBS);
         let mut model = Self {
-            matches: Matches::draw(settings.count(&SEED) as u64),
-            settings,
+            settings: Settings::new(KNOBS),
             both: Err(String::new()),
         };
         model.compute();
@@ -128,10 +126,7 @@ impl Model for ColumnSizes {
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        if let Some(id) = self.settings.update(event)? {
-            if id == SEED.id {
-                self.matches = Matches::draw(self.settings.count(&SEED) as u64);
-            }
+        if self.settings.update(event)?.is_some() {
             self.compute();
         }
         Ok(())

@@ -42,7 +42,6 @@ pub struct EightPoint {
     settings: Settings,
     probe: Probe,
     asked: Asked<Question>,
-    matches: OnceCell<Matches>,
     estimate: OnceCell<Result<Estimate, String>>,
 }
 
@@ -51,11 +50,6 @@ impl EightPoint {
     pub(super) fn photographs(&self) -> Result<&Answer, &str> {
         let why = || self.asked.stand_in();
         self.asked.answer().ok_or_else(why)
-    }
-
-    fn matches(&self) -> &Matches {
-        let seed = self.settings.count(&SEED) as u64;
-        self.matches.get_or_init(|| Matches::draw(seed))
     }
 
     /// The estimate, or why there is none.
@@ -67,7 +61,7 @@ impl EightPoint {
     }
 
     fn compute(&self) -> Result<Estimate, epipole::Error> {
-        let matches = self.matches();
+        let matches = Matches::draw(self.settings.count(&SEED) as u64);
         let used = matches.noisy(self.settings.count(&COUNT), self.noise_px());
         Estimate::new(
             used,
@@ -135,7 +129,6 @@ impl Declared for EightPoint {
             settings: Settings::new(KNOBS),
             probe: PROBE,
             asked: Asked::about(Question),
-            matches: OnceCell::new(),
             estimate: OnceCell::new(),
         }
     }
@@ -161,11 +154,8 @@ impl Model for EightPoint {
         if self.probe.update(event) {
             return Ok(());
         }
-        if let Some(id) = self.settings.update(event)? {
+        if self.settings.update(event)?.is_some() {
             self.estimate.take();
-            if id == SEED.id {
-                self.matches.take();
-            }
         }
         Ok(())
     }

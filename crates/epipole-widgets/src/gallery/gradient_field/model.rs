@@ -12,6 +12,7 @@ use crate::kit::picture::{Own, Picture, slot};
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
 use image::RgbImage;
+use std::cell::OnceCell;
 
 const SOURCE: Choice = Choice::new(
     "source",
@@ -75,7 +76,7 @@ pub(crate) struct GradientField {
     own: Own<1>,
     pub(super) probe: Probe,
     pub(super) orbit: Orbit,
-    edge: Result<Field, String>,
+    edge: OnceCell<Result<Field, String>>,
     /// The still life, once it has been rendered.
     taken: Option<Picture>,
     asked: Asked<Question>,
@@ -93,8 +94,13 @@ impl GradientField {
 
     /// What is shown; or a sentence on why nothing is.
     pub(super) fn field(&self) -> Result<&Field, &str> {
-        if self.edge().is_some() {
-            return self.edge.as_ref().map_err(|sentence| &**sentence);
+        if let Some(edge) = self.edge() {
+            let look = || {
+                let field = edge.field(self.smooth_px());
+                field.map_err(|error| format!("There is no gradient: {error}."))
+            };
+            let field = self.edge.get_or_init(look).as_ref();
+            return field.map_err(|sentence| &**sentence);
         }
         let waiting = <Question as crate::kit::question::Question>::LABEL;
         let answer = self.asked.answer().map(|answer| &answer.field);
@@ -160,12 +166,11 @@ impl GradientField {
     }
 
     fn look(&mut self) {
-        let smooth_px = self.smooth_px();
-        if let Some(edge) = self.edge() {
-            let field = edge.field(smooth_px);
-            self.edge = field.map_err(|error| format!("There is no gradient: {error}."));
+        self.edge.take();
+        if self.edge().is_some() {
             return;
         }
+        let smooth_px = self.smooth_px();
         let taken = match self.settings.chosen(&SOURCE) {
             1 => self.taken.as_ref(),
             _ => self.own.get(0),
@@ -207,7 +212,7 @@ impl Declared for GradientField {
             own: Own::new(SLOTS, MIN_SIDE_PX),
             probe: PROBE,
             orbit: Orbit::new(-28.0, 38.0),
-            edge: Err(String::new()),
+            edge: OnceCell::new(),
             taken: None,
             asked: Asked::default(),
         };

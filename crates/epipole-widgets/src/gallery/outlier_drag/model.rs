@@ -11,6 +11,7 @@ use crate::kit::probe::Probe;
 use crate::kit::scenes::PHOTO_SIZE;
 use epipole::epipolar::fundamental_from_cameras;
 use nalgebra::{Point2, Vector2};
+use std::cell::OnceCell;
 
 /// True matches; the wrong one comes on top.
 const COUNT: Slider = Slider::new("count", "True matches")
@@ -43,13 +44,20 @@ pub(super) struct State {
     /// As the toggle wants it, and from the true matches alone.
     pub(super) fit: Fit,
     pub(super) without: Fit,
-    pub(super) led: Vec<(f64, Fit)>,
+    led: OnceCell<Vec<(f64, Fit)>>,
+}
+
+impl State {
+    /// As [`led_away`].
+    pub(super) fn led(&self) -> &[(f64, Fit)] {
+        let led = || led_away(&self.truth, &self.right, &self.wrong.1);
+        self.led.get_or_init(led)
+    }
 }
 
 /// The model of `outlier-drag`.
 pub(crate) struct OutlierDrag {
     settings: Settings,
-    matches: Matches,
     /// Where the reader has put it.
     put: Option<Probe>,
     state: Result<State, String>,
@@ -78,14 +86,15 @@ impl OutlierDrag {
 
     fn solve(&self) -> Result<State, epipole::Error> {
         let count = self.settings.count(&COUNT) + 1;
-        let mut truth = self.matches.noisy(count, self.settings.number(&NOISE));
+        let matches = Matches::draw(self.settings.count(&SEED) as u64);
+        let mut truth = matches.noisy(count, self.settings.number(&NOISE));
         let right = truth.remove(0);
         let put = self.put.unwrap_or_else(|| near(&(right.1 + AWAY_PX)));
         let wrong = (right.0, put.point());
         Ok(State {
             fit: Fit::new(&truth, &wrong, self.is_heard())?,
             without: Fit::new(&truth, &wrong, false)?,
-            led: led_away(&truth, &right, &wrong.1),
+            led: OnceCell::new(),
             truth,
             right,
             put,
@@ -112,7 +121,6 @@ impl Declared for OutlierDrag {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            matches: Matches::draw(SEED.default as u64),
             put: None,
             state: Err(String::new()),
         };
@@ -147,10 +155,7 @@ impl Model for OutlierDrag {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match (self.settings.update(event)?, event) {
-            (Some(id), _) if id == SEED.id => {
-                self.matches = Matches::draw(self.settings.count(&SEED) as u64);
-                self.put = None;
-            }
+            (Some(id), _) if id == SEED.id => self.put = None,
             (Some(_), _) => {}
             (None, Event::HandleMoved { x, y, .. }) => self.put = Some(near(&Point2::new(*x, *y))),
             _ => return Ok(()),

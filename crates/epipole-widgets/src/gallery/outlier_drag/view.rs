@@ -152,7 +152,7 @@ fn draw_led(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut Canv
     let world =
         |away_px: f64, off_px: f64| (away_px, plot::decade(off_px).clamp(DECADES[0], DECADES[1]));
     let curve = |get: fn(&Fit) -> f64| -> Vec<(f64, f64)> {
-        let led = state.led.iter();
+        let led = state.led().iter();
         led.map(|(away_px, fit)| world(*away_px, get(fit)))
             .collect()
     };

@@ -9,6 +9,7 @@ use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{in_picture, still_life};
 use epipole::synthetic::Transfer;
 use nalgebra::{Point2, Point3};
+use std::cell::OnceCell;
 
 const PARALLEL: Slider = Slider::new("parallel", "Make parallel")
     .range(0.0, 100.0, 1.0)
@@ -110,19 +111,20 @@ impl State {
 /// The model of `rectify`.
 pub(crate) struct Rectify {
     settings: Settings,
-    state: Result<State, String>,
+    state: OnceCell<Result<State, String>>,
 }
 
 impl Rectify {
     /// The pair as it is turned now, or why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
-        self.state.as_ref().map_err(String::as_str)
+        let state = self.state.get_or_init(|| self.compute());
+        state.as_ref().map_err(String::as_str)
     }
 
     /// The match that p and p′ are, if camera 1 sees it.
     pub(super) fn selected(&self) -> Option<(usize, &Shown)> {
         let index = self.settings.count(&MATCH) - 1;
-        Some((index, self.state.as_ref().ok()?.matches.get(index)?))
+        Some((index, self.state().ok()?.matches.get(index)?))
     }
 
     pub(super) fn is_rectified(&self) -> bool {
@@ -144,10 +146,10 @@ impl Rectify {
         }
     }
 
-    fn compute(&mut self) {
+    fn compute(&self) -> Result<State, String> {
         let (forward_m, left_deg) = (self.settings.number(&FORWARD), self.settings.number(&TURN));
         let state = State::new(forward_m, left_deg, self.way());
-        self.state = state.map_err(|error| format!("The pair cannot be rectified: {error}."));
+        state.map_err(|error| format!("The pair cannot be rectified: {error}."))
     }
 
     /// The match nearest to a place of a picture.
@@ -157,7 +159,7 @@ impl Rectify {
             "second" => 1,
             _ => return None,
         };
-        let matches = self.state.as_ref().ok()?.matches.iter().enumerate();
+        let matches = self.state().ok()?.matches.iter().enumerate();
         let away = |shown: &Shown| (shown.pixels[side] - place).norm_squared();
         let nearest = matches.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)))?;
         Some(nearest.0)
@@ -172,12 +174,10 @@ impl Declared for Rectify {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        let mut model = Self {
+        Self {
             settings: Settings::new(KNOBS),
-            state: Err(String::new()),
-        };
-        model.compute();
-        model
+            state: OnceCell::new(),
+        }
     }
 }
 
@@ -200,7 +200,7 @@ impl Model for Rectify {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         let changed = self.settings.update(event)?;
         if changed.is_some_and(|id| id != MATCH.id) {
-            self.compute();
+            self.state.take();
         }
         if let Event::Clicked { panel, x, y } = event
             && let Some(index) = self.nearest(panel, Point2::new(*x, *y))

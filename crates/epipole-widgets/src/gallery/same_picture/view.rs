@@ -93,7 +93,8 @@ impl SamePictureView {
     fn shown(&mut self, model: &SamePicture) -> [f64; 3] {
         let shown = [model.distance_m, model.height_m(), 0.0];
         if self.rendered != Some(shown) {
-            (self.photos, self.rendered) = (Default::default(), Some(shown));
+            self.photos.iter_mut().for_each(Photo::forget);
+            self.rendered = Some(shown);
         }
         shown
     }

@@ -13,6 +13,7 @@ use epipole::robust::{
     fit_line_total_least_squares, least_median,
 };
 use nalgebra::{Matrix3, Point2};
+use std::rc::Rc;
 
 /// How many rivals there are.
 pub(super) const NUM_RIVALS: usize = 6;
@@ -87,7 +88,7 @@ pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Succes
 
 /// Matches of the still life's pair, some of them sent anywhere, and F by all.
 pub(super) struct Pair {
-    matches: Matches,
+    matches: Rc<Matches>,
     seed: u64,
 }
 

@@ -9,6 +9,7 @@ use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
 use epipole::camera::{Camera, Intrinsics, look_at};
 use nalgebra::{Point3, Vector3};
+use std::cell::OnceCell;
 
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 480);
@@ -56,7 +57,7 @@ pub(crate) struct Triangulate {
     pub(super) orbit: Orbit,
     point: Probe,
     second: Probe,
-    pub(super) estimates: Result<Estimates, String>,
+    estimates: OnceCell<Result<Estimates, String>>,
 }
 
 impl Triangulate {
@@ -73,7 +74,13 @@ impl Triangulate {
         [self.point.place(), self.second.place()]
     }
 
-    fn compute(&mut self) {
+    /// What the methods find, or why there is nothing to find.
+    pub(super) fn estimates(&self) -> Result<&Estimates, &str> {
+        let estimates = self.estimates.get_or_init(|| self.compute());
+        estimates.as_ref().map_err(String::as_str)
+    }
+
+    fn compute(&self) -> Result<Estimates, String> {
         let [point, second] = self.pins().map(|(x, z)| Point3::new(x, 0.0, z));
         let estimate = || {
             let camera = |center: &Point3<f64>| {
@@ -86,8 +93,7 @@ impl Triangulate {
             let seed = self.settings.count(&SEED) as u64;
             Estimates::new(cameras, point, self.sigma_px(), seed)
         };
-        self.estimates =
-            estimate().map_err(|error: epipole::Error| format!("There is no point: {error}."));
+        estimate().map_err(|error: epipole::Error| format!("There is no point: {error}."))
     }
 }
 
@@ -100,15 +106,13 @@ impl Declared for Triangulate {
     const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
-        let mut model = Self {
+        Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-50.0, 20.0),
             point: POINT,
             second: SECOND,
-            estimates: Err(String::new()),
-        };
-        model.compute();
-        model
+            estimates: OnceCell::new(),
+        }
     }
 }
 
@@ -142,7 +146,7 @@ impl Model for Triangulate {
             self.settings.slide(&SEED, next);
         }
         let _ = self.point.update(event) || self.second.update(event);
-        self.compute();
+        self.estimates.take();
         Ok(())
     }
 }
@@ -156,7 +160,7 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
               angle, four times the error.",
         check: |model| {
             let start = Triangulate::new();
-            let long = |model: &Triangulate| model.estimates.as_ref().ok()?.uncertainty_m();
+            let long = |model: &Triangulate| model.estimates().ok()?.uncertainty_m();
             let untouched =
                 model.point.place() == POINT.place() && model.sigma_px() == start.sigma_px();
             untouched && long(model) > long(&start).map(|long| 4.0 * long)
@@ -174,7 +178,7 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
             let same = [&NOISE, &SEED]
                 .into_iter()
                 .all(|knob| model.settings.number(knob) == start.settings.number(knob));
-            let missed = |method| model.estimates.as_ref().ok()?.reprojection_px(method);
+            let missed = |method| model.estimates().ok()?.reprojection_px(method);
             let both = missed(0).zip(missed(METHODS.len() - 1));
             same && both.is_some_and(|(midpoint, optimal)| midpoint < optimal + 0.005)
         },
@@ -186,11 +190,7 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
         hint: "Each camera measures well across its own ray. So where should the other one look from?",
         why: "At a right angle each camera measures the direction in which the other one is blind.",
         check: |model| {
-            let axes = model
-                .estimates
-                .as_ref()
-                .ok()
-                .and_then(|estimates| estimates.axes);
+            let axes = model.estimates().ok().and_then(|estimates| estimates.axes);
             axes.is_some_and(|[long, _, short]| long.norm() < 1.6 * short.norm())
         },
         solution: || {
@@ -211,7 +211,7 @@ mod tests {
         for event in events {
             model.update(event).unwrap();
         }
-        model.estimates.unwrap()
+        model.compute().unwrap()
     }
 
     #[test]
@@ -230,7 +230,7 @@ mod tests {
             for event in &events {
                 model.update(event).unwrap();
             }
-            let Ok(estimates) = &model.estimates else {
+            let Ok(estimates) = model.estimates() else {
                 continue;
             };
             let Some(optimal) = estimates.reprojection_px(3) else {
@@ -265,7 +265,7 @@ mod tests {
     fn without_a_baseline_there_is_a_sentence() {
         let mut model = Triangulate::new();
         model.update(&Event::moved("second", 0.0, 0.0)).unwrap();
-        let found = model.estimates.as_ref().unwrap();
+        let found = model.estimates().unwrap();
         assert!(found.points.iter().all(Result::is_err) && found.axes.is_none());
     }
 }

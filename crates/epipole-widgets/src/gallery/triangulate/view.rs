@@ -65,7 +65,7 @@ impl View for TriangulateView {
         beside::draw(model, layout, canvas);
         legend::draw_last(canvas, &legend_entries(), layout, 0.0, 4.0);
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
-        match &model.estimates {
+        match model.estimates() {
             Ok(estimates) => region::draw(model, estimates, space, canvas),
             Err(sentence) => grid::notice(canvas, space.rect, sentence),
         }

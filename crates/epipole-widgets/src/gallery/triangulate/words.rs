@@ -46,7 +46,7 @@ fn beside(show: Show, estimates: &Estimates) -> String {
 
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
-        let Ok(estimates) = &self.estimates else {
+        let Ok(estimates) = self.estimates() else {
             return vec![Readout::words("state", "State", self.describe()).main()];
         };
         let predicted = estimates.uncertainty_m();
@@ -66,9 +66,9 @@ impl Words for Triangulate {
     }
 
     fn describe(&self) -> String {
-        let estimates = match &self.estimates {
+        let estimates = match self.estimates() {
             Ok(estimates) => estimates,
-            Err(sentence) => return sentence.clone(),
+            Err(sentence) => return sentence.to_owned(),
         };
         let angle = format_number(estimates.angle_deg, 1);
         let best = estimates.points[METHODS.len() - 1].as_ref();

@@ -47,7 +47,7 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
         let [x, y] = rulers(model.show());
         return vec![plot::panel("plot", cell, &x, &y)];
     }
-    let estimates = model.estimates.as_ref().ok();
+    let estimates = model.estimates().ok();
     let rects = if cell.width > cell.height {
         grid::columns(cell, [1.0; 2])
     } else {
@@ -85,7 +85,7 @@ fn half_px(estimates: &Estimates, camera: usize) -> f64 {
 }
 
 pub(super) fn draw(model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
-    let estimates = model.estimates.as_ref().ok();
+    let estimates = model.estimates().ok();
     if model.show() == Show::Misses {
         for (camera, id) in PATCHES.into_iter().enumerate() {
             let panel = layout.panel(id);
