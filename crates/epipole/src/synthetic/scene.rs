@@ -380,7 +380,7 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::camera::{cross_matrix, relative_motion};
-    use crate::synthetic::{Sampling, still_life_camera};
+    use crate::synthetic::still_life_camera;
     use nalgebra::{Isometry3, Translation3};
 
     fn pair() -> (Camera, Camera) {
@@ -428,46 +428,6 @@ mod tests {
             }
         }
         assert!(num_things > 1000, "{num_things}");
-    }
-
-    /// Drafts are made anew only there.
-    #[test]
-    fn elsewhere_nothing_changes_when_the_thing_moves() {
-        use crate::math::random::Random;
-        use crate::synthetic::{MovableKind, MovableObject, Photograph};
-        let mut random = Random::new(8);
-        let camera = Camera {
-            cam_from_world: Isometry3::translation(-0.2, 0.4, 0.1),
-            ..still_life_camera(64, 48)
-        };
-        let mut num_inside = 0;
-        for kind in [Some(MovableKind::Ball), Some(MovableKind::Mug), None] {
-            let mut last: Option<(Photograph, Vec<bool>)> = None;
-            for _ in 0..16 {
-                let (x_m, z_m) = (random.uniform(-0.8, 0.8), random.uniform(0.6, 4.0));
-                let scene = match kind {
-                    Some(kind) => Scene::long_table(MovableObject { kind, x_m, z_m }),
-                    None => Scene::studio([0.2 * x_m, z_m.min(2.4)], 0.2 * z_m),
-                };
-                let scene = scene.unwrap();
-                let draft = scene.render(&camera, 64, 48, Sampling::Draft).unwrap();
-                let [columns, rows] = scene.pixels_of_movable(&camera, (64, 48));
-                let is_inside =
-                    |place: u32| columns.contains(&(place % 64)) && rows.contains(&(place / 64));
-                let inside: Vec<bool> = (0..64 * 48).map(is_inside).collect();
-                num_inside += inside.iter().filter(|&&inside| inside).count();
-                if let Some((before, inside_before)) = last {
-                    for (place, (u, v, color)) in draft.image.enumerate_pixels().enumerate() {
-                        let may_differ = inside[place] || inside_before[place];
-                        assert!(may_differ || before.image.get_pixel(u, v) == color);
-                    }
-                }
-                last = Some((draft, inside));
-            }
-        }
-        assert!(num_inside < 48 * 64 * 48 / 2, "{num_inside}");
-        let [columns, rows] = Scene::still_life().pixels_of_movable(&camera, (64, 48));
-        assert!(columns.is_empty() && rows.is_empty());
     }
 
     /// Points found by rays obey x2ᵀ F x1 = 0 with F from the cameras, and go back to where they
