@@ -33,7 +33,7 @@ export function actsOn({ session, name }: Running): Pick<Acts, "send" | "hand" |
       click: (x, y) => {
         act((engine, width) => engine.click(width, x, y));
         // A point that a click has made can be dragged on at once.
-        session()?.flush();
+        session()?.show();
       },
       set: (id, value) => act((engine) => engine.update({ type: "set", id, value })),
     },

@@ -30,6 +30,7 @@ declare module "epipole-web" {
     job_request(): Uint8Array;
     job_done(key: string, result: Uint8Array): boolean;
     job_failed(key: string, sentence: string): boolean;
+    prepare(): boolean;
     refine(): boolean;
     draw(width: number, scale: number, theme: string): string | undefined;
     draw_sharp(width: number, scale: number, theme: string): string | undefined;

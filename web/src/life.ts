@@ -50,7 +50,7 @@ export class Life {
     busy: () => this.#snapshot?.waiting != null && this.#shell.jobs.busy,
     freeze: (frozen) => this.#session?.freeze(frozen),
     mark: (before, now) => {
-      this.#session?.flush();
+      this.#session?.show();
       this.#shell.markChanges(before, now);
     },
     point: (id) => this.#shell.markControl(id),
@@ -370,7 +370,8 @@ export class Life {
     });
     // The poster is this very picture; photographs are rendered once somebody takes an interest.
     const isShown = withAddress && !linked && problems.length === 0 && owner.querySelector("img");
-    if (isShown && (!this.#interested || first.waiting !== null)) this.#session.hold();
+    if (isShown) this.#session.hold();
+    if (this.#interested && first.waiting === null) this.#session.release();
     this.#session.recolor(this.#theme);
     this.#shell.speaker.warn([]);
     this.#shell.speaker.complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
@@ -433,8 +434,7 @@ export class Life {
     while (!this.#session && !this.#owner.hasAttribute("data-failed")) {
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    // In a hidden page no frame would come, and without room none is drawn.
-    this.#session?.flush();
+    this.#session?.show();
     await this.#comeIntoView();
   }
 

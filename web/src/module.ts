@@ -221,6 +221,10 @@ export class Engine {
     }
   }
 
+  prepare(): boolean {
+    return this.#figure.prepare();
+  }
+
   refine(): boolean {
     return this.#figure.refine();
   }

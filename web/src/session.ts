@@ -14,6 +14,8 @@ import { wantsStillness, type Theme } from "./theme.js";
 const REST_MS = 120;
 /** How long refining may take of one frame of the display, milliseconds. */
 const SLICE_MS = 8;
+/** How long the first picture may be prepared for a waiting reader before the page is heard again, milliseconds. */
+const HURRY_MS = 25;
 /** How often an idle moment is looked for, where a browser does not say when it has one, milliseconds. */
 const IDLE_MS = 50;
 /** How often a picture that is being refined is shown, milliseconds. */
@@ -51,6 +53,10 @@ export class Session {
   #ended = false;
   /** The poster already shows this state, so nothing is drawn yet. */
   #held = false;
+  /** There is a poster, which stands for the picture until that is drawn. */
+  #hasPoster = false;
+  /** What the first picture needs is there. */
+  #prepared = false;
   /** The state or the layout is newer than the snapshot. */
   #changed = true;
   /** The picture is older than it should be. */
@@ -76,7 +82,7 @@ export class Session {
 
   /** Draws nothing before `release` or the first change: the poster shows the same picture. */
   hold(): void {
-    this.#held = true;
+    this.#held = this.#hasPoster = true;
   }
 
   /** Draws from now on. */
@@ -163,6 +169,14 @@ export class Session {
     if (this.#stale) this.#draw();
   }
 
+  /** Tells now what is new, and draws it unless the picture has still to be prepared. */
+  show(): void {
+    // In a hidden page no frame of the display would come.
+    if (document.hidden || this.#prepared) return this.flush();
+    this.release();
+    if (this.#hasPoster && this.#changed && this.#width > 0 && !this.#ended) this.#tell(false);
+  }
+
   /** Refines all that is left, in slices between which the page goes on. */
   async sharpen(): Promise<void> {
     for (let more = true; more && !this.#ended; ) {
@@ -210,6 +224,12 @@ export class Session {
   }
 
   #onFrame(now: number): void {
+    if (this.#stale && !this.#held && !this.#prepare(HURRY_MS)) {
+      // A long computation would block the page: meanwhile the poster stands there, and all else is live.
+      if (this.#hasPoster && this.#changed) this.#tell(false);
+      setTimeout(() => this.#want());
+      return;
+    }
     const running = this.#inSight && !this.#frozen && this.ask((engine) => engine.running) === true;
     if (running) this.#pass(now);
     else this.#lastTick = undefined;
@@ -217,6 +237,15 @@ export class Session {
     if (this.#stale) this.#draw();
     if (running) this.#want();
     else if (this.#rough && this.#inSight && !this.#held) this.#refineAfterRest(now);
+  }
+
+  /** Prepares the first picture for so long, milliseconds; whether all that it needs is there. */
+  #prepare(duration: number): boolean {
+    const start = performance.now();
+    while (!this.#prepared && performance.now() - start < duration) {
+      this.#prepared = this.ask((engine) => engine.prepare()) !== true;
+    }
+    return this.#prepared;
   }
 
   /**
@@ -231,8 +260,10 @@ export class Session {
       if (!this.#held || !this.#inSight || this.#ended) return;
       const start = performance.now();
       let more = true;
-      while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
-      if (!more) return;
+      if (this.#prepare(SLICE_MS)) {
+        while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
+      }
+      if (!more || this.#ended) return;
       // An idle moment has room for several slices; between them the page is heard.
       this.#warming = (deadline?.timeRemaining() ?? 0) > SLICE_MS;
       if (this.#warming) setTimeout(() => slice(deadline));

@@ -246,6 +246,11 @@ impl Figure {
         self.end_job(key, Err(Problem::Elsewhere { sentence }))
     }
 
+    /// Does a few milliseconds of what the first frame would do all at once; false when done.
+    pub fn prepare(&mut self) -> bool {
+        self.figure.prepare()
+    }
+
     /// Does a few milliseconds of work that makes the next frame better; false when done.
     pub fn refine(&mut self) -> bool {
         self.figure.refine()

@@ -18,6 +18,7 @@ pub(crate) trait Stage {
     fn aspect(&self) -> Aspect;
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
+    fn prepare(&mut self) -> bool;
     fn refine(&mut self) -> bool;
 }
 
@@ -82,6 +83,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas) {
         self.view.draw(&self.model, layout, canvas);
+    }
+
+    fn prepare(&mut self) -> bool {
+        self.view.prepare(&self.model)
     }
 
     fn refine(&mut self) -> bool {

@@ -271,6 +271,23 @@ fn a_settled_picture_does_not_depend_on_the_past() {
 }
 
 #[test]
+fn preparations_end_and_change_no_picture() {
+    let mut num_steps = 0;
+    // Scenes are shared: who comes later finds them prepared.
+    for mut figure in figures() {
+        let name = figure.name();
+        let steps = (0..2000).take_while(|_| figure.prepare()).count();
+        assert!(steps < 2000, "{name}");
+        num_steps += steps;
+        let prepared = figure.draw(320.0, 1.0, Theme::Light).unwrap().hash();
+        assert!(!figure.prepare(), "{name}");
+        let again = figure.draw(320.0, 1.0, Theme::Light).unwrap().hash();
+        assert_eq!(prepared, again, "{name}");
+    }
+    assert!(num_steps > 10, "{num_steps}");
+}
+
+#[test]
 fn models_name_no_drawing_and_no_clock() {
     let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gallery");
     let mut num_models = 0;

@@ -31,6 +31,13 @@ pub trait View: Default + 'static {
     /// Draws the present state. Handles are drawn by the view too; the focus ring is the page's.
     fn draw(&mut self, model: &Self::Model, layout: &Layout, canvas: &mut Canvas);
 
+    /// Does a few milliseconds of what the first drawing would do all at once, such as painting the
+    /// textures of a scene; false when there is nothing left to do. The pictures are the same with and
+    /// without.
+    fn prepare(&mut self, _model: &Self::Model) -> bool {
+        false
+    }
+
     /// Does a few milliseconds of work that makes the next drawing better, such as a slice of a
     /// sharper photograph; false when there is nothing left to do.
     fn refine(&mut self, _model: &Self::Model) -> bool {

@@ -32,6 +32,12 @@ impl Figure {
         Ok(&self.picture)
     }
 
+    /// Does a few milliseconds of what the first drawing would do all at once; false when there is
+    /// nothing left to do. A page calls it before the first drawing, so that no other work waits long.
+    pub fn prepare(&mut self) -> bool {
+        self.stage.prepare()
+    }
+
     /// Does a few milliseconds of work that makes the next drawing better; false when there is
     /// nothing left to do. A page calls it while the reader rests.
     pub fn refine(&mut self) -> bool {

@@ -60,6 +60,11 @@ impl Photos {
         }
     }
 
+    /// Paints what drafts are made of, a few milliseconds of it; false once nothing is left.
+    pub(crate) fn prepare() -> bool {
+        still_life().prepare_draft()
+    }
+
     /// As [`Photo::refine`].
     pub(crate) fn refine(&mut self, cameras: &[Camera; 2]) -> bool {
         let scene = still_life();

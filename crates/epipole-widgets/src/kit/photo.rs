@@ -154,8 +154,7 @@ impl Photo {
         if self.sharp.as_ref().is_some_and(is_of) {
             return false;
         }
-        // What drafts are made of first: whoever takes hold of the figure needs them at once.
-        if scene.prepare_draft() || scene.prepare() {
+        if scene.prepare() {
             return true;
         }
         if !self.growing.as_ref().is_some_and(is_of) {

@@ -60,6 +60,10 @@ impl View for EpipolarClickView {
         }
     }
 
+    fn prepare(&mut self, _: &EpipolarClick) -> bool {
+        Photos::prepare()
+    }
+
     fn refine(&mut self, model: &EpipolarClick) -> bool {
         self.photos.refine(&model.cameras())
     }

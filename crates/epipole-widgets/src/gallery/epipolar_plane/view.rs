@@ -95,6 +95,10 @@ impl View for EpipolarPlaneView {
         }
     }
 
+    fn prepare(&mut self, _: &EpipolarPlane) -> bool {
+        Photos::prepare()
+    }
+
     fn refine(&mut self, model: &EpipolarPlane) -> bool {
         let Some(scenery) = model.scenery() else {
             return false;

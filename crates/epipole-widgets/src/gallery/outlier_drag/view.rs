@@ -95,6 +95,10 @@ impl View for OutlierDragView {
         draw_values(model, state, values, canvas);
     }
 
+    fn prepare(&mut self, _: &OutlierDrag) -> bool {
+        Photos::prepare()
+    }
+
     fn refine(&mut self, _: &OutlierDrag) -> bool {
         self.photos.refine(&cameras())
     }

@@ -78,6 +78,10 @@ impl View for RectifyView {
         });
     }
 
+    fn prepare(&mut self, _: &Rectify) -> bool {
+        Photos::prepare()
+    }
+
     fn refine(&mut self, model: &Rectify) -> bool {
         let state = model.state();
         state.is_ok_and(|state| self.photos.refine(&state.turned.taken))

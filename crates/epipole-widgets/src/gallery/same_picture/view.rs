@@ -67,6 +67,10 @@ impl View for SamePictureView {
         }
     }
 
+    fn prepare(&mut self, model: &SamePicture) -> bool {
+        model.scene().is_ok_and(|scene| scene.prepare_draft())
+    }
+
     fn refine(&mut self, model: &SamePicture) -> bool {
         let (Ok(scene), Ok(cameras)) = (model.scene(), model.cameras()) else {
             return false;

@@ -95,6 +95,11 @@ impl View for StereoSliderView {
         }
     }
 
+    fn prepare(&mut self, model: &StereoSlider) -> bool {
+        let rig = model.rig();
+        scenes::long_table((rig.x_m, rig.z_m)).is_ok_and(|scene| scene.prepare_draft())
+    }
+
     fn refine(&mut self, model: &StereoSlider) -> bool {
         let rig = model.rig();
         let (Ok(cameras), Ok(scene)) = (rig.cameras(), scenes::long_table((rig.x_m, rig.z_m)))

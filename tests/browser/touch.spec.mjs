@@ -1,0 +1,69 @@
+// Whoever takes hold of a figure before its first picture is prepared: the page goes on, and so does the figure.
+
+import { expect, figures, test } from "./fixtures.mjs";
+import { loadBindings } from "./places.mjs";
+
+const { Figure } = await loadBindings();
+/** Those whose first picture takes long. */
+const slow = figures.filter(({ name }) => {
+  const figure = new Figure(name);
+  const more = figure.prepare();
+  figure.free();
+  return more;
+});
+
+/** No idle moment comes in which a figure could prepare; whoever names a time limit still gets his turn. */
+function neverIdle() {
+  const later = window.requestIdleCallback.bind(window);
+  window.requestIdleCallback = (work, options) => (options ? later(work, options) : 0);
+}
+
+/** Moves the first slider to its end; frames of the display until the picture is there, and when the state was told. */
+async function touched(element) {
+  const root = element.shadowRoot;
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  const canvas = root.querySelector("canvas");
+  const before = JSON.stringify(element.state);
+  const wasShown = !canvas.hidden;
+  let told;
+  let frames = 0;
+  element.addEventListener("epipole-change", () => (told ??= frames));
+  element.dispatchEvent(new PointerEvent("pointerenter"));
+  const slider = root.querySelector("input[type=range]");
+  slider.value = slider.max;
+  slider.dispatchEvent(new Event("input", { bubbles: true, composed: true }));
+  while (canvas.hidden && frames < 1000) {
+    await frame();
+    frames += 1;
+  }
+  return { wasShown, frames, told, moved: JSON.stringify(element.state) !== before };
+}
+
+test("there are figures that prepare", () => {
+  expect(slow.map(({ name }) => name)).toContain("epipolar-click");
+});
+
+for (const { name } of slow) {
+  test(`${name} prepares its first picture in slices, and answers meanwhile`, async ({ page, open }) => {
+    await page.addInitScript(neverIdle);
+    const figure = await open(page, [name], { wait: false, query: { poster: 720 } });
+    await expect(figure).toHaveAttribute("data-ready", "");
+    const { wasShown, frames, told, moved } = await figure.evaluate(touched);
+    expect(wasShown).toBe(false);
+    expect(moved).toBe(true);
+    // One slice to a frame: all at once, the picture would be there with the first or second of them.
+    expect(frames).toBeGreaterThan(2);
+    expect(frames).toBeLessThan(1000);
+    expect(told).toBeLessThan(frames);
+  });
+}
+
+test("whoever asks for the picture at once has it at once", async ({ page, open }) => {
+  await page.addInitScript(neverIdle);
+  const figure = await open(page, ["epipolar-click"], { wait: false, query: { poster: 720 } });
+  await expect(figure).toHaveAttribute("data-ready", "");
+  const hidden = () => figure.evaluate((element) => element.shadowRoot.querySelector("canvas").hidden);
+  expect(await hidden()).toBe(true);
+  await figure.evaluate((element) => element.flush());
+  expect(await hidden()).toBe(false);
+});
