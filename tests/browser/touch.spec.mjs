@@ -18,7 +18,7 @@ function neverIdle() {
   window.requestIdleCallback = (work, options) => (options ? later(work, options) : 0);
 }
 
-/** Moves the first slider to its end; frames of the display until the picture is there, and when the state was told. */
+/** Moves the first slider to its end, or the first handle a step; frames of the display until the picture is there, and when the state was told. */
 async function touched(element) {
   const root = element.shadowRoot;
   const frame = () => new Promise((done) => requestAnimationFrame(done));
@@ -30,8 +30,9 @@ async function touched(element) {
   element.addEventListener("epipole-change", () => (told ??= frames));
   element.dispatchEvent(new PointerEvent("pointerenter"));
   const slider = root.querySelector("input[type=range]");
-  slider.value = slider.max;
-  slider.dispatchEvent(new Event("input", { bubbles: true, composed: true }));
+  if (slider) slider.value = slider.max;
+  slider?.dispatchEvent(new Event("input", { bubbles: true, composed: true }));
+  if (!slider) root.querySelector(".grip").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
   while (canvas.hidden && frames < 1000) {
     await frame();
     frames += 1;

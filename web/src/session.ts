@@ -15,7 +15,7 @@ const REST_MS = 120;
 /** How long refining may take of one frame of the display, milliseconds. */
 const SLICE_MS = 8;
 /** How long the first picture may be prepared for a waiting reader before the page is heard again, milliseconds. */
-const HURRY_MS = 25;
+const HURRY_MS = 12;
 /** How often an idle moment is looked for, where a browser does not say when it has one, milliseconds. */
 const IDLE_MS = 50;
 /** How often a picture that is being refined is shown, milliseconds. */
@@ -224,8 +224,9 @@ export class Session {
   }
 
   #onFrame(now: number): void {
-    if (this.#stale && !this.#held && !this.#prepare(HURRY_MS)) {
-      // A long computation would block the page: meanwhile the poster stands there, and all else is live.
+    const start = performance.now();
+    if (this.#stale && !this.#held && (!this.#prepare(HURRY_MS) || performance.now() - start > SLICE_MS)) {
+      // All at once would block the page: meanwhile the poster stands there, and all else is live.
       if (this.#hasPoster && this.#changed) this.#tell(false);
       setTimeout(() => this.#want());
       return;

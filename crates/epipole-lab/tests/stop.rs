@@ -6,7 +6,7 @@
 mod common;
 
 use epipole_lab::project::{About, Event, Project, Step};
-use epipole_lab::tasks::{Request, Sample, compute};
+use epipole_lab::tasks::{Blob, Request, Sample, compute};
 use std::ops::ControlFlow;
 
 /// Asks for the request and has had enough at once.
@@ -45,6 +45,14 @@ fn every_long_task_stops_when_it_is_told_to() {
         project.done(task.key, result);
     }
     assert_eq!(kinds, [true; 6], "each of them was asked for");
+    // An archive for which photographs must be read once more.
+    let mut request = project.export_request().unwrap();
+    if let Request::Export { photographs, .. } = &mut request {
+        for photograph in photographs {
+            photograph.used.as_mut().unwrap().rgb = Blob::default();
+        }
+    }
+    assert_eq!(stopped(&request), Err("stopped".to_owned()));
 }
 
 /// How often it is asked whether to go on, if the answer is no at the time of this number.

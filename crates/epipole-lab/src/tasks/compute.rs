@@ -84,6 +84,7 @@ fn files(_request: Request, _progress: Progress<'_>) -> Result<Answer, String> {
 fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
     use super::{board, frames, photograph};
     use crate::export;
+    use std::cell::RefCell;
     Ok(match request {
         Request::Photograph {
             source,
@@ -114,8 +115,10 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
             max_pixels,
             camera,
             dense,
-        } => Answer::Archive(
-            export::reconstruction(&export::Order {
+        } => {
+            // Each of them asks in turn whether somebody still waits for the archive.
+            let progress = RefCell::new(progress);
+            let order = export::Order {
                 images: &images,
                 photographs: &photographs,
                 found: &found,
@@ -125,13 +128,13 @@ fn files(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
                 left_out: &left_out,
                 recipe: &recipe,
                 read: &|source| {
-                    let go_on = &mut |_: super::Told<'_>| std::ops::ControlFlow::Continue(());
-                    photograph::photograph(source, max_pixels, camera.as_ref(), go_on)
+                    let mut progress = progress.borrow_mut();
+                    photograph::photograph(source, max_pixels, camera.as_ref(), &mut **progress)
                 },
                 dense: &dense,
-            })?
-            .into(),
-        ),
+            };
+            Answer::Archive(export::reconstruction(&order)?.into())
+        }
         Request::Save {
             photographs,
             project,

@@ -60,9 +60,11 @@ impl Photos {
         }
     }
 
-    /// Paints what drafts are made of, a few milliseconds of it; false once nothing is left.
-    pub(crate) fn prepare() -> bool {
-        still_life().prepare_draft()
+    /// As [`Photo::prepare`].
+    pub(crate) fn prepare(&mut self, cameras: &[Camera; 2]) -> bool {
+        let scene = still_life();
+        let mut photos = self.0.iter_mut().zip(cameras);
+        photos.any(|(photo, camera)| photo.prepare(&scene, camera, [0.0; 3], PHOTO_SIZE))
     }
 
     /// As [`Photo::refine`].

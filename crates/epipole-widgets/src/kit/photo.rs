@@ -42,6 +42,9 @@ pub(crate) struct Photo {
 /// What has moved between two arrangements of a scene, if something has.
 pub(crate) type Follow = fn([f64; 3], [f64; 3]) -> Option<Moved>;
 
+/// Work on a photograph that is done slice by slice: [`Photo::prepare`] or [`Photo::refine`].
+pub(crate) type Slice = fn(&mut Photo, &Scene, &Camera, [f64; 3], (u32, u32)) -> bool;
+
 /// A photograph and what it shows.
 struct Shot {
     camera: Camera,
@@ -136,6 +139,22 @@ impl Photo {
             self.shown = Some((*camera, arrangement));
         }
         Ok(self.meanwhile.image())
+    }
+
+    /// Does the next slice of work towards the first picture: paints what drafts are made of, then makes the draft; false
+    /// when there is a picture, or none can be made.
+    ///
+    /// Arguments as for [`Photo::picture`].
+    pub(crate) fn prepare(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        arrangement: [f64; 3],
+        size: (u32, u32),
+    ) -> bool {
+        let is_there = self.shown.is_some() || self.sharp.is_some();
+        scene.prepare_draft()
+            || (!is_there && self.picture(scene, camera, arrangement, size).is_ok())
     }
 
     /// Does the next slice of work towards a sharp picture; false when it is there, or cannot be made.

@@ -60,8 +60,8 @@ impl View for EpipolarClickView {
         }
     }
 
-    fn prepare(&mut self, _: &EpipolarClick) -> bool {
-        Photos::prepare()
+    fn prepare(&mut self, model: &EpipolarClick) -> bool {
+        self.photos.prepare(&model.cameras())
     }
 
     fn refine(&mut self, model: &EpipolarClick) -> bool {

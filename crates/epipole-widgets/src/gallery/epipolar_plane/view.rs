@@ -95,8 +95,9 @@ impl View for EpipolarPlaneView {
         }
     }
 
-    fn prepare(&mut self, _: &EpipolarPlane) -> bool {
-        Photos::prepare()
+    fn prepare(&mut self, model: &EpipolarPlane) -> bool {
+        let scenery = model.scenery();
+        scenery.is_some_and(|scenery| self.photos.prepare(&scenery.cameras))
     }
 
     fn refine(&mut self, model: &EpipolarPlane) -> bool {

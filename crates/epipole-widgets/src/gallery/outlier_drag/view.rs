@@ -96,7 +96,7 @@ impl View for OutlierDragView {
     }
 
     fn prepare(&mut self, _: &OutlierDrag) -> bool {
-        Photos::prepare()
+        self.photos.prepare(&cameras())
     }
 
     fn refine(&mut self, _: &OutlierDrag) -> bool {

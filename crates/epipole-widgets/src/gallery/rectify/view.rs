@@ -78,8 +78,9 @@ impl View for RectifyView {
         });
     }
 
-    fn prepare(&mut self, _: &Rectify) -> bool {
-        Photos::prepare()
+    fn prepare(&mut self, model: &Rectify) -> bool {
+        let state = model.state();
+        state.is_ok_and(|state| self.photos.prepare(&state.turned.taken))
     }
 
     fn refine(&mut self, model: &Rectify) -> bool {

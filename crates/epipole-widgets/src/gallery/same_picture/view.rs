@@ -68,7 +68,12 @@ impl View for SamePictureView {
     }
 
     fn prepare(&mut self, model: &SamePicture) -> bool {
-        model.scene().is_ok_and(|scene| scene.prepare_draft())
+        let (Ok(scene), Ok(cameras)) = (model.scene(), model.cameras()) else {
+            return false;
+        };
+        let shown = self.shown(model);
+        let mut photos = self.photos.iter_mut().zip(&cameras);
+        photos.any(|(photo, camera)| photo.prepare(&scene, camera, shown, SIZE))
     }
 
     fn refine(&mut self, model: &SamePicture) -> bool {

@@ -12,7 +12,7 @@ use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT, TITLE};
 use crate::kit::labels::Labels;
 use crate::kit::pair::CAMERAS;
-use crate::kit::photo::Photo;
+use crate::kit::photo::{Photo, Slice};
 use crate::kit::plan::draw_span;
 use crate::kit::plot::{self, Ruler};
 use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
@@ -96,11 +96,17 @@ impl View for StereoSliderView {
     }
 
     fn prepare(&mut self, model: &StereoSlider) -> bool {
-        let rig = model.rig();
-        scenes::long_table((rig.x_m, rig.z_m)).is_ok_and(|scene| scene.prepare_draft())
+        self.slice(model, Photo::prepare)
     }
 
     fn refine(&mut self, model: &StereoSlider) -> bool {
+        self.slice(model, Photo::refine)
+    }
+}
+
+impl StereoSliderView {
+    /// The next slice of work on either photograph.
+    fn slice(&mut self, model: &StereoSlider, work: Slice) -> bool {
         let rig = model.rig();
         let (Ok(cameras), Ok(scene)) = (rig.cameras(), scenes::long_table((rig.x_m, rig.z_m)))
         else {
@@ -108,11 +114,9 @@ impl View for StereoSliderView {
         };
         let arrangement = rig.ball_in_world().coords.into();
         let mut photos = self.photos.iter_mut().zip(&cameras);
-        photos.any(|(photo, camera)| photo.refine(&scene, camera, arrangement, PHOTO_SIZE))
+        photos.any(|(photo, camera)| work(photo, &scene, camera, arrangement, PHOTO_SIZE))
     }
-}
 
-impl StereoSliderView {
     fn draw_photographs(&mut self, rig: &Rig, layout: &Layout, canvas: &mut Canvas) {
         let panels = [layout.panel("left"), layout.panel("right")];
         let made = (|| {
