@@ -108,7 +108,8 @@ impl Declared for Triangulate {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            orbit: Orbit::new(-50.0, 20.0),
+            // From here the handle to turn by lies beside the region, not on it.
+            orbit: Orbit::new(-62.0, 32.0),
             point: POINT,
             second: SECOND,
             estimates: OnceCell::new(),
