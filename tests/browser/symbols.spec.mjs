@@ -70,6 +70,19 @@ test("the list of letters takes the keys, and its light follows the figure", asy
   await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
 });
 
+test("a figure that nobody has touched yet is lit where the reader sees it", async ({ page, library }) => {
+  await page.goto(`${library}/triangulation.html`);
+  const figure = page.locator("epipole-figure[name=triangulate]").first();
+  await figure.scrollIntoViewIfNeeded();
+  await expect(figure).toHaveAttribute("data-ready", "");
+  // Its poster still stands there: nobody has come near it, as `ready` would.
+  expect(await figure.evaluate((element) => element.shadowRoot.querySelector("canvas").hidden)).toBe(true);
+  await page.locator('.symbols [data-symbol="X"]').hover();
+  await expect(figure).toHaveAttribute("data-lit");
+  const ring = () => figure.evaluate((element) => element.shadowRoot.querySelector(".lit .color").getBoundingClientRect().width);
+  await expect.poll(ring).toBeGreaterThan(20);
+});
+
 test("what no figure draws lights nothing, and without a script letters are plain", async ({ browser, page, library }) => {
   await page.goto(`${library}/epipolar.html`);
   const figure = page.locator(beside).first();
