@@ -176,6 +176,9 @@ fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mu
         let (left, right) = (places[0].min(places[1]), places[0].max(places[1]));
         let y = bottom - 12.0;
         labels.keep_rect_free(span_rect((left, right), y));
+        for x in [left, right] {
+            labels.keep_line_free((x, top), (x, bottom));
+        }
         let beside = [
             ((right + 9.0, y), Align::Start),
             ((left - 9.0, y), Align::End),
