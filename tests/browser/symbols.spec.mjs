@@ -10,7 +10,9 @@ function light(figure) {
   return figure.evaluate((element) => {
     const svg = element.shadowRoot.querySelector(".lit");
     const { width } = svg.viewBox.baseVal;
-    return [...svg.querySelectorAll(".color")].map((shape) => ({
+    // What is not to be seen is not lit.
+    const seen = [...svg.querySelectorAll(".color")].filter((shape) => shape.checkVisibility({ visibilityProperty: true }));
+    return seen.map((shape) => ({
       kind: shape.localName,
       x: Number(shape.getAttribute(shape.localName === "line" ? "x1" : "cx")) / width,
       color: getComputedStyle(shape).stroke,
