@@ -286,6 +286,6 @@ mod tests {
             .unwrap();
         assert!(model.describe().starts_with("Camera 2 stands on P"));
         let readouts = model.readouts();
-        assert!(readouts.iter().map(|one| one.id.clone()).eq(usual));
+        assert!(readouts.iter().map(|one| one.id).eq(usual));
     }
 }
