@@ -10,7 +10,9 @@ function light(figure) {
   return figure.evaluate((element) => {
     const svg = element.shadowRoot.querySelector(".lit");
     const { width } = svg.viewBox.baseVal;
-    return [...svg.querySelectorAll(".color")].map((shape) => ({
+    // What is not to be seen is not lit.
+    const seen = [...svg.querySelectorAll(".color")].filter((shape) => shape.checkVisibility({ visibilityProperty: true }));
+    return seen.map((shape) => ({
       kind: shape.localName,
       x: Number(shape.getAttribute(shape.localName === "line" ? "x1" : "cx")) / width,
       color: getComputedStyle(shape).stroke,
@@ -68,6 +70,19 @@ test("the list of letters takes the keys, and its light follows the figure", asy
   await expect.poll(ends).not.toBe(first);
   await page.keyboard.press("Escape");
   await expect(page.locator("epipole-figure[data-lit]")).toHaveCount(0);
+});
+
+test("a figure that nobody has touched yet is lit where the reader sees it", async ({ page, library }) => {
+  await page.goto(`${library}/triangulation.html`);
+  const figure = page.locator("epipole-figure[name=triangulate]").first();
+  await figure.scrollIntoViewIfNeeded();
+  await expect(figure).toHaveAttribute("data-ready", "");
+  // Its poster still stands there: nobody has come near it, as `ready` would.
+  expect(await figure.evaluate((element) => element.shadowRoot.querySelector("canvas").hidden)).toBe(true);
+  await page.locator('.symbols [data-symbol="X"]').hover();
+  await expect(figure).toHaveAttribute("data-lit");
+  const ring = () => figure.evaluate((element) => element.shadowRoot.querySelector(".lit .color").getBoundingClientRect().width);
+  await expect.poll(ring).toBeGreaterThan(20);
 });
 
 test("what no figure draws lights nothing, and without a script letters are plain", async ({ browser, page, library }) => {

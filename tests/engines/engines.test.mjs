@@ -13,7 +13,7 @@ import { bindings, book, elements, loadBindings } from "../browser/places.mjs";
 import { modulesAt, playInPage, playNatively, write } from "../browser/scripts.mjs";
 import { serve } from "../browser/server.mjs";
 import { chromium, firefox, webkit } from "./drivers.mjs";
-import { figuresOf, look, ready, takeHold } from "./steps.mjs";
+import { badlySet, figuresOf, look, ready, takeHold } from "./steps.mjs";
 
 const ENGINES = { firefox, webkit };
 /** What hangs is red before it takes the time of everything after it, milliseconds. */
@@ -153,6 +153,7 @@ const engineTests = (key) =>
           await engine.run(ready, index);
           assert.deepEqual((await engine.run(look, index)).state, state, `${name}: ${permalink}`);
         }
+        assert.deepEqual(await engine.run(badlySet), []);
         assert.deepEqual(engine.complaints, [], "errors in the console");
       }));
     }

@@ -48,3 +48,26 @@ export async function look(index) {
     colors: colors.size,
   };
 }
+
+/** Formulas whose punctuation hangs over the letter before, and those after which a line begins with a comma or the like. */
+export async function badlySet() {
+  // What is folded away or far off has no place on the page.
+  for (const folded of document.querySelectorAll("details")) folded.open = true;
+  for (const element of document.querySelectorAll("main *")) {
+    if (getComputedStyle(element).contentVisibility !== "visible") element.style.contentVisibility = "visible";
+  }
+  const bad = [];
+  for (const formula of document.querySelectorAll("main :is(p, li, td) math")) {
+    const says = formula.querySelector("annotation")?.textContent ?? formula.textContent;
+    // Engines that do not know the property have nothing that hangs.
+    if ((getComputedStyle(formula).hangingPunctuation || "none") !== "none") bad.push(`hanging: ${says}`);
+    const after = formula.nextSibling;
+    if (after?.nodeType !== Node.TEXT_NODE || !/^[,.;:!?)\]]/.test(after.data)) continue;
+    const sign = document.createRange();
+    sign.setStart(after, 0);
+    sign.setEnd(after, 1);
+    const [first, second] = [formula, sign].map((one) => one.getBoundingClientRect());
+    if (second.left < first.left || second.top > first.bottom) bad.push(`a line begins after: ${says}`);
+  }
+  return bad;
+}

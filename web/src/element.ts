@@ -163,7 +163,10 @@ export class EpipoleFigure extends Base {
    * lit. Says whether the figure shows it.
    */
   light(symbol: string | undefined): boolean {
-    return this.#life.shell.picture.light(symbol);
+    const found = this.#life.shell.picture.light(symbol);
+    // A poster cannot be lit up: the same picture is drawn in its place.
+    if (found && this.#life.snapshot?.waiting === null) this.#life.session?.release();
+    return found;
   }
 
   /** Presses a button of the figure. */

@@ -154,27 +154,43 @@ pub(crate) fn draw_ray(
 
 /// Level lines at round distances with their numbers, such as "2 m".
 pub(crate) fn draw_distances(canvas: &mut Canvas, panel: &Panel, unit: &str) {
-    let (near, far) = (panel.y_axis.end, panel.y_axis.start);
-    let pixels = panel.rect.height / (far - near).abs().max(1e-9);
-    let spacing = round_length(SPACING / pixels);
-    let digits = if spacing < 1.0 { 1 } else { 0 };
     let rect = panel.rect;
-    let style = TextStyle::new(Role::Muted, SMALL).cased();
-    let mut index = (near / spacing).ceil().max(0.0);
-    while index * spacing < far {
-        let z = index * spacing;
+    for z in round_distances(panel).1 {
         let y = panel.canvas_from_world((0.0, z)).1;
         canvas.line(
             (rect.x + 1.0, y),
             (rect.right() - 1.0, y),
             Stroke::solid(Role::Grid, 1.0),
         );
+    }
+    draw_numbers(canvas, panel, unit);
+}
+
+/// The numbers of [`draw_distances`] alone: once more, where a ray would strike one through.
+pub(crate) fn draw_numbers(canvas: &mut Canvas, panel: &Panel, unit: &str) {
+    let (spacing, distances) = round_distances(panel);
+    let digits = if spacing < 1.0 { 1 } else { 0 };
+    let rect = panel.rect;
+    let style = TextStyle::new(Role::Muted, SMALL).cased();
+    for z in distances {
+        let y = panel.canvas_from_world((0.0, z)).1;
         if z > 0.0 && y > rect.y + 8.0 {
             let text = format!("{} {unit}", format_number(z, digits));
             canvas.label((rect.x + 8.0, y), &text, style);
         }
-        index += 1.0;
     }
+}
+
+/// The round distances within a plan, and how far apart they are.
+fn round_distances(panel: &Panel) -> (f64, impl Iterator<Item = f64>) {
+    let (near, far) = (panel.y_axis.end, panel.y_axis.start);
+    let pixels = panel.rect.height / (far - near).abs().max(1e-9);
+    let spacing = round_length(SPACING / pixels);
+    let first = (near / spacing).ceil().max(0.0);
+    let distances = (0..)
+        .map(move |index| (first + f64::from(index)) * spacing)
+        .take_while(move |z| *z < far);
+    (spacing, distances)
 }
 
 /// A line of a round length with its words, at the lower left.

@@ -218,6 +218,8 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
         let towards = Point2::new(RIGHT * z, z) - center;
         camera.draw_sight(canvas, panel, &mut labels, name, IMAGE_M, &towards);
     }
+    // Camera 2's ray to the left runs through one of them.
+    plan::draw_numbers(canvas, panel, "m");
     canvas.disk(mug, radius, Role::Candidate, 0.55);
     canvas.grip(mug, Role::Grip);
     labels.keep_free(mug, radius.max(9.0));

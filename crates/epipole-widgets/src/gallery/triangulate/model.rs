@@ -82,6 +82,11 @@ impl Triangulate {
 
     fn compute(&self) -> Result<Estimates, String> {
         let [point, second] = self.pins().map(|(x, z)| Point3::new(x, 0.0, z));
+        if point == second {
+            return Err(
+                "Camera 2 stands on P and sees no direction. Drag one of them away.".into(),
+            );
+        }
         let estimate = || {
             let camera = |center: &Point3<f64>| {
                 Ok(Camera {
@@ -93,7 +98,7 @@ impl Triangulate {
             let seed = self.settings.count(&SEED) as u64;
             Estimates::new(cameras, point, self.sigma_px(), seed)
         };
-        estimate().map_err(|error: epipole::Error| format!("There is no point: {error}."))
+        estimate().map_err(|error: epipole::Error| format!("There is no point, since {error}."))
     }
 }
 
@@ -108,7 +113,8 @@ impl Declared for Triangulate {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            orbit: Orbit::new(-50.0, 20.0),
+            // From here the handle to turn by lies beside the region, not on it.
+            orbit: Orbit::new(-62.0, 32.0),
             point: POINT,
             second: SECOND,
             estimates: OnceCell::new(),
@@ -205,6 +211,7 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Words;
 
     fn estimates(events: &[Event]) -> Estimates {
         let mut model = Triangulate::new();
@@ -267,5 +274,18 @@ mod tests {
         model.update(&Event::moved("second", 0.0, 0.0)).unwrap();
         let found = model.estimates().unwrap();
         assert!(found.points.iter().all(Result::is_err) && found.axes.is_none());
+        assert!(model.describe().contains("There is no point, since "));
+        // And on the point itself there is no camera to speak of: the readouts stay, without numbers.
+        let usual: Vec<_> = Triangulate::new()
+            .readouts()
+            .into_iter()
+            .map(|one| one.id)
+            .collect();
+        model
+            .update(&Event::moved("second", POINT.place().0, POINT.place().1))
+            .unwrap();
+        assert!(model.describe().starts_with("Camera 2 stands on P"));
+        let readouts = model.readouts();
+        assert!(readouts.iter().map(|one| one.id).eq(usual));
     }
 }

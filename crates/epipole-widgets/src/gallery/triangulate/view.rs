@@ -66,7 +66,16 @@ impl View for TriangulateView {
         legend::draw_last(canvas, &legend_entries(), layout, 0.0, 4.0);
         canvas.clipped(top.rect.inset(1.0), |canvas| draw_top(model, top, canvas));
         match model.estimates() {
-            Ok(estimates) => region::draw(model, estimates, space, canvas),
+            Ok(estimates) => {
+                region::draw(model, estimates, space, canvas);
+                if let Some(Err(error)) = estimates.points.last() {
+                    grid::notice(
+                        canvas,
+                        space.rect,
+                        &format!("There is no point, since {error}."),
+                    );
+                }
+            }
             Err(sentence) => grid::notice(canvas, space.rect, sentence),
         }
     }

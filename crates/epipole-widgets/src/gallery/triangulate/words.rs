@@ -46,17 +46,19 @@ fn beside(show: Show, estimates: &Estimates) -> String {
 
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
-        let Ok(estimates) = self.estimates() else {
-            return vec![Readout::words("state", "State", self.describe()).main()];
-        };
-        let predicted = estimates.uncertainty_m();
+        // Without any the readouts stay where they are, and tell no number.
+        let estimates = self.estimates().ok();
+        let angle_deg = estimates.map(|estimates| estimates.angle_deg);
+        let predicted = estimates.and_then(Estimates::uncertainty_m);
+        let scatter = estimates.and_then(Estimates::scatter_m);
+        let angle = Readout::number("angle", "Ray angle", angle_deg, 1, "°");
         let mut readouts = vec![
-            Readout::number("angle", "Ray angle", estimates.angle_deg, 1, "°").main(),
+            angle.or("none").main(),
             centimeters("uncertainty", "Depth σ", predicted).main(),
-            centimeters("scatter", "Scatter", estimates.scatter_m()),
+            centimeters("scatter", "Scatter", scatter),
         ];
         for (index, (id, label)) in IDS.into_iter().zip(LABELS).enumerate() {
-            let error_px = estimates.reprojection_px(index);
+            let error_px = estimates.and_then(|estimates| estimates.reprojection_px(index));
             let readout = Readout::number(id, label, error_px, 3, "px").or("no point");
             readouts.push(readout.main_if(matches!(id, "midpoint" | "optimal")));
         }
@@ -74,7 +76,9 @@ impl Words for Triangulate {
         let best = estimates.points[METHODS.len() - 1].as_ref();
         let best = match best {
             Ok(best) => best,
-            Err(error) => return format!("The rays meet at {angle}°. There is no point: {error}."),
+            Err(error) => {
+                return format!("The rays meet at {angle}°. There is no point, since {error}.");
+            }
         };
         let off_cm = 100.0 * (best - estimates.truth).norm();
         let sigma = estimates.uncertainty_m();

@@ -153,18 +153,6 @@ impl Model for TwoCameras {
 
 const CHALLENGES: &[Challenge<TwoCameras>] = &[
     Challenge {
-        id: "shift",
-        goal: "Leave P where it is and make its two columns 150 px apart.",
-        hint: "Only one thing is left to move.",
-        why: "The shift is f B / Z, so at the same depth it grows with the baseline.",
-        check: |model| {
-            !model.is_wrong()
-                && model.balls()[0] == (0.3, 2.0)
-                && (model.disparity_px() - 150.0).abs() < 5.0
-        },
-        solution: || vec![Event::set(&BASELINE, 0.6)],
-    },
-    Challenge {
         id: "twice",
         goal: "Make a wrong match put P at twice its true depth.",
         hint: "Which shift belongs to twice the depth?",
@@ -186,6 +174,18 @@ const CHALLENGES: &[Challenge<TwoCameras>] = &[
               makes the rays part, and they meet behind the cameras.",
         check: |model| matches!(model.meeting(), Meeting::Behind(_)),
         solution: || vec![Event::set(&WRONG, true), Event::moved("other", 1.2, 2.0)],
+    },
+    Challenge {
+        id: "shift",
+        goal: "With the right match, make the shift 150 px. Leave P where it is.",
+        hint: "Without Take Q for P, only one thing is left to move.",
+        why: "The shift is f B / Z, so at the same depth it grows with the baseline.",
+        check: |model| {
+            !model.is_wrong()
+                && model.balls()[0] == (0.3, 2.0)
+                && (model.disparity_px() - 150.0).abs() < 5.0
+        },
+        solution: || vec![Event::set(&WRONG, false), Event::set(&BASELINE, 0.6)],
     },
 ];
 

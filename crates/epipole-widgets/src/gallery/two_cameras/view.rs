@@ -2,7 +2,7 @@
 
 use super::model::{FOCAL_PX, MIDDLE_PX, Meeting, SIZE, TwoCameras};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
-use crate::contract::{Aspect, Layout, Panel, View, format_number};
+use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::pair::CAMERAS;
@@ -71,6 +71,8 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
         }
         let name = [("O", Align::End), ("O′", Align::Start)][index];
         camera.draw_sight(canvas, panel, &mut labels, name, IMAGE_M, &towards);
+        let far = camera.center + towards * panel.y_axis.start;
+        labels.keep_line_free(at(camera.center), at(far));
     }
     let [left, right] = centers.map(at);
     let y = left.1 + 17.0;
@@ -81,8 +83,13 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
         Stroke::solid(Role::Ink, 1.5),
     );
     let text = format!("B = {} m", format_number(model.baseline_m(), 2));
-    let place = ((left.0 + right.0) / 2.0, y + 15.0);
-    labels.draw(canvas, &[(place, Align::Middle)], &text, ink);
+    labels.keep_rect_free(span_rect((left.0, right.0), y));
+    // Below it, or beside it where the plan ends.
+    let places = [
+        (((left.0 + right.0) / 2.0, y + 15.0), Align::Middle),
+        ((right.0 + 9.0, y), Align::Start),
+    ];
+    labels.draw(canvas, &places, &text, ink);
     let radius = RADIUS_M * panel.scale_x();
     for (ball, name) in model.balls().into_iter().zip(["P", "Q"]) {
         let place = panel.canvas_from_world(ball);
@@ -166,16 +173,30 @@ fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mu
             ink,
         );
         let text = format!("d = {} px", format_number(model.disparity_px(), 0));
-        let place = (places[0].max(places[1]) + 9.0, bottom - 12.0);
+        let (left, right) = (places[0].min(places[1]), places[0].max(places[1]));
+        let y = bottom - 12.0;
+        labels.keep_rect_free(span_rect((left, right), y));
+        for x in [left, right] {
+            labels.keep_line_free((x, top), (x, bottom));
+        }
+        let beside = [
+            ((right + 9.0, y), Align::Start),
+            ((left - 9.0, y), Align::End),
+            (((left + right) / 2.0, y - 14.0), Align::Middle),
+        ];
         let style = TextStyle::new(Role::Ink, TEXT).cased();
-        labels.draw(canvas, &[(place, Align::Start)], &text, style);
+        labels.draw(canvas, &beside, &text, style);
     }
+}
+
+/// What a level span with its ends covers.
+fn span_rect((left, right): (f64, f64), y: f64) -> Rect {
+    Rect::new(left, y - 4.0, right - left, 8.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::Rect;
 
     #[test]
     fn a_phantom_off_the_plan_is_told_at_its_edge() {

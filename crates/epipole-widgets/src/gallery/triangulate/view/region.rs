@@ -36,7 +36,8 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
     if let Some(axes) = estimates.axes {
         draw_region(&mut space, &truth, &axes);
     }
-    space.marker(&truth, 6.0, Shape::Ring, Role::Truth);
+    // Around the small cross to move by, which is in the middle.
+    space.marker(&truth, 9.0, Shape::Ring, Role::Truth);
     for (point, shape) in estimates.points.iter().zip(SHAPES) {
         if let Ok(point) = point {
             space.marker(point, 5.0, shape, METHOD_ROLE);
