@@ -14,7 +14,9 @@ use epipole::epipolar::{
     FundamentalEstimator, GravityEstimator, estimate_relative_pose_with, sampson_px,
 };
 use epipole::homography::{HomographyEstimator, transfer_error_px};
-use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
+use epipole::robust::{
+    LineEstimator, MatchSet, RansacOptions, RansacReport, SimilarityEstimator, StopReason,
+};
 use nalgebra::{Matrix3, Point2, Vector3};
 use std::path::PathBuf;
 
@@ -104,7 +106,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         2 => Vec::new(),
         _ => rows.iter().map(|row| at(row, 2)).collect(),
     };
-    let found = fit(arguments, context, &pixels1, &pixels2)?;
+    let found = fit(arguments, context, &pixels1, &pixels2)
+        .map_err(|failure| with_left_out(failure, arguments.model, &rows))?;
     let inlier_errors: Vec<f64> = found
         .errors_px
         .iter()
@@ -163,6 +166,36 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report)
 }
 
+/// Too few are left where the core left rows out, which then is what to look into.
+fn with_left_out(failure: Failure, model: Model, rows: &[Vec<f64>]) -> Failure {
+    let farthest_px = if model == Model::Line { f64::MAX } else { 1e9 };
+    let is_far = |row: &&Vec<f64>| row.iter().any(|x| x.abs() > farthest_px);
+    match rows.iter().filter(is_far).count() {
+        num_far @ 1.. if failure.kind == "too-few" => Failure {
+            message: format!("{failure}; rows left out for being beyond 10⁹ pixels: {num_far}"),
+            ..failure
+        },
+        _ => failure,
+    }
+}
+
+/// Three matches that did not move make no model where down is known: that is the reason then.
+fn if_unmoved(
+    failure: Failure,
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    options: &RansacOptions,
+) -> Failure {
+    let all = vec![true; pixels1.len()];
+    match left_open_by_homography(pixels1, pixels2, &all, options) {
+        Ok(Some(open)) if failure.kind == "no-consensus" => Failure {
+            message: format!("{failure}: {open}"),
+            ..failure
+        },
+        _ => failure,
+    }
+}
+
 fn fit(
     arguments: &Arguments,
     context: &Context,
@@ -212,7 +245,9 @@ fn fit(
             let found = match (&arguments.gravity, &arguments.gravity2) {
                 (Some(down1), Some(down2)) => {
                     let estimator = GravityEstimator::new(set()?, k1, k2, down1, down2)?;
-                    robust.run(estimator, context)?
+                    robust.run(estimator, context).map_err(|failure| {
+                        if_unmoved(failure, pixels1, pixels2, &robust.options(context))
+                    })?
                 }
                 _ => robust.watched(context, |options, watch| {
                     estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
