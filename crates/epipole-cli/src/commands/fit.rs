@@ -7,16 +7,14 @@ use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::rows;
-use crate::turn::{self, find_turn, left_open, left_open_by_homography};
+use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
     FundamentalEstimator, GravityEstimator, estimate_relative_pose_with, sampson_px,
 };
 use epipole::homography::{HomographyEstimator, transfer_error_px};
-use epipole::robust::{
-    LineEstimator, MatchSet, RansacOptions, RansacReport, SimilarityEstimator, StopReason,
-};
+use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
 use nalgebra::{Matrix3, Point2, Vector3};
 use std::path::PathBuf;
 
@@ -173,23 +171,6 @@ fn with_left_out(failure: Failure, model: Model, rows: &[Vec<f64>]) -> Failure {
     match rows.iter().filter(is_far).count() {
         num_far @ 1.. if failure.kind == "too-few" => Failure {
             message: format!("{failure}; rows left out for being beyond 10⁹ pixels: {num_far}"),
-            ..failure
-        },
-        _ => failure,
-    }
-}
-
-/// Three matches that did not move make no model where down is known: that is the reason then.
-fn if_unmoved(
-    failure: Failure,
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    options: &RansacOptions,
-) -> Failure {
-    let all = vec![true; pixels1.len()];
-    match left_open_by_homography(pixels1, pixels2, &all, options) {
-        Ok(Some(open)) if failure.kind == "no-consensus" => Failure {
-            message: format!("{failure}: {open}"),
             ..failure
         },
         _ => failure,
