@@ -110,6 +110,10 @@ pub(crate) struct MatchArguments {
 fn number(text: &str, fits: impl Fn(f32) -> bool, range: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(value) if fits(value) && value.is_finite() => Ok(value),
+        // Beyond what fits 32 bits, as 1e60.
+        Ok(value) if fits(value) && text.parse::<f64>().is_ok_and(f64::is_finite) => {
+            Err(format!("\"{text}\" is too large: at most 3e38"))
+        }
         _ => Err(format!("\"{text}\" is not a number {range}")),
     }
 }

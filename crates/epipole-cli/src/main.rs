@@ -24,7 +24,7 @@ mod robust;
 mod rows;
 mod turn;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use context::Context;
 use failure::Failure;
@@ -53,7 +53,8 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let parsed = command().try_get_matches();
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return wrong_usage(&error),
     };
@@ -72,6 +73,17 @@ fn main() -> ExitCode {
             failure.exit_code()
         }
     }
+}
+
+/// The whole command line. What follows an option that takes a value is that value, also where it is a number below 0:
+/// then the option says what is wrong with it.
+fn command() -> clap::Command {
+    let with_negatives = |argument: clap::Arg| match argument.get_action().takes_values() {
+        true if !argument.is_positional() => argument.allow_negative_numbers(true),
+        _ => argument,
+    };
+    (Cli::command().mut_args(with_negatives))
+        .mut_subcommands(|subcommand| subcommand.mut_args(with_negatives))
 }
 
 /// Help and version go where they belong; under `--json` a usage error is JSON too.

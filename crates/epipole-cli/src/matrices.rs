@@ -32,6 +32,9 @@ impl From<&RigidTransform> for Motion {
 pub(crate) fn intrinsics(text: &str) -> Result<Intrinsics, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
     match numbers.as_deref() {
+        Ok(numbers @ [_, _, _, _]) if numbers.iter().any(|number| number.abs() > *FAR.end()) => {
+            Err(format!("no number may be beyond {:e} pixels", FAR.end()))
+        }
         Ok([fu, fv, cu, cv]) => {
             Intrinsics::new(*fu, *fv, *cu, *cv).map_err(|error| error.to_string())
         }
@@ -45,7 +48,10 @@ pub(crate) fn direction(text: &str) -> Result<Vector3<f64>, String> {
     match numbers.as_deref() {
         Ok([x, y, z]) => {
             let vector = Vector3::new(*x, *y, *z);
-            let has_direction = vector.iter().all(|x| x.is_finite()) && vector.amax() > 0.0;
+            if !vector.iter().all(|x| x.is_finite()) {
+                return Err("x, y and z must be finite numbers".to_owned());
+            }
+            let has_direction = vector.amax() > 0.0;
             has_direction.then_some(vector).ok_or_else(|| {
                 "it must have a direction: not all of x, y and z may be 0".to_owned()
             })
@@ -54,10 +60,18 @@ pub(crate) fn direction(text: &str) -> Result<Vector3<f64>, String> {
     }
 }
 
+/// Lengths, angles and numbers of pixels are of some size, and their squares are numbers, too.
+const FAR: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
+
 /// Reads a number above zero.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        Ok(value) if FAR.contains(&value) => Ok(value),
+        Ok(value) if value > 0.0 && value.is_finite() => Err(format!(
+            "\"{text}\" is beyond all measure: at least {:e} and at most {:e}",
+            FAR.start(),
+            FAR.end()
+        )),
         _ => Err(format!("\"{text}\" is not a number above 0")),
     }
 }

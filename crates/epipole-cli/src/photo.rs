@@ -169,6 +169,22 @@ impl Photo {
     }
 }
 
+/// Refuses a pair of which one is smaller.
+///
+/// # Errors
+/// A sentence with both sizes.
+pub(crate) fn check_same_size([first, second]: &[Photo; 2]) -> Result<(), Failure> {
+    let (first, second) = (Size::from(&first.color), Size::from(&second.color));
+    if first == second {
+        return Ok(());
+    }
+    let message = format!(
+        "the two photographs must have the same size, but one is {} × {} and the other {} × {}",
+        first.width, first.height, second.width, second.height
+    );
+    Err(Failure::new("size-mismatch", message))
+}
+
 /// The bytes of a file.
 ///
 /// # Errors
@@ -184,7 +200,7 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 /// `{width, height}` of an image.
-#[derive(Debug, Clone, Copy, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub(crate) struct Size {
     width: u32,
     height: u32,

@@ -9,7 +9,7 @@ use std::path::Path;
 /// * `columns`: so many numbers of a line are looked at, and needed
 ///
 /// # Errors
-/// A sentence that names the line that has fewer, or others than finite ones.
+/// A sentence that names the line that has fewer, or NaN. Infinities stay: robust searches leave them out and say so.
 pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f64>>, Failure> {
     let mut rows = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -23,7 +23,7 @@ pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f
             .take(columns)
             .map_while(|word| word.parse().ok())
             .collect();
-        if numbers.len() < columns || !numbers.iter().all(|number| number.is_finite()) {
+        if numbers.len() < columns || numbers.iter().any(|number| number.is_nan()) {
             let place = format!("{}:{}", path.display(), index + 1);
             let message = format!("{place}: here should be {columns} numbers, not \"{line}\"");
             return Err(Failure::new("malformed", message));

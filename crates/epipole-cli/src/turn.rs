@@ -1,5 +1,6 @@
 //! Cameras that only turned, or hardly moved: E and F mean nothing then, though they fit.
 
+use crate::failure::Failure;
 use epipole::camera::Intrinsics;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
@@ -74,6 +75,23 @@ pub(crate) fn left_open_by_homography(
 ) -> epipole::Result<Option<String>> {
     let found = find_unmoved(pixels1, pixels2, inliers, &judging(ransac))?;
     Ok(found.map(|found| sentence_of_degeneracy(&found)))
+}
+
+/// Three matches that did not move make no model where down is known: that is the reason then.
+pub(crate) fn if_unmoved(
+    failure: Failure,
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    options: &RansacOptions,
+) -> Failure {
+    let all = vec![true; pixels1.len()];
+    match left_open_by_homography(pixels1, pixels2, &all, options) {
+        Ok(Some(open)) if failure.kind == "no-consensus" => Failure {
+            message: format!("{failure}: {open}"),
+            ..failure
+        },
+        _ => failure,
+    }
 }
 
 /// * `ransac`: the options that the model was found with

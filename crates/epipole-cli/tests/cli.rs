@@ -204,6 +204,57 @@ fn wrong_usage_has_status_2() {
     fails(&folder, &arguments, 2, "must be a .png file");
 }
 
+/// A number below 0 is what an option was given, and no option of its own.
+#[test]
+fn numbers_that_mean_nothing_are_refused_by_the_option_that_got_them() {
+    let folder = Folder::new("numbers");
+    let blank = folder.blank("blank.png", (64, 48));
+    for (arguments, option) in [
+        (
+            vec!["detect", path(&blank), "--max-features", "-1"],
+            "--max-features",
+        ),
+        (
+            vec!["detect", path(&blank), "--contrast-threshold", "-0.5"],
+            "--contrast-threshold",
+        ),
+        (
+            vec!["fit", "--model", "line", "any.txt", "--max-error-px", "-1"],
+            "--max-error-px",
+        ),
+        (vec!["detect", path(&blank), "--seed", "-1"], "--seed"),
+        (
+            vec!["sfm", path(&blank), "-o", "out", "--focals-px", "-,-3"],
+            "--focals-px",
+        ),
+        (vec!["figure", "ransac-race", "--scale", "-2"], "--scale"),
+        (
+            vec![
+                "stereo",
+                "a.png",
+                "b.png",
+                "-o",
+                "d.pfm",
+                "--focal-px",
+                "1e200",
+            ],
+            "--focal-px",
+        ),
+        (
+            vec!["two-view", "a.png", "b.png", "--k", "1e200,1e200,0,0"],
+            "--k",
+        ),
+        (vec!["figure", "ransac-race", "--scale", "nan"], "--scale"),
+    ] {
+        let expected = format!(
+            "invalid value '{}' for '{option}",
+            arguments[arguments.len() - 1]
+        );
+        let expected = expected.replace("'-,-3'", "'-3'");
+        fails(&folder, &arguments, 2, &expected);
+    }
+}
+
 #[test]
 fn every_command_has_an_example_in_its_help() {
     let help = String::from_utf8(epipole(&["--help"]).stdout).unwrap();

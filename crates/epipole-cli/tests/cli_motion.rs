@@ -258,9 +258,12 @@ fn photographs_that_do_not_fit_together_are_refused() {
         ),
         (
             vec![path(&blank[0]), path(&blank[1])],
-            "no two photographs show enough of the same thing",
+            "no two photographs show enough of the same thing; blank1.png: it has only 0 features",
         ),
-        (vec![path(&photo), path(&photo)], "no two photographs"),
+        (
+            vec![path(&photo), path(&photo)],
+            "no two photographs can begin a reconstruction; 0.png: it was taken from nearly the same place",
+        ),
         (
             vec![path(&empty)],
             "there are no photographs in this folder",

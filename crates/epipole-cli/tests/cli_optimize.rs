@@ -176,7 +176,10 @@ fn broken_problems_are_refused_with_their_line() {
         // Cameras, but nothing that they see.
         (format!("2 0 0\n{camera}\n{camera}\n"), "needs at least"),
         // The point lies in the camera's own plane.
-        (format!("1 1 1\n0 0 11 20\n{camera}\n1 2 0\n"), "finite"),
+        (
+            format!("1 1 1\n0 0 11 20\n{camera}\n1 2 0\n"),
+            "bad.txt: the errors at the start are no finite numbers: a point is level",
+        ),
     ] {
         let file = folder.write("bad.txt", &text);
         let out = folder.file("out.txt");

@@ -133,6 +133,7 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
         "line 2: it is not a name and three numbers",
     );
     run("0.png 1 2 3 -4\n", &[], 1, "greater than 0");
+    run("0.png 1 2 1e200\n", &[], 1, "more than 10⁹ from 0");
     run(
         "0.png 1 2 3\n0.png 1 2 3\n",
         &[],

@@ -27,14 +27,28 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
         return;
     }
     let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).expect("a board");
+    let gray_of = |name: &str| {
+        let bytes = std::fs::read(folder.join(name)).expect("a photograph");
+        (decode_gray(&bytes, &DecodeOptions::default()).expect("an image")).image
+    };
+    // Texture beside the board has looked like half of a smaller one.
+    for (columns, rows) in [(7, 6), (8, 6), (5, 4)] {
+        let smaller = Board::new(Pattern::Chessboard, columns, rows, 0.025).expect("a board");
+        for name in ["left01.jpg", "left03.jpg", "right05.jpg"] {
+            let search = find_board(&gray_of(name), &smaller).expect("a search");
+            let problem = search.problem(&smaller).expect("another size");
+            assert!(
+                problem.contains("the board is of another size"),
+                "{name}: {problem}"
+            );
+        }
+    }
     let views = |side: &str| -> Vec<Option<BoardView>> {
         (1..=14)
             .filter(|number| *number != 10)
             .map(|number| {
-                let bytes = std::fs::read(folder.join(format!("{side}{number:02}.jpg")))
-                    .expect("a photograph");
-                let gray = decode_gray(&bytes, &DecodeOptions::default()).expect("an image");
-                let search = find_board(&gray.image, &board).expect("a search");
+                let gray = gray_of(&format!("{side}{number:02}.jpg"));
+                let search = find_board(&gray, &board).expect("a search");
                 println!("{side}{number}: {:?}", search.problem(&board));
                 search.view()
             })

@@ -6,8 +6,8 @@ use epipole::math::random::Random;
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{
     AlignmentKind, OdometryOptions, PairMatches, PositionPrior, Reconstruction, SfmImage, SfmInput,
-    SfmOptions, SfmResult, SfmStep, align_points, keep_going, monocular_odometry, reconstruct,
-    reconstruct_with_progress, stereo_odometry,
+    SfmOptions, SfmResult, SfmStep, WhyUnregistered, align_points, keep_going, monocular_odometry,
+    reconstruct, reconstruct_with_progress, stereo_odometry, why_unregistered,
 };
 use nalgebra::{Point2, Point3, Similarity3, Vector3};
 use std::ops::ControlFlow;
@@ -408,6 +408,22 @@ fn points_that_few_saw_can_be_left_out() {
     let (all, some) = (shortest(2), shortest(4));
     assert!(all.0 < 4 && some.0 >= 4, "{all:?} {some:?}");
     assert!(some.1 < all.1 && some.1 > 50, "{all:?} {some:?}");
+}
+
+/// Where nothing is left of any start there is an end, and the reason.
+#[test]
+fn points_that_more_cameras_should_see_than_there_are_leave_nothing() {
+    let center = Point3::origin();
+    let world = photograph(arc(4, center), &ball(150, center, 5), Making::default(), 5);
+    let options = SfmOptions {
+        min_track_length: 5,
+        ..SfmOptions::default()
+    };
+    let result = run(&world, &options);
+    assert!(result.components.is_empty());
+    assert_eq!(result.unregistered, [0, 1, 2, 3]);
+    let why = why_unregistered(&world.input, &options, &result).unwrap();
+    assert_eq!(why, [WhyUnregistered::NoStart; 4]);
 }
 
 #[test]

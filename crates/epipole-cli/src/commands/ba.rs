@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use epipole::optim::{LmOptions, RobustLoss, Termination};
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{BalProblem, adjust_bal};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Loss {
@@ -63,7 +63,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             stage: Stage::BundleAdjustment,
             share: iteration.index as f32 / arguments.max_iterations.max(1) as f32,
         })
-    })?;
+    });
+    let report = report.map_err(|error| cannot_begin(error, &arguments.problem))?;
     drop(progress);
     if let Some(path) = &arguments.output {
         files::write(path, problem.to_text().as_bytes())?;
@@ -78,6 +79,20 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("final cost", format!("{:.6}", report.final_cost))
         .row("iterations", report.iterations)
         .row("ended by", termination(report.termination)))
+}
+
+/// What is wrong with the file, where the problem has no cost to begin with.
+fn cannot_begin(error: epipole::Error, path: &Path) -> Failure {
+    match error {
+        epipole::Error::NotFinite { .. } => Failure::new(
+            "not-finite",
+            "the errors at the start are no finite numbers: a point is level with the center of a camera that sees it, or \
+             a number is far too large",
+        )
+        .about(path),
+        epipole::Error::TooFew { .. } => Failure::from(error).about(path),
+        error => error.into(),
+    }
 }
 
 /// Why a loop ended, as a word for scripts.

@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
     /// Device pixels to a CSS pixel.
-    #[arg(long, default_value_t = 2.0)]
+    #[arg(long, default_value_t = 2.0, value_parser = scale)]
     scale: f64,
     /// light, dark or high-contrast.
     #[arg(long, default_value = "light", value_parser = |name: &str| name.parse::<Theme>())]
@@ -49,6 +49,13 @@ struct Size {
 fn key_value(text: &str) -> Result<(String, String), String> {
     let (key, value) = text.split_once('=').ok_or("it must be key=value")?;
     Ok((key.to_owned(), value.to_owned()))
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(scale) if (0.1..=16.0).contains(&scale) => Ok(scale),
+        _ => Err(format!("\"{text}\" is not a number from 0.1 to 16")),
+    }
 }
 
 fn size(text: &str) -> Result<Size, String> {

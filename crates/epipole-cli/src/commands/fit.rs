@@ -7,7 +7,7 @@ use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::rows;
-use crate::turn::{self, find_turn, left_open, left_open_by_homography};
+use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
@@ -104,7 +104,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         2 => Vec::new(),
         _ => rows.iter().map(|row| at(row, 2)).collect(),
     };
-    let found = fit(arguments, context, &pixels1, &pixels2)?;
+    let found = fit(arguments, context, &pixels1, &pixels2)
+        .map_err(|failure| with_left_out(failure, arguments.model, &rows))?;
     let inlier_errors: Vec<f64> = found
         .errors_px
         .iter()
@@ -163,6 +164,19 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report)
 }
 
+/// Too few are left where the core left rows out, which then is what to look into.
+fn with_left_out(failure: Failure, model: Model, rows: &[Vec<f64>]) -> Failure {
+    let farthest_px = if model == Model::Line { f64::MAX } else { 1e9 };
+    let is_far = |row: &&Vec<f64>| row.iter().any(|x| x.abs() > farthest_px);
+    match rows.iter().filter(is_far).count() {
+        num_far @ 1.. if failure.kind == "too-few" => Failure {
+            message: format!("{failure}; rows left out for being beyond 10⁹ pixels: {num_far}"),
+            ..failure
+        },
+        _ => failure,
+    }
+}
+
 fn fit(
     arguments: &Arguments,
     context: &Context,
@@ -212,7 +226,9 @@ fn fit(
             let found = match (&arguments.gravity, &arguments.gravity2) {
                 (Some(down1), Some(down2)) => {
                     let estimator = GravityEstimator::new(set()?, k1, k2, down1, down2)?;
-                    robust.run(estimator, context)?
+                    robust.run(estimator, context).map_err(|failure| {
+                        if_unmoved(failure, pixels1, pixels2, &robust.options(context))
+                    })?
                 }
                 _ => robust.watched(context, |options, watch| {
                     estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)

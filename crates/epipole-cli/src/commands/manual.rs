@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::report::Report;
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    let mut command = crate::Cli::command();
+    let mut command = crate::command();
     command.build();
     let mut written = Vec::new();
     let mut write = |folder: &str, name: String, bytes: &[u8]| -> Result<(), Failure> {

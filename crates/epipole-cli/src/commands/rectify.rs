@@ -5,10 +5,10 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::matrices::{positive, row_major};
-use crate::photo::Photo;
+use crate::photo::{Photo, check_same_size};
 use crate::report::Report;
 use crate::robust::RobustArguments;
-use crate::turn::{self, find_turn};
+use crate::turn::{self, find_turn, left_open};
 use crate::{files, picture};
 use clap::Args;
 use epipole::camera::{Distortion, RigidTransform};
@@ -64,14 +64,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
     ];
-    let sizes = photos.each_ref().map(|photo| photo.color.dimensions());
-    if sizes[0] != sizes[1] {
-        let message = format!(
-            "the two photographs must have the same size, but one is {} × {} and the other {} × {}",
-            sizes[0].0, sizes[0].1, sizes[1].0, sizes[1].1
-        );
-        return Err(Failure::new("size-mismatch", message));
-    }
+    check_same_size(&photos)?;
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run_best_first(&found1, &found2)?;
@@ -149,6 +142,10 @@ fn rectify(
     }
     let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
     let report = arguments.robust.run(estimator, context)?;
+    let ransac = (arguments.robust.options(context)).within(report.max_error_px);
+    if let Some(open) = left_open(pixels1, pixels2, &report.inliers, &ransac)? {
+        context.warn(&open);
+    }
     let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
         let kept = pixels
             .iter()

@@ -22,7 +22,7 @@ use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
+    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult, WhyUnregistered,
     reconstruct_photos_with_progress, why_unregistered,
 };
 use serde::Serialize;
@@ -115,10 +115,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         if result.canceled {
             return Err(epipole::Error::Canceled.into());
         }
-        return Err(Failure::new(
-            "no-consensus",
-            "no two photographs show enough of the same thing",
-        ));
+        return Err(no_start(&input, &options, &result)?);
     };
     if result.canceled {
         context.warn(interrupt::ENDED_EARLY);
@@ -224,6 +221,28 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 struct LeftOut {
     name: String,
     reason: String,
+}
+
+/// Why there is nothing, by the photograph that came farthest.
+fn no_start(
+    input: &SfmInput,
+    options: &SfmOptions,
+    result: &SfmResult,
+) -> Result<Failure, Failure> {
+    let reasons = why_unregistered(input, options, result)?;
+    let begins = |why: &WhyUnregistered| {
+        matches!(why, WhyUnregistered::NoBaseline | WhyUnregistered::NoStart)
+    };
+    let farthest = reasons.iter().position(begins);
+    let what = match farthest {
+        Some(_) => "no two photographs can begin a reconstruction",
+        None => "no two photographs show enough of the same thing",
+    };
+    let place = farthest.unwrap_or(0);
+    let reason = (result.unregistered.get(place).zip(reasons.get(place)))
+        .map(|(image, why)| format!("; {}: {why}", input.images[*image].name));
+    let message = format!("{what}{}", reason.unwrap_or_default());
+    Ok(Failure::new("no-consensus", message))
 }
 
 fn unregistered(

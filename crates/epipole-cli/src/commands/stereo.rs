@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::matrices::positive;
-use crate::photo::Photo;
+use crate::photo::{Photo, check_same_size};
 use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
@@ -91,6 +91,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Photo::read(&arguments.left)?,
         Photo::read(&arguments.right)?,
     ];
+    check_same_size(&photos)?;
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
     let outcome = match arguments.method {
         Method::Sgm => "answers come from smoothness alone",

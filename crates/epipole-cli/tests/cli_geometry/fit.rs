@@ -60,11 +60,28 @@ fn fit_finds_the_motion_where_gravity_is_known() {
             "direction",
         ),
         (vec!["--gravity", "0,1", "--gravity2", "0,1,0"], "x,y,z"),
+        (
+            vec!["--gravity", "0,1,nan", "--gravity2", "0,1,0"],
+            "finite",
+        ),
     ] {
         fails(&folder, &[&fit[..], &more].concat(), 2, words);
     }
     let other = ["fit", "--model", "fundamental", path(&file)];
     fails(&folder, &[&other[..], &known].concat(), 2, "essential only");
+    // Without a motion no three matches make a model.
+    let still: String = (0..40)
+        .map(|n| format!("{0} {1} {0} {1}\n", n * 37 % 640, n * 71 % 480))
+        .collect();
+    let still = folder.write("still.txt", &still);
+    let fit = ["fit", "--model", "essential", path(&still), "--k", K];
+    let level = ["--gravity", "0,1,0", "--gravity2", "0,1,0"];
+    fails(
+        &folder,
+        &[&fit[..], &level].concat(),
+        1,
+        "the camera hardly moved",
+    );
 }
 
 #[test]
@@ -164,8 +181,8 @@ fn files_of_matches_that_say_nothing_are_refused() {
         ),
         (
             "fundamental",
-            format!("{good}1 2 inf 3"),
-            "here should be 4 numbers",
+            format!("{good}1 2 inf 3\n1 2 1e12 3"),
+            "but there are only 4; rows left out for being beyond 10⁹ pixels: 2",
         ),
         ("line", "1\n".to_owned(), "here should be 2 numbers"),
         ("homography", String::new(), "needs at least 4"),

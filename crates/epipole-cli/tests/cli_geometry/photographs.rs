@@ -185,6 +185,19 @@ fn a_camera_that_only_turned_is_told_from_one_that_moved() {
 }
 
 #[test]
+fn two_photographs_from_one_place_are_told() {
+    let folder = Folder::new("still");
+    folder.photograph("a.png", &moved(SIZE, &RigidTransform::identity()), SIZE);
+    let a = folder.file("a.png");
+    for model in ["auto", "fundamental", "homography"] {
+        let output = epipole(&["two-view", path(&a), path(&a), "--model", model]);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{model}: {told}");
+        assert!(told.contains("the camera hardly moved"), "{model}: {told}");
+    }
+}
+
+#[test]
 fn pictures_without_a_common_thing_are_refused() {
     let folder = Folder::new("two-view-bad");
     let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
@@ -305,4 +318,16 @@ fn rectified_photographs_share_their_rows() {
         1,
         "must have the same size, but one is 640 × 480 and the other 100 × 80",
     );
+    // Without a motion there is nothing to turn to, with intrinsics or without.
+    for known in [&[][..], &["--focal-px", "500"]] {
+        let arguments = ["rectify", path(&a), path(&a), "-o", path(&out)];
+        let output = epipole(&[&arguments[..], known].concat());
+        let told = String::from_utf8(output.stderr).unwrap();
+        let sentence = if known.is_empty() {
+            "the camera hardly moved"
+        } else {
+            "a camera that only turned"
+        };
+        assert!(told.contains(sentence), "{told}");
+    }
 }

@@ -132,6 +132,11 @@ impl BoardView {
         self.seen().count()
     }
 
+    /// Whether all marks are seen.
+    pub(super) fn is_whole(&self) -> bool {
+        self.pixels.iter().all(Option::is_some)
+    }
+
     /// The distance from a mark to the nearest of those beside it; `None` if none of these is seen.
     pub(super) fn spacing(&self, mark: usize, columns: usize) -> Option<f64> {
         let here = self.pixels[mark]?;

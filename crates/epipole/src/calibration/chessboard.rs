@@ -29,6 +29,7 @@ pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<Boar
     let neighbors = neighbors(&saddles);
     let mut taken = vec![false; saddles.len()];
     let mut best = BoardSearch::Nothing;
+    let mut in_part = None;
     let num_links = |i: usize| neighbors[i].iter().flatten().count();
     // Corners with all four neighbors first: inside of the board.
     let mut seeds: Vec<usize> = (0..saddles.len()).collect();
@@ -41,13 +42,20 @@ pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<Boar
         lattice.drop_strays();
         fill(&mut lattice, &saddle_image, board);
         lattice.drop_strays();
-        let found = place_on_board(&lattice, board);
-        if let BoardSearch::Found(view) = found {
-            return Ok(BoardSearch::Found(clear_only(view, &saddle_image, board)));
+        match place_on_board(&lattice, board) {
+            BoardSearch::Found(view) if view.is_whole() => {
+                return Ok(BoardSearch::Found(clear_only(view, &saddle_image, board)));
+            }
+            BoardSearch::Found(view) => in_part = in_part.or(Some(view)),
+            found => best = best.or_more(found),
         }
-        best = best.or_more(found);
     }
-    Ok(best)
+    Ok(match in_part {
+        Some(view) if !best.outdoes(&view, board) => {
+            BoardSearch::Found(clear_only(view, &saddle_image, board))
+        }
+        _ => best,
+    })
 }
 
 /// Leaves out corners that something in front of the board would draw to itself.

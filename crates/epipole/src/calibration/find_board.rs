@@ -76,6 +76,26 @@ impl BoardSearch {
         }
     }
 
+    /// Whether this is a whole grid, larger than the board, beside which a part of one means nothing: the board is of
+    /// another size then, and texture looked like it.
+    pub(super) fn outdoes(&self, view: &BoardView, board: &Board) -> bool {
+        let &Self::Partial {
+            columns,
+            rows,
+            num_seen,
+        } = self
+        else {
+            return false;
+        };
+        let (longer, shorter) = (board.columns(), board.rows());
+        let is_larger = columns > longer.max(shorter) || rows > longer.min(shorter);
+        let is_whole = num_seen as f64 >= WHOLE * (columns * rows) as f64;
+        is_larger
+            && is_whole
+            && num_seen as f64 >= MORE * view.num_seen() as f64
+            && !view.is_whole()
+    }
+
     /// The one with more marks.
     pub(super) fn or_more(self, other: Self) -> Self {
         let num_seen = |search: &Self| match search {
@@ -93,6 +113,10 @@ impl BoardSearch {
 
 /// The search begins in an image whose longer side is no more than this, pixels.
 const FIRST_SIDE: u32 = 1300;
+/// A grid of which this share of the marks is seen is no chance.
+const WHOLE: f64 = 0.8;
+/// So many times the marks are another grid, and not the same one with a stray corner.
+const MORE: f64 = 1.25;
 /// The window of the refinement by gradients, as a share of the distance to the nearest mark.
 const WINDOW: f64 = 0.3;
 const WINDOWS: (usize, usize) = (2, 15);
@@ -159,6 +183,9 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
             Pattern::AsymmetricCircles => find_circle_grid(&levels[level], board)?,
         };
         if let BoardSearch::Found(coarse) = found {
+            if best.outdoes(&coarse, board) {
+                continue;
+            }
             let scale = f64::from(1_u32 << level);
             let pixels = coarse.pixels.iter();
             let at_full_size = BoardView {
@@ -395,5 +422,29 @@ mod tests {
         }
         // A board whose last column is out of sight.
         assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
+    }
+
+    #[test]
+    fn a_whole_larger_grid_outdoes_part_of_a_board() {
+        let board = Board::new(Pattern::Chessboard, 7, 6, 0.025).unwrap();
+        let view = |num_seen: usize| BoardView {
+            pixels: (0..42)
+                .map(|n| (n < num_seen).then(|| Point2::new(n as f64, 0.0)))
+                .collect(),
+        };
+        let grid = |columns, rows, num_seen| BoardSearch::Partial {
+            columns,
+            rows,
+            num_seen,
+        };
+        assert!(grid(9, 6, 54).outdoes(&view(38), &board));
+        assert!(grid(9, 7, 55).outdoes(&view(38), &board));
+        // All of the board is there; the other grid has gaps, as what is no board; or it has hardly more marks, or fewer.
+        assert!(!grid(9, 6, 54).outdoes(&view(42), &board));
+        assert!(!grid(9, 7, 49).outdoes(&view(38), &board));
+        assert!(!grid(8, 6, 48).outdoes(&view(41), &board));
+        assert!(!grid(8, 4, 32).outdoes(&view(38), &board));
+        assert!(!grid(7, 5, 35).outdoes(&view(30), &board));
+        assert!(!BoardSearch::Nothing.outdoes(&view(38), &board));
     }
 }

@@ -94,10 +94,7 @@ impl Undistortion {
         let (span_u, span_v) = (shown.u_max - shown.u_min, shown.v_max - shown.v_min);
         let (last_u, last_v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
         if !(span_u > 0.0 && span_v > 0.0) {
-            return Err(Error::Degenerate {
-                what: "an undistorted photograph",
-                why: "the lens model folds inside of the picture",
-            });
+            return Err(FOLDS);
         }
         let zooms = [last_u / span_u, last_v / span_v];
         let focal_px = match keep {
@@ -130,6 +127,12 @@ impl Undistortion {
     }
 }
 
+const FOLDS: Error = Error::Degenerate {
+    what: "an undistorted photograph",
+    why: "the lens model folds inside of the picture, far from its edges; calibrate once more, with boards up to the \
+          edges, or with another model of the lens",
+};
+
 /// The ray to a pixel, or, where the lens model folds on the way to it, to the last pixel before the fold: a model
 /// that was fitted to marks in the middle often bends no ray to the very corners.
 fn farthest_ray(camera: &CalibratedCamera, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
@@ -142,7 +145,10 @@ fn farthest_ray(camera: &CalibratedCamera, pixel: &Point2<f64>) -> Result<Vector
         Err(missing) => missing,
     };
     let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
-    let mut ray = toward(seen).map_err(|_| missing)?;
+    let mut ray = toward(seen).map_err(|_| match missing {
+        Error::Degenerate { .. } => FOLDS,
+        missing => missing,
+    })?;
     for _ in 0..30 {
         let middle = 0.5 * (seen + beyond);
         match toward(middle) {

@@ -411,12 +411,20 @@ fn grow(
             points: vec![None; tracks.len()],
             is_placed: false,
         };
-        if !builder.start(verified, &mut reporter) {
+        let Some(first_two) = builder.start(verified, &mut reporter) else {
             break;
-        }
+        };
         reporter.show(|| builder.so_far());
         builder.grow(&mut reporter);
         let reconstruction = builder.finish();
+        if reconstruction.num_registered() == 0 {
+            // All fell away again, as where no point is seen by as many images as are asked for. The same two would
+            // end in the same way.
+            for image in first_two {
+                taken[image] = true;
+            }
+            continue;
+        }
         for (image, camera) in reconstruction.cameras.iter().enumerate() {
             taken[image] |= camera.is_some();
         }
@@ -425,7 +433,13 @@ fn grow(
     result
         .components
         .sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
-    result.unregistered = (0..images.len()).filter(|&image| !taken[image]).collect();
+    let is_registered = |image: &usize| {
+        let mut components = result.components.iter();
+        components.any(|component| component.cameras[*image].is_some())
+    };
+    result.unregistered = (0..images.len())
+        .filter(|image| !is_registered(image))
+        .collect();
     result.canceled = reporter.canceled;
     Ok(result)
 }

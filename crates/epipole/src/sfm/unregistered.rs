@@ -35,6 +35,11 @@ pub enum WhyUnregistered {
         "it was taken from nearly the same place as the photographs that match it, so that nothing can be said about depth"
     )]
     NoBaseline,
+    /// It could have begun a reconstruction with one that matches it, and no points were left of it.
+    #[error(
+        "too few of its matches become points within the largest error and under the smallest angle that are asked for, or its focal length is wrong"
+    )]
+    NoStart,
     /// It matches photographs that are placed, but hardly where these have points.
     #[error("it sees {visible} of the reconstructed points, and {needed} are needed")]
     FewPoints {
@@ -161,6 +166,8 @@ pub fn why_unregistered(
             WhyUnregistered::Canceled
         } else if !has_placed_neighbor && !has_baseline {
             WhyUnregistered::NoBaseline
+        } else if result.components.is_empty() {
+            WhyUnregistered::NoStart
         } else if visible < needed {
             WhyUnregistered::FewPoints { visible, needed }
         } else {

@@ -23,7 +23,7 @@ pub(super) struct InputArguments {
     camera: CameraArguments,
     /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for one that is to be told
     /// by --camera, by its EXIF data, or to be guessed.
-    #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, conflicts_with_all = ["k", "focal_px"])]
+    #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
     /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for photographs of its size, also those
     /// that were taken upright. They stay as they are, up to their borders, and cameras.txt tells the lens.

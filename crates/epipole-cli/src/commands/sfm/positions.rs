@@ -145,6 +145,9 @@ impl PositionArguments {
     }
 }
 
+/// Positions farther from zero, meters, are no place on Earth, whatever its frame.
+const FARTHEST_M: f64 = 1e9;
+
 /// The lines of a file by the names of their photographs.
 ///
 /// * `sigma_m`: the standard deviation where a line has none
@@ -181,6 +184,9 @@ pub(crate) fn lines(
         let sigma_m = numbers.get(3).copied().unwrap_or(sigma_m);
         if sigma_m <= 0.0 {
             return Err(malformed("a standard deviation must be greater than 0"));
+        }
+        if numbers.iter().any(|number| number.abs() > FARTHEST_M) {
+            return Err(malformed("no number may be more than 10⁹ from 0"));
         }
         let name = words[..words.len() - num_numbers].join(" ");
         let line = Line {

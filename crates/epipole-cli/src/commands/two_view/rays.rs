@@ -1,6 +1,6 @@
 //! The searches of `epipole two-view` where the camera is known with its lens: from rays.
 
-use super::search::{Found, configuration, word};
+use super::search::{Found, word};
 use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
@@ -189,24 +189,16 @@ fn essential(
     let rotation = motion.rotation.to_rotation_matrix().into_inner();
     let model = cross_matrix(&motion.translation.vector) * rotation;
     let judging = options.within(report.max_error_px);
-    let mut found = Found {
-        kind: "essential",
-        errors_px: seen.motion_errors_px(&motion),
-        model: model / model.norm(),
-        cam2_from_cam1: Some(motion),
-        other_cam2_from_cam1: None,
-        focals_px: None,
-        configuration: configuration(&report, "general", options),
-        max_error_px: report.max_error_px,
-        inliers: report.inliers,
-    };
+    let (model, errors_px) = (model / model.norm(), seen.motion_errors_px(&motion));
+    let words = ["essential", "general"];
+    let mut found = Found::of_search(words, model, errors_px, report, options);
     if found.configuration == "degenerate" {
-        found.cam2_from_cam1 = None;
-    } else if let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&found.inliers), &judging)
-    {
+        return Ok(found);
+    }
+    found.cam2_from_cam1 = Some(motion);
+    if let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&found.inliers), &judging) {
         context.warn(&turn::sentence(&turn));
-        found.configuration = "panoramic";
-        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+        found.turned(&turn);
     }
     Ok(found)
 }
@@ -222,22 +214,13 @@ fn homography(
         estimate_homography_of_rays_with(rays1, rays2, options, watch)
     })?;
     let judging = options.within(report.max_error_px);
-    let mut found = Found {
-        kind: "homography",
-        errors_px: seen.homography_errors_px(&report.model),
-        model: report.model,
-        cam2_from_cam1: None,
-        other_cam2_from_cam1: None,
-        focals_px: None,
-        configuration: configuration(&report, "planar", options),
-        max_error_px: report.max_error_px,
-        inliers: report.inliers,
-    };
+    let (h, errors_px) = (report.model, seen.homography_errors_px(&report.model));
+    let words = ["homography", "planar"];
+    let mut found = Found::of_search(words, h, errors_px, report, options);
     if found.configuration == "planar"
         && let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&found.inliers), &judging)
     {
-        found.configuration = "panoramic";
-        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+        found.turned(&turn);
     }
     Ok(found)
 }

@@ -5,14 +5,14 @@ use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
-use crate::turn;
+use crate::turn::{self, left_open, left_open_by_homography};
 use epipole::camera::RigidTransform;
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
 use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch, TwoViewTrial,
-    estimate_two_view_calibrated_with, estimate_two_view_with, find_explaining_turn,
+    Configuration, ExplainingTurn, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch,
+    TwoViewTrial, estimate_two_view_calibrated_with, estimate_two_view_with, find_explaining_turn,
 };
 use nalgebra::{Matrix3, Point2};
 
@@ -28,6 +28,37 @@ pub(super) struct Found {
     pub(super) max_error_px: f64,
     /// Of both cameras, where E was searched for.
     pub(super) focals_px: Option<[f64; 2]>,
+}
+
+impl Found {
+    /// Of a search for one model.
+    ///
+    /// * `kind`, `otherwise`: its name, and the configuration that it means unless it is degenerate
+    pub(super) fn of_search<M>(
+        [kind, otherwise]: [&'static str; 2],
+        model: Matrix3<f64>,
+        errors_px: Vec<f64>,
+        report: RansacReport<M>,
+        options: &TwoViewOptions,
+    ) -> Self {
+        Self {
+            kind,
+            model,
+            errors_px,
+            configuration: configuration(&report, otherwise, options),
+            max_error_px: report.max_error_px,
+            inliers: report.inliers,
+            cam2_from_cam1: None,
+            other_cam2_from_cam1: None,
+            focals_px: None,
+        }
+    }
+
+    /// Where a camera that only turned explains it all.
+    pub(super) fn turned(&mut self, turn: &ExplainingTurn) {
+        self.configuration = "panoramic";
+        self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+    }
 }
 
 /// Looks for the model that was asked for.
@@ -89,17 +120,15 @@ pub(super) fn estimate(
         Model::Fundamental => {
             let estimator = FundamentalEstimator::new(set()?)?;
             let report = arguments.robust.run(estimator, context)?;
-            Ok(Found {
-                kind: "fundamental",
-                errors_px: errors(&report.model),
-                configuration: configuration(&report, "general", &options),
-                model: report.model,
-                max_error_px: report.max_error_px,
-                inliers: report.inliers,
-                cam2_from_cam1: None,
-                other_cam2_from_cam1: None,
-                focals_px: None,
-            })
+            let (f, judging) = (report.model, options.ransac.within(report.max_error_px));
+            let words = ["fundamental", "general"];
+            let found = Found::of_search(words, f, errors(&f), report, &options);
+            if found.configuration != "degenerate"
+                && let Some(open) = left_open(pixels1, pixels2, &found.inliers, &judging)?
+            {
+                context.warn(&open);
+            }
+            Ok(found)
         }
         Model::Essential => {
             let [k1, k2] = intrinsics(arguments, context, photos, pixels1, pixels2)?;
@@ -108,25 +137,19 @@ pub(super) fn estimate(
             })?;
             let pose = report.model;
             let judging = options.within(report.max_error_px);
-            let mut found = Found {
-                kind: "essential",
-                errors_px: errors(&pose.fundamental),
-                model: pose.essential(),
-                cam2_from_cam1: Some(pose.cam2_from_cam1()),
-                other_cam2_from_cam1: None,
-                focals_px: Some([k1.fu_px(), k2.fu_px()]),
-                configuration: configuration(&report, "general", &options),
-                max_error_px: report.max_error_px,
-                inliers: report.inliers,
-            };
+            let (model, errors_px) = (pose.essential(), errors(&pose.fundamental));
+            let words = ["essential", "general"];
+            let mut found = Found::of_search(words, model, errors_px, report, &options);
+            found.focals_px = Some([k1.fu_px(), k2.fu_px()]);
             if found.configuration == "degenerate" {
-                found.cam2_from_cam1 = None;
-            } else if let Some(turn) =
+                return Ok(found);
+            }
+            found.cam2_from_cam1 = Some(pose.cam2_from_cam1());
+            if let Some(turn) =
                 find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
             {
                 context.warn(&turn::sentence(&turn));
-                found.configuration = "panoramic";
-                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+                found.turned(&turn);
             }
             Ok(found)
         }
@@ -135,25 +158,17 @@ pub(super) fn estimate(
             let estimator = HomographyEstimator::new(set()?)?;
             let report = arguments.robust.run(estimator, context)?;
             let judging = options.within(report.max_error_px);
-            let error = |(a, b)| homography_sampson_px(&report.model, a, b);
-            let mut found = Found {
-                kind: "homography",
-                errors_px: pixels1.iter().zip(pixels2).map(error).collect(),
-                configuration: configuration(&report, "planar", &options),
-                model: report.model,
-                max_error_px: report.max_error_px,
-                inliers: report.inliers,
-                cam2_from_cam1: None,
-                other_cam2_from_cam1: None,
-                focals_px: None,
-            };
+            let h = report.model;
+            let error = |(a, b)| homography_sampson_px(&h, a, b);
+            let errors_px = pixels1.iter().zip(pixels2).map(error).collect();
+            let words = ["homography", "planar"];
+            let mut found = Found::of_search(words, h, errors_px, report, &options);
             // Pixels alone do not tell a turn from a plane.
             if let (Some([k1, k2]), "planar") = (given, found.configuration)
                 && let Some(turn) =
                     find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
             {
-                found.configuration = "panoramic";
-                found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+                found.turned(&turn);
             }
             warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
             Ok(found)
@@ -161,7 +176,7 @@ pub(super) fn estimate(
     }
 }
 
-/// Of a plane that may be a turn by another focal length than the one given, read or guessed.
+/// Of a plane that did not move, or may be a turn by another focal length than the one given, read or guessed.
 fn warn_of_turn(
     arguments: &Arguments,
     context: &Context,
@@ -175,7 +190,11 @@ fn warn_of_turn(
     let (intrinsics, _) = arguments.camera.or_guess(photos)?;
     let options = arguments.options(context).within(found.max_error_px);
     let inliers = &found.inliers;
-    let sentence = turn::sentence_of_other_focal(pixels1, pixels2, &intrinsics, inliers, &options)?;
+    let unmoved = left_open_by_homography(pixels1, pixels2, inliers, &options.ransac)?;
+    let sentence = match unmoved {
+        None => turn::sentence_of_other_focal(pixels1, pixels2, &intrinsics, inliers, &options)?,
+        unmoved => unmoved,
+    };
     if let Some(sentence) = sentence {
         context.warn(&sentence);
     }
@@ -198,7 +217,7 @@ fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool 
 }
 
 /// What the views show, if it is enough to be anything.
-pub(super) fn configuration<M>(
+fn configuration<M>(
     report: &RansacReport<M>,
     otherwise: &'static str,
     options: &TwoViewOptions,

@@ -81,8 +81,12 @@ impl Builder<'_> {
         Some(Sight { camera, view })
     }
 
-    /// Starts from the best pair that works.
-    pub(super) fn start(&mut self, verified: &[VerifiedPair], reporter: &mut Reporter<'_>) -> bool {
+    /// Starts from the best pair that works, and answers which images these are.
+    pub(super) fn start(
+        &mut self,
+        verified: &[VerifiedPair],
+        reporter: &mut Reporter<'_>,
+    ) -> Option<[usize; 2]> {
         let mut wanted_rad = self.options.min_start_angle_deg.to_radians();
         let mut tried = vec![false; verified.len()];
         // Below a quarter of a degree a pair says nothing about depth.
@@ -104,19 +108,20 @@ impl Builder<'_> {
                 tried[n] = true;
                 if self.start_from(&verified[n], reporter) {
                     let pair = &verified[n].pair;
+                    let images = [pair.image1, pair.image2];
                     reporter.tell(&SfmStep::Started {
-                        images: [pair.image1, pair.image2],
+                        images,
                         num_points: self.num_points(),
                     });
-                    return true;
+                    return Some(images);
                 }
                 if reporter.canceled {
-                    return false;
+                    return None;
                 }
             }
             wanted_rad *= 0.5;
         }
-        false
+        None
     }
 
     pub(super) fn start_from(
