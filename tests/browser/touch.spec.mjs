@@ -15,7 +15,14 @@ const slow = figures.filter(({ name }) => {
 /** No idle moment comes in which a figure could prepare; whoever names a time limit still gets his turn. */
 function neverIdle() {
   const later = window.requestIdleCallback.bind(window);
-  window.requestIdleCallback = (work, options) => (options ? later(work, options) : 0);
+  const waiting = (window.waiting = new Map());
+  let number = 1e6;
+  window.requestIdleCallback = (work, options) => {
+    if (options) return later(work, options);
+    waiting.set((number += 1), work);
+    return number;
+  };
+  window.cancelIdleCallback = (id) => waiting.delete(id);
 }
 
 /** Moves the first slider to its end, or the first handle a step; frames of the display until the picture is there, and when the state was told. */
@@ -67,4 +74,14 @@ test("whoever asks for the picture at once has it at once", async ({ page, open 
   expect(await hidden()).toBe(true);
   await figure.evaluate((element) => element.flush());
   expect(await hidden()).toBe(false);
+});
+
+test("a figure that is gone waits for no idle moment, which would hold it", async ({ page, open }) => {
+  await page.addInitScript(neverIdle);
+  const figure = await open(page, ["epipolar-click"], { wait: false, query: { poster: 720 } });
+  await expect(figure).toHaveAttribute("data-ready", "");
+  const waiting = () => page.evaluate(() => window.waiting.size);
+  await expect.poll(waiting).toBe(1);
+  await figure.evaluate((element) => element.remove());
+  await expect.poll(waiting).toBe(0);
 });

@@ -157,7 +157,7 @@ export class Session {
     if (inSight === this.#inSight) return;
     this.#inSight = inSight;
     this.#lastTick = undefined;
-    if (!inSight) return;
+    if (!inSight) return this.#cool();
     this.#want();
     if (this.#held) this.#warm();
   }
@@ -211,6 +211,7 @@ export class Session {
     this.#ended = true;
     cancelAnimationFrame(this.#frame);
     clearTimeout(this.#rest);
+    this.#cool();
     this.engine.free();
   }
 
@@ -258,6 +259,7 @@ export class Session {
     this.#warming = true;
     const slice = (deadline?: IdleDeadline) => {
       this.#warming = false;
+      this.#idle = 0;
       if (!this.#held || !this.#inSight || this.#ended) return;
       const start = performance.now();
       let more = true;
@@ -271,8 +273,16 @@ export class Session {
       else this.#warm();
     };
     // Safari has no idle callbacks.
-    if (typeof requestIdleCallback === "function") requestIdleCallback(slice);
+    if (typeof requestIdleCallback === "function") this.#idle = requestIdleCallback(slice);
     else setTimeout(() => slice(), IDLE_MS);
+  }
+
+  /** Waits for no idle moment any more: it may be long in coming, and would hold a figure that is gone until then. */
+  #cool(): void {
+    if (this.#idle === 0) return;
+    cancelIdleCallback(this.#idle);
+    this.#idle = 0;
+    this.#warming = false;
   }
 
   /** Lets time pass in a running figure. */
@@ -345,6 +355,7 @@ export class Session {
   #unshown = false;
   /** An idle moment is waited for. */
   #warming = false;
+  #idle = 0;
 
   #guard<T>(work: () => T): T | undefined {
     if (this.#ended) return undefined;
