@@ -13,25 +13,26 @@ const WHAT: &str = "a camera pose from points";
 /// Points nearer to a line than this, relative to its length, are on it.
 const FLAT: f64 = 1e-9;
 
-/// So many of the poses that three points give are refined: on a plane two of them are minima, and noise may let the wrong one
-/// begin lower.
+/// So many of the poses that three points give are refined: on a plane two of them lead to minima, and noise may let
+/// the wrong one begin lower.
 const STARTS: usize = 4;
 
-/// The pose with the smallest sum of squared reprojection errors over all points, which may lie on a plane. Nothing is left out:
-/// [`estimate_absolute_pose`](super::estimate_absolute_pose) is for matches of which some are wrong.
+/// The pose with the smallest sum of squared reprojection errors over all points, which may lie on a plane. Nothing is
+/// left out: [`estimate_absolute_pose`](super::estimate_absolute_pose) is for matches of which some are wrong.
 ///
 /// * `points_in_world`, `pixels`: points and where they are seen, at least 4
 ///
-/// Returns `cam_from_world`. Four points that lie far apart give starts, three at a time, by [`pose_p3p`], and six or more one
-/// by [`pose_dlt`]; the best of them are refined, and the best of those is returned. A small or distant plane has two poses that fit nearly
-/// as well, of which it is the better one.
+/// Returns `cam_from_world`. Four points that lie far apart give starts, three at a time, by [`pose_p3p`], and six or
+/// more one by [`pose_dlt`]; the best of them are refined, and the best of those is returned. A small or distant plane
+/// has two poses that fit nearly as well, of which it is the better one.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and
-/// infinities, [`Error::Degenerate`] if all points are on one line, or no pose has them all in front of the camera.
+/// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different length,
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on one line, or no pose has
+/// them all in front of the camera.
 ///
-/// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose estimation from a planar target" (the
-/// two minima).
+/// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose estimation from a planar
+/// target" (the two minima).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -212,7 +213,7 @@ mod tests {
     fn exact_points_give_the_truth_on_planes_and_off_them() {
         let mut random = Random::new(1);
         for count in [4, 5, 6, 7, 12, 200] {
-            // Four points in space may have a second pose; those in front of it here have none, or it is none of the test's.
+            // Three points have up to four poses, and the fourth point tells which is true.
             for thickness in [0.0, 1e-9, 1e-4, 0.1, 2.0] {
                 for _ in 0..20 {
                     let scene = scene(&mut random, count, thickness, 0.0);

@@ -21,7 +21,8 @@ const BLOCK: usize = 100;
 ///
 /// Each step draws a sample, fits up to a few models to it and scores them against all data. A
 /// model that beats those of the last hundred samples or more is improved from its inliers (local
-/// optimization). The loop ends once enough samples were drawn for the share of inliers that the
+/// optimization). Of matches, a model whose inliers are gathered at one place of an image, and fit the place as well as
+/// the model, is left off: many wrong matches may lead there. The loop ends once enough samples were drawn for the share of inliers that the
 /// best model has. Nothing is allocated between [`new`](Ransac::new) and
 /// [`finish`](Ransac::finish).
 ///

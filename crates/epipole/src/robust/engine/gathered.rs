@@ -1,21 +1,22 @@
 //! Models that say no more than one place would: many wrong matches may lead to nearly the same pixel, and a map that
-//! takes the whole image there, or an F with its epipole there, fits all of them.
+//! takes the whole image there, or an F with its epipole there, fits all of them. Scale alone would not tell: a map from
+//! pixels to meters has a small one, too.
 
 use super::Ransac;
 use crate::math::order::at_rank;
 use crate::robust::Estimator;
 
 /// Inliers must be so many times as far from their middle as they are from the model: both are medians, so a few
-/// that are elsewhere do not matter. Matches at one place have 1, and 1.4 for F, whose errors have one dimension and are
-/// shared by both images; those of an honest model some hundred.
+/// that are elsewhere do not matter. Matches at one place have about 1, and somewhat more for F, whose errors have one
+/// dimension and are shared by both images; those of an honest model a hundred.
 const FAR_APART: f64 = 3.0;
 
 impl<E: Estimator> Ransac<E> {
     /// Whether the inliers of a model are gathered at one place, which explains them as well as the model does.
     ///
     /// It is the spread in the image where errors are measured that is compared with them, in the same unit; so maps to
-    /// meters are judged as those to pixels are. Errors of one dimension are measured in both images. Pixels that are exactly
-    /// equal have few votes anyway.
+    /// meters are judged as those to pixels are. Errors of one dimension are measured in both images. Pixels that are
+    /// exactly equal have few votes anyway.
     pub(super) fn is_gathered(&mut self, model: &E::Model) -> bool {
         let Some(matches) = self.estimator.matches() else {
             return false;
