@@ -205,7 +205,8 @@ mod tests {
             cam_from_world: *pose,
         };
         (scene.points.iter().zip(&scene.pixels))
-            .map(|(x, p)| reprojection_error_px(&camera, x, p).powi(2))
+            .map(|(x, p)| reprojection_error_px(&camera, x, p))
+            .map(|error_px| error_px * error_px)
             .sum()
     }
 
