@@ -14,7 +14,9 @@ use epipole::epipolar::{
     FundamentalEstimator, GravityEstimator, estimate_relative_pose_with, sampson_px,
 };
 use epipole::homography::{HomographyEstimator, transfer_error_px};
-use epipole::robust::{LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason};
+use epipole::robust::{
+    FARTHEST_PX, LineEstimator, MatchSet, RansacReport, SimilarityEstimator, StopReason,
+};
 use nalgebra::{Matrix3, Point2, Vector3};
 use std::path::PathBuf;
 
@@ -166,7 +168,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 
 /// Too few are left where the core left rows out, which then is what to look into.
 fn with_left_out(failure: Failure, model: Model, rows: &[Vec<f64>]) -> Failure {
-    let farthest_px = if model == Model::Line { f64::MAX } else { 1e9 };
+    let farthest_px = if model == Model::Line {
+        f64::MAX
+    } else {
+        FARTHEST_PX
+    };
     let is_far = |row: &&Vec<f64>| row.iter().any(|x| x.abs() > farthest_px);
     match rows.iter().filter(is_far).count() {
         num_far @ 1.. if failure.kind == "too-few" => Failure {

@@ -205,7 +205,8 @@ pub fn calibrate_with_progress(
     };
     let open = Error::Degenerate {
         what: WHAT,
-        why: "the boards are parallel, or so small in the picture that any focal length fits them",
+        why: "the boards are parallel, or so small in the picture that any focal length fits them; tilt the board \
+              by some 30°, each time another way, and let it fill the picture",
     };
     let deviations = standard_deviations(&problem, &state).ok_or(open.clone())?;
     let of_camera: [f64; OF_CAMERA] = core::array::from_fn(|i| deviations[6 + i]);

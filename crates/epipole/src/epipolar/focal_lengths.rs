@@ -60,8 +60,9 @@ pub fn focal_lengths_from_fundamental(
     let [to1, to2] = places.map(|p| Matrix3::new(1.0, 0.0, p.x, 0.0, 1.0, p.y, 0.0, 0.0, 1.0));
     let about = to2.transpose() * fundamental * to1;
     let open = Error::Degenerate {
-        what: "the focal lengths of a fundamental matrix",
-        why: "the optical axes meet or are parallel, or come too near to that for these matches",
+        what: "a focal length from a fundamental matrix",
+        why: "the optical axes meet or are parallel, or come too near to that for these matches; give the focal \
+              length, or turn the camera aside between the photographs",
     };
     let squares = [first_focal_sq(&about), first_focal_sq(&about.transpose())];
     // Also false for NaN.

@@ -34,7 +34,7 @@ pub(crate) const MAX_SOLUTIONS: usize = 15;
 /// * `principal1`, `principal2`: the principal points of the two images, pixels
 ///
 /// Returns an empty list if there is no real solution or input is not finite. Of random problems, up to one in two
-/// hundred loses its true solution to rounding. Where the axes of the cameras are parallel, or meet at the same
+/// thousand loses its true solution to rounding. Where the axes of the cameras are parallel, or meet at the same
 /// distance from both, every focal length fits: then some solutions are returned, or none. A camera that only turned
 /// is degenerate as well.
 ///
@@ -81,10 +81,11 @@ pub(crate) fn solve(
     about2: &[Point2<f64>; 6],
     solutions: &mut ArrayVec<EssentialWithFocal, MAX_SOLUTIONS>,
 ) {
-    // A unit in which focal lengths are about 1, and all entries of rows alike.
+    // A unit in which focal lengths are about 1, and all entries of rows alike. In a larger one the determinant is below
+    // its own rounding where the roots are.
     let size_sq =
         |points: &[Point2<f64>; 6]| -> f64 { points.iter().map(|p| p.coords.norm_squared()).sum() };
-    let unit_px = 2.0 * ((size_sq(about1) + size_sq(about2)) / 12.0).sqrt();
+    let unit_px = UNIT_RMS * ((size_sq(about1) + size_sq(about2)) / 12.0).sqrt();
     if !(unit_px > 0.0 && unit_px.is_finite()) {
         return;
     }
@@ -129,6 +130,11 @@ pub(crate) fn solve(
         }
     }
 }
+
+/// The unit, in root mean squares of the distances from the principal points. Of 30 000 random problems with lenses of .5 to
+/// 3.3 image widths .7 lost 8, .85 and 1 lost 1, 1.15 lost 2, and 2 lost 104; of 20 000 with lenses of .3 to 12
+/// widths, .85 lost 7, 1 lost 12, and 2 lost 341.
+const UNIT_RMS: f64 = 0.85;
 
 /// Solutions that differ by less are one.
 const SAME: f64 = 1e-8;
@@ -238,7 +244,7 @@ mod tests {
         }
     }
 
-    /// Ten thousand problems: the truth is among the solutions of all but one in two hundred.
+    /// Ten thousand problems: the truth is among the solutions of all but two. In twice the unit 35 were lost.
     #[test]
     fn the_truth_is_among_the_solutions() {
         let mut random = Random::new(1);
@@ -257,7 +263,7 @@ mod tests {
             lost += usize::from(!solutions.iter().any(is_truth));
         }
         println!("lost {lost}, solutions {num_solutions}");
-        assert!(lost <= 50, "{lost}");
+        assert!(lost <= 2, "{lost}");
         assert!(num_solutions < 60_000, "{num_solutions}");
     }
 

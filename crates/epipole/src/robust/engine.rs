@@ -2,6 +2,7 @@
 
 mod enough;
 mod finale;
+mod gathered;
 mod local_optimization;
 
 use super::sampler::Sampler;
@@ -20,7 +21,8 @@ const BLOCK: usize = 100;
 ///
 /// Each step draws a sample, fits up to a few models to it and scores them against all data. A
 /// model that beats those of the last hundred samples or more is improved from its inliers (local
-/// optimization). The loop ends once enough samples were drawn for the share of inliers that the
+/// optimization). Of matches, a model whose inliers are gathered at one place of an image, and fit the place as well as
+/// the model, is left off: many wrong matches may lead there. The loop ends once enough samples were drawn for the share of inliers that the
 /// best model has. Nothing is allocated between [`new`](Ransac::new) and
 /// [`finish`](Ransac::finish).
 ///
@@ -50,6 +52,8 @@ pub struct Ransac<E: Estimator> {
     sample_as_given: Vec<usize>,
     models: Vec<E::Model>,
     inliers: Vec<usize>,
+    /// Room for one number a datum.
+    values: Vec<f64>,
     best: Option<Candidate<E::Model>>,
     /// The lowest cost of a model straight from a sample, in this block of samples and in the one before.
     block_costs: [f64; 2],
@@ -94,6 +98,7 @@ impl<E: Estimator> Ransac<E> {
             sample_as_given: Vec::with_capacity(size),
             models: Vec::with_capacity(estimator.max_models()),
             inliers: Vec::with_capacity(num_data),
+            values: Vec::with_capacity(num_data),
             best: None,
             block_costs: [f64::INFINITY; 2],
             iterations: 0,
@@ -155,7 +160,7 @@ impl<E: Estimator> Ransac<E> {
             model = Some(candidate.model.clone());
             score = self.score(&support);
             num_inliers = support.num_inliers;
-            if support.cost < least_cost {
+            if support.cost < least_cost && !self.is_gathered(&candidate.model) {
                 self.block_costs[0] = support.cost;
                 (is_best, refined) = self.consider(candidate);
             }

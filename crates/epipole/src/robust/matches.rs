@@ -30,8 +30,13 @@ struct Crowds {
     votes: Vec<f64>,
 }
 
-/// Coordinates farther from 0, pixels, are left out.
-pub(crate) const FARTHEST_PX: f64 = 1e9;
+/// Matches with coordinates farther from 0, pixels, are left out of robust estimation: their fourth power no longer fits
+/// the arithmetic of the solvers.
+///
+/// ```
+/// assert_eq!(epipole::robust::FARTHEST_PX, 1e9);
+/// ```
+pub const FARTHEST_PX: f64 = 1e9;
 
 impl MatchSet {
     /// Copies the matches, each different one once.

@@ -35,8 +35,7 @@ pub use estimator::{Estimator, Support};
 pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;
-pub(crate) use matches::FARTHEST_PX;
-pub use matches::MatchSet;
+pub use matches::{FARTHEST_PX, MatchSet};
 pub use options::{
     Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason, ThresholdKind,
 };

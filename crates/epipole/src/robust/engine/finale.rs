@@ -283,7 +283,8 @@ impl<E: Estimator> Ransac<E> {
             ScoreKind::Msac => (19, 20),
             ScoreKind::InlierCount => (1, 1),
         };
-        if of * support.num_inliers >= kept * candidate.support.num_inliers {
+        let keeps = of * support.num_inliers >= kept * candidate.support.num_inliers;
+        if keeps && !self.is_gathered(&model) {
             *candidate = Candidate { model, support };
             self.refinements += 1;
         }

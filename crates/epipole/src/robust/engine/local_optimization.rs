@@ -114,7 +114,7 @@ impl<E: Estimator> Ransac<E> {
         model: E::Model,
     ) -> bool {
         let support = self.support(&model, candidate.support.cost);
-        let better = support.cost < candidate.support.cost;
+        let better = support.cost < candidate.support.cost && !self.is_gathered(&model);
         if better {
             *candidate = Candidate { model, support };
             self.refinements += 1;
