@@ -1,6 +1,6 @@
 //! `epipole sfm`: cameras and points from photographs.
 
-mod growth;
+pub(crate) mod growth;
 mod input;
 mod output;
 pub(crate) mod positions;
