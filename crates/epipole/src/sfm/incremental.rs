@@ -173,11 +173,19 @@ impl Reporter<'_> {
     }
 }
 
-pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrinsics>> {
+/// What is asked for of photographs, as an error of too few says.
+pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
+
+/// * `what`: what is asked for, for the error of too few
+pub(super) fn check(
+    what: &'static str,
+    input: &SfmInput,
+    options: &SfmOptions,
+) -> Result<Vec<Intrinsics>> {
     let count = input.images.len();
     if count < 2 {
         return Err(Error::TooFew {
-            what: "structure from motion from photographs",
+            what,
             needed: 2,
             got: count,
         });
@@ -330,7 +338,7 @@ fn reconstruct_telling(
     options: &SfmOptions,
     mut reporter: Reporter<'_>,
 ) -> Result<SfmResult> {
-    let intrinsics = check(input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, input, options)?;
     let images = &input.images;
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     // Bad indices are found before the work begins.
@@ -361,7 +369,7 @@ pub fn reconstruct_verified(
         intrinsics: intrinsics.to_vec(),
         pairs: Vec::new(),
     };
-    let intrinsics = check(&input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, &input, options)?;
     let views = Views::new(images, &intrinsics, &lenses(images, options));
     let reporter = Reporter {
         observer,
