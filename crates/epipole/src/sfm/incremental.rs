@@ -146,8 +146,8 @@ pub struct SfmResult {
 /// Hears of every step and says whether to go on.
 pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmStep) -> ControlFlow<()>;
 
-/// Sees cameras and points while they become more.
-pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction);
+/// Sees cameras and points while they become more, and says whether to go on.
+pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction) -> ControlFlow<()>;
 
 /// Asks the observer, and remembers that it wanted to stop.
 pub(super) struct Reporter<'a> {
@@ -167,8 +167,11 @@ impl Reporter<'_> {
 
     /// Shows what there is so far, which is put together only if somebody watches.
     pub(super) fn show(&mut self, so_far: impl FnOnce() -> Reconstruction) {
-        if let Some(watcher) = &mut self.watcher {
-            watcher(so_far());
+        if let Some(watcher) = &mut self.watcher
+            && !self.canceled
+            && watcher(so_far()).is_break()
+        {
+            self.canceled = true;
         }
     }
 }
@@ -319,7 +322,7 @@ pub fn reconstruct_with_progress(
 /// As [`reconstruct`].
 ///
 /// Source: as [`reconstruct`].
-pub fn reconstruct_watched(
+pub fn reconstruct_with(
     input: &SfmInput,
     options: &SfmOptions,
     observer: SfmObserver<'_>,

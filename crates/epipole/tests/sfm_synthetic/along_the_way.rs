@@ -5,7 +5,7 @@ use epipole::Error;
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{
     PairMatches, SfmImage, SfmInput, SfmOptions, SfmStep, keep_going, reconstruct,
-    reconstruct_with_progress,
+    reconstruct_with, reconstruct_with_progress,
 };
 use nalgebra::Point3;
 use std::ops::ControlFlow;
@@ -23,14 +23,27 @@ fn a_watcher_sees_one_image_more_each_time_and_changes_nothing() {
                 .all(|point| point.track.len() >= 2 && point.error_px.is_finite())
         );
         seen.push((so_far.num_registered(), so_far.points.len()));
+        ControlFlow::Continue(())
     };
     let options = SfmOptions::default();
-    let found =
-        epipole::sfm::reconstruct_watched(&world.input, &options, &mut keep_going, &mut watcher);
+    let found = reconstruct_with(&world.input, &options, &mut keep_going, &mut watcher);
     assert_eq!(found.expect("a result"), run(&world, &options));
     let registered: Vec<usize> = seen.iter().map(|(registered, _)| *registered).collect();
     assert_eq!(registered, [2, 3, 4, 5, 6, 7]);
     assert!(seen[0].1 > 20 && seen[5].1 >= seen[0].1, "{seen:?}");
+    // Who has seen enough ends it.
+    let mut shown = 0;
+    let mut watcher = |_| {
+        shown += 1;
+        match shown {
+            3 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    };
+    let ended = reconstruct_with(&world.input, &options, &mut keep_going, &mut watcher)
+        .expect("what there is so far");
+    assert!(ended.canceled);
+    assert_eq!((shown, ended.components[0].num_registered()), (3, 4));
 }
 
 #[test]
