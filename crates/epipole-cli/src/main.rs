@@ -132,3 +132,26 @@ fn print_failure(failure: &Failure, json: bool) {
         eprintln!("error: {}", failure.message);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn what_a_command_reads_and_writes_stands_under_no_heading_of_others() {
+        let own = [
+            "output", "png", "images", "k", "k2", "focal_px", "gravity", "gravity2",
+        ];
+        let mut seen = 0;
+        for subcommand in command().get_subcommands() {
+            for argument in subcommand.get_arguments() {
+                if own.contains(&argument.get_id().as_str()) {
+                    let place = format!("{} {}", subcommand.get_name(), argument.get_id());
+                    assert_eq!(argument.get_help_heading(), None, "{place}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 20, "only {seen} were found");
+    }
+}

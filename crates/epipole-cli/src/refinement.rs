@@ -27,16 +27,16 @@ pub(crate) struct RefinementArguments {
     #[arg(long, default_value_t = 1.0, value_name = "W", value_parser = positive)]
     loss_width: f64,
     /// Done when no component of the gradient is larger.
-    #[arg(long, default_value_t = LmOptions::default().gradient_tolerance, value_name = "G", value_parser = not_negative)]
+    #[arg(long, default_value = "1e-10", value_name = "G", value_parser = not_negative)]
     gradient_tolerance: f64,
     /// Done when a step is shorter than this share of the length of all parameters.
-    #[arg(long, default_value_t = LmOptions::default().step_tolerance, value_name = "SHARE", value_parser = not_negative)]
+    #[arg(long, default_value = "1e-10", value_name = "SHARE", value_parser = not_negative)]
     step_tolerance: f64,
     /// Done when a step lowers the cost by less than this share.
-    #[arg(long, default_value_t = LmOptions::default().cost_tolerance, value_name = "SHARE", value_parser = not_negative)]
+    #[arg(long, default_value = "1e-9", value_name = "SHARE", value_parser = not_negative)]
     cost_tolerance: f64,
     /// How much the first step is damped, in shares of the diagonal; of a pose graph at most 1e-12.
-    #[arg(long, default_value_t = LmOptions::default().initial_damping, value_name = "L", value_parser = positive)]
+    #[arg(long, default_value = "1e-4", value_name = "L", value_parser = positive)]
     initial_damping: f64,
     /// How many steps in a row may raise the cost before smaller ones are tried; of a pose graph at least 3.
     #[arg(long, default_value_t = LmOptions::default().patience, value_name = "N")]

@@ -22,14 +22,14 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     /// A problem in the BAL text format.
     problem: PathBuf,
-    #[command(flatten)]
-    refinement: RefinementArguments,
+    /// Write the refined problem here.
+    #[arg(short, long, value_name = "OUT.txt")]
+    output: Option<PathBuf>,
     /// Steps tried at most.
     #[arg(long, default_value_t = 200, value_name = "N")]
     max_iterations: usize,
-    /// Write the refined problem here.
-    #[arg(short, long, help_heading = "Options", value_name = "OUT.txt")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    refinement: RefinementArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -15,9 +15,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
-    JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information whatever the\n\
-    loss, iterations,\n\
-    termination (why it ended), num_vertices, num_edges."
+    JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information\n\
+    whatever the loss, iterations, termination (why it ended), num_vertices, num_edges."
 )]
 pub(crate) struct Arguments {
     /// A g2o file with poses in the plane, in space, or in space with scale.
@@ -28,11 +27,11 @@ pub(crate) struct Arguments {
     /// Steps tried at most.
     #[arg(long, default_value_t = 100, value_name = "N")]
     max_iterations: usize,
+    /// Write the optimized graph here.
+    #[arg(short, long, value_name = "OUT.g2o")]
+    output: Option<PathBuf>,
     #[command(flatten)]
     refinement: RefinementArguments,
-    /// Write the optimized graph here.
-    #[arg(short, long, help_heading = "Options", value_name = "OUT.g2o")]
-    output: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -48,15 +48,15 @@ pub(crate) struct Arguments {
     /// Center each photograph on what it shows best, so that infinity has another disparity than 0.
     #[arg(long)]
     free_infinity: bool,
+    /// The folder for the rectified photographs.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
     #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
     #[command(flatten)]
     robust: RobustArguments,
-    /// The folder for the rectified photographs.
-    #[arg(short, long, value_name = "FOLDER", help_heading = "Options")]
-    output: PathBuf,
 }
 
 /// How to rectify, whichever way it was found.
