@@ -102,6 +102,10 @@ pub(crate) struct MatchArguments {
     /// Each must be the other's nearest; --mutual=false to do without.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) mutual: bool,
+    /// No feature of the second photograph in two matches, the closest stays; --unique=false to do without. Mutual matches
+    /// are unique already.
+    #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
+    pub(crate) unique: bool,
     /// The largest distance of two descriptors [default: any].
     #[arg(long, value_name = "D", value_parser = not_negative)]
     pub(crate) max_distance: Option<f32>,
@@ -144,7 +148,7 @@ impl MatchArguments {
             max_ratio: Some(self.ratio),
             mutual: self.mutual,
             max_distance: self.max_distance,
-            ..MatchOptions::default()
+            unique: self.unique,
         }
     }
 

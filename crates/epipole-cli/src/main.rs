@@ -19,6 +19,7 @@ mod matrices;
 mod photo;
 mod picture;
 mod progress;
+mod refinement;
 mod report;
 mod robust;
 mod rows;
@@ -32,21 +33,24 @@ use report::Report;
 use std::process::ExitCode;
 use std::time::Instant;
 
+/// Behind what is of one command alone.
+const LAST: usize = 900;
+
 /// Multi-view geometry on your own photographs.
 #[derive(Debug, Parser)]
 #[command(name = "epipole", version, propagate_version = true)]
 struct Cli {
     /// Print exactly one JSON object on standard output.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = LAST)]
     json: bool,
     /// Print no progress and no warnings.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = LAST)]
     quiet: bool,
     /// Seed of every random choice; equal seeds give equal results.
-    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    #[arg(long, global = true, display_order = LAST, default_value_t = 0, value_name = "N")]
     seed: u64,
     /// Number of threads; all processors if not given.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, global = true, display_order = LAST, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     #[command(subcommand)]
     command: Command,
@@ -126,5 +130,28 @@ fn print_failure(failure: &Failure, json: bool) {
         let _ = files::print(&failure.to_json());
     } else {
         eprintln!("error: {}", failure.message);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn what_a_command_reads_and_writes_stands_under_no_heading_of_others() {
+        let own = [
+            "output", "png", "images", "k", "k2", "focal_px", "gravity", "gravity2",
+        ];
+        let mut seen = 0;
+        for subcommand in command().get_subcommands() {
+            for argument in subcommand.get_arguments() {
+                if own.contains(&argument.get_id().as_str()) {
+                    let place = format!("{} {}", subcommand.get_name(), argument.get_id());
+                    assert_eq!(argument.get_help_heading(), None, "{place}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 20, "only {seen} were found");
     }
 }

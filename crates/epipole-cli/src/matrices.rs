@@ -75,3 +75,30 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
         _ => Err(format!("\"{text}\" is not a number above 0")),
     }
 }
+
+/// Reads a number of 0 or more.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err(format!("\"{text}\" is not a number of 0 or more")),
+    }
+}
+
+/// Reads a share from 0 to 1.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err(format!("\"{text}\" is not a number from 0 to 1")),
+    }
+}
+
+/// Reads `WIDTHxHEIGHT`.
+pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text
+        .split_once('x')
+        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    match parsed {
+        Some((width @ 1..=16384, height @ 1..=16384)) => Ok((width, height)),
+        _ => Err("it must be WIDTHxHEIGHT, each 1 to 16384, as 1600x1200".to_owned()),
+    }
+}

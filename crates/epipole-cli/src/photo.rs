@@ -1,6 +1,7 @@
 //! Photographs from files.
 
 use crate::failure::Failure;
+use crate::files;
 use crate::matrices::positive;
 use clap::Args;
 use epipole::calibration::{
@@ -190,13 +191,7 @@ pub(crate) fn check_same_size([first, second]: &[Photo; 2]) -> Result<(), Failur
 /// # Errors
 /// A sentence naming it: missing or unreadable.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| {
-        let why = match error.kind() {
-            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-            _ => format!("cannot be read: {error}"),
-        };
-        Failure::new("read", why).about(path)
-    })
+    std::fs::read(path).map_err(|error| files::unreadable(path, &error))
 }
 
 /// `{width, height}` of an image.

@@ -92,6 +92,36 @@ fn disparities_are_those_of_the_scene() {
         let result = json(&[&base[..], options, &["--min-disparity", "12"]].concat());
         assert!(result["min_disparity_px"].as_f64().unwrap() >= 11.0);
     }
+    // Tests that are left out leave more answers, and strict ones fewer.
+    let density = |options: &[&str]| {
+        let result = json(&[&base[..], options].concat());
+        result["density"].as_f64().unwrap()
+    };
+    for method in ["sgm", "bm"] {
+        let usual = density(&["--method", method]);
+        let lax = "--uniqueness-percent 0 --left-right-max-px any --speckle-size 0";
+        let lax: Vec<&str> = lax.split(' ').collect();
+        let lax = density(&[&["--method", method], &lax[..]].concat());
+        let strict = density(&["--method", method, "--uniqueness-percent", "60"]);
+        assert!(
+            strict < usual && usual < lax,
+            "{method}: {strict} {usual} {lax}"
+        );
+    }
+    for (options, expected) in [
+        (
+            &["--method", "bm", "--paths", "4"][..],
+            "--paths is of --method sgm",
+        ),
+        (
+            &["--window-px", "9"],
+            "--window-px is of --method bm, which is not the one asked for",
+        ),
+        (&["--paths", "6"], "none of 4, 5 and 8"),
+        (&["--left-right-max-px", "some"], "\"any\""),
+    ] {
+        fails(&folder, &[&base[..], options].concat(), 2, expected);
+    }
 }
 
 #[test]

@@ -373,7 +373,7 @@ fn frames_without_a_path_are_refused() {
     std::fs::create_dir(folder.file("empty")).unwrap();
     let [three, two] = ["three", "two"].map(|name| folder.file(name));
     for (name, expected) in [
-        ("one", "needs at least 2"),
+        ("one", "the path of a camera from frames needs at least 2"),
         (
             "turned",
             "no two pictures see enough points under a sufficient angle",
@@ -409,6 +409,11 @@ fn frames_without_a_path_are_refused() {
         1,
         "there are 3 of the left one and 2 of the right one",
     );
+    // A name that is wrong is not one frame.
+    let nowhere = folder.file("nowhere");
+    let rig = [&["--right", path(&nowhere)], &rig[2..]].concat();
+    let arguments = [&["odometry", path(&three)], &rig[..]].concat();
+    fails(&folder, &arguments, 1, "nowhere: there is no such file");
     for (options, expected) in [
         (&["--right", path(&two)][..], "--stereo-baseline-m"),
         (&["--stereo-baseline-m", "0.1"], "--right"),

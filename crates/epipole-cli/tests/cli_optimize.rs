@@ -120,7 +120,8 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     // How far the points are from where they would be without outliers.
     let distance = |loss: &str| {
         let out = folder.file("out.txt");
-        json(&["ba", path(&file), "--loss", loss, "-o", path(&out)]);
+        let options = ["--loss", loss, "--loss-width", "2"];
+        json(&[&["ba", path(&file), "-o", path(&out)], &options[..]].concat());
         let refined = BalProblem::parse(&std::fs::read_to_string(&out).unwrap()).unwrap();
         let align = epipole::sfm::align_points(
             &refined.points,
@@ -137,11 +138,31 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
         errors.sort_by(f64::total_cmp);
         errors[errors.len() / 2]
     };
-    let [none, huber, cauchy] = ["none", "huber", "cauchy"].map(distance);
-    assert!(
-        huber < 0.5 * none && cauchy < 0.5 * none,
-        "{none} {huber} {cauchy}"
-    );
+    let [none, robust @ ..] = ["none", "huber", "cauchy", "truncated"].map(distance);
+    for error in robust {
+        assert!(error < 0.5 * none, "{none} {robust:?}");
+    }
+}
+
+#[test]
+fn tolerances_say_when_the_steps_end() {
+    let folder = Folder::new("ba-tolerances");
+    let mut problem = problem(&MultiViewProblemOptions::default());
+    disturb(&mut problem);
+    let file = folder.write("problem.txt", &problem.to_text());
+    for (flag, value, termination) in [
+        // Any step lowers the cost by less than the whole.
+        ("--cost-tolerance", "1", "small-cost-change"),
+        ("--step-tolerance", "1", "small-step"),
+        ("--gradient-tolerance", "1e30", "small-gradient"),
+    ] {
+        let result = json(&["ba", path(&file), flag, value]);
+        assert_eq!(result["termination"], termination, "{flag}");
+        assert!(result["iterations"].as_u64().unwrap() <= 1, "{result}");
+    }
+    for flag in ["--initial-damping", "--loss-width"] {
+        fails(&folder, &["ba", path(&file), flag, "0"], 2, flag);
+    }
 }
 
 #[test]
@@ -279,6 +300,25 @@ fn contradicting_measurements_meet_in_the_middle() {
         (&result["num_vertices"], &result["num_edges"]),
         (&Value::from(4), &Value::from(4))
     );
+}
+
+#[test]
+fn a_wrong_measurement_is_borne_by_a_loss() {
+    let folder = Folder::new("posegraph-loss");
+    // Two say one meter, a third five.
+    let text = format!(
+        "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.2 0 0\n\
+         EDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 5 0 0 {UNIT}\n"
+    );
+    let file = folder.write("three.g2o", &text);
+    let chi2 = |options: &[&str]| {
+        let result = json(&[&["posegraph", path(&file)], options].concat());
+        result["final_chi2"].as_f64().unwrap()
+    };
+    // The mean, 7/3, and the place of the two: the sums of squares are 2 (4/3)² + (8/3)² and 4².
+    assert!((chi2(&[]) - 32.0 / 3.0).abs() < 1e-6);
+    assert!((chi2(&["--loss", "truncated", "--loss-width", "2"]) - 16.0).abs() < 1e-6);
+    assert!((chi2(&["--loss", "truncated", "--loss-width", "9"]) - 32.0 / 3.0).abs() < 1e-6);
 }
 
 #[test]

@@ -76,3 +76,35 @@ fn relative_pose_runs() {
 fn triangulate_runs() {
     triangulate::run().expect("the example runs");
 }
+
+/// What `source` names of other crates than this one, which gives `nalgebra` and `image` along.
+fn foreign(source: &str) -> Vec<String> {
+    let crates = ["arrayvec", "image", "libm", "nalgebra", "rayon"];
+    let mut named = Vec::new();
+    for name in crates.map(|name| format!("{name}::")) {
+        for (at, _) in source.match_indices(&name) {
+            let before = source[..at].chars().next_back();
+            if !before.is_some_and(|c| c.is_alphanumeric() || "_:{".contains(c)) {
+                named.push(name.clone());
+            }
+        }
+    }
+    named
+}
+
+#[test]
+fn an_example_needs_this_crate_alone() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let this = include_str!("examples.rs");
+    let (mut examples, mark) = (0, "#[path = \"../examples/");
+    for line in this.lines().filter_map(|line| line.strip_prefix(mark)) {
+        let file = folder.join(line.trim_end_matches("\"]"));
+        let source = std::fs::read_to_string(&file).expect("the example is there");
+        assert!(source.lines().count() <= 60, "{}", file.display());
+        assert_eq!(foreign(&source), [""; 0], "{}", file.display());
+        examples += 1;
+    }
+    assert_eq!(examples, 10);
+    assert_eq!(foreign("let x = libm::sin(0.0);"), ["libm::"]);
+    assert_eq!(foreign("use epipole::nalgebra::Matrix3;"), [""; 0]);
+}

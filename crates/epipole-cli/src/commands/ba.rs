@@ -4,22 +4,13 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::progress::Progress;
+use crate::refinement::RefinementArguments;
 use crate::report::Report;
-use clap::{Args, ValueEnum};
-use epipole::optim::{LmOptions, RobustLoss, Termination};
+use clap::Args;
+use epipole::optim::Termination;
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{BalProblem, adjust_bal};
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Loss {
-    /// Squares.
-    None,
-    /// Squares near zero, then straight.
-    Huber,
-    /// Grows with the logarithm.
-    Cauchy,
-}
 
 /// Refine the cameras and points of a bundle adjustment problem.
 #[derive(Debug, Args)]
@@ -31,30 +22,22 @@ enum Loss {
 pub(crate) struct Arguments {
     /// A problem in the BAL text format.
     problem: PathBuf,
-    /// How large errors count.
-    #[arg(long, value_enum, default_value = "none")]
-    loss: Loss,
-    /// Steps tried at most.
-    #[arg(long, default_value_t = 200, value_name = "N")]
-    max_iterations: usize,
     /// Write the refined problem here.
     #[arg(short, long, value_name = "OUT.txt")]
     output: Option<PathBuf>,
+    /// Steps tried at most.
+    #[arg(long, default_value_t = 200, value_name = "N")]
+    max_iterations: usize,
+    #[command(flatten)]
+    refinement: RefinementArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let text = files::read_text(&arguments.problem)?;
     let parsed = BalProblem::parse(&text);
     let mut problem = parsed.map_err(|error| Failure::from(error).about(&arguments.problem))?;
-    let options = LmOptions {
-        max_iterations: arguments.max_iterations,
-        ..LmOptions::default()
-    };
-    let loss = match arguments.loss {
-        Loss::None => RobustLoss::Trivial,
-        Loss::Huber => RobustLoss::Huber { width: 1.0 },
-        Loss::Cauchy => RobustLoss::Cauchy { width: 1.0 },
-    };
+    let options = arguments.refinement.options(arguments.max_iterations);
+    let loss = arguments.refinement.loss();
     let progress = Progress::new(context, "bundle adjustment");
     let mut history = Vec::new();
     let report = adjust_bal(&mut problem, &options, loss, &mut |iteration| {

@@ -59,6 +59,9 @@ pub(crate) struct Arguments {
     /// The model of the lens.
     #[arg(long, value_enum, default_value = "brown")]
     model: Model,
+    /// Steps of refinement at most.
+    #[arg(long, default_value_t = CalibrationOptions::default().max_iterations, value_name = "N")]
+    max_iterations: usize,
     /// A file for the result, which `epipole undistort` reads.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -83,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let options = CalibrationOptions {
         lens: arguments.model.into(),
-        ..CalibrationOptions::default()
+        max_iterations: arguments.max_iterations,
     };
     let left = Side::new(&left_paths, &board, &options, context)?;
     let mut fields = left.fields();

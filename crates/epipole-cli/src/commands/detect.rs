@@ -18,13 +18,13 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// A PNG, JPEG or WebP file.
     image: PathBuf,
+    /// Write the photograph with the features marked.
+    #[arg(long, value_name = "FILE.png")]
+    png: Option<PathBuf>,
     #[command(flatten)]
     size: SizeArguments,
     #[command(flatten)]
     features: FeatureArguments,
-    /// Write the photograph with the features marked.
-    #[arg(long, value_name = "FILE.png")]
-    png: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -57,8 +57,6 @@ pub(crate) struct Arguments {
     model: Model,
     /// A text file with one match a line.
     matches: PathBuf,
-    #[command(flatten)]
-    robust: RobustArguments,
     /// Intrinsics of the first camera, for the essential matrix.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
@@ -71,6 +69,8 @@ pub(crate) struct Arguments {
     /// Down in the frame of the second camera.
     #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity")]
     gravity2: Option<Vector3<f64>>,
+    #[command(flatten)]
+    robust: RobustArguments,
 }
 
 /// What was found, whatever the model.

@@ -25,6 +25,9 @@ pub(crate) struct Arguments {
     first: PathBuf,
     /// A PNG, JPEG or WebP file.
     second: PathBuf,
+    /// Write both photographs with lines between the matches.
+    #[arg(long, value_name = "FILE.png")]
+    png: Option<PathBuf>,
     #[command(flatten)]
     camera: CameraFile,
     #[command(flatten)]
@@ -33,9 +36,6 @@ pub(crate) struct Arguments {
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
-    /// Write both photographs with lines between the matches.
-    #[arg(long, value_name = "FILE.png")]
-    png: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -1,18 +1,22 @@
 //! `epipole odometry`: the path of a camera, or of a stereo rig, from its frames.
 
+use super::sfm::growth::AcceptArguments;
 use super::sfm::photos;
 use crate::camera::{CameraArguments, sentence};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
 use crate::known_camera::name;
 use crate::matrices::{Motion, positive};
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::report::Report;
-use clap::Args;
+use crate::robust::RobustArguments;
+use clap::{ArgAction, Args};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::progress::{Stage, Status};
+use epipole::robust::SamplerKind;
 use epipole::sfm::{
     OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
     SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
@@ -25,6 +29,15 @@ use std::path::PathBuf;
 /// Follow a camera, or a stereo rig, through its frames.
 #[derive(Debug, Args)]
 #[command(
+    mut_arg("max_features", |argument| argument.default_value(MAX_FEATURES)),
+    mut_arg("max_error_px", |argument| argument.help(
+        "The largest error of a match of two frames, pixels: Sampson error of E; \"auto\" finds it for each pair from \
+         the noise of its matches"
+    ).default_value("1.5")),
+    mut_arg("max_registration_error_px", |argument| argument.default_value("3")),
+    mut_arg("max_reprojection_error_px", |argument| argument.default_value("2")),
+    mut_arg("min_angle_deg", |argument| argument.default_value("0.3")),
+    mut_arg("min_start_angle_deg", |argument| argument.default_value("1")),
     after_help = "Example: epipole odometry frames/ --k 718.9,718.9,607.2,185.2\n\n\
     Frames are taken in the order of their names. The path of a single camera has no unit of\n\
     length; that of a rectified stereo rig has the unit of its baseline:\n  \
@@ -44,13 +57,38 @@ pub(crate) struct Arguments {
     /// Distance of the two cameras, meters.
     #[arg(long, value_name = "B", value_parser = positive, requires = "right")]
     stereo_baseline_m: Option<f64>,
-    /// At most so many features a frame.
-    #[arg(long, default_value_t = 3000, value_name = "N")]
-    max_features: usize,
+    #[command(flatten)]
+    features: FeatureArguments,
+    #[command(flatten)]
+    matching: MatchArguments,
+    /// Each frame is matched with so many after it, so that a bad pair costs no track; 0 for all.
+    #[arg(long, default_value_t = 4, value_name = "N", help_heading = "Matches")]
+    neighbors: usize,
+    #[command(flatten)]
+    robust: RobustArguments,
+    #[command(flatten)]
+    accept: AcceptArguments,
+    /// Keyframes that are refined together; older ones stay.
+    #[arg(long, default_value_t = OdometryOptions::default().window, value_name = "N", help_heading = "Reconstruction")]
+    window: usize,
+    /// Refine everything once more at the end; --final-adjustment=false for the path as it was followed.
+    #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true", help_heading = "Reconstruction")]
+    final_adjustment: bool,
 }
 
-/// Each frame is matched with so many after it, so that a bad pair costs no track.
-const NEIGHBORS: usize = 4;
+impl Arguments {
+    /// How the path is followed.
+    fn options(&self, context: &Context) -> OdometryOptions {
+        OdometryOptions {
+            sfm: self.accept.options(&self.robust, context),
+            window: self.window,
+            final_adjustment: self.final_adjustment,
+        }
+    }
+}
+
+/// Frames are many and alike: fewer features than of photographs do.
+const MAX_FEATURES: &str = "3000";
 
 /// The shares of the work at which features, and then matches, are done.
 const DETECTED: f64 = 0.5;
@@ -79,11 +117,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         );
         return Err(Failure::new("size-mismatch", message));
     }
-    let mut options = PhotoOptions {
-        neighbors: NEIGHBORS,
-        ..PhotoOptions::default()
+    let options = PhotoOptions {
+        features: arguments.features.options(),
+        matching: arguments.matching.options(),
+        neighbors: arguments.neighbors,
+        best_first: arguments.options(context).sfm.ransac.sampler == SamplerKind::Prosac,
     };
-    options.features.max_features = arguments.max_features;
     let work = Work {
         arguments,
         context,
@@ -205,8 +244,7 @@ impl Work<'_> {
             intrinsics: vec![intrinsics],
             pairs: pairs.ok_or(epipole::Error::Canceled)?,
         };
-        let mut options = OdometryOptions::default();
-        options.sfm.seed = self.context.seed;
+        let options = self.arguments.options(self.context);
         let result = match self.arguments.stereo_baseline_m {
             Some(baseline_m) => stereo_odometry(
                 &input,
@@ -257,4 +295,31 @@ fn report(result: &OdometryResult, paths: &[PathBuf], metric: bool) -> Report {
         .row("keyframes", result.keyframes.len())
         .row("points", result.reconstruction.points.len())
         .row("length of the path", length)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct All {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    #[test]
+    fn what_is_not_said_is_the_default_of_the_core() {
+        let arguments = All::try_parse_from(["epipole", "frames"])
+            .unwrap()
+            .arguments;
+        let context = Context {
+            quiet: true,
+            seed: OdometryOptions::default().sfm.seed,
+        };
+        let (said, core) = (arguments.options(&context), OdometryOptions::default());
+        assert_eq!(format!("{said:?}"), format!("{core:?}"));
+    }
 }

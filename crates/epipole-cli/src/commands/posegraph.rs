@@ -5,9 +5,9 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::progress::Progress;
+use crate::refinement::RefinementArguments;
 use crate::report::Report;
 use clap::Args;
-use epipole::optim::{LmOptions, RobustLoss};
 use epipole::sfm::PoseGraph;
 use std::path::PathBuf;
 
@@ -15,8 +15,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
-    JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information, iterations,\n\
-    termination (why it ended), num_vertices, num_edges."
+    JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information\n\
+    whatever the loss, iterations, termination (why it ended), num_vertices, num_edges."
 )]
 pub(crate) struct Arguments {
     /// A g2o file with poses in the plane, in space, or in space with scale.
@@ -30,6 +30,8 @@ pub(crate) struct Arguments {
     /// Write the optimized graph here.
     #[arg(short, long, value_name = "OUT.g2o")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    refinement: RefinementArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -39,13 +41,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if arguments.initialize {
         graph.initialize()?;
     }
-    let options = LmOptions {
-        max_iterations: arguments.max_iterations,
-        ..LmOptions::default()
-    };
+    let options = arguments.refinement.options(arguments.max_iterations);
+    let loss = arguments.refinement.loss();
     let progress = Progress::new(context, "pose graph");
     let mut watch = |status| progress.show(status);
-    let report = graph.optimize_with_progress(&options, RobustLoss::Trivial, &mut watch)?;
+    let report = graph.optimize_with_progress(&options, loss, &mut watch)?;
     drop(progress);
     if let Some(path) = &arguments.output {
         files::write(path, graph.to_g2o().as_bytes())?;

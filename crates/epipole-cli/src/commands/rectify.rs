@@ -4,7 +4,7 @@ use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
-use crate::matrices::{positive, row_major};
+use crate::matrices::{positive, row_major, share, size};
 use crate::photo::{Photo, check_same_size};
 use crate::report::Report;
 use crate::robust::RobustArguments;
@@ -39,15 +39,24 @@ pub(crate) struct Arguments {
     /// Distance of the two cameras; the unit of Q.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
+    /// 0: zoom in until every pixel was photographed. 1: zoom out until all that was photographed is seen.
+    #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "SHARE", value_parser = share)]
+    alpha: f64,
+    /// The size of the results; that of the photographs if not given. As --alpha it needs known intrinsics.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// Center each photograph on what it shows best, so that infinity has another disparity than 0.
+    #[arg(long)]
+    free_infinity: bool,
+    /// The folder for the rectified photographs.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
     #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
     #[command(flatten)]
     robust: RobustArguments,
-    /// The folder for the rectified photographs.
-    #[arg(short, long, value_name = "FOLDER")]
-    output: PathBuf,
 }
 
 /// How to rectify, whichever way it was found.
@@ -60,6 +69,12 @@ struct Found {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
+    let shaped = arguments.alpha != 0.0 || arguments.size.is_some() || arguments.free_infinity;
+    if shaped && !arguments.camera.is_given() {
+        return Err(Failure::usage(
+            "--alpha, --size and --free-infinity need known intrinsics: give --k or --focal-px",
+        ));
+    }
     let photos = [
         Photo::read(&arguments.first)?,
         Photo::read(&arguments.second)?,
@@ -122,6 +137,11 @@ fn rectify(
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
+        let options = RectifyOptions {
+            alpha: arguments.alpha,
+            size: arguments.size,
+            zero_disparity_at_infinity: !arguments.free_infinity,
+        };
         let camera = |intrinsics| StereoCamera {
             intrinsics,
             distortion: Distortion::default(),
@@ -131,7 +151,7 @@ fn rectify(
             &cam2_from_cam1,
             width,
             height,
-            &RectifyOptions::default(),
+            &options,
         )?;
         return Ok(Found {
             homographies: rectification.homographies,

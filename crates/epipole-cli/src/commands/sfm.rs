@@ -1,6 +1,6 @@
 //! `epipole sfm`: cameras and points from photographs.
 
-mod growth;
+pub(crate) mod growth;
 mod input;
 mod output;
 pub(crate) mod positions;
@@ -51,6 +51,13 @@ use std::path::PathBuf;
     component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
+    /// The folder for the result.
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, with --undistort without distortion), into OUT/images,
+    /// for programs that go on from there. Files that were changed become JPEGs, also by name.
+    #[arg(long)]
+    images: bool,
     #[command(flatten)]
     input: InputArguments,
     #[command(flatten)]
@@ -66,13 +73,6 @@ pub(crate) struct Arguments {
     growth: GrowthArguments,
     #[command(flatten)]
     positions: PositionArguments,
-    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, with --undistort without distortion), into OUT/images,
-    /// for programs that go on from there. Files that were changed become JPEGs, also by name.
-    #[arg(long, help_heading = "Options")]
-    images: bool,
-    /// The folder for the result.
-    #[arg(short, long, value_name = "OUT", help_heading = "Options")]
-    output: PathBuf,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -1,5 +1,8 @@
 //! `epipole stereo`: dense disparity of a rectified pair.
 
+mod knobs;
+
+use self::knobs::{BmArguments, KeepArguments, SgmArguments};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
@@ -8,7 +11,7 @@ use crate::photo::{Photo, check_same_size};
 use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
-use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, fill_gaps, point_cloud, q_from_rig};
+use epipole::stereo::{DisparityImage, fill_gaps, point_cloud, q_from_rig};
 use image::GrayImage;
 use std::path::PathBuf;
 
@@ -58,6 +61,12 @@ pub(crate) struct Arguments {
     /// Distance of the two cameras, meters.
     #[arg(long, value_name = "B", value_parser = positive)]
     baseline_m: Option<f64>,
+    #[command(flatten)]
+    keep: KeepArguments,
+    #[command(flatten)]
+    sgm: SgmArguments,
+    #[command(flatten)]
+    bm: BmArguments,
 }
 
 impl Arguments {
@@ -87,6 +96,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             return Err(failure.about(&arguments.output));
         }
     };
+    let disparities = arguments.disparities()?;
+    match arguments.method {
+        Method::Sgm => arguments.bm.check_silent()?,
+        Method::Bm => arguments.sgm.check_silent()?,
+    }
     let photos = [
         Photo::read(&arguments.left)?,
         Photo::read(&arguments.right)?,
@@ -104,22 +118,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let progress = Progress::new(context, "stereo");
     let mut watch = |status| progress.show(status);
-    let (min_disparity_px, num_disparities) = arguments.disparities()?;
     let mut disparity = match arguments.method {
         Method::Sgm => {
-            let matcher = StereoSgm {
-                min_disparity_px,
-                num_disparities,
-                ..StereoSgm::default()
-            };
+            let matcher = arguments.sgm.matcher(&arguments.keep, disparities);
             matcher.compute_with_progress(&left, &right, &mut watch)?
         }
         Method::Bm => {
-            let matcher = StereoBm {
-                min_disparity_px,
-                num_disparities,
-                ..StereoBm::default()
-            };
+            let matcher = arguments.bm.matcher(&arguments.keep, disparities);
             matcher.compute_with_progress(&left, &right, &mut watch)?
         }
     };

@@ -309,6 +309,31 @@ fn rectified_photographs_share_their_rows() {
         let typical = median(errors.collect());
         assert!(typical < 0.03, "{typical}");
     }
+    // All that was photographed, in a picture of another size.
+    let out = folder.file("all");
+    let base = ["rectify", path(&a), path(&b), "-o", path(&out)];
+    let shape = ["--alpha", "1", "--size", "500x400"];
+    let all = json(&[&base[..], &known, &shape].concat());
+    let h1 = matrix(&all["homography1"]);
+    for (u, v) in [(0.0, 0.0), (639.0, 0.0), (0.0, 479.0), (639.0, 479.0)] {
+        let corner = transfer(&h1, &Point2::new(u, v));
+        let inside = |x: f64, side: f64| (-1.0..=side).contains(&x);
+        assert!(
+            inside(corner.x, 500.0) && inside(corner.y, 400.0),
+            "{corner}"
+        );
+    }
+    let size = image::image_dimensions(out.join("left.png")).unwrap();
+    assert_eq!(size, (500, 400));
+    // Q has the difference of the principal points, which is none where infinity has disparity 0.
+    let [at_zero, free] = [&[][..], &["--free-infinity"]].map(|options| {
+        let q = json(&[&base[..], &known, options].concat());
+        numbers(&q["q"])[15].abs()
+    });
+    assert!(at_zero < 1e-9 && free > 1e-6, "{at_zero} {free}");
+    fails(&folder, &[&base[..], &shape].concat(), 2, "--focal-px");
+    let wrong = [&base[..], &known, &["--alpha", "1.5"]].concat();
+    fails(&folder, &wrong, 2, "a number from 0 to 1");
     let small = folder.blank("small.png", (100, 80));
     let out = folder.file("sizes");
     let arguments = ["rectify", path(&a), path(&small), "-o", path(&out)];

@@ -78,10 +78,9 @@ pub(super) fn reconstruct(
             components: vec![component(&so_far)],
             costs: Vec::new(),
         });
-        // Whoever has had enough says so with the next share.
-        let _ = (progress.borrow_mut())(Told::SoFar(answer.to_bytes()));
+        (progress.borrow_mut())(Told::SoFar(answer.to_bytes()))
     };
-    let found = epipole::sfm::reconstruct_watched(&input, &how, &mut observer, &mut watcher)
+    let found = epipole::sfm::reconstruct_with(&input, &how, &mut observer, &mut watcher)
         .map_err(sentence)?;
     if found.canceled {
         return Err("stopped".to_owned());

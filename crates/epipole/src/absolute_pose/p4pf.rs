@@ -83,7 +83,7 @@ pub fn pose_p4pf(
     pixels: &[Point2<f64>; 4],
     points_in_world: &[Point3<f64>; 4],
     principal: &Point2<f64>,
-) -> ArrayVec<AbsolutePoseWithFocal, MAX_SOLUTIONS> {
+) -> ArrayVec<AbsolutePoseWithFocal, 7> {
     let about = pixels.map(|p| p - principal.coords);
     let points = points_in_world.map(|x| x.coords);
     let mut solutions = ArrayVec::new();

@@ -65,7 +65,7 @@ pub fn essential_6point(
     pixels2: &[Point2<f64>; 6],
     principal1: &Point2<f64>,
     principal2: &Point2<f64>,
-) -> ArrayVec<EssentialWithFocal, MAX_SOLUTIONS> {
+) -> ArrayVec<EssentialWithFocal, 15> {
     let mut solutions = ArrayVec::new();
     solve(
         &pixels1.map(|p| p - principal1.coords),

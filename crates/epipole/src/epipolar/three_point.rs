@@ -58,7 +58,7 @@ pub fn relative_pose_3point(
     rays2: &[Vector3<f64>; 3],
     gravity1: &Vector3<f64>,
     gravity2: &Vector3<f64>,
-) -> ArrayVec<RigidTransform, MAX_SOLUTIONS> {
+) -> ArrayVec<RigidTransform, 4> {
     let mut solutions = ArrayVec::new();
     let Some(upright) = Upright::new(gravity1, gravity2) else {
         return solutions;

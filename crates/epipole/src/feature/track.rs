@@ -95,13 +95,9 @@ pub fn track_lucas_kanade(
 ) -> Result<Vec<Option<Track>>> {
     check(options)?;
     for (what, a, b) in [
+        ("the rows of the two images", first.width(), second.width()),
         (
-            "the widths of the two images",
-            first.width(),
-            second.width(),
-        ),
-        (
-            "the heights of the two images",
+            "the columns of the two images",
             first.height(),
             second.height(),
         ),

@@ -146,8 +146,8 @@ pub struct SfmResult {
 /// Hears of every step and says whether to go on.
 pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmStep) -> ControlFlow<()>;
 
-/// Sees cameras and points while they become more.
-pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction);
+/// Sees cameras and points while they become more, and says whether to go on.
+pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction) -> ControlFlow<()>;
 
 /// Asks the observer, and remembers that it wanted to stop.
 pub(super) struct Reporter<'a> {
@@ -167,17 +167,28 @@ impl Reporter<'_> {
 
     /// Shows what there is so far, which is put together only if somebody watches.
     pub(super) fn show(&mut self, so_far: impl FnOnce() -> Reconstruction) {
-        if let Some(watcher) = &mut self.watcher {
-            watcher(so_far());
+        if let Some(watcher) = &mut self.watcher
+            && !self.canceled
+            && watcher(so_far()).is_break()
+        {
+            self.canceled = true;
         }
     }
 }
 
-pub(super) fn check(input: &SfmInput, options: &SfmOptions) -> Result<Vec<Intrinsics>> {
+/// What is asked for of photographs, as an error of too few says.
+pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
+
+/// * `what`: what is asked for, for the error of too few
+pub(super) fn check(
+    what: &'static str,
+    input: &SfmInput,
+    options: &SfmOptions,
+) -> Result<Vec<Intrinsics>> {
     let count = input.images.len();
     if count < 2 {
         return Err(Error::TooFew {
-            what: "structure from motion from photographs",
+            what,
             needed: 2,
             got: count,
         });
@@ -311,7 +322,7 @@ pub fn reconstruct_with_progress(
 /// As [`reconstruct`].
 ///
 /// Source: as [`reconstruct`].
-pub fn reconstruct_watched(
+pub fn reconstruct_with(
     input: &SfmInput,
     options: &SfmOptions,
     observer: SfmObserver<'_>,
@@ -330,7 +341,7 @@ fn reconstruct_telling(
     options: &SfmOptions,
     mut reporter: Reporter<'_>,
 ) -> Result<SfmResult> {
-    let intrinsics = check(input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, input, options)?;
     let images = &input.images;
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     // Bad indices are found before the work begins.
@@ -361,7 +372,7 @@ pub fn reconstruct_verified(
         intrinsics: intrinsics.to_vec(),
         pairs: Vec::new(),
     };
-    let intrinsics = check(&input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, &input, options)?;
     let views = Views::new(images, &intrinsics, &lenses(images, options));
     let reporter = Reporter {
         observer,

@@ -51,7 +51,7 @@ pub use bundle::{
 pub use export::ColmapModel;
 pub use incremental::{
     SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, SfmWatcher, reconstruct,
-    reconstruct_verified, reconstruct_watched, reconstruct_with_progress,
+    reconstruct_verified, reconstruct_with, reconstruct_with_progress,
 };
 pub use lens::SfmLens;
 pub use loop_closure::{

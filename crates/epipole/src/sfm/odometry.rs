@@ -14,6 +14,9 @@ use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use std::ops::ControlFlow;
 
+/// What is asked for, as an error of too few says.
+const OF_FRAMES: &str = "the path of a camera from frames";
+
 /// How to follow a camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OdometryOptions {
@@ -81,7 +84,7 @@ pub fn monocular_odometry(
     options: &OdometryOptions,
     observer: SfmObserver<'_>,
 ) -> Result<OdometryResult> {
-    let intrinsics = check(input, &options.sfm)?;
+    let intrinsics = check(OF_FRAMES, input, &options.sfm)?;
     follow(input, intrinsics, None, options, observer)
 }
 
@@ -132,7 +135,7 @@ pub fn stereo_odometry(
             why: "the two cameras are at the same place",
         });
     }
-    let mut intrinsics = check(left, &options.sfm)?;
+    let mut intrinsics = check(OF_FRAMES, left, &options.sfm)?;
     let mut input = left.clone();
     input.images.extend(right.iter().cloned());
     intrinsics.resize(2 * num_frames, *right_intrinsics);
@@ -145,7 +148,7 @@ pub fn stereo_odometry(
             matches: matches.clone(),
         });
     }
-    check(&input, &options.sfm)?;
+    check(OF_FRAMES, &input, &options.sfm)?;
     let rig = Sensor {
         sensor_from_camera: *right_from_left,
         intrinsics: *right_intrinsics,

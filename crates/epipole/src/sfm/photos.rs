@@ -1,7 +1,9 @@
 //! The whole way from photographs to a reconstruction.
 
 use super::bundle::PositionPrior;
-use super::incremental::{SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, reconstruct};
+use super::incremental::{
+    OF_PHOTOGRAPHS, SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, reconstruct,
+};
 use super::reconstruction::SfmImage;
 use super::shares::{Begin, Shares};
 use super::tracks::PairMatches;
@@ -247,7 +249,7 @@ pub fn reconstruct_photos(
 ) -> Result<(SfmInput, SfmResult)> {
     if photos.len() < 2 {
         return Err(Error::TooFew {
-            what: "structure from motion from photographs",
+            what: OF_PHOTOGRAPHS,
             needed: 2,
             got: photos.len(),
         });

@@ -1,6 +1,6 @@
 //! Why photographs are missing from a reconstruction.
 
-use super::incremental::{SfmInput, SfmOptions, SfmResult, check, lenses};
+use super::incremental::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, SfmResult, check, lenses};
 use super::two_view_start::{pair_ransac, verify_pair};
 use super::views::Views;
 use crate::Result;
@@ -95,7 +95,7 @@ pub fn why_unregistered(
     options: &SfmOptions,
     result: &SfmResult,
 ) -> Result<Vec<WhyUnregistered>> {
-    let intrinsics = check(input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, input, options)?;
     let views = Views::new(&input.images, &intrinsics, &lenses(&input.images, options));
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;

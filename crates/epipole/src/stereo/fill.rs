@@ -39,12 +39,12 @@ const GRAY_SCALE: f64 = 8.0;
 pub fn fill_gaps(disparity: &DisparityImage, left: &GrayImage) -> Result<DisparityImage> {
     for (what, first, second) in [
         (
-            "the widths of the disparities and the picture",
+            "the rows of the disparities and the picture",
             disparity.width(),
             left.width(),
         ),
         (
-            "the heights of the disparities and the picture",
+            "the columns of the disparities and the picture",
             disparity.height(),
             left.height(),
         ),

@@ -89,12 +89,12 @@ pub fn point_cloud(
     if let Some(colors) = colors {
         for (what, first, second) in [
             (
-                "the widths of the disparities and the colors",
+                "the rows of the disparities and the colors",
                 disparity.width(),
                 colors.width(),
             ),
             (
-                "the heights of the disparities and the colors",
+                "the columns of the disparities and the colors",
                 disparity.height(),
                 colors.height(),
             ),

@@ -117,8 +117,8 @@ impl<'a> RectifiedPair<'a> {
     pub fn new(rig: &'a Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
-            ("the widths of the two photographs", sizes[0].0, sizes[1].0),
-            ("the heights of the two photographs", sizes[0].1, sizes[1].1),
+            ("the rows of the two photographs", sizes[0].0, sizes[1].0),
+            ("the columns of the two photographs", sizes[0].1, sizes[1].1),
         ] {
             if first != second {
                 return Err(Error::SizeMismatch {

@@ -31,13 +31,9 @@ impl<'a> Search<'a> {
         num_disparities: u32,
     ) -> Result<Self> {
         for (what, first, second) in [
+            ("the rows of the two pictures", left.width(), right.width()),
             (
-                "the widths of the two pictures",
-                left.width(),
-                right.width(),
-            ),
-            (
-                "the heights of the two pictures",
+                "the columns of the two pictures",
                 left.height(),
                 right.height(),
             ),

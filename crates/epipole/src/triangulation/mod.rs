@@ -1,12 +1,17 @@
 //! Points from their images in two or more views.
 //!
-//! | method | views | minimizes |
-//! |---|---|---|
-//! | [`triangulate_dlt`] | two | an algebraic error; fast |
-//! | [`triangulate_midpoint`] | two | the distance from both rays, in space |
-//! | [`triangulate_angular`] | two | the angles from both rays |
-//! | [`triangulate_optimal`] | two | the reprojection error |
-//! | [`triangulate_nview`] | two or more | the reprojection error, iteratively |
+//! | method | views | takes | minimizes |
+//! |---|---|---|---|
+//! | [`triangulate_dlt`] | two | projection matrices | an algebraic error; fast |
+//! | [`triangulate_midpoint`] | two | a motion and rays | the distance from both rays, in space |
+//! | [`triangulate_angular`] | two | a motion and rays | the angles from both rays |
+//! | [`triangulate_optimal`] | two | cameras | the reprojection error |
+//! | [`triangulate_nview`] | two or more | cameras | the reprojection error, iteratively |
+//!
+//! Each takes the least that it needs. Reprojection errors need cameras. Rays are enough for distances and angles, so
+//! those methods serve any lens ([`Lens::ray`](crate::camera::Lens::ray)). The linear transform needs no intrinsics, so
+//! it takes matrices that only F gave, too; that of a camera is
+//! [`projection_matrix`](crate::camera::Camera::projection_matrix).
 //!
 //! Cameras that stand at the same place see along the same rays whatever is on them. All methods
 //! answer this with [`Error::Degenerate`](crate::Error::Degenerate), before they look at the pixels.

@@ -71,7 +71,7 @@ struct Search<'a> {
 /// camera that looks straight at a wall, and turns a little while it steps aside.
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the lists differ in length, and as [`TwoViewOptions::check`] and
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) if the lists differ in length, and as [`TwoViewOptions::check`] and
 /// [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §8.4 (what a turn does to pixels); Szeliski 2022, §8.2 (focal lengths from

@@ -16,7 +16,48 @@ enum Lenses {
     Each,
 }
 
-/// What is refined, and what a photograph or a point must have to be accepted.
+/// What a photograph or a point must have to be accepted; of `epipole odometry` too, whose numbers differ.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Reconstruction")]
+pub(crate) struct AcceptArguments {
+    /// Fewest photographs that must see a point which is kept.
+    #[arg(long, default_value_t = SfmOptions::default().min_track_length, value_name = "N")]
+    min_track_length: usize,
+    /// Fewest matches that connect two photographs, and fewest points that place one.
+    #[arg(long, default_value_t = SfmOptions::default().min_num_inliers, value_name = "N")]
+    min_inliers: usize,
+    /// The smallest angle under which a point must be seen, degrees.
+    #[arg(long, default_value_t = SfmOptions::default().min_angle_deg, value_name = "DEG", value_parser = positive)]
+    min_angle_deg: f64,
+    /// The median angle that the two first photographs should have, degrees; less if none have it.
+    #[arg(long, default_value_t = SfmOptions::default().min_start_angle_deg, value_name = "DEG", value_parser = positive)]
+    min_start_angle_deg: f64,
+    /// The largest reprojection error of a point that helps to place a photograph, pixels.
+    #[arg(long, default_value_t = SfmOptions::default().max_registration_error_px, value_name = "PX", value_parser = positive)]
+    max_registration_error_px: f64,
+    /// The largest reprojection error that is kept, pixels.
+    #[arg(long, default_value_t = SfmOptions::default().max_reprojection_error_px, value_name = "PX", value_parser = positive)]
+    max_reprojection_error_px: f64,
+}
+
+impl AcceptArguments {
+    /// The same for the core; what is refined is as usual.
+    pub(crate) fn options(&self, robust: &RobustArguments, context: &Context) -> SfmOptions {
+        SfmOptions {
+            ransac: robust.options(context),
+            max_registration_error_px: self.max_registration_error_px,
+            max_reprojection_error_px: self.max_reprojection_error_px,
+            min_num_inliers: self.min_inliers,
+            min_angle_deg: self.min_angle_deg,
+            min_start_angle_deg: self.min_start_angle_deg,
+            min_track_length: self.min_track_length,
+            seed: context.seed,
+            ..SfmOptions::default()
+        }
+    }
+}
+
+/// What is refined, and what must be accepted.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
@@ -40,24 +81,8 @@ pub(super) struct GrowthArguments {
     /// Refine two terms of tangential distortion for each lens; fisheyes and the division model have none.
     #[arg(long)]
     refine_tangential: bool,
-    /// Fewest photographs that must see a point which is kept.
-    #[arg(long, default_value_t = SfmOptions::default().min_track_length, value_name = "N")]
-    min_track_length: usize,
-    /// Fewest matches that connect two photographs, and fewest points that place one.
-    #[arg(long, default_value_t = SfmOptions::default().min_num_inliers, value_name = "N")]
-    min_inliers: usize,
-    /// The smallest angle under which a point must be seen, degrees.
-    #[arg(long, default_value_t = SfmOptions::default().min_angle_deg, value_name = "DEG", value_parser = positive)]
-    min_angle_deg: f64,
-    /// The median angle that the two first photographs should have, degrees; less if none have it.
-    #[arg(long, default_value_t = SfmOptions::default().min_start_angle_deg, value_name = "DEG", value_parser = positive)]
-    min_start_angle_deg: f64,
-    /// The largest reprojection error of a point that helps to place a photograph, pixels.
-    #[arg(long, default_value_t = SfmOptions::default().max_registration_error_px, value_name = "PX", value_parser = positive)]
-    max_registration_error_px: f64,
-    /// The largest reprojection error that is kept, pixels.
-    #[arg(long, default_value_t = SfmOptions::default().max_reprojection_error_px, value_name = "PX", value_parser = positive)]
-    max_reprojection_error_px: f64,
+    #[command(flatten)]
+    accept: AcceptArguments,
 }
 
 impl GrowthArguments {
@@ -111,19 +136,11 @@ impl GrowthArguments {
         some_unknown: bool,
     ) -> SfmOptions {
         SfmOptions {
-            ransac: robust.options(context),
-            max_registration_error_px: self.max_registration_error_px,
-            max_reprojection_error_px: self.max_reprojection_error_px,
-            min_num_inliers: self.min_inliers,
-            min_angle_deg: self.min_angle_deg,
-            min_start_angle_deg: self.min_start_angle_deg,
             refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
-            min_track_length: self.min_track_length,
             refine_principal_point: self.refine_principal_point,
             refine_distortion: self.refine_distortion,
             refine_tangential: self.refine_tangential,
-            seed: context.seed,
-            ..SfmOptions::default()
+            ..self.accept.options(robust, context)
         }
     }
 }

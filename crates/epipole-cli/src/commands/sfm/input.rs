@@ -3,6 +3,7 @@
 use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::files;
 use crate::known_camera::{name, tell_of_others, tell_of_unseen};
 use crate::lens;
 use crate::photo::{KeptLens, Photo, SizeArguments};
@@ -148,6 +149,9 @@ pub(crate) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut paths = Vec::new();
     for path in given {
         if !path.is_dir() {
+            // Told before files are counted: a name that is wrong is not a list that is too short.
+            path.metadata()
+                .map_err(|error| files::unreadable(path, &error))?;
             paths.push(path.clone());
             continue;
         }

@@ -1,17 +1,17 @@
 //! Pose graphs: poses joined by measured relative poses, loops among them.
 
+mod any;
 mod chordal;
 mod poses;
 
-use super::shares::iterations;
 use crate::optim::{
     EdgeTerms, GraphProblem, GraphSystem, Iteration, LmOptions, RobustLoss, Termination, minimize,
 };
-use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
-use nalgebra::{Isometry2, Isometry3, SMatrix, SVector, Similarity3};
+use nalgebra::{SMatrix, SVector};
 use std::ops::ControlFlow;
 
+pub use any::PoseGraph;
 pub use chordal::{RelativeRotation, average_rotations};
 pub use poses::GraphPose;
 
@@ -249,87 +249,11 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     }
 }
 
-/// A pose graph of any kind, as a file may hold it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum PoseGraph {
-    /// Poses in the plane.
-    Se2(Graph<Isometry2<f64>, 3>),
-    /// Poses in space.
-    Se3(Graph<Isometry3<f64>, 6>),
-    /// Poses in space with a scale each, for trajectories whose scale drifts.
-    Sim3(Graph<Similarity3<f64>, 7>),
-}
-
-impl PoseGraph {
-    /// `χ² = Σ eᵀ Ω e` over all edges.
-    pub fn chi2(&self) -> f64 {
-        match self {
-            PoseGraph::Se2(graph) => graph.chi2(),
-            PoseGraph::Se3(graph) => graph.chi2(),
-            PoseGraph::Sim3(graph) => graph.chi2(),
-        }
-    }
-
-    /// Places the vertices anew, from the measurements alone: see [`Graph::initialize`].
-    ///
-    /// # Errors
-    /// As [`Graph::initialize`].
-    pub fn initialize(&mut self) -> Result<()> {
-        match self {
-            PoseGraph::Se2(graph) => graph.initialize(),
-            PoseGraph::Se3(graph) => graph.initialize(),
-            PoseGraph::Sim3(graph) => graph.initialize(),
-        }
-    }
-
-    /// Moves the vertices to minimize `Σ ρ(eᵀ Ω e)`: see [`Graph::optimize`].
-    ///
-    /// # Errors
-    /// As [`Graph::optimize`].
-    pub fn optimize(
-        &mut self,
-        options: &LmOptions,
-        loss: RobustLoss,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<PoseGraphReport> {
-        match self {
-            PoseGraph::Se2(graph) => graph.optimize(options, loss, observer),
-            PoseGraph::Se3(graph) => graph.optimize(options, loss, observer),
-            PoseGraph::Sim3(graph) => graph.optimize(options, loss, observer),
-        }
-    }
-
-    /// As [`PoseGraph::optimize`], with the same result, telling `progress` what share of the steps that there may
-    /// be at most is done, in the one stage [`Stage::PoseGraph`].
-    ///
-    /// Whoever breaks gets the best graph found so far, as [`PoseGraphReport::termination`] says.
-    ///
-    /// # Errors
-    /// As [`Graph::optimize`].
-    pub fn optimize_with_progress(
-        &mut self,
-        options: &LmOptions,
-        loss: RobustLoss,
-        progress: Progress<'_>,
-    ) -> Result<PoseGraphReport> {
-        let mut tell = iterations(progress, Stage::PoseGraph, options);
-        self.optimize(options, loss, &mut tell)
-    }
-
-    /// Numbers of vertices and edges.
-    pub fn size(&self) -> (usize, usize) {
-        match self {
-            PoseGraph::Se2(graph) => (graph.vertices.len(), graph.edges.len()),
-            PoseGraph::Se3(graph) => (graph.vertices.len(), graph.edges.len()),
-            PoseGraph::Sim3(graph) => (graph.vertices.len(), graph.edges.len()),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::random::Random;
+    use nalgebra::{Isometry2, Isometry3, Similarity3};
     use nalgebra::{Vector2, Vector3};
 
     fn go_on(_: &Iteration) -> ControlFlow<()> {

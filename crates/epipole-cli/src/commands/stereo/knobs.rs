@@ -1,0 +1,274 @@
+//! What the two matchers of `epipole stereo` can be told: each field of theirs is a flag.
+
+use crate::failure::Failure;
+use crate::matrices::not_negative;
+use clap::{Args, ValueEnum};
+use epipole::stereo::{StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Cost {
+    /// The census transform over 5×5 pixels: immune to a change of brightness or contrast.
+    Census,
+    /// Differences of gray values, insensitive to sampling (Birchfield–Tomasi).
+    BirchfieldTomasi,
+    /// The sum of both.
+    Both,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Prefilter {
+    /// The horizontal Sobel derivative.
+    XSobel,
+    /// The difference to the mean of the 9×9 pixels around.
+    LocalMean,
+}
+
+/// Which answers are kept, whichever way they were found.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Answers that are kept")]
+pub(super) struct KeepArguments {
+    /// Percent by which other disparities must be worse, 0 to 99; 0: no such test [default: 3 for SGM, 10 for BM].
+    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(..100))]
+    uniqueness_percent: Option<u32>,
+    /// The largest difference between the disparities seen from the left and from the right, pixels; "any": no such test.
+    #[arg(long, default_value = "1", value_name = "PX|any", value_parser = left_right)]
+    left_right_max_px: LeftRight,
+    /// Answers that hang together in fewer pixels than this are removed.
+    #[arg(long, default_value_t = StereoSgm::default().speckle_size, value_name = "N")]
+    speckle_size: u32,
+    /// Neighbors whose disparities differ by no more than this hang together, pixels.
+    #[arg(long, default_value_t = f64::from(StereoSgm::default().speckle_range_px), value_name = "PX", value_parser = not_negative)]
+    speckle_range_px: f64,
+    /// The longest gap that is closed where the answers at its ends hang together, pixels [default: 16 for SGM, 0 for BM].
+    #[arg(long, value_name = "PX")]
+    max_gap_px: Option<u32>,
+}
+
+/// How far the two directions may disagree; none: as far as they like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct LeftRight(Option<u32>);
+
+fn left_right(text: &str) -> Result<LeftRight, String> {
+    match text {
+        "any" => Ok(LeftRight(None)),
+        _ => (text.parse().map(|px| LeftRight(Some(px))))
+            .map_err(|_| format!("\"{text}\" is neither a number of pixels nor \"any\"")),
+    }
+}
+
+/// Of semi-global matching.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Semi-global matching")]
+pub(super) struct SgmArguments {
+    /// What is compared [default: both].
+    #[arg(long, value_enum)]
+    cost: Option<Cost>,
+    /// The largest cost of a difference of gray values, 1 to 63 [default: 30].
+    #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
+    gray_cap: Option<u8>,
+    /// Directions that smoothness is asked for in: 4, 5 or 8 [default: 8].
+    #[arg(long, value_name = "N", value_parser = paths)]
+    paths: Option<StereoPaths>,
+    /// The penalty for a change of disparity by one between neighbors [default: 20].
+    #[arg(long, value_name = "P1")]
+    small_step_penalty: Option<u8>,
+    /// The penalty for a larger change: at least the small one, at most 150 [default: 100].
+    #[arg(long, value_name = "P2")]
+    large_step_penalty: Option<u8>,
+    /// The difference of gray values between neighbors that halves the penalty of a large change; 0: none does [default: 10].
+    #[arg(long, value_name = "GRAY")]
+    edge_gray: Option<u8>,
+}
+
+fn paths(text: &str) -> Result<StereoPaths, String> {
+    match text {
+        "4" => Ok(StereoPaths::Four),
+        "5" => Ok(StereoPaths::Five),
+        "8" => Ok(StereoPaths::Eight),
+        _ => Err(format!("\"{text}\" is none of 4, 5 and 8")),
+    }
+}
+
+/// Of block matching.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Block matching")]
+pub(super) struct BmArguments {
+    /// The side of the window, pixels, odd [default: 15].
+    #[arg(long, value_name = "PX")]
+    window_px: Option<u32>,
+    /// What is compared [default: x-sobel].
+    #[arg(long, value_enum)]
+    prefilter: Option<Prefilter>,
+    /// What is compared is limited to plus or minus this, 1 to 63 [default: 31].
+    #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
+    prefilter_cap: Option<u8>,
+    /// The smallest mean over a window of what is compared in the left picture; 0: no such test [default: 0.5].
+    #[arg(long, value_name = "GRAY", value_parser = not_negative)]
+    min_texture: Option<f64>,
+}
+
+impl SgmArguments {
+    /// # Errors
+    /// Wrong usage, if something is said of the matcher that is not asked for.
+    pub(super) fn check_silent(&self) -> Result<(), Failure> {
+        let said = [
+            ("--cost", self.cost.is_some()),
+            ("--gray-cap", self.gray_cap.is_some()),
+            ("--paths", self.paths.is_some()),
+            ("--small-step-penalty", self.small_step_penalty.is_some()),
+            ("--large-step-penalty", self.large_step_penalty.is_some()),
+            ("--edge-gray", self.edge_gray.is_some()),
+        ];
+        silent(&said, "sgm")
+    }
+
+    /// The matcher for the core.
+    pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoSgm {
+        let usual = StereoSgm::default();
+        StereoSgm {
+            min_disparity_px: disparities.0,
+            num_disparities: disparities.1,
+            cost: self.cost.map_or(usual.cost, |cost| match cost {
+                Cost::Census => StereoCost::Census,
+                Cost::BirchfieldTomasi => StereoCost::BirchfieldTomasi,
+                Cost::Both => StereoCost::Both,
+            }),
+            gray_cap: self.gray_cap.unwrap_or(usual.gray_cap),
+            paths: self.paths.unwrap_or(usual.paths),
+            small_step_penalty: self.small_step_penalty.unwrap_or(usual.small_step_penalty),
+            large_step_penalty: self.large_step_penalty.unwrap_or(usual.large_step_penalty),
+            edge_gray: self.edge_gray.unwrap_or(usual.edge_gray),
+            uniqueness_percent: keep.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
+            left_right_max_px: keep.left_right_max_px.0,
+            speckle_size: keep.speckle_size,
+            speckle_range_px: keep.speckle_range_px as f32,
+            max_gap_px: keep.max_gap_px.unwrap_or(usual.max_gap_px),
+        }
+    }
+}
+
+impl BmArguments {
+    /// # Errors
+    /// Wrong usage, if something is said of the matcher that is not asked for.
+    pub(super) fn check_silent(&self) -> Result<(), Failure> {
+        let said = [
+            ("--window-px", self.window_px.is_some()),
+            ("--prefilter", self.prefilter.is_some()),
+            ("--prefilter-cap", self.prefilter_cap.is_some()),
+            ("--min-texture", self.min_texture.is_some()),
+        ];
+        silent(&said, "bm")
+    }
+
+    /// The matcher for the core.
+    pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoBm {
+        let usual = StereoBm::default();
+        StereoBm {
+            min_disparity_px: disparities.0,
+            num_disparities: disparities.1,
+            window_px: self.window_px.unwrap_or(usual.window_px),
+            prefilter: (self.prefilter).map_or(usual.prefilter, |prefilter| match prefilter {
+                Prefilter::XSobel => StereoPrefilter::XSobel,
+                Prefilter::LocalMean => StereoPrefilter::LocalMean,
+            }),
+            prefilter_cap: self.prefilter_cap.unwrap_or(usual.prefilter_cap),
+            min_texture: (self.min_texture).map_or(usual.min_texture, |texture| texture as f32),
+            uniqueness_percent: keep.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
+            left_right_max_px: keep.left_right_max_px.0,
+            speckle_size: keep.speckle_size,
+            speckle_range_px: keep.speckle_range_px as f32,
+            max_gap_px: keep.max_gap_px.unwrap_or(usual.max_gap_px),
+        }
+    }
+}
+
+fn silent(said: &[(&str, bool)], method: &str) -> Result<(), Failure> {
+    match said.iter().find(|(_, is_said)| *is_said) {
+        None => Ok(()),
+        Some((flag, _)) => Err(Failure::usage(format!(
+            "{flag} is of --method {method}, which is not the one asked for"
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct All {
+        #[command(flatten)]
+        keep: KeepArguments,
+        #[command(flatten)]
+        sgm: SgmArguments,
+        #[command(flatten)]
+        bm: BmArguments,
+    }
+
+    fn parsed(words: &[&str]) -> All {
+        All::try_parse_from([&["epipole"], words].concat()).unwrap()
+    }
+
+    #[test]
+    fn what_is_not_said_is_the_default_of_the_core() {
+        let all = parsed(&[]);
+        let (sgm, bm) = (StereoSgm::default(), StereoBm::default());
+        let of_sgm = (sgm.min_disparity_px, sgm.num_disparities);
+        assert_eq!(all.sgm.matcher(&all.keep, of_sgm), sgm);
+        let of_bm = (bm.min_disparity_px, bm.num_disparities);
+        assert_eq!(all.bm.matcher(&all.keep, of_bm), bm);
+    }
+
+    #[test]
+    fn every_flag_reaches_its_field() {
+        let words = "--uniqueness-percent 7 --left-right-max-px any --speckle-size 9 --speckle-range-px 1.5 \
+            --max-gap-px 4 --cost census --gray-cap 21 --paths 5 --small-step-penalty 11 --large-step-penalty 90 \
+            --edge-gray 0 --window-px 9 --prefilter local-mean --prefilter-cap 20 --min-texture 2";
+        let all = parsed(&words.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(
+            all.sgm.matcher(&all.keep, (-3, 20)),
+            StereoSgm {
+                min_disparity_px: -3,
+                num_disparities: 20,
+                cost: StereoCost::Census,
+                gray_cap: 21,
+                paths: StereoPaths::Five,
+                small_step_penalty: 11,
+                large_step_penalty: 90,
+                edge_gray: 0,
+                uniqueness_percent: 7,
+                left_right_max_px: None,
+                speckle_size: 9,
+                speckle_range_px: 1.5,
+                max_gap_px: 4,
+            }
+        );
+        assert_eq!(
+            all.bm.matcher(&all.keep, (-3, 20)),
+            StereoBm {
+                min_disparity_px: -3,
+                num_disparities: 20,
+                window_px: 9,
+                prefilter: StereoPrefilter::LocalMean,
+                prefilter_cap: 20,
+                min_texture: 2.0,
+                uniqueness_percent: 7,
+                left_right_max_px: None,
+                speckle_size: 9,
+                speckle_range_px: 1.5,
+                max_gap_px: 4,
+            }
+        );
+    }
+
+    #[test]
+    fn a_knob_of_the_other_matcher_is_told() {
+        assert!(parsed(&[]).sgm.check_silent().is_ok());
+        let told = parsed(&["--paths", "4"]).sgm.check_silent().unwrap_err();
+        assert!(told.message.contains("--paths"), "{}", told.message);
+        assert!(parsed(&["--window-px", "9"]).bm.check_silent().is_err());
+    }
+}

@@ -1,0 +1,91 @@
+//! The options of least squares that commands share: how errors count, and when the steps end.
+
+use crate::matrices::{not_negative, positive};
+use clap::{Args, ValueEnum};
+use epipole::optim::{LmOptions, RobustLoss};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Loss {
+    /// Squares.
+    None,
+    /// Squares near zero, then straight.
+    Huber,
+    /// Grows with the logarithm.
+    Cauchy,
+    /// Squares near zero, then the same for all: outliers do not count.
+    Truncated,
+}
+
+/// How errors count, and when the steps end. How many steps there are at most is each command's own.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Least squares")]
+pub(crate) struct RefinementArguments {
+    /// How large errors count.
+    #[arg(long, value_enum, default_value = "none")]
+    loss: Loss,
+    /// From which error on the loss is no longer a square: pixels, or standard deviations of a measurement.
+    #[arg(long, default_value_t = 1.0, value_name = "W", value_parser = positive)]
+    loss_width: f64,
+    /// Done when no component of the gradient is larger.
+    #[arg(long, default_value = "1e-10", value_name = "G", value_parser = not_negative)]
+    gradient_tolerance: f64,
+    /// Done when a step is shorter than this share of the length of all parameters.
+    #[arg(long, default_value = "1e-10", value_name = "SHARE", value_parser = not_negative)]
+    step_tolerance: f64,
+    /// Done when a step lowers the cost by less than this share.
+    #[arg(long, default_value = "1e-9", value_name = "SHARE", value_parser = not_negative)]
+    cost_tolerance: f64,
+    /// How much the first step is damped, in shares of the diagonal; of a pose graph at most 1e-12.
+    #[arg(long, default_value = "1e-4", value_name = "L", value_parser = positive)]
+    initial_damping: f64,
+    /// How many steps in a row may raise the cost before smaller ones are tried; of a pose graph at least 3.
+    #[arg(long, default_value_t = LmOptions::default().patience, value_name = "N")]
+    patience: usize,
+}
+
+impl RefinementArguments {
+    /// The same for the core.
+    pub(crate) fn options(&self, max_iterations: usize) -> LmOptions {
+        LmOptions {
+            max_iterations,
+            gradient_tolerance: self.gradient_tolerance,
+            step_tolerance: self.step_tolerance,
+            cost_tolerance: self.cost_tolerance,
+            initial_damping: self.initial_damping,
+            patience: self.patience,
+        }
+    }
+
+    /// How errors count.
+    pub(crate) fn loss(&self) -> RobustLoss {
+        let width = self.loss_width;
+        match self.loss {
+            Loss::None => RobustLoss::Trivial,
+            Loss::Huber => RobustLoss::Huber { width },
+            Loss::Cauchy => RobustLoss::Cauchy { width },
+            Loss::Truncated => RobustLoss::Truncated { width },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct All {
+        #[command(flatten)]
+        refinement: RefinementArguments,
+    }
+
+    #[test]
+    fn what_is_not_said_is_the_default_of_the_core() {
+        let all = All::try_parse_from(["epipole"]).unwrap().refinement;
+        let core = LmOptions::default();
+        assert_eq!(all.options(core.max_iterations), core);
+        assert_eq!(all.loss(), RobustLoss::default());
+    }
+}

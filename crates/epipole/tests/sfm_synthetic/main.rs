@@ -1,0 +1,6 @@
+//! Structure from motion and odometry on made worlds, where the truth is known.
+
+mod along_the_way;
+mod odometry;
+mod reconstruction;
+mod world;
