@@ -114,9 +114,9 @@ async function shown(engine) {
   const base64 = await ofPhotograph();
   await engine.open(`${server.origin}/course/${OWN}`);
   await engine.run(ready, 0);
-  const dropped = await engine.run(dropPhotograph, { index: 0, base64 });
+  const note = await engine.run(dropPhotograph, { index: 0, base64 });
   const { readouts } = await engine.run(look, 0);
-  return { ...dropped, readouts };
+  return { note, readouts };
 }
 const shownByReference = once(() => shown(reference));
 
