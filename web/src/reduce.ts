@@ -40,6 +40,7 @@ export async function reduced(
   for (let top = 0; top < photograph.height; top += canvas.height) {
     if (top > 0) await new Promise((resolve) => setTimeout(resolve));
     if (!wanted()) return undefined;
+    context.fillRect(0, 0, canvas.width, canvas.height);
     context.drawImage(photograph, 0, -top);
     const strip = Math.min(canvas.height, photograph.height - top);
     const { data } = context.getImageData(0, 0, photograph.width, strip);
