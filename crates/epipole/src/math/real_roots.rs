@@ -14,6 +14,12 @@ const ROUNDING: f64 = 1e-14;
 /// a root near zero.
 const MAX_STEPS: usize = 1200;
 
+/// The last step to a root, relative to it.
+const LAST: f64 = 4.0 * f64::EPSILON;
+/// Newton's last step to a root of a derivative: what is left is the square of it, and an extremum's value hears
+/// the square of that.
+const LAST_OF_DERIVATIVES: f64 = 1e-6;
+
 /// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were written.
 ///
 /// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the polynomial, the
@@ -164,7 +170,14 @@ fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
             if from.1 == 0.0 {
                 crossings.push(from.0);
             } else if from.1 * to.1 < 0.0 {
-                crossings.push(root_between(c, slope, DEGREE - k, from, to));
+                crossings.push(root_between(
+                    c,
+                    slope,
+                    DEGREE - k,
+                    LAST_OF_DERIVATIVES,
+                    from,
+                    to,
+                ));
             }
         });
         extrema = crossings;
@@ -181,7 +194,7 @@ fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
             roots.push(from.0);
         }
         if crosses {
-            roots.push(root_between(c, &derivatives[1], DEGREE, from, to));
+            roots.push(root_between(c, &derivatives[1], DEGREE, LAST, from, to));
         }
         crossed = crosses;
     });
@@ -210,10 +223,12 @@ fn monotone_parts(
 /// the interval or is slow.
 ///
 /// * `derivative`: of the polynomial `c`
+/// * `last_of_newton`: a step of Newton's method that is this share of the root is the last
 fn root_between(
     c: &Row,
     derivative: &Row,
     degree: usize,
+    last_of_newton: f64,
     (mut low, at_low): (f64, f64),
     (mut high, _): (f64, f64),
 ) -> f64 {
@@ -231,13 +246,13 @@ fn root_between(
         }
         let newton = x - value / slope;
         let is_quick = (newton - x).abs() <= 0.5 * last_step;
-        let next = if newton > low && newton < high && is_quick {
-            newton
+        let (next, enough) = if newton > low && newton < high && is_quick {
+            (newton, last_of_newton)
         } else {
-            0.5 * (low + high)
+            (0.5 * (low + high), LAST)
         };
         let step = (next - x).abs();
-        if step <= 4.0 * f64::EPSILON * next.abs() || next <= low || next >= high {
+        if step <= enough * next.abs() || next <= low || next >= high {
             return next;
         }
         last_step = step;
