@@ -69,6 +69,12 @@ for (const name of pages) {
       // What is not laid out yet has no width.
       await expect(page.locator("article > section:not(.settled)")).toHaveCount(0);
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+      const cutOff = await page.locator(".formula").evaluateAll((formulas) => {
+        for (const folded of document.querySelectorAll("details")) folded.open = true;
+        const wide = formulas.filter((formula) => formula.scrollWidth > formula.clientWidth);
+        return wide.map((formula) => formula.querySelector("annotation")?.textContent);
+      });
+      expect(cutOff, "formulas that are cut off").toEqual([]);
       await context.close();
     });
   });

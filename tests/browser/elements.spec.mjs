@@ -199,6 +199,33 @@ test("a photograph of one's own is taken, made smaller, and goes nowhere", async
   await expect(figure.locator(".notice")).toContainText("letter.txt is not a photograph");
 });
 
+test("what is transparent in a photograph is black, from top to bottom", async ({ page, open }) => {
+  const seen = [];
+  for (const ground of ["transparent", "black"]) {
+    const url = await page.evaluate((ground) => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [1600, 2000];
+      const context = canvas.getContext("2d");
+      context.fillStyle = ground;
+      context.fillRect(0, 0, 1600, 2000);
+      context.fillStyle = "#dd8844";
+      for (let row = 0; row < 9; row += 1) context.fillRect(100 + 130 * row, 60 + 210 * row, 300, 70 + 11 * row);
+      return canvas.toDataURL("image/png");
+    }, ground);
+    const figure = await open(page, [own]);
+    const before = await told(figure);
+    await figure.locator("input[type=file]").first().setInputFiles({
+      name: "stairs.png",
+      mimeType: "image/png",
+      buffer: Buffer.from(url.split(",")[1], "base64"),
+    });
+    await expect(figure.locator(".photo .note").first()).toContainText("Made smaller");
+    await expect.poll(async () => (await told(figure)).readouts).not.toEqual(before.readouts);
+    seen.push(await figure.evaluate((element) => element.toPng().then((blob) => blob.text())));
+  }
+  expect(seen[0] === seen[1], "the same picture on either ground").toBe(true);
+});
+
 test("a photograph that is too narrow is told by its name, as it is and as it would be", async ({ page, open }) => {
   const figure = await open(page, [own]);
   const before = await told(figure);

@@ -1,6 +1,7 @@
 // What a page does to figures while they live: it chooses, glides, renames, moves and interrupts.
 
 import { expect, expectAccessible, figures, gripOf, hear, heard, ready, settled, test, told } from "./fixtures.mjs";
+import { holds, keepMemory } from "./measure.mjs";
 import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
@@ -282,24 +283,8 @@ test.describe("the life of an element", () => {
 
   test("500 renames and 500 re-attachments leave memory and listeners level", async ({ page, open }) => {
     test.setTimeout(240_000);
-    await page.addInitScript(() => {
-      const real = WebAssembly.instantiate;
-      WebAssembly.instantiate = async (...args) => {
-        const made = await real(...args);
-        window.memory = made.exports.memory;
-        return made;
-      };
-    });
+    await keepMemory(page);
     const figure = await open(page, ["ransac-race"]);
-    const devtools = await page.context().newCDPSession(page);
-    await devtools.send("Performance.enable");
-    const measure = async () => {
-      for (let round = 0; round < 3; round += 1) await devtools.send("HeapProfiler.collectGarbage");
-      const { metrics } = await devtools.send("Performance.getMetrics");
-      const of = (name) => metrics.find((metric) => metric.name === name).value;
-      const wasm = await page.evaluate(() => window.memory.buffer.byteLength);
-      return { listeners: of("JSEventListeners"), nodes: of("Nodes"), heap: of("JSHeapUsedSize"), wasm };
-    };
     const rename = (times) =>
       figure.evaluate(async (element, count) => {
         const names = ["ransac-budget", "harris", "four-poses", "ransac-race"];
@@ -319,14 +304,33 @@ test.describe("the life of an element", () => {
       }, times);
     await rename(20);
     await attach(20);
-    const before = await measure();
+    const before = await holds(page);
     await rename(500);
     await attach(500);
-    const after = await measure();
+    const after = await holds(page);
     expect(after.listeners - before.listeners).toBeLessThanOrEqual(20);
     expect(after.nodes - before.nodes).toBeLessThanOrEqual(200);
     expect(after.wasm - before.wasm).toBeLessThanOrEqual(1 << 20);
     expect(after.heap - before.heap).toBeLessThanOrEqual(4 << 20);
+  });
+
+  test("glides that had nowhere to scroll to wait for no end of it", async ({ page, open }) => {
+    await page.emulateMedia({ reducedMotion: "no-preference" });
+    const figure = await open(page, ["ransac-race"]);
+    // The picture covers all of the window, so it is never within it and there is nowhere to go.
+    await page.setViewportSize({ width: 700, height: 180 });
+    await figure.evaluate((element) => {
+      addEventListener("scrollend", (event) => event.stopImmediatePropagation(), true);
+      scrollBy(0, element.shadowRoot.querySelector(".picture").getBoundingClientRect().top + 20);
+    });
+    const glide = (times) =>
+      figure.evaluate(async (element, count) => {
+        for (let turn = 0; turn < count; turn += 1) await element.glide({ outliers: 0.1 * (turn % 5) }, { duration: 20 });
+      }, times);
+    await glide(1);
+    const before = await holds(page);
+    await glide(6);
+    expect((await holds(page)).listeners).toBeLessThanOrEqual(before.listeners);
   });
 
   test("a figure that has just said that its link is copied goes with its name", async ({ page, open, context }) => {

@@ -13,7 +13,7 @@ import { bindings, book, elements, loadBindings } from "../browser/places.mjs";
 import { modulesAt, playInPage, playNatively, write } from "../browser/scripts.mjs";
 import { serve } from "../browser/server.mjs";
 import { chromium, firefox, webkit } from "./drivers.mjs";
-import { badlySet, figuresOf, look, ready, takeHold } from "./steps.mjs";
+import { badlySet, drawPhotograph, dropPhotograph, figuresOf, look, ready, takeHold } from "./steps.mjs";
 
 const ENGINES = { firefox, webkit };
 /** What hangs is red before it takes the time of everything after it, milliseconds. */
@@ -26,6 +26,8 @@ const pages = readdirSync(book)
   .filter((name) => name.endsWith(".html") && name !== "404.html" && name.includes(process.env.PAGES ?? ""))
   .sort((a, b) => Number(a === LAST) - Number(b === LAST));
 const plans = plan();
+/** A page whose first figure takes photographs of the reader's own. */
+const OWN = "corners.html";
 
 const { Figure, figures } = await loadBindings();
 const names = JSON.parse(figures()).map(({ name }) => name);
@@ -106,6 +108,18 @@ const ofReference = once((page) => {
   return said;
 });
 
+/** A photograph of the reader's own, and what an engine sees of it in the first figure that takes one. */
+const ofPhotograph = once(() => reference.open(`${server.origin}/course/${OWN}`).then(() => reference.run(drawPhotograph)));
+async function shown(engine) {
+  const base64 = await ofPhotograph();
+  await engine.open(`${server.origin}/course/${OWN}`);
+  await engine.run(ready, 0);
+  const note = await engine.run(dropPhotograph, { index: 0, base64 });
+  const { readouts } = await engine.run(look, 0);
+  return { note, readouts };
+}
+const shownByReference = once(() => shown(reference));
+
 const nativeOf = once((name) => playNatively([write(Figure, name, LOOK)])[0]);
 
 const engineTests = (key) =>
@@ -139,6 +153,12 @@ const engineTests = (key) =>
         }
       }));
     }
+
+    test("a photograph of one's own has the pixels that it has in Chromium", { timeout: ONE_MS }, (report) => surviving(report, async () => {
+      const expected = await shownByReference();
+      assert.match(expected.note, /Made smaller, from 1531 × 1097/);
+      assert.deepEqual(await shown(engine), expected);
+    }));
 
     for (const page of pages) {
       test(`${page}: its figures answer to keys as in Chromium, and permalinks bring states back`, { timeout: ONE_MS }, (report) => surviving(report, async () => {

@@ -49,6 +49,40 @@ export async function look(index) {
   };
 }
 
+/** The bytes of a JPEG file larger than figures take, in base 64: fine stripes, colors and slanted edges. */
+export async function drawPhotograph() {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [1531, 1097];
+  const context = canvas.getContext("2d");
+  for (let band = 0; band < 400; band += 1) {
+    context.fillStyle = `hsl(${(band * 47) % 360} 60% ${20 + ((band * 31) % 60)}%)`;
+    context.save();
+    context.translate((band * 389) % 1531, (band * 241) % 1097);
+    context.rotate(band);
+    context.fillRect(-60, -1 - (band % 9), 120, 2 + 2 * (band % 9));
+    context.restore();
+  }
+  return canvas.toDataURL("image/jpeg", 0.8).split(",")[1];
+}
+
+/** Drops a photograph onto a figure. Returns what stands beside the input then. */
+export async function dropPhotograph({ index, base64 }) {
+  const figure = document.querySelectorAll("epipole-figure")[index];
+  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([bytes], "desk.jpg", { type: "image/jpeg" }));
+  const picture = figure.shadowRoot.querySelector(".picture");
+  const drop = new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true, composed: true });
+  // Not every engine lets a script say what was dropped.
+  if (!drop.dataTransfer) Object.defineProperty(drop, "dataTransfer", { value: dataTransfer });
+  picture.dispatchEvent(drop);
+  const note = figure.shadowRoot.querySelector(".photo .note");
+  for (let tries = 0; tries < 1200 && !note.textContent.includes("pixels"); tries += 1) {
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  return note.textContent;
+}
+
 /** Formulas whose punctuation hangs over the letter before, and those after which a line begins with a comma or the like. */
 export async function badlySet() {
   // What is folded away or far off has no place on the page.

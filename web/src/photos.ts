@@ -6,6 +6,7 @@
 import type { PhotoSlot } from "./contract.js";
 import { make } from "./dom.js";
 import { focalOf, HEAD_BYTES, isCutOff } from "./exif.js";
+import { reduced } from "./reduce.js";
 
 export interface Photo {
   width: number;
@@ -132,14 +133,18 @@ export class Photos {
       return;
     }
     const head = await file.slice(0, HEAD_BYTES).arrayBuffer();
+    const [few, low] = smaller(bitmap, slot.max_side_px);
     // A large photograph takes longer than a small one that was chosen after it.
-    const photo = turn === row.chosen ? shrink(bitmap, slot.max_side_px) : undefined;
+    const rgba = await reduced(bitmap, few, low, () => turn === row.chosen);
     const { width, height } = bitmap;
     bitmap.close();
-    if (!photo) return;
-    photo.focal = focalOf(head, width, height);
-    const [whole, now] = [`${width} × ${height}`, `${photo.width} × ${photo.height}`];
-    const refused = this.#hooks.take(slot.id, photo);
+    if (turn !== row.chosen) return;
+    if (!rgba) {
+      this.#hooks.warn(`This browser has no memory for ${file.name}: it has ${width} × ${height} pixels. Try a smaller copy.`);
+      return;
+    }
+    const [whole, now] = [`${width} × ${height}`, `${few} × ${low}`];
+    const refused = this.#hooks.take(slot.id, { width: few, height: low, rgba, focal: focalOf(head, width, height) });
     if (refused !== undefined) {
       // The reader knows the photograph by its name and its own size. What is wanted stands behind the colon.
       const wanted = refused.split(": it ").at(-1) ?? refused;
@@ -155,16 +160,8 @@ export class Photos {
   }
 }
 
-/** The pixels of a photograph, no side longer than `most`. */
-function shrink(bitmap: ImageBitmap, most: number): Photo | undefined {
-  const scale = Math.min(1, most / Math.max(bitmap.width, bitmap.height));
-  const width = Math.max(1, Math.round(bitmap.width * scale));
-  const height = Math.max(1, Math.round(bitmap.height * scale));
-  const canvas = make("canvas", { width, height });
-  const context = canvas.getContext("2d", { willReadFrequently: true });
-  if (!context) return undefined;
-  context.imageSmoothingQuality = "high";
-  context.drawImage(bitmap, 0, 0, width, height);
-  const { data } = context.getImageData(0, 0, width, height);
-  return { width, height, rgba: new Uint8Array(data.buffer) };
+/** How large a photograph is made: no side longer than `most`. */
+function smaller({ width, height }: ImageBitmap, most: number): [width: number, height: number] {
+  const scale = Math.min(1, most / Math.max(width, height));
+  return [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
 }

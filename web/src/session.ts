@@ -229,16 +229,28 @@ export class Session {
     if (this.#stale && !this.#held && (!this.#prepare(HURRY_MS) || performance.now() - start > SLICE_MS)) {
       // All at once would block the page: meanwhile the poster stands there, and all else is live.
       if (this.#hasPoster && this.#changed) this.#tell(false);
-      setTimeout(() => this.#want());
+      // The first drawing takes longest, and is no part of the frame that shows it.
+      setTimeout(() => (this.#prepared ? this.#drawBetweenFrames() : this.#want()));
       return;
     }
     const running = this.#inSight && !this.#frozen && this.ask((engine) => engine.running) === true;
     if (running) this.#pass(now);
     else this.#lastTick = undefined;
     if (this.#ended) return;
-    if (this.#stale) this.#draw();
+    const drawn = this.#stale;
+    if (drawn) this.#draw();
     if (running) this.#want();
-    else if (this.#rough && this.#inSight && !this.#held) this.#refineAfterRest(now);
+    else if (this.#rough && this.#inSight && !this.#held) {
+      // A frame that has drawn has done enough.
+      if (drawn) this.#want();
+      else this.#refineAfterRest(now);
+    }
+  }
+
+  #drawBetweenFrames(): void {
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+    if (!this.#ended && this.#width > 0) this.#onFrame(performance.now());
   }
 
   /** Prepares the first picture for so long, milliseconds; whether all that it needs is there. */

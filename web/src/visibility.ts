@@ -74,11 +74,13 @@ export async function bringIntoView(element: Element): Promise<void> {
   }
   if (still) return;
   await new Promise<void>((resolve) => {
-    const timer = setTimeout(resolve, SCROLL_MS);
     const done = () => {
       clearTimeout(timer);
+      // Where nothing was left to scroll no end comes, and who waits for it would wait with every glide.
+      removeEventListener("scrollend", done, true);
       resolve();
     };
-    addEventListener("scrollend", done, { once: true, capture: true });
+    const timer = setTimeout(done, SCROLL_MS);
+    addEventListener("scrollend", done, true);
   });
 }

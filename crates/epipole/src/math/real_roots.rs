@@ -14,6 +14,12 @@ const ROUNDING: f64 = 1e-14;
 /// a root near zero.
 const MAX_STEPS: usize = 1200;
 
+/// The last step to a root, relative to it.
+const LAST: f64 = 4.0 * f64::EPSILON;
+/// Newton's last step to a root of a derivative: what is left is the square of it, and an extremum's value hears
+/// the square of that.
+const LAST_OF_DERIVATIVES: f64 = 1e-6;
+
 /// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were written.
 ///
 /// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the polynomial, the
@@ -34,7 +40,7 @@ pub(crate) fn real_roots(c: &[f64; DEGREE + 1], noise: f64, roots: &mut [f64; DE
     let mut outer = inner;
     outer.reverse();
     // The same numbers for both, so that a root near an end is on one side of it.
-    let at_ends = [-1.0, 1.0].map(|x| value(&inner, x));
+    let at_ends = [-1.0, 1.0].map(|x| value(&inner, DEGREE, x));
     let (near, far) = (
         roots_within(&inner, at_ends, noise),
         roots_within(&outer, at_ends, noise),
@@ -98,10 +104,27 @@ impl Ascending {
     }
 }
 
-fn value(c: &[f64], x: f64) -> f64 {
-    c.iter().rev().fold(0.0, |sum, c| sum * x + c)
+/// A polynomial, with zeros for the powers that it does not have.
+type Row = [f64; DEGREE + 1];
+
+/// The value of a polynomial of at most this degree, by Estrin's scheme: it has four sums on its way where Horner's has
+/// ten, one waiting for the other.
+#[inline(always)]
+fn value(c: &Row, degree: usize, x: f64) -> f64 {
+    let x2 = x * x;
+    let four = |i: usize| (c[i] + c[i + 1] * x) + (c[i + 2] + c[i + 3] * x) * x2;
+    if degree < 4 {
+        return four(0);
+    }
+    let x4 = x2 * x2;
+    let eight = four(0) + four(4) * x4;
+    if degree < 8 {
+        return eight;
+    }
+    eight + ((c[8] + c[9] * x) + c[10] * x2) * (x4 * x4)
 }
 
+#[cfg(test)]
 pub(super) fn value_and_slope(c: &[f64], x: f64) -> (f64, f64) {
     let (mut value, mut slope) = (0.0, 0.0);
     for c in c.iter().rev() {
@@ -116,9 +139,9 @@ pub(super) fn size_of_terms(c: &[f64], x: f64) -> f64 {
 }
 
 /// The roots in (−1, 1), given the values at its ends.
-fn roots_within(c: &[f64; DEGREE + 1], at_ends: [f64; 2], noise: f64) -> Ascending {
+fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
     // The derivatives: row k has degree 10 − k.
-    let mut derivatives = [[0.0; DEGREE + 1]; DEGREE - 1];
+    let mut derivatives: [Row; DEGREE - 1] = [[0.0; DEGREE + 1]; DEGREE - 1];
     derivatives[0] = *c;
     for k in 1..DEGREE - 1 {
         for i in 1..=DEGREE + 1 - k {
@@ -140,14 +163,21 @@ fn roots_within(c: &[f64; DEGREE + 1], at_ends: [f64; 2], noise: f64) -> Ascendi
         }
     }
     for k in (1..DEGREE - 2).rev() {
-        let c = &derivatives[k][..=DEGREE - k];
-        let at_ends = [-1.0, 1.0].map(|x| value(c, x));
+        let [c, slope] = [&derivatives[k], &derivatives[k + 1]];
+        let at_ends = [-1.0, 1.0].map(|x| value(c, DEGREE - k, x));
         let mut crossings = none;
-        monotone_parts(c, at_ends, &extrema, |from, to| {
+        monotone_parts(c, DEGREE - k, at_ends, &extrema, |from, to| {
             if from.1 == 0.0 {
                 crossings.push(from.0);
             } else if from.1 * to.1 < 0.0 {
-                crossings.push(root_between(c, from, to));
+                crossings.push(root_between(
+                    c,
+                    slope,
+                    DEGREE - k,
+                    LAST_OF_DERIVATIVES,
+                    from,
+                    to,
+                ));
             }
         });
         extrema = crossings;
@@ -155,7 +185,7 @@ fn roots_within(c: &[f64; DEGREE + 1], at_ends: [f64; 2], noise: f64) -> Ascendi
     let mut roots = none;
     // Whether the part to the left of an extremum has a root.
     let mut crossed = true;
-    monotone_parts(c, at_ends, &extrema, |from, to| {
+    monotone_parts(c, DEGREE, at_ends, &extrema, |from, to| {
         let crosses = from.1 * to.1 < 0.0;
         let is_extremum = from.0 > -1.0;
         if from.1 == 0.0 && is_extremum
@@ -164,7 +194,7 @@ fn roots_within(c: &[f64; DEGREE + 1], at_ends: [f64; 2], noise: f64) -> Ascendi
             roots.push(from.0);
         }
         if crosses {
-            roots.push(root_between(c, from, to));
+            roots.push(root_between(c, &derivatives[1], DEGREE, LAST, from, to));
         }
         crossed = crosses;
     });
@@ -174,14 +204,15 @@ fn roots_within(c: &[f64; DEGREE + 1], at_ends: [f64; 2], noise: f64) -> Ascendi
 /// Shows the parts of [−1, 1] between extrema: where each begins and ends, with the values there.
 #[inline(always)]
 fn monotone_parts(
-    c: &[f64],
+    c: &Row,
+    degree: usize,
     at_ends: [f64; 2],
     extrema: &Ascending,
     mut part: impl FnMut((f64, f64), (f64, f64)),
 ) {
     let mut from = (-1.0, at_ends[0]);
     for &x in extrema.slice() {
-        let to = (x, value(c, x));
+        let to = (x, value(c, degree, x));
         part(from, to);
         from = to;
     }
@@ -190,11 +221,21 @@ fn monotone_parts(
 
 /// The root between two places where the signs differ: Newton's method, with halving where it would leave
 /// the interval or is slow.
-fn root_between(c: &[f64], (mut low, at_low): (f64, f64), (mut high, _): (f64, f64)) -> f64 {
+///
+/// * `derivative`: of the polynomial `c`
+/// * `last_of_newton`: a step of Newton's method that is this share of the root is the last
+fn root_between(
+    c: &Row,
+    derivative: &Row,
+    degree: usize,
+    last_of_newton: f64,
+    (mut low, at_low): (f64, f64),
+    (mut high, _): (f64, f64),
+) -> f64 {
     let mut x = 0.5 * (low + high);
     let mut last_step = high - low;
     for _ in 0..MAX_STEPS {
-        let (value, slope) = value_and_slope(c, x);
+        let (value, slope) = (value(c, degree, x), value(derivative, degree - 1, x));
         if value == 0.0 {
             return x;
         }
@@ -205,13 +246,13 @@ fn root_between(c: &[f64], (mut low, at_low): (f64, f64), (mut high, _): (f64, f
         }
         let newton = x - value / slope;
         let is_quick = (newton - x).abs() <= 0.5 * last_step;
-        let next = if newton > low && newton < high && is_quick {
-            newton
+        let (next, enough) = if newton > low && newton < high && is_quick {
+            (newton, last_of_newton)
         } else {
-            0.5 * (low + high)
+            (0.5 * (low + high), LAST)
         };
         let step = (next - x).abs();
-        if step <= 4.0 * f64::EPSILON * next.abs() || next <= low || next >= high {
+        if step <= enough * next.abs() || next <= low || next >= high {
             return next;
         }
         last_step = step;
