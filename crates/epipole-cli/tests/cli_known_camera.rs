@@ -1,4 +1,4 @@
-//! `epipole two-view` and `match` of photographs by a known camera, whatever its lens.
+//! `epipole two-view`, `match` and `rectify` of photographs by a known camera, whatever its lens.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -227,6 +227,50 @@ fn matches_tell_the_rays_of_their_keypoints() {
     assert!(!said(&["match", a, b]).contains("lens"));
 }
 
+/// What is matched in the results is in one row.
+#[test]
+fn every_lens_is_rectified() {
+    for kind in KINDS {
+        let folder = Folder::new(&format!("known-rectify-{}", kind.name()));
+        let camera = camera(kind);
+        let files = pair(
+            &folder,
+            table(&camera).map(|pose| photograph(&camera, &pose)),
+        );
+        let file = write(&folder, &camera);
+        let out = folder.file("out");
+        let [a, b] = files.each_ref().map(|file| path(file));
+        let rectified = json(&[
+            "rectify",
+            a,
+            b,
+            "--camera",
+            path(&file),
+            "--max-error-px",
+            "1",
+            "--alpha",
+            "0.2",
+            "--free-infinity",
+            "-o",
+            path(&out),
+        ]);
+        assert_eq!(numbers(&rectified["q"]).len(), 16, "{kind:?}");
+        let [left, right] = ["left.png", "right.png"].map(|name| out.join(name));
+        let found = json(&["match", path(&left), path(&right)]);
+        let row = |side: &str, place: &Value| {
+            let place = place.as_f64().unwrap() as usize;
+            numbers(&found[side][place])[1]
+        };
+        let mut off_px: Vec<f64> = (found["matches"].as_array().unwrap().iter())
+            .map(|m| (row("keypoints1", &m[0]) - row("keypoints2", &m[1])).abs())
+            .collect();
+        off_px.sort_by(f64::total_cmp);
+        assert!(off_px.len() > 40, "{kind:?}: {}", off_px.len());
+        let median_px = off_px[off_px.len() / 2];
+        assert!(median_px < 0.6, "{kind:?}: {median_px}");
+    }
+}
+
 #[test]
 fn cameras_that_do_not_fit_get_a_sentence() {
     let folder = Folder::new("known-bad");
@@ -245,6 +289,12 @@ fn cameras_that_do_not_fit_get_a_sentence() {
     );
     with("two-view", &["--focal-px", "100"], 2, "--focal-px");
     with("two-view", &["--k", "1,1,0,0"], 2, "--k");
+    with(
+        "rectify",
+        &["-o", "out", "--focal-px", "100"],
+        2,
+        "--focal-px",
+    );
     let small = ["c.png", "d.png"].map(|name| folder.blank(name, (100, 80)));
     for command in ["two-view", "match"] {
         let [c, d] = small.each_ref().map(|file| path(file));

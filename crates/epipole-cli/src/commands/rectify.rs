@@ -1,11 +1,14 @@
 //! `epipole rectify`: two photographs turned so that matches share a row.
 
+mod lenses;
+
 use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
+use crate::known_camera::CameraFile;
 use crate::matrices::{positive, row_major, share, size};
-use crate::photo::{Photo, check_same_size};
+use crate::photo::{Photo, SizeArguments, check_same_size};
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use crate::turn::{self, find_turn, left_open};
@@ -23,9 +26,10 @@ use std::path::PathBuf;
 /// Rectify two photographs, with or without known cameras.
 #[derive(Debug, Args)]
 #[command(
+    mut_arg("camera_file", |argument| argument.conflicts_with_all(["k", "k2", "focal_px"])),
     after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
-    Writes left.png and right.png. Without --k or --focal-px the shapes are free up to a\n\
-    projective map, and no Q is given.\n\n\
+    Writes left.png and right.png. Without --camera, --k or --focal-px the shapes are free up\n\
+    to a projective map, and no Q is given.\n\n\
     JSON: homography1 and homography2 (9 numbers row by row), q (16 numbers row by row, or null),\n\
     num_inliers (matches that agree), files (those written)."
 )]
@@ -36,6 +40,8 @@ pub(crate) struct Arguments {
     second: PathBuf,
     #[command(flatten)]
     camera: PairArguments,
+    #[command(flatten)]
+    known: CameraFile,
     /// Distance of the two cameras; the unit of Q.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
@@ -67,18 +73,27 @@ struct Found {
     num_inliers: usize,
 }
 
+impl Arguments {
+    /// How the results are to be.
+    fn shape(&self) -> RectifyOptions {
+        RectifyOptions {
+            alpha: self.alpha,
+            size: self.size,
+            zero_disparity_at_infinity: !self.free_infinity,
+        }
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
     let shaped = arguments.alpha != 0.0 || arguments.size.is_some() || arguments.free_infinity;
-    if shaped && !arguments.camera.is_given() {
+    if shaped && !arguments.camera.is_given() && !arguments.known.is_given() {
         return Err(Failure::usage(
-            "--alpha, --size and --free-infinity need known intrinsics: give --k or --focal-px",
+            "--alpha, --size and --free-infinity need known intrinsics: give --camera, --k or --focal-px",
         ));
     }
-    let photos = [
-        Photo::read(&arguments.first)?,
-        Photo::read(&arguments.second)?,
-    ];
+    let paths = [&*arguments.first, &*arguments.second];
+    let photos = (arguments.known).read(paths, SizeArguments::default(), context)?;
     check_same_size(&photos)?;
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
@@ -91,7 +106,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .iter()
         .map(|m| found2.keypoints[m.index2].point())
         .collect();
-    let found = rectify(arguments, context, &photos, &pixels1, &pixels2)?;
+    let found = match arguments.known.is_given() {
+        true => lenses::rectify(arguments, context, &photos, [&pixels1, &pixels2])?,
+        false => rectify(arguments, context, &photos, &pixels1, &pixels2)?,
+    };
 
     files::make_folder(&arguments.output)?;
     let mut written = Vec::new();
@@ -137,11 +155,6 @@ fn rectify(
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
-        let options = RectifyOptions {
-            alpha: arguments.alpha,
-            size: arguments.size,
-            zero_disparity_at_infinity: !arguments.free_infinity,
-        };
         let camera = |intrinsics| StereoCamera {
             intrinsics,
             distortion: Distortion::default(),
@@ -151,7 +164,7 @@ fn rectify(
             &cam2_from_cam1,
             width,
             height,
-            &options,
+            &arguments.shape(),
         )?;
         return Ok(Found {
             homographies: rectification.homographies,

@@ -2,7 +2,7 @@
 
 use super::CalibratedCamera;
 use crate::camera::Intrinsics;
-use crate::stereo::{PixelMap, PixelRect, border_outline};
+use crate::stereo::{PixelMap, PixelRect, WIDEST_DEG, border_outline, farthest_ray};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
 
@@ -26,13 +26,6 @@ pub struct Undistortion {
     /// For every pixel of the result, where it is read.
     pub map: PixelMap,
 }
-
-/// Rays farther than this from the axis, in degrees, are left out of a flat picture: at 80° it is 5.7 times as
-/// large as the lens is long, and soon it would be infinite.
-const WIDEST_DEG: f64 = 80.0;
-
-/// How far from the middle to the border the lens model must reach, as a share, for a flat picture to be worth it.
-const LEAST_SEEN: f64 = 0.5;
 
 impl Undistortion {
     /// The camera of the same picture size that shows as much as asked for, as large as possible.
@@ -72,7 +65,8 @@ impl Undistortion {
         }
         let widest = libm::tan(WIDEST_DEG.to_radians());
         let covered = border_outline(width, height, |u, v| {
-            let ray = farthest_ray(camera, &Point2::new(u, v))?;
+            let pixel = Point2::new(u, v);
+            let ray = farthest_ray(&camera.lens, &camera.intrinsics, &pixel, FOLDS)?;
             // As far out as a flat picture goes, in the direction of the ray.
             let across = ray.xy().norm();
             if across <= widest * ray.z {
@@ -132,32 +126,6 @@ const FOLDS: Error = Error::Degenerate {
     why: "the lens model folds inside of the picture, far from its edges; calibrate once more, with boards up to the \
           edges, or with another model of the lens",
 };
-
-/// The ray to a pixel, or, where the lens model folds on the way to it, to the last pixel before the fold: a model
-/// that was fitted to marks in the middle often bends no ray to the very corners.
-fn farthest_ray(camera: &CalibratedCamera, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
-    let toward = |share: f64| {
-        let center = camera.intrinsics.principal_point();
-        camera.ray(&(center + (pixel - center) * share))
-    };
-    let missing = match toward(1.0) {
-        Ok(ray) => return Ok(ray),
-        Err(missing) => missing,
-    };
-    let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
-    let mut ray = toward(seen).map_err(|_| match missing {
-        Error::Degenerate { .. } => FOLDS,
-        missing => missing,
-    })?;
-    for _ in 0..30 {
-        let middle = 0.5 * (seen + beyond);
-        match toward(middle) {
-            Ok(found) => (seen, ray) = (middle, found),
-            Err(_) => beyond = middle,
-        }
-    }
-    Ok(ray)
-}
 
 #[cfg(test)]
 mod tests {

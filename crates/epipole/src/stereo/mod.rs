@@ -29,9 +29,9 @@ pub use pixel_map::PixelMap;
 pub use point_cloud::{PointCloud, depth_image, point_cloud};
 pub use prefilter::StereoPrefilter;
 pub use rectified_pair::RectifiedPair;
-pub(crate) use rectify::border_outline;
 pub use rectify::{
     PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,
 };
+pub(crate) use rectify::{WIDEST_DEG, border_outline, farthest_ray};
 pub use rectify_uncalibrated::{UncalibratedRectification, rectify_uncalibrated};
 pub use semi_global::{StereoPaths, StereoSgm};

@@ -1,6 +1,7 @@
 //! Two photographs redrawn for a rectified rig, and the disparities that are matched in them.
 
 use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
+use crate::camera::{Distortion, LensModel};
 use crate::imaging::rgb_to_gray;
 use crate::math::order::at_rank;
 use crate::{Error, Result};
@@ -16,7 +17,7 @@ const WRONG: f64 = 0.02;
 /// Surfaces go on where no point is: so much more on either side, pixels and as a share of the range.
 const BEYOND: (f64, f64) = (2.0, 0.15);
 
-impl Rectification {
+impl<L: LensModel> Rectification<L> {
     /// The pixel of the first rectified picture that shows a point, and the disparity of the point there, pixels.
     /// `None` if the point is not in front of the camera.
     ///
@@ -98,8 +99,8 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
 /// photograph fills. Borders match each other perfectly, so answers there, and those whose match is there, are taken
 /// back. Where one camera stands above the other the pictures are laid on their side before they are matched.
 #[derive(Debug, Clone)]
-pub struct RectifiedPair<'a> {
-    rig: &'a Rectification,
+pub struct RectifiedPair<'a, L = Distortion> {
+    rig: &'a Rectification<L>,
     pictures: [RgbImage; 2],
     /// Which pixels of the first picture its photograph fills.
     shown: Vec<bool>,
@@ -107,14 +108,14 @@ pub struct RectifiedPair<'a> {
     trusted: [Vec<bool>; 2],
 }
 
-impl<'a> RectifiedPair<'a> {
+impl<'a, L: LensModel> RectifiedPair<'a, L> {
     /// Redraws two photographs.
     ///
     /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for photographs of different size.
-    pub fn new(rig: &'a Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
+    pub fn new(rig: &'a Rectification<L>, photographs: [&RgbImage; 2]) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
             ("the rows of the two photographs", sizes[0].0, sizes[1].0),

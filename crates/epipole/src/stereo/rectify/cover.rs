@@ -2,8 +2,22 @@
 
 use super::slanted::inscribed;
 use super::{LARGEST_CROP, PixelRect, StereoCamera};
+use crate::camera::{Intrinsics, LensModel};
 use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
+
+/// Rays farther than this from the axis, in degrees, are left out of a flat picture: at 80° it is 5.7 times as
+/// large as the lens is long, and soon it would be infinite.
+pub(crate) const WIDEST_DEG: f64 = 80.0;
+
+/// How far from the middle to the border the lens model must reach, as a share, for a flat picture to be worth it.
+const LEAST_SEEN: f64 = 0.5;
+
+const FOLDS: Error = Error::Degenerate {
+    what: "a rectification",
+    why: "the lens model folds inside of the picture, far from its edges; calibrate once more, with boards up to the \
+          edges, or with another model of the lens",
+};
 
 /// What a photograph covers in the rectified frame, in units of the focal length.
 pub(crate) struct Outline {
@@ -102,17 +116,65 @@ pub(crate) fn outline(
     })
 }
 
+/// The ray to a pixel, or, where the lens model folds on the way to it, to the last pixel before the fold: a model
+/// that was fitted to marks in the middle often bends no ray to the very corners, and around the circle of a
+/// fisheye there are none.
+///
+/// # Errors
+/// `folds`, if the model folds less than half-way to the pixel; as [`LensModel::ray`] for what is no fold.
+pub(crate) fn farthest_ray<L: LensModel>(
+    lens: &L,
+    intrinsics: &Intrinsics,
+    pixel: &Point2<f64>,
+    folds: Error,
+) -> Result<Vector3<f64>> {
+    let toward = |share: f64| {
+        let center = intrinsics.principal_point();
+        let place = intrinsics.ray(&(center + (pixel - center) * share));
+        lens.ray(&place.xy().into())
+    };
+    let missing = match toward(1.0) {
+        Ok(ray) => return Ok(ray),
+        Err(missing) => missing,
+    };
+    let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
+    let mut ray = toward(seen).map_err(|_| match missing {
+        Error::Degenerate { .. } => folds,
+        missing => missing,
+    })?;
+    for _ in 0..30 {
+        let middle = 0.5 * (seen + beyond);
+        match toward(middle) {
+            Ok(found) => (seen, ray) = (middle, found),
+            Err(_) => beyond = middle,
+        }
+    }
+    Ok(ray)
+}
+
 /// The outline of a photograph whose rays are turned.
-pub(super) fn turned_outline(
-    camera: &StereoCamera,
+pub(super) fn turned_outline<L: LensModel>(
+    camera: &StereoCamera<L>,
     rect_from_cam: &Rotation3<f64>,
     width: u32,
     height: u32,
 ) -> Result<Outline> {
+    let StereoCamera {
+        intrinsics,
+        distortion: lens,
+    } = camera;
     outline(width, height, |u, v| {
-        let ray = camera.intrinsics.ray(&Point2::new(u, v));
-        let ray = camera.distortion.undistort(&ray.xy().into())?;
-        let ray = rect_from_cam * Vector3::new(ray.x, ray.y, 1.0);
+        let pixel = Point2::new(u, v);
+        if lens.is_wide() {
+            let ray = rect_from_cam * farthest_ray(lens, intrinsics, &pixel, FOLDS)?;
+            let (widest, across) = (libm::tan(WIDEST_DEG.to_radians()), ray.xy().norm());
+            return Ok(match across <= widest * ray.z {
+                true => ray.xy() / ray.z,
+                // As far out as a flat picture goes, in the direction of the ray.
+                false => ray.xy() * (widest / across),
+            });
+        }
+        let ray = rect_from_cam * lens.ray(&intrinsics.ray(&pixel).xy().into())?;
         if ray.z < 1e-3 {
             return Err(Error::Degenerate {
                 what: "a rectification",

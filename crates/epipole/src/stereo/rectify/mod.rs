@@ -8,11 +8,11 @@ mod tests;
 mod turn;
 
 use super::PixelMap;
-use crate::camera::{Distortion, Intrinsics, RigidTransform};
+use crate::camera::{Distortion, Intrinsics, LensModel, RigidTransform};
 use crate::{Error, Result};
-pub(crate) use cover::outline as border_outline;
+pub(crate) use cover::{WIDEST_DEG, farthest_ray, outline as border_outline};
 use cover::{around_principal_points, around_what_is_seen, turned_outline};
-use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2, Vector3};
+use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2};
 use q_matrix::q_matrix;
 use turn::turn_parallel;
 
@@ -20,11 +20,11 @@ pub use q_matrix::q_from_rig;
 
 /// A camera of a stereo rig: how rays become pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StereoCamera {
+pub struct StereoCamera<L = Distortion> {
     /// K.
     pub intrinsics: Intrinsics,
-    /// The lens; [`Distortion::NONE`] for an ideal one.
-    pub distortion: Distortion,
+    /// The lens; [`Distortion::NONE`] for an ideal one. A [`Lens`](crate::camera::Lens) is of any model.
+    pub distortion: L,
 }
 
 /// The results may be enlarged so many times as much as they have to be, for principal points in the middle and for what
@@ -71,9 +71,9 @@ pub struct PixelRect {
 /// A rectified rig: two virtual cameras that stand parallel and share a focal length, so that
 /// matches share a row (or, if `is_vertical`, a column).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rectification {
+pub struct Rectification<L = Distortion> {
     /// The photographs' cameras.
-    pub cameras: [StereoCamera; 2],
+    pub cameras: [StereoCamera<L>; 2],
     /// Rotation of each camera's rays into the rectified frame.
     pub rect_from_cam: [Rotation3<f64>; 2],
     /// Intrinsics of the rectified pictures.
@@ -111,8 +111,9 @@ pub struct Rectification {
 /// [`Error::Degenerate`] if the cameras stand at one place; if the baseline is more than 60° off the image plane
 /// halfway between the cameras; and if a pixel of a photograph looks along the baseline, which with a baseline
 /// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
-/// sees all of it. [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
-/// empty size.
+/// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
+/// [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
+/// empty size. As [`LensModel::ray`] where the lens bends no ray to the photograph's border.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
 /// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
@@ -133,13 +134,13 @@ pub struct Rectification {
 /// assert!((x.z / x.w - 2.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
-pub fn rectify_calibrated(
-    cameras: &[StereoCamera; 2],
+pub fn rectify_calibrated<L: LensModel>(
+    cameras: &[StereoCamera<L>; 2],
     cam2_from_cam1: &RigidTransform,
     width: u32,
     height: u32,
     options: &RectifyOptions,
-) -> Result<Rectification> {
+) -> Result<Rectification<L>> {
     let (new_width, new_height) = options.size.unwrap_or((width, height));
     check(width, height, new_width, new_height, options.alpha)?;
     let turned = turn_parallel(cam2_from_cam1)?;
@@ -208,17 +209,17 @@ pub fn rectify_calibrated(
     })
 }
 
-impl Rectification {
+impl<L: LensModel> Rectification<L> {
     /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless `index` is 0 or 1, [`Error::PointBehindCamera`] if the
-    /// rectified camera looks away from it, and as [`Distortion::undistort`].
+    /// rectified camera looks away from it, and as [`LensModel::ray`].
     pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         let i = checked_index(index)?;
         let ray = self.cameras[i].intrinsics.ray(pixel);
-        let ray = self.cameras[i].distortion.undistort(&ray.xy().into())?;
-        let turned = self.rect_from_cam[i] * Vector3::new(ray.x, ray.y, 1.0);
+        let ray = self.cameras[i].distortion.ray(&ray.xy().into())?;
+        let turned = self.rect_from_cam[i] * ray;
         self.intrinsics[i].project(&turned.into())
     }
 
@@ -234,16 +235,14 @@ impl Rectification {
     ) -> Result<Option<Point2<f64>>> {
         let i = checked_index(index)?;
         let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
-        if ray.z <= 0.0 {
-            return Ok(None);
-        }
-        let distortion = &self.cameras[i].distortion;
-        let ray = Point2::new(ray.x / ray.z, ray.y / ray.z);
+        let lens = &self.cameras[i].distortion;
         // Beyond its fold the lens model shows the same place twice.
-        if !distortion.is_seen(&ray) {
+        if !lens.is_seen(&ray) {
             return Ok(None);
         }
-        let bent = distortion.distort(&ray);
+        let Some(bent) = lens.project(&ray) else {
+            return Ok(None);
+        };
         let k = &self.cameras[i].intrinsics;
         let center = k.principal_point();
         Ok(Some(Point2::new(

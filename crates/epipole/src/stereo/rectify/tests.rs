@@ -1,8 +1,9 @@
 //! Rigs that turn and converge, photographed and rectified.
 
 use super::*;
+use crate::camera::{Lens, LensKind};
 use crate::math::random::Random;
-use nalgebra::{Point3, UnitQuaternion, Vector4};
+use nalgebra::{Point3, UnitQuaternion, Vector3, Vector4};
 
 fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> StereoCamera {
     StereoCamera {
@@ -296,4 +297,80 @@ fn hopeless_rigs_are_refused() {
     assert!(good.rectify_pixel(2, &Point2::new(0.0, 0.0)).is_err());
     assert!(q_from_rig(0.0, 1.0, 0.0, 0.0).is_err());
     assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
+}
+
+/// Through each model of a lens, also a fisheye of 190° whose circle leaves the corners black: what both see is in one
+/// row, at the disparity of its depth, and each result is read where its photograph shows it.
+#[test]
+fn rigs_of_any_lens_are_rectified() {
+    let mut random = Random::new(8);
+    let of = |kind, focal_px: f64, coefficients: &[f64]| StereoCamera {
+        intrinsics: Intrinsics::new(focal_px, focal_px * 1.002, 300.0, 198.0).unwrap(),
+        distortion: Lens::from_coefficients(kind, coefficients).unwrap(),
+    };
+    let lenses = [
+        of(LensKind::Brown, 450.0, &[-0.28, 0.07, 0.0002, 1e-4, 0.0]),
+        of(
+            LensKind::Rational,
+            450.0,
+            &[0.3, 0.02, 0.0, 0.001, 0.0, 0.6, 0.1, 0.0],
+        ),
+        of(LensKind::Fisheye, 180.0, &[-0.02, 0.008, -0.004, 6e-4]),
+        of(LensKind::Division, 450.0, &[-0.25]),
+    ];
+    let cam2_from_cam1 = motion([0.03, 0.08, -0.05], [-0.2, 0.01, 0.02]);
+    for camera in lenses {
+        let kind = camera.distortion.kind();
+        let options = RectifyOptions::default();
+        let rig = rectify_calibrated(&[camera; 2], &cam2_from_cam1, 600, 400, &options).unwrap();
+        let mut num_shown = 0;
+        for _ in 0..500 {
+            let mut to = |reach: f64| random.uniform(-reach, reach);
+            let x = Point3::new(to(2.5), to(2.0), 2.0 + to(1.0));
+            let seen = [x, cam2_from_cam1 * x].map(|x| {
+                let seen = camera.distortion.project(&x.coords)?;
+                let pixel = camera.intrinsics.project(&Point3::new(seen.x, seen.y, 1.0));
+                let inside =
+                    |p: &Point2<f64>| (0.0..600.0).contains(&p.x) && (0.0..400.0).contains(&p.y);
+                pixel.ok().filter(inside)
+            });
+            let [Some(first), Some(second)] = seen else {
+                continue;
+            };
+            let [Ok(a), Ok(b)] = [(0, first), (1, second)].map(|(i, p)| rig.rectify_pixel(i, &p))
+            else {
+                continue;
+            };
+            assert!((a.y - b.y).abs() < 1e-6, "{kind:?}");
+            let place = rig.q * Vector4::new(a.x, a.y, a.x - b.x, 1.0);
+            let turned = rig.rect_from_cam[0] * x;
+            let found = Point3::from(place.xyz() / place.w);
+            assert!(
+                (found - turned).norm() < 1e-6 * turned.coords.norm(),
+                "{kind:?}"
+            );
+            let back = rig.source_pixel(0, &a).unwrap().unwrap();
+            assert!((back - first).norm() < 1e-6, "{kind:?}");
+            num_shown += 1;
+        }
+        assert!(num_shown > 80, "{kind:?}: {num_shown}");
+        for i in 0..2 {
+            // Every pixel of the result was photographed.
+            for (u, v) in [
+                (0.0, 0.0),
+                (599.0, 0.0),
+                (0.0, 399.0),
+                (599.0, 399.0),
+                (300.0, 200.0),
+            ] {
+                let source = rig.source_pixel(i, &Point2::new(u, v)).unwrap().unwrap();
+                let slack = 0.5;
+                assert!(
+                    (-slack..=599.0 + slack).contains(&source.x)
+                        && (-slack..=399.0 + slack).contains(&source.y),
+                    "{kind:?}: {source}"
+                );
+            }
+        }
+    }
 }

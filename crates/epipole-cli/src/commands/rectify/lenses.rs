@@ -1,0 +1,68 @@
+//! `epipole rectify` where the camera is known with its lens: the motion from rays, the maps through the lens.
+
+use super::{Arguments, Found};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::known_camera::seen_rays;
+use crate::photo::Photo;
+use crate::turn;
+use epipole::camera::{Distortion, Lens, RigidTransform, SeenRay};
+use epipole::epipolar::estimate_relative_pose_of_rays_with;
+use epipole::stereo::{StereoCamera, rectify_calibrated};
+use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
+use nalgebra::Point2;
+
+/// * `pixels`: of the matches, in both photographs
+///
+/// # Errors
+/// As the core's search for the motion and its rectification.
+pub(super) fn rectify(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels: [&[Point2<f64>]; 2],
+) -> Result<Found, Failure> {
+    let (intrinsics, guess) = arguments.camera.or_guess(photos)?;
+    if let Some(sentence) = guess {
+        context.warn(&sentence);
+    }
+    let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
+    let (rays1, rays2): (Vec<SeenRay>, Vec<SeenRay>) = (side(0).into_iter().zip(side(1)))
+        .filter_map(|(first, second)| first.zip(second))
+        .unzip();
+    let report = arguments.robust.watched(context, |options, watch| {
+        estimate_relative_pose_of_rays_with(&rays1, &rays2, options, watch)
+    })?;
+    let inliers: Vec<[SeenRay; 2]> = (rays1.iter().zip(&rays2).zip(&report.inliers))
+        .filter(|(_, is_inlier)| **is_inlier)
+        .map(|((first, second), _)| [*first, *second])
+        .collect();
+    let judging = TwoViewOptions {
+        ransac: (arguments.robust.options(context)).within(report.max_error_px),
+        ..TwoViewOptions::default()
+    };
+    if let Some(turn) = find_explaining_turn_of_rays(&inliers, &judging) {
+        context.warn(&turn::sentence(&turn));
+    }
+
+    let motion = report.model;
+    let cam2_from_cam1 = RigidTransform::from_parts(
+        (motion.translation.vector.normalize() * arguments.baseline_m).into(),
+        motion.rotation,
+    );
+    let cameras = [0, 1].map(|n| StereoCamera {
+        intrinsics: intrinsics[n],
+        distortion: photos[n]
+            .lens
+            .map_or(Lens::Brown(Distortion::NONE), |kept| kept.lens),
+    });
+    let (width, height) = photos[0].color.dimensions();
+    let options = arguments.shape();
+    let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, width, height, &options)?;
+    Ok(Found {
+        homographies: rectification.homographies,
+        maps: [rectification.map(0)?, rectification.map(1)?],
+        q: Some(rectification.q),
+        num_inliers: report.num_inliers,
+    })
+}
