@@ -11,10 +11,11 @@ use crate::robust::Estimator;
 /// dimension and are shared by both images; those of an honest model a hundred.
 const FAR_APART: f64 = 3.0;
 
-/// So many matches, evenly chosen, are looked at first; more than this number of inliers among them, if they are
-/// so many thresholds from their middle, are not gathered. All would be, at less than [`FAR_APART`].
+/// So many matches, evenly chosen, are looked at first.
 const A_FEW: usize = 48;
+/// More inliers than this among them tell what all would,
 const FEWEST: usize = 10;
+/// if they are so many thresholds from their middle: of gathered ones all are nearer than [`FAR_APART`].
 const SURELY: f64 = 3.0 * FAR_APART;
 
 impl<E: Estimator> Ransac<E> {
