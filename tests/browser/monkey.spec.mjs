@@ -169,7 +169,12 @@ for (const [index, { name }] of figures.entries()) {
     expect(longest, "the longest task, milliseconds").toBeLessThanOrEqual(200);
 
     // Before there is a second page: both may be counted together.
-    const after = await begin(page, page.locator("epipole-figure"));
+    let after = await begin(page, page.locator("epipole-figure"));
+    // On a busy machine the browser itself may not have let go of all yet; what is kept for good is there later, too.
+    for (let tries = 0; tries < 10 && after.listeners - before.listeners > 20; tries += 1) {
+      await page.waitForTimeout(1000);
+      after = await holds(page);
+    }
     const more = Object.fromEntries(Object.keys(after).map((key) => [key, after[key] - before[key]]));
     test.info().annotations.push({ type: "cost", description: JSON.stringify({ p99, longest, ...more }) });
     expect(more.listeners, "listeners").toBeLessThanOrEqual(20);
