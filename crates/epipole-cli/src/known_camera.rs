@@ -1,5 +1,6 @@
 //! The calibrated camera of photographs, from a file.
 
+use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::lens;
@@ -128,4 +129,62 @@ pub(crate) fn seen_rays(
     pixels
         .map(|pixel| SeenRay::through(&lens, k, &pixel).ok())
         .collect()
+}
+
+/// The matches that the lenses of both photographs see.
+pub(crate) struct SeenMatches {
+    pub(crate) rays: [Vec<SeenRay>; 2],
+    /// Of each match, whether they do.
+    pub(crate) is_seen: Vec<bool>,
+}
+
+impl SeenMatches {
+    /// With the intrinsics of both photographs. Tells how many matches are left out.
+    ///
+    /// * `pixels`: of the matches, in both photographs
+    ///
+    /// # Errors
+    /// As [`PairArguments::or_guess`].
+    pub(crate) fn of(
+        camera: &PairArguments,
+        context: &Context,
+        photos: &[Photo; 2],
+        pixels: [&[Point2<f64>]; 2],
+    ) -> Result<(Self, [Intrinsics; 2]), Failure> {
+        let (intrinsics, guess) = camera.or_guess(photos)?;
+        if let Some(sentence) = guess {
+            context.warn(&sentence);
+        }
+        let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
+        let (seen1, seen2) = (side(0), side(1));
+        let mut seen = Self {
+            rays: [Vec::new(), Vec::new()],
+            is_seen: Vec::new(),
+        };
+        for pair in seen1.into_iter().zip(seen2) {
+            if let (Some(ray1), Some(ray2)) = pair {
+                seen.rays[0].push(ray1);
+                seen.rays[1].push(ray2);
+            }
+            seen.is_seen.push(matches!(pair, (Some(_), Some(_))));
+        }
+        let num_unseen = seen.is_seen.iter().filter(|is| !**is).count();
+        if num_unseen > 0 {
+            context.warn(&format!(
+                "{num_unseen} of {} matches are left out: the lens of --camera bends no ray to where they are",
+                seen.is_seen.len()
+            ));
+        }
+        Ok((seen, intrinsics))
+    }
+
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (&SeenRay, &SeenRay)> {
+        self.rays[0].iter().zip(&self.rays[1])
+    }
+
+    /// * `mask`: of the matches that are seen
+    pub(crate) fn inliers(&self, mask: &[bool]) -> Vec<[SeenRay; 2]> {
+        let kept = self.pairs().zip(mask).filter(|(_, is)| **is);
+        kept.map(|((a, b), _)| [*a, *b]).collect()
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::CalibratedCamera;
 use crate::camera::Intrinsics;
-use crate::stereo::{PixelMap, PixelRect, WIDEST_DEG, border_outline, farthest_ray};
+use crate::stereo::{PixelMap, PixelRect, border_outline, farthest_ray, flat};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
 
@@ -63,23 +63,17 @@ impl Undistortion {
                 value: f64::from(width.min(height)),
             });
         }
-        let widest = libm::tan(WIDEST_DEG.to_radians());
         let covered = border_outline(width, height, |u, v| {
             let pixel = Point2::new(u, v);
             let ray = farthest_ray(&camera.lens, &camera.intrinsics, &pixel, FOLDS)?;
-            // As far out as a flat picture goes, in the direction of the ray.
-            let across = ray.xy().norm();
-            if across <= widest * ray.z {
-                return Ok(ray.xy() / ray.z);
-            }
-            match keep {
-                Keep::Valid => Ok(ray.xy() * (widest / across)),
+            flat(&ray).or_else(|clipped| match keep {
+                Keep::Valid => Ok(clipped),
                 Keep::All => Err(Error::Degenerate {
                     what: "an undistorted photograph",
                     why: "the lens sees more than 80° to a side, and no flat picture can keep that; keep what is \
                           valid instead",
                 }),
-            }
+            })
         })?;
         let shown = match keep {
             Keep::Valid => &covered.inner,

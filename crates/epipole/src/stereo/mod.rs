@@ -32,6 +32,6 @@ pub use rectified_pair::RectifiedPair;
 pub use rectify::{
     PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,
 };
-pub(crate) use rectify::{WIDEST_DEG, border_outline, farthest_ray};
+pub(crate) use rectify::{border_outline, farthest_ray, flat};
 pub use rectify_uncalibrated::{UncalibratedRectification, rectify_uncalibrated};
 pub use semi_global::{StereoPaths, StereoSgm};

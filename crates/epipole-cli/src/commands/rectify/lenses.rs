@@ -3,10 +3,10 @@
 use super::{Arguments, Found};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::known_camera::seen_rays;
+use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::turn;
-use epipole::camera::{Distortion, Lens, RigidTransform, SeenRay};
+use epipole::camera::{Distortion, Lens, RigidTransform};
 use epipole::epipolar::estimate_relative_pose_of_rays_with;
 use epipole::stereo::{StereoCamera, rectify_calibrated};
 use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
@@ -22,26 +22,16 @@ pub(super) fn rectify(
     photos: &[Photo; 2],
     pixels: [&[Point2<f64>]; 2],
 ) -> Result<Found, Failure> {
-    let (intrinsics, guess) = arguments.camera.or_guess(photos)?;
-    if let Some(sentence) = guess {
-        context.warn(&sentence);
-    }
-    let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
-    let (rays1, rays2): (Vec<SeenRay>, Vec<SeenRay>) = (side(0).into_iter().zip(side(1)))
-        .filter_map(|(first, second)| first.zip(second))
-        .unzip();
+    let (seen, intrinsics) = SeenMatches::of(&arguments.camera, context, photos, pixels)?;
+    let [rays1, rays2] = &seen.rays;
     let report = arguments.robust.watched(context, |options, watch| {
-        estimate_relative_pose_of_rays_with(&rays1, &rays2, options, watch)
+        estimate_relative_pose_of_rays_with(rays1, rays2, options, watch)
     })?;
-    let inliers: Vec<[SeenRay; 2]> = (rays1.iter().zip(&rays2).zip(&report.inliers))
-        .filter(|(_, is_inlier)| **is_inlier)
-        .map(|((first, second), _)| [*first, *second])
-        .collect();
     let judging = TwoViewOptions {
         ransac: (arguments.robust.options(context)).within(report.max_error_px),
         ..TwoViewOptions::default()
     };
-    if let Some(turn) = find_explaining_turn_of_rays(&inliers, &judging) {
+    if let Some(turn) = find_explaining_turn_of_rays(&seen.inliers(&report.inliers), &judging) {
         context.warn(&turn::sentence(&turn));
     }
 

@@ -4,7 +4,7 @@ use super::search::{Found, word};
 use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::known_camera::seen_rays;
+use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::turn;
 use epipole::camera::{RigidTransform, SeenRay, cross_matrix};
@@ -18,14 +18,7 @@ use epipole::two_view::{
 };
 use nalgebra::{Matrix3, Point2};
 
-/// The matches that the lenses see.
-struct Seen {
-    rays: [Vec<SeenRay>; 2],
-    /// Of each match, whether they do.
-    is_seen: Vec<bool>,
-}
-
-impl Seen {
+impl SeenMatches {
     /// A list of all matches, from one of those that are seen.
     fn of_all<T: Clone>(&self, values: &[T], unseen: &T) -> Vec<T> {
         let mut values = values.iter();
@@ -34,10 +27,6 @@ impl Seen {
             false => unseen.clone(),
         };
         self.is_seen.iter().map(place).collect()
-    }
-
-    fn pairs(&self) -> impl Iterator<Item = (&SeenRay, &SeenRay)> {
-        self.rays[0].iter().zip(&self.rays[1])
     }
 
     /// As the core found it among the matches that are seen, for all of them.
@@ -74,48 +63,6 @@ impl Seen {
         };
         self.pairs().map(error).collect()
     }
-
-    fn inliers(&self, mask: &[bool]) -> Vec<[SeenRay; 2]> {
-        let kept = self.pairs().zip(mask).filter(|(_, is)| **is);
-        kept.map(|((a, b), _)| [*a, *b]).collect()
-    }
-}
-
-/// Both rays of the matches.
-///
-/// # Errors
-/// As [`PairArguments::or_guess`](crate::camera::PairArguments::or_guess).
-fn see(
-    arguments: &Arguments,
-    context: &Context,
-    photos: &[Photo; 2],
-    pixels: [&[Point2<f64>]; 2],
-) -> Result<Seen, Failure> {
-    let (intrinsics, guess) = arguments.camera.or_guess(photos)?;
-    if let Some(sentence) = guess {
-        context.warn(&sentence);
-    }
-    let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
-    let (seen1, seen2) = (side(0), side(1));
-    let mut seen = Seen {
-        rays: [Vec::new(), Vec::new()],
-        is_seen: Vec::new(),
-    };
-    for pair in seen1.into_iter().zip(seen2) {
-        if let (Some(ray1), Some(ray2)) = pair {
-            seen.rays[0].push(ray1);
-            seen.rays[1].push(ray2);
-        }
-        seen.is_seen.push(matches!(pair, (Some(_), Some(_))));
-    }
-    let num_unseen = seen.is_seen.iter().filter(|is| !**is).count();
-    if num_unseen > 0 {
-        context.warn(&format!(
-            "{num_unseen} of {} matches are left out: the lens of --camera bends no ray to where they are",
-            seen.is_seen.len()
-        ));
-    }
-    Ok(seen)
 }
 
 /// Looks for the model that was asked for.
@@ -128,7 +75,7 @@ pub(super) fn estimate(
     photos: &[Photo; 2],
     pixels: [&[Point2<f64>]; 2],
 ) -> Result<Found, Failure> {
-    let seen = see(arguments, context, photos, pixels)?;
+    let (seen, _) = SeenMatches::of(&arguments.camera, context, photos, pixels)?;
     let options = arguments.options(context);
     let found = match arguments.model {
         Model::Homography => homography(arguments, context, &seen, &options)?,
@@ -141,7 +88,7 @@ pub(super) fn estimate(
 fn auto(
     arguments: &Arguments,
     context: &Context,
-    seen: &Seen,
+    seen: &SeenMatches,
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
     let mut look = arguments.robust.look(context);
@@ -178,7 +125,7 @@ fn auto(
 fn essential(
     arguments: &Arguments,
     context: &Context,
-    seen: &Seen,
+    seen: &SeenMatches,
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
     let [rays1, rays2] = &seen.rays;
@@ -206,7 +153,7 @@ fn essential(
 fn homography(
     arguments: &Arguments,
     context: &Context,
-    seen: &Seen,
+    seen: &SeenMatches,
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
     let [rays1, rays2] = &seen.rays;

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
 /// Rays farther than this from the axis, in degrees, are left out of a flat picture: at 80° it is 5.7 times as
 /// large as the lens is long, and soon it would be infinite.
-pub(crate) const WIDEST_DEG: f64 = 80.0;
+const WIDEST_DEG: f64 = 80.0;
 
 /// How far from the middle to the border the lens model must reach, as a share, for a flat picture to be worth it.
 const LEAST_SEEN: f64 = 0.5;
@@ -152,6 +152,16 @@ pub(crate) fn farthest_ray<L: LensModel>(
     Ok(ray)
 }
 
+/// Where a ray meets the image plane at distance 1. `Err` for a ray more than [`WIDEST_DEG`] off the axis: the place in
+/// the same direction that is as far out as a flat picture goes.
+pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vector2<f64>> {
+    let (widest, across) = (libm::tan(WIDEST_DEG.to_radians()), ray.xy().norm());
+    match across <= widest * ray.z {
+        true => Ok(ray.xy() / ray.z),
+        false => Err(ray.xy() * (widest / across)),
+    }
+}
+
 /// The outline of a photograph whose rays are turned.
 pub(super) fn turned_outline<L: LensModel>(
     camera: &StereoCamera<L>,
@@ -167,12 +177,7 @@ pub(super) fn turned_outline<L: LensModel>(
         let pixel = Point2::new(u, v);
         if lens.is_wide() {
             let ray = rect_from_cam * farthest_ray(lens, intrinsics, &pixel, FOLDS)?;
-            let (widest, across) = (libm::tan(WIDEST_DEG.to_radians()), ray.xy().norm());
-            return Ok(match across <= widest * ray.z {
-                true => ray.xy() / ray.z,
-                // As far out as a flat picture goes, in the direction of the ray.
-                false => ray.xy() * (widest / across),
-            });
+            return Ok(flat(&ray).unwrap_or_else(|clipped| clipped));
         }
         let ray = rect_from_cam * lens.ray(&intrinsics.ray(&pixel).xy().into())?;
         if ray.z < 1e-3 {
