@@ -135,7 +135,7 @@ export class Photos {
     const head = await file.slice(0, HEAD_BYTES).arrayBuffer();
     const [few, low] = smaller(bitmap, slot.max_side_px);
     // A large photograph takes longer than a small one that was chosen after it.
-    const rgba = await reduced(bitmap, few, low, () => turn === row.chosen);
+    const rgba = await reduced(bitmap, few, low, () => turn === row.chosen).catch(() => undefined);
     const { width, height } = bitmap;
     bitmap.close();
     if (turn !== row.chosen) return;

@@ -1,7 +1,6 @@
 /**
- * The pixels of a photograph, made fewer by averaging. Browsers decode a photograph to the same pixels but shrink
- * each in their own way, by up to 15 gray levels a pixel, and one smoothes less than features need: so what a figure finds
- * in a photograph would differ from browser to browser.
+ * The pixels of a photograph, made fewer by averaging. Browsers that decode a photograph to the same pixels shrink it each
+ * in another way, by up to 15 gray levels a pixel: what a figure finds in it would differ from browser to browser.
  */
 
 import { make } from "./dom.js";
