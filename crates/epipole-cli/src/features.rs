@@ -1,6 +1,9 @@
 //! Which features commands look for, and how they match them. What is not said on the command line is the
 //! core's default, the same for every command.
 
+mod kinds;
+
+use self::kinds::KindArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
@@ -49,32 +52,24 @@ pub(crate) struct FeatureArguments {
     /// strongest for Harris].
     #[arg(long, value_name = "C", value_parser = above_0_up_to_1)]
     pub(crate) contrast_threshold: Option<f32>,
-    /// SIFT: the blur that a photograph is assumed to have, pixels.
-    #[arg(long, default_value_t = FeatureOptions::default().input_blur_px, value_name = "PX", value_parser = blur)]
-    pub(crate) input_blur_px: f64,
-    /// SIFT: the largest ratio of the curvatures of an extremum, above 1; edges have large ones.
-    #[arg(long, default_value_t = FeatureOptions::default().edge_threshold, value_name = "R", value_parser = above_1)]
-    pub(crate) edge_threshold: f32,
-    /// SIFT: look for small features, in twice the size, in photographs of up to so many pixels.
-    #[arg(long, default_value_t = FeatureOptions::default().max_upsampled_pixels, value_name = "N")]
-    pub(crate) max_upsampled_pixels: u64,
     /// Take no direction from the features: for cameras held upright.
     #[arg(long)]
     pub(crate) upright: bool,
+    #[command(flatten)]
+    kinds: KindArguments,
 }
 
 impl FeatureArguments {
     /// The same for the core.
     pub(crate) fn options(&self) -> FeatureOptions {
-        FeatureOptions {
+        let common = FeatureOptions {
             kind: self.features.into(),
             max_features: self.max_features,
             contrast_threshold: self.contrast_threshold,
-            input_blur_px: self.input_blur_px,
-            edge_threshold: self.edge_threshold,
-            max_upsampled_pixels: self.max_upsampled_pixels,
             upright: self.upright,
-        }
+            ..FeatureOptions::default()
+        };
+        self.kinds.options(common)
     }
 
     /// Looks for features in a photograph.
@@ -124,17 +119,6 @@ fn number(text: &str, fits: impl Fn(f32) -> bool, range: &str) -> Result<f32, St
 
 fn above_0_up_to_1(text: &str) -> Result<f32, String> {
     number(text, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1")
-}
-
-fn blur(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (0.0..=0.8).contains(&value) => Ok(value),
-        _ => Err(format!("\"{text}\" is not a number from 0 to 0.8")),
-    }
-}
-
-fn above_1(text: &str) -> Result<f32, String> {
-    number(text, |x| x > 1.0, "above 1")
 }
 
 fn not_negative(text: &str) -> Result<f32, String> {
@@ -241,7 +225,17 @@ mod tests {
             ["--edge-threshold", "1"],
             ["--edge-threshold", "inf"],
             ["--max-distance=-1", "--upright"],
-            ["--input-blur-px", "1"],
+            ["--input-blur-px", "2.1"],
+            ["--sigma-px", "nan"],
+            ["--layers-per-octave", "0"],
+            ["--max-orientations", "37"],
+            ["--orientation-peak-ratio", "0"],
+            ["--num-levels", "17"],
+            ["--scale-factor", "1"],
+            ["--harris-k", "0.25"],
+            ["--min-distance-px", "inf"],
+            ["--tensor-window-px", "256"],
+            ["--patch-px", "1.5"],
         ] {
             let refused = All::try_parse_from([&["epipole"][..], &words].concat());
             assert!(refused.is_err(), "{words:?}");

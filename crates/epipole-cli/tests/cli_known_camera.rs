@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::lens::{photograph, wall_photograph};
+use common::lens::{KINDS, SIZE, camera, photograph, wall_photograph, write};
 use common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform, look_at};
@@ -12,49 +12,6 @@ use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-
-const SIZE: u32 = 420;
-
-/// A lens of each model: 175° wide, or as narrow as 36°.
-fn camera(kind: LensKind) -> CalibratedCamera {
-    let (focal_px, numbers): (f64, &[f64]) = match kind {
-        LensKind::Brown => (400.0, &[-0.1, 0.02, 0.001, -0.001, 0.0]),
-        LensKind::Rational => (320.0, &[0.3, 0.05, 0.001, -0.001, 0.01, 0.5, 0.1, 0.005]),
-        LensKind::Fisheye => (140.0, &[-0.02, 0.006, -0.002, 0.0003]),
-        LensKind::Division => (640.0, &[-0.3]),
-    };
-    CalibratedCamera {
-        intrinsics: Intrinsics::new(focal_px, focal_px, 210.5, 208.0).unwrap(),
-        lens: Lens::from_coefficients(kind, numbers).unwrap(),
-        width: SIZE,
-        height: SIZE,
-    }
-}
-
-const KINDS: [LensKind; 4] = [
-    LensKind::Brown,
-    LensKind::Rational,
-    LensKind::Fisheye,
-    LensKind::Division,
-];
-
-fn write(folder: &Folder, camera: &CalibratedCamera) -> PathBuf {
-    let k = &camera.intrinsics;
-    let center = k.principal_point();
-    let text = format!(
-        r#"{{ "image": {{ "width": {}, "height": {} }}, "k": [{}, {}, {}, {}],
-        "distortion": {{ "model": "{}", "coefficients": {:?} }} }}"#,
-        camera.width,
-        camera.height,
-        k.fu_px(),
-        k.fv_px(),
-        center.x,
-        center.y,
-        camera.lens.kind().name(),
-        camera.lens.coefficients()
-    );
-    folder.write("camera.json", &text)
-}
 
 /// The table from two places, as seen through `camera` from so near that it fills the picture.
 fn table(camera: &CalibratedCamera) -> [RigidTransform; 2] {

@@ -2,29 +2,32 @@
 
 use super::sfm::growth::AcceptArguments;
 use super::sfm::photos;
-use crate::camera::{CameraArguments, sentence};
+use super::sfm::refined::RefinedArguments;
+use crate::camera::{CameraArguments, Guess, sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
-use crate::known_camera::name;
+use crate::known_camera::{name, tell_of_unseen};
+use crate::lens;
 use crate::matrices::{Motion, positive};
-use crate::photo::Photo;
+use crate::photo::{KeptLens, Photo, SizeArguments};
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
+use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::progress::{Stage, Status};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
     OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
-    SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
-    stereo_odometry,
+    SfmInput, SfmLens, SfmStep, match_features, match_rectified, monocular_odometry,
+    photo_features, stereo_odometry,
 };
 use serde_json::json;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Follow a camera, or a stereo rig, through its frames.
 #[derive(Debug, Args)]
@@ -42,8 +45,10 @@ use std::path::PathBuf;
     Frames are taken in the order of their names. The path of a single camera has no unit of\n\
     length; that of a rectified stereo rig has the unit of its baseline:\n  \
     epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2\n\n\
+    Where the focal length is but a guess it is refined at the end, by all frames together.\n\n\
     JSON: frames (name and world_from_cam with rotation and translation, or null), keyframes and lost\n\
-    (places in that list), complete (false after Ctrl-C)."
+    (places in that list), focal_px, focal_refined (whether it was), lens and distortion (as in the output of sfm), of\n\
+    the left camera, complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
     /// The folder of the frames; of the left camera, if there are two.
@@ -51,6 +56,12 @@ pub(crate) struct Arguments {
     frames: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
+    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for frames of its size. They stay as they
+    /// are; the path is that of the rays which their pixels see. The frames of a rig are rectified already.
+    #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
+    camera_file: Option<PathBuf>,
+    #[command(flatten)]
+    size: SizeArguments,
     /// The folder of the right camera's frames: rectified, as many, in the same order.
     #[arg(long, value_name = "FOLDER", requires = "stereo_baseline_m")]
     right: Option<PathBuf>,
@@ -68,19 +79,25 @@ pub(crate) struct Arguments {
     robust: RobustArguments,
     #[command(flatten)]
     accept: AcceptArguments,
+    #[command(flatten)]
+    refined: RefinedArguments,
     /// Keyframes that are refined together; older ones stay.
     #[arg(long, default_value_t = OdometryOptions::default().window, value_name = "N", help_heading = "Reconstruction")]
     window: usize,
-    /// Refine everything once more at the end; --final-adjustment=false for the path as it was followed.
+    /// Refine everything once more at the end, with what of the lens is to be refined; --final-adjustment=false for the path
+    /// as it was followed.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true", help_heading = "Reconstruction")]
     final_adjustment: bool,
 }
 
 impl Arguments {
     /// How the path is followed.
-    fn options(&self, context: &Context) -> OdometryOptions {
+    ///
+    /// * `some_unknown`: whether the focal length is but a guess
+    fn options(&self, context: &Context, some_unknown: bool) -> OdometryOptions {
+        let accepted = self.accept.options(&self.robust, context);
         OdometryOptions {
-            sfm: self.accept.options(&self.robust, context),
+            sfm: self.refined.options(accepted, some_unknown),
             window: self.window,
             final_adjustment: self.final_adjustment,
         }
@@ -102,6 +119,15 @@ struct Work<'a> {
     progress: Progress,
 }
 
+/// The frames, and the camera that took them.
+struct Frames {
+    features: Vec<PhotoFeatures>,
+    intrinsics: Intrinsics,
+    /// Of a focal length that nobody gave.
+    guess: Option<Guess>,
+    lens: Option<KeptLens>,
+}
+
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let folder = |path: &PathBuf| photos(std::slice::from_ref(path));
     let left_paths = folder(&arguments.frames)?;
@@ -121,7 +147,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         features: arguments.features.options(),
         matching: arguments.matching.options(),
         neighbors: arguments.neighbors,
-        best_first: arguments.options(context).sfm.ransac.sampler == SamplerKind::Prosac,
+        best_first: arguments.robust.options(context).sampler == SamplerKind::Prosac,
     };
     let work = Work {
         arguments,
@@ -131,18 +157,23 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let mut paths = left_paths.clone();
     paths.extend(right_paths.unwrap_or_default());
-    let (mut features, intrinsics) = work.read(&paths)?;
-    let right = features.split_off(left_paths.len());
-    let result = work.follow(features, right, intrinsics)?;
+    let mut left = work.read(&paths)?;
+    let right = left.features.split_off(left_paths.len());
+    let options = work.options(&left);
+    let begun_with_px = left.intrinsics.fu_px();
+    let result = work.follow(left, right, &options)?;
     let Work { progress, .. } = work;
     drop(progress);
     if result.canceled {
         context.warn(interrupt::ENDED_EARLY);
     }
+    let refined_from = (options.final_adjustment && options.sfm.refine_focal && !result.canceled)
+        .then_some(begun_with_px);
     Ok(report(
         &result,
         &left_paths,
         arguments.stereo_baseline_m.is_some(),
+        refined_from,
     ))
 }
 
@@ -153,37 +184,69 @@ impl Work<'_> {
         self.progress.show(Status { stage, share })
     }
 
-    /// The features of all pictures, one in memory at a time, and the intrinsics that they share.
-    fn read(&self, paths: &[PathBuf]) -> Result<(Vec<PhotoFeatures>, Intrinsics), Failure> {
-        let mut features: Vec<PhotoFeatures> = Vec::new();
-        let mut intrinsics = None;
-        for path in paths {
-            let photo = Photo::read(path)?;
+    /// How the path is followed, and what is told of the camera.
+    fn options(&self, frames: &Frames) -> OdometryOptions {
+        let guesses = frames.guess.as_slice();
+        let mut options = (self.arguments).options(self.context, some_unknown(guesses));
+        let lens = (frames.lens).map_or(SfmLens::NONE, |kept| kept.lens.into());
+        options.sfm.lenses = vec![lens];
+        let refined = &self.arguments.refined;
+        refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);
+        if let Some(sentence) = sentence(guesses) {
+            let is_refined = options.sfm.refine_focal && options.final_adjustment;
+            let then = if is_refined { ", to be refined" } else { "" };
+            self.context.warn(&format!("{sentence}{then}"));
+        }
+        options
+    }
+
+    /// The features of all pictures, one in memory at a time, and the camera that they share.
+    fn read(&self, paths: &[PathBuf]) -> Result<Frames, Failure> {
+        let file = self.arguments.camera_file.as_ref();
+        let camera = file.map(|file| lens::read(file, false)).transpose()?;
+        if let Some(camera) = &camera {
+            tell_of_unseen(camera, self.context)?;
+        }
+        let mut frames: Option<Frames> = None;
+        for (index, path) in paths.iter().enumerate() {
+            let photo = self.photo(path, camera.as_ref())?;
             let (width, height) = photo.color.dimensions();
-            if let Some(PhotoFeatures { image: first, .. }) = features.first()
-                && (first.width, first.height) != (width, height)
-            {
-                let message = format!(
-                    "all frames must have the size of the first, {} × {}, but this one is {width} × \
-                     {height}",
-                    first.width, first.height
-                );
-                return Err(Failure::new("size-mismatch", message).about(path));
-            }
-            if intrinsics.is_none() {
-                let (k, guess) = self.arguments.camera.or_guess(&photo)?;
-                if let Some(sentence) = sentence(guess.as_slice()) {
-                    self.context.warn(&sentence);
+            let first =
+                (frames.as_ref()).and_then(|frames| Some((frames, frames.features.first()?)));
+            if let Some((frames, PhotoFeatures { image: first, .. })) = first {
+                if (first.width, first.height) != (width, height) {
+                    let message = format!(
+                        "all frames must have the size of the first, {} × {}, but this one is {width} × \
+                         {height}",
+                        first.width, first.height
+                    );
+                    return Err(Failure::new("size-mismatch", message).about(path));
                 }
-                intrinsics = Some(k);
+                if frames.lens != photo.lens {
+                    let message =
+                        "all frames must be turned as the first, but this one is turned otherwise";
+                    return Err(Failure::new("size-mismatch", message).about(path));
+                }
             }
+            let frames = match &mut frames {
+                Some(frames) => frames,
+                none => {
+                    let (intrinsics, guess) = self.arguments.camera.or_guess(&photo)?;
+                    none.insert(Frames {
+                        features: Vec::new(),
+                        intrinsics,
+                        guess,
+                        lens: photo.lens,
+                    })
+                }
+            };
             let photo = SfmPhoto {
                 name: name(path),
                 image: photo.color,
                 ..SfmPhoto::default()
             };
-            features.push(photo_features(&photo, &self.options)?);
-            let share = features.len() as f64 / paths.len() as f64;
+            (frames.features).push(photo_features(&photo, &self.options)?);
+            let share = (index + 1) as f64 / paths.len() as f64;
             if self
                 .watch(Stage::FeatureDetection, DETECTED * share)
                 .is_break()
@@ -191,18 +254,33 @@ impl Work<'_> {
                 return Err(epipole::Error::Canceled.into());
             }
         }
-        match intrinsics {
-            Some(intrinsics) => Ok((features, intrinsics)),
-            None => Err(Failure::new("too-few", "a path needs frames")),
+        frames.ok_or_else(|| Failure::new("too-few", "a path needs frames"))
+    }
+
+    /// A frame, which keeps what the lens did.
+    fn photo(&self, path: &Path, camera: Option<&CalibratedCamera>) -> Result<Photo, Failure> {
+        let size = self.arguments.size;
+        let Some(camera) = camera else {
+            return Photo::prepared(path, size, None);
+        };
+        let photo = Photo::by_camera(path, size, camera)?;
+        if photo.lens.is_none() {
+            let message = format!(
+                "the camera of --camera was calibrated for {} × {}, but this frame is {} × {}",
+                camera.width, camera.height, photo.sensor_size.0, photo.sensor_size.1
+            );
+            return Err(Failure::new("size-mismatch", message).about(path));
         }
+        Ok(photo)
     }
 
     fn follow(
         &self,
-        left: Vec<PhotoFeatures>,
+        left: Frames,
         right: Vec<PhotoFeatures>,
-        intrinsics: Intrinsics,
+        options: &OdometryOptions,
     ) -> Result<OdometryResult, Failure> {
+        let (intrinsics, left) = (left.intrinsics, left.features);
         let num_frames = left.len();
         let mut observer = |step: &SfmStep| {
             let part = |stage, from: f64, to: f64, done: usize, total: usize| {
@@ -244,7 +322,6 @@ impl Work<'_> {
             intrinsics: vec![intrinsics],
             pairs: pairs.ok_or(epipole::Error::Canceled)?,
         };
-        let options = self.arguments.options(self.context);
         let result = match self.arguments.stereo_baseline_m {
             Some(baseline_m) => stereo_odometry(
                 &input,
@@ -252,10 +329,10 @@ impl Work<'_> {
                 &left_right,
                 &RigidTransform::translation(-baseline_m, 0.0, 0.0),
                 &intrinsics,
-                &options,
+                options,
                 &mut observer,
             )?,
-            None => monocular_odometry(&input, &options, &mut observer)?,
+            None => monocular_odometry(&input, options, &mut observer)?,
         };
         if result.canceled && result.world_from_cam.iter().all(Option::is_none) {
             return Err(epipole::Error::Canceled.into());
@@ -264,7 +341,14 @@ impl Work<'_> {
     }
 }
 
-fn report(result: &OdometryResult, paths: &[PathBuf], metric: bool) -> Report {
+/// * `metric`: whether the path has a unit of length
+/// * `refined_from_px`: the focal length before it was refined, if it was
+fn report(
+    result: &OdometryResult,
+    paths: &[PathBuf],
+    metric: bool,
+    refined_from_px: Option<f64>,
+) -> Report {
     let frames: Vec<serde_json::Value> = paths
         .iter()
         .zip(&result.world_from_cam)
@@ -283,10 +367,29 @@ fn report(result: &OdometryResult, paths: &[PathBuf], metric: bool) -> Report {
     } else {
         format!("{length:.3}, in a unit that one camera alone leaves open")
     };
-    Report::default()
+    // Of the left camera, whose frames come first.
+    let cameras = result.reconstruction.cameras.iter().take(paths.len());
+    let placed_camera = (cameras.enumerate()).find_map(|(frame, camera)| Some((frame, (*camera)?)));
+    let mut report = Report::default()
         .field("frames", frames)
         .field("keyframes", &result.keyframes)
         .field("lost", &result.lost)
+        .field("focal_refined", refined_from_px.is_some());
+    if let Some((frame, camera)) = placed_camera {
+        let lens = result.reconstruction.lens(frame);
+        let focal_px = camera.intrinsics.fu_px();
+        report = report
+            .field("focal_px", focal_px)
+            .field("lens", lens.kind().name())
+            .field("distortion", lens.coefficients());
+        if let Some(from_px) = refined_from_px {
+            report = report.row(
+                "focal length",
+                format!("{focal_px:.1} px, refined from {from_px:.1}"),
+            );
+        }
+    }
+    report
         .field("complete", !result.canceled)
         .row(
             "frames placed",
@@ -319,7 +422,10 @@ mod tests {
             quiet: true,
             seed: OdometryOptions::default().sfm.seed,
         };
-        let (said, core) = (arguments.options(&context), OdometryOptions::default());
+        let (said, core) = (
+            arguments.options(&context, false),
+            OdometryOptions::default(),
+        );
         assert_eq!(format!("{said:?}"), format!("{core:?}"));
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod growth;
 mod input;
 mod output;
 pub(crate) mod positions;
+pub(crate) mod refined;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;
@@ -90,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let positions = arguments.positions.give(&mut photos, &places)?;
     let lenses = (arguments.growth).give_lenses(&mut photos, &intrinsics, &lenses);
-    (arguments.growth).tell_of_nothing_to_refine(&lenses, context);
+    (arguments.growth.refined).tell_of_nothing_to_refine(&lenses, context);
     let options = SfmOptions {
         lenses,
         ..(arguments.growth).options(&arguments.robust, context, some_unknown(&guesses))

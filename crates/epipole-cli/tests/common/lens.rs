@@ -1,10 +1,58 @@
 //! Photographs through lenses of any model.
 
+use super::Folder;
 use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::synthetic::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
+use std::path::PathBuf;
+
+/// Pixels of a side of [`camera`]'s photographs.
+pub(crate) const SIZE: u32 = 420;
+
+/// A lens of each model: 175° wide, or as narrow as 36°.
+pub(crate) fn camera(kind: LensKind) -> CalibratedCamera {
+    let (focal_px, numbers): (f64, &[f64]) = match kind {
+        LensKind::Brown => (400.0, &[-0.1, 0.02, 0.001, -0.001, 0.0]),
+        LensKind::Rational => (320.0, &[0.3, 0.05, 0.001, -0.001, 0.01, 0.5, 0.1, 0.005]),
+        LensKind::Fisheye => (140.0, &[-0.02, 0.006, -0.002, 0.0003]),
+        LensKind::Division => (640.0, &[-0.3]),
+    };
+    CalibratedCamera {
+        intrinsics: Intrinsics::new(focal_px, focal_px, 210.5, 208.0).unwrap(),
+        lens: Lens::from_coefficients(kind, numbers).unwrap(),
+        width: SIZE,
+        height: SIZE,
+    }
+}
+
+/// All of them.
+pub(crate) const KINDS: [LensKind; 4] = [
+    LensKind::Brown,
+    LensKind::Rational,
+    LensKind::Fisheye,
+    LensKind::Division,
+];
+
+/// The file that `--camera` reads.
+pub(crate) fn write(folder: &Folder, camera: &CalibratedCamera) -> PathBuf {
+    let k = &camera.intrinsics;
+    let center = k.principal_point();
+    let text = format!(
+        r#"{{ "image": {{ "width": {}, "height": {} }}, "k": [{}, {}, {}, {}],
+        "distortion": {{ "model": "{}", "coefficients": {:?} }} }}"#,
+        camera.width,
+        camera.height,
+        k.fu_px(),
+        k.fv_px(),
+        center.x,
+        center.y,
+        camera.lens.kind().name(),
+        camera.lens.coefficients()
+    );
+    folder.write("camera.json", &text)
+}
 
 /// The sides of a cube around the camera that a lens sees: the rows are the axes of each.
 fn sides() -> [Matrix3<f64>; 5] {

@@ -46,6 +46,14 @@ impl Folder {
         photograph
     }
 
+    /// Photographs of the still life in a folder: 0.png, 1.png …
+    pub(crate) fn photographs(&self, sub: &str, cameras: &[Camera], size: (u32, u32)) {
+        std::fs::create_dir_all(self.file(sub)).unwrap();
+        for (n, camera) in cameras.iter().enumerate() {
+            self.photograph(&format!("{sub}/{n}.png"), camera, size);
+        }
+    }
+
     /// A picture of one gray.
     pub(crate) fn blank(&self, name: &str, size: (u32, u32)) -> PathBuf {
         let path = self.file(name);

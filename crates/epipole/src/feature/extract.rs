@@ -1,124 +1,15 @@
-//! Features of photographs by any of the detectors, and the one set of defaults for them.
+//! Features of photographs by any of the detectors.
 
 use super::{
-    BinaryDescriptors, CornerMeasure, Descriptors, GoodFeaturesOptions, Keypoint, Match,
-    MatchOptions, OrbOptions, RefineOptions, SiftNormalization, SiftOptions, describe_patches,
-    detect_orb, detect_sift_with_progress, good_features_to_track, match_descriptors,
-    match_hamming, refine_corners,
+    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
+    RefineOptions, describe_patches, detect_orb, detect_sift_with_progress, good_features_to_track,
+    match_descriptors, match_hamming, refine_corners,
 };
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
 use crate::progress::Progress;
 use crate::{Error, Result};
 use image::RgbImage;
 use std::ops::ControlFlow;
-
-/// Which features to look for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum FeatureKind {
-    /// Scale-invariant features ([`detect_sift`](super::detect_sift)), Euclidean descriptors.
-    Sift,
-    /// The same with the Hellinger kernel ([`SiftNormalization::Root`]).
-    #[default]
-    RootSift,
-    /// Oriented FAST corners with 256 comparisons ([`detect_orb`]).
-    Orb,
-    /// Harris corners with normalized patches ([`describe_patches`]), for photographs from nearly the
-    /// same place: neither turned nor enlarged.
-    Harris,
-}
-
-/// How features of a photograph are found. The default is what every command and
-/// [`PhotoOptions`](crate::sfm::PhotoOptions) start from; [`MatchOptions`] and
-/// [`RansacOptions`](crate::robust::RansacOptions) are its companions for matches and models.
-///
-/// ```
-/// use epipole::feature::{FeatureKind, FeatureOptions};
-/// let options = FeatureOptions::default();
-/// assert_eq!((options.kind, options.max_features), (FeatureKind::RootSift, 8192));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FeatureOptions {
-    /// RootSIFT.
-    pub kind: FeatureKind,
-    /// At most so many, the strongest; 0 means no limit. 8192.
-    pub max_features: usize,
-    /// How strong a feature must be, for gray values in [0, 1]; `None` for what suits the kind. Of
-    /// SIFT [`SiftOptions::contrast_threshold`], 0.02: faint ones, too. Of ORB
-    /// [`OrbOptions::fast_threshold`], 20/255. Of Harris' corners the share of the strongest,
-    /// [`GoodFeaturesOptions::quality`], 0.01.
-    pub contrast_threshold: Option<f32>,
-    /// SIFT: the blur that a photograph is assumed to have, pixels, 0 to 0.8. 0.5, as
-    /// Lowe's; from 0.3 more of them match where photographs are sharp, fewer where features are rare.
-    pub input_blur_px: f64,
-    /// SIFT: the largest ratio of the principal curvatures, > 1. 10.
-    pub edge_threshold: f32,
-    /// SIFT: photographs of up to so many pixels are looked at in twice their size, too; 0 for none.
-    /// 1.5 million: larger ones have features enough, and doubling them takes seconds.
-    pub max_upsampled_pixels: u64,
-    /// Take every direction to be 0, for cameras held upright. Harris' corners have none. False.
-    pub upright: bool,
-}
-
-impl Default for FeatureOptions {
-    fn default() -> Self {
-        Self {
-            kind: FeatureKind::RootSift,
-            max_features: 8192,
-            contrast_threshold: None,
-            input_blur_px: 0.5,
-            edge_threshold: SiftOptions::default().edge_threshold,
-            max_upsampled_pixels: 1_500_000,
-            upright: false,
-        }
-    }
-}
-
-impl FeatureOptions {
-    /// What they are for SIFT, in an image of that size.
-    ///
-    /// ```
-    /// let options = epipole::feature::FeatureOptions::default();
-    /// assert!(options.sift(1200, 900).upsample && !options.sift(4000, 3000).upsample);
-    /// ```
-    pub fn sift(&self, width: u32, height: u32) -> SiftOptions {
-        SiftOptions {
-            max_features: self.max_features,
-            contrast_threshold: self.contrast_threshold.unwrap_or(0.02),
-            edge_threshold: self.edge_threshold,
-            input_blur_px: self.input_blur_px,
-            upsample: u64::from(width) * u64::from(height) <= self.max_upsampled_pixels,
-            upright: self.upright,
-            normalization: match self.kind {
-                FeatureKind::Sift => SiftNormalization::L2,
-                _ => SiftNormalization::Root,
-            },
-            ..SiftOptions::default()
-        }
-    }
-
-    fn orb(&self) -> OrbOptions {
-        let default = OrbOptions::default();
-        OrbOptions {
-            max_features: match self.max_features {
-                0 => u32::MAX as usize,
-                limit => limit,
-            },
-            fast_threshold: self.contrast_threshold.unwrap_or(default.fast_threshold),
-            upright: self.upright,
-            ..default
-        }
-    }
-
-    fn harris(&self) -> GoodFeaturesOptions {
-        let default = GoodFeaturesOptions::default();
-        GoodFeaturesOptions {
-            max_corners: self.max_features,
-            quality: self.contrast_threshold.unwrap_or(default.quality),
-            measure: CornerMeasure::Harris(0.04),
-            ..default
-        }
-    }
-}
 
 /// Descriptors of whatever kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -225,12 +116,12 @@ pub fn detect_features_with_progress(
                 descriptors: AnyDescriptors::Bits(found.descriptors),
             })
         }
-        FeatureKind::Harris => harris(image, &options.harris()),
+        FeatureKind::Harris => harris(image, options),
     }
 }
 
-fn harris(image: &GrayImage32, options: &GoodFeaturesOptions) -> Result<AnyFeatures> {
-    let corners = good_features_to_track(image, options)?;
+fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
+    let corners = good_features_to_track(image, &options.harris())?;
     let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
     let refined = refine_corners(image, &places, &RefineOptions::default())?;
     // A corner that cannot be refined is not one.
@@ -243,7 +134,7 @@ fn harris(image: &GrayImage32, options: &GoodFeaturesOptions) -> Result<AnyFeatu
             })
         })
         .collect();
-    let descriptors = describe_patches(image, &keypoints, 11, 1.0)?;
+    let descriptors = describe_patches(image, &keypoints, options.patch_px, 1.0)?;
     Ok(AnyFeatures {
         keypoints,
         descriptors: AnyDescriptors::Vectors(descriptors),
@@ -332,6 +223,199 @@ mod tests {
             assert_eq!(with(3, None), 3, "{kind:?}");
             let strong = with(0, Some(0.5));
             assert!(strong < all, "{kind:?} {strong} of {all}");
+        }
+    }
+
+    /// Boxes on a texture of ripples of a few pixels, on which every option makes a difference.
+    fn busy() -> GrayImage32 {
+        let boxes = boxes();
+        GrayImage32::from_fn(120, 100, |u, v| {
+            let (x, y) = (u as f32, v as f32);
+            let ripples = (0.9 * x + 0.011 * y * y).sin() * (0.7 * y - 0.007 * x * x).cos();
+            Luma([boxes.get_pixel(u, v).0[0] + 0.08 * ripples])
+        })
+    }
+
+    #[test]
+    fn every_option_counts_for_its_kind_and_for_no_other() {
+        let image = busy();
+        let found = |options: FeatureOptions| detect_features(&image, &options).unwrap();
+        let of = FeatureOptions::default();
+        let sift = [FeatureKind::Sift, FeatureKind::RootSift].as_slice();
+        let (orb, harris) = (&[FeatureKind::Orb][..], &[FeatureKind::Harris][..]);
+        let directed = &KINDS[..3];
+        let changed = [
+            (
+                "upright",
+                FeatureOptions {
+                    upright: true,
+                    ..of
+                },
+                directed,
+            ),
+            (
+                "max_upsampled_pixels",
+                FeatureOptions {
+                    max_upsampled_pixels: 0,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "input_blur_px",
+                FeatureOptions {
+                    input_blur_px: 0.3,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "sigma_px",
+                FeatureOptions {
+                    sigma_px: 1.2,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "layers_per_octave",
+                FeatureOptions {
+                    layers_per_octave: 4,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "edge_threshold",
+                FeatureOptions {
+                    edge_threshold: 1.5,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "max_orientations",
+                FeatureOptions {
+                    max_orientations: 1,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "orientation_peak_ratio",
+                FeatureOptions {
+                    orientation_peak_ratio: 0.4,
+                    ..of
+                },
+                sift,
+            ),
+            (
+                "num_levels",
+                FeatureOptions {
+                    num_levels: 2,
+                    ..of
+                },
+                orb,
+            ),
+            (
+                "scale_factor",
+                FeatureOptions {
+                    scale_factor: 1.5,
+                    ..of
+                },
+                orb,
+            ),
+            (
+                "harris_k",
+                FeatureOptions {
+                    harris_k: 0.2,
+                    ..of
+                },
+                harris,
+            ),
+            (
+                "min_distance_px",
+                FeatureOptions {
+                    min_distance_px: 20.0,
+                    ..of
+                },
+                harris,
+            ),
+            (
+                "tensor_window_px",
+                FeatureOptions {
+                    tensor_window_px: 7,
+                    ..of
+                },
+                harris,
+            ),
+            ("patch_px", FeatureOptions { patch_px: 7, ..of }, harris),
+        ];
+        for kind in KINDS {
+            let usual = found(FeatureOptions { kind, ..of });
+            for (name, options, counts_for) in &changed {
+                let differs = found(FeatureOptions { kind, ..*options }) != usual;
+                assert_eq!(differs, counts_for.contains(&kind), "{name} {kind:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn options_out_of_range_are_refused() {
+        let of = FeatureOptions::default();
+        let of_kind = |kind| FeatureOptions { kind, ..of };
+        let (orb, harris) = (of_kind(FeatureKind::Orb), of_kind(FeatureKind::Harris));
+        for options in [
+            FeatureOptions {
+                sigma_px: f64::NAN,
+                ..of
+            },
+            FeatureOptions {
+                sigma_px: 0.9,
+                ..of
+            },
+            FeatureOptions {
+                layers_per_octave: 0,
+                ..of
+            },
+            FeatureOptions {
+                max_orientations: 0,
+                ..of
+            },
+            FeatureOptions {
+                orientation_peak_ratio: 0.0,
+                ..of
+            },
+            FeatureOptions {
+                num_levels: 17,
+                ..orb
+            },
+            FeatureOptions {
+                scale_factor: 1.0,
+                ..orb
+            },
+            FeatureOptions {
+                harris_k: 0.25,
+                ..harris
+            },
+            FeatureOptions {
+                min_distance_px: -1.0,
+                ..harris
+            },
+            FeatureOptions {
+                tensor_window_px: 0,
+                ..harris
+            },
+            FeatureOptions {
+                patch_px: 1,
+                ..harris
+            },
+        ] {
+            let refused = detect_features(&boxes(), &options);
+            assert!(
+                matches!(refused, Err(Error::OutOfRange { .. })),
+                "{options:?}"
+            );
         }
     }
 

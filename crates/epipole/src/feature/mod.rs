@@ -11,6 +11,7 @@ mod good_features;
 mod keypoint;
 mod matching;
 mod nms;
+mod options;
 mod orb;
 mod parallel;
 mod patch;
@@ -23,8 +24,8 @@ mod window_tensor;
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
 pub use extract::{
-    AnyDescriptors, AnyFeatures, FeatureKind, FeatureOptions, detect_features,
-    detect_features_with_progress, match_any_descriptors, photo_to_gray,
+    AnyDescriptors, AnyFeatures, detect_features, detect_features_with_progress,
+    match_any_descriptors, photo_to_gray,
 };
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
@@ -33,6 +34,7 @@ pub use matching::{
     match_descriptors_with_progress, match_hamming, nearest_few, nearest_two, nearest_two_hamming,
 };
 pub use nms::non_maximum_suppression;
+pub use options::{FeatureKind, FeatureOptions};
 pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};

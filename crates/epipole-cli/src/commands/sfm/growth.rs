@@ -1,11 +1,12 @@
 //! How a reconstruction grows: what `epipole sfm` asks beyond features and matches.
 
+use super::refined::RefinedArguments;
 use crate::context::Context;
 use crate::matrices::positive;
 use crate::photo::KeptLens;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
-use epipole::camera::{Intrinsics, LensKind};
+use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, SfmLens, SfmOptions};
 
 /// Which photographs share a lens.
@@ -41,7 +42,7 @@ pub(crate) struct AcceptArguments {
 }
 
 impl AcceptArguments {
-    /// The same for the core; what is refined is as usual.
+    /// The same for the core; of lenses nothing is refined.
     pub(crate) fn options(&self, robust: &RobustArguments, context: &Context) -> SfmOptions {
         SfmOptions {
             ransac: robust.options(context),
@@ -65,22 +66,8 @@ pub(super) struct GrowthArguments {
     /// ("alike"), or none ("each"). Those of --camera share none with others, nor with those that were turned otherwise.
     #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
     lenses: Lenses,
-    /// Refine one factor for the focal lengths of each lens, also where they are known.
-    #[arg(long)]
-    refine_focal: bool,
-    /// Keep the focal lengths, also where they are but a guess.
-    #[arg(long, conflicts_with = "refine_focal")]
-    keep_focal: bool,
-    /// Refine where the principal points are, one shift for each lens.
-    #[arg(long)]
-    refine_principal_point: bool,
-    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye four, of the division
-    /// model its one.
-    #[arg(long)]
-    refine_distortion: bool,
-    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model have none.
-    #[arg(long)]
-    refine_tangential: bool,
+    #[command(flatten)]
+    pub(super) refined: RefinedArguments,
     #[command(flatten)]
     accept: AcceptArguments,
 }
@@ -115,17 +102,6 @@ impl GrowthArguments {
         kinds.into_iter().map(|(_, kept)| lens(kept)).collect()
     }
 
-    /// Says what is asked for and cannot be.
-    pub(super) fn tell_of_nothing_to_refine(&self, lenses: &[SfmLens], context: &Context) {
-        let has_tangential =
-            |lens: &SfmLens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
-        if self.refine_tangential && !lenses.iter().any(has_tangential) {
-            context.warn(
-                "--refine-tangential makes no difference here: the model of the lens has no tangential terms",
-            );
-        }
-    }
-
     /// The same for the core.
     ///
     /// * `some_unknown`: whether the focal length of some photograph is but a guess
@@ -135,13 +111,8 @@ impl GrowthArguments {
         context: &Context,
         some_unknown: bool,
     ) -> SfmOptions {
-        SfmOptions {
-            refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
-            refine_principal_point: self.refine_principal_point,
-            refine_distortion: self.refine_distortion,
-            refine_tangential: self.refine_tangential,
-            ..self.accept.options(robust, context)
-        }
+        let accepted = self.accept.options(robust, context);
+        self.refined.options(accepted, some_unknown)
     }
 }
 

@@ -1,4 +1,4 @@
-//! `epipole sfm` and `odometry` on rendered photographs whose cameras are known.
+//! `epipole sfm` on rendered photographs whose cameras are known.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -22,23 +22,6 @@ fn around(n: usize) -> Camera {
     moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
 }
 
-/// A camera that goes to the right, and a little forward.
-fn along(n: usize) -> Camera {
-    let step = n as f64;
-    let motion = Vector3::new(-0.05 * step, 0.004 * step, -0.02 * step);
-    moved(
-        SIZE,
-        &RigidTransform::new(motion, Vector3::new(0.0, 0.005 * step, 0.0)),
-    )
-}
-
-fn photographs(folder: &Folder, sub: &str, cameras: &[Camera]) {
-    std::fs::create_dir_all(folder.file(sub)).unwrap();
-    for (n, camera) in cameras.iter().enumerate() {
-        folder.photograph(&format!("{sub}/{n}.png"), camera, SIZE);
-    }
-}
-
 fn centers(cameras: &[Camera]) -> Vec<Point3<f64>> {
     cameras.iter().map(Camera::center_in_world).collect()
 }
@@ -53,7 +36,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 fn an_unknown_focal_length_is_refined() {
     let folder = Folder::new("sfm-focal");
     let cameras: Vec<Camera> = (0..5).map(around).collect();
-    photographs(&folder, "photos", &cameras);
+    folder.photographs("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let truth = cameras[0].intrinsics.fu_px();
     let run = |more: &[&str]| {
@@ -84,7 +67,7 @@ fn an_unknown_focal_length_is_refined() {
 fn commands_find_the_same_features() {
     let folder = Folder::new("sfm-features");
     let cameras: Vec<Camera> = (0..2).map(around).collect();
-    photographs(&folder, "photos", &cameras);
+    folder.photographs("photos", &cameras, SIZE);
     let files = [0, 1].map(|n| folder.file(&format!("photos/{n}.png")));
     let options = epipole::sfm::PhotoOptions::default();
     let features = files.each_ref().map(|file| {
@@ -116,7 +99,7 @@ fn commands_find_the_same_features() {
 fn every_step_of_a_reconstruction_can_be_set() {
     let folder = Folder::new("sfm-set");
     let cameras: Vec<Camera> = (0..3).map(around).collect();
-    photographs(&folder, "photos", &cameras);
+    folder.photographs("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let k = k(&cameras[0]);
     let run = |more: &[&str]| {
@@ -166,7 +149,7 @@ fn every_step_of_a_reconstruction_can_be_set() {
 fn photographs_become_cameras_and_points() {
     let folder = Folder::new("sfm");
     let cameras: Vec<Camera> = (0..5).map(around).collect();
-    photographs(&folder, "photos", &cameras);
+    folder.photographs("photos", &cameras, SIZE);
     // What is no photograph is passed over.
     folder.write("photos/notes.txt", "not a photograph");
     let (photos, out) = (folder.file("photos"), folder.file("out"));
@@ -230,7 +213,7 @@ fn photographs_become_cameras_and_points() {
 #[test]
 fn photographs_that_do_not_fit_together_are_refused() {
     let folder = Folder::new("sfm-bad");
-    photographs(&folder, "photos", &[around(0)]);
+    folder.photographs("photos", &[around(0)], SIZE);
     std::fs::create_dir(folder.file("empty")).unwrap();
     let photo = folder.file("photos/0.png");
     let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
@@ -281,160 +264,4 @@ fn photographs_that_do_not_fit_together_are_refused() {
     fails(&folder, &["sfm", path(&photo)], 2, "--output");
     let wrong = ["sfm", path(&photo), "-o", path(&out), "--focal-px", "-3"];
     fails(&folder, &wrong, 2, "-3");
-}
-
-/// `world_from_cam` of each frame, relative to the first.
-fn truth(cameras: &[Camera]) -> Vec<RigidTransform> {
-    let first = cameras[0].cam_from_world;
-    cameras
-        .iter()
-        .map(|camera| first * camera.cam_from_world.inverse())
-        .collect()
-}
-
-fn path_of(result: &Value) -> Vec<RigidTransform> {
-    let frames = result["frames"].as_array().unwrap();
-    frames
-        .iter()
-        .map(|frame| motion(&frame["world_from_cam"]))
-        .collect()
-}
-
-#[test]
-fn a_moving_camera_is_followed_up_to_scale() {
-    let folder = Folder::new("odometry");
-    let cameras: Vec<Camera> = (0..8).map(along).collect();
-    photographs(&folder, "left", &cameras);
-    let left = folder.file("left");
-    let result = json(&["odometry", path(&left), "--k", &k(&cameras[0])]);
-    assert_eq!(result["lost"], Value::Array(Vec::new()));
-    assert_eq!(result["complete"], true);
-    assert_eq!(result["frames"][3]["name"], "3.png");
-    let keyframes = numbers(&result["keyframes"]);
-    assert!(keyframes.len() >= 2 && keyframes.windows(2).all(|pair| pair[0] < pair[1]));
-    let (found, truth) = (path_of(&result), truth(&cameras));
-    // One camera alone leaves the unit open: that of the last frame is taken from the truth.
-    let length = |poses: &[RigidTransform]| poses[poses.len() - 1].translation.vector.norm();
-    let scale = length(&truth) / length(&found);
-    for (got, want) in found.iter().zip(&truth) {
-        let error = (got.translation.vector * scale - want.translation.vector).norm();
-        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
-        assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
-    }
-}
-
-#[test]
-fn a_stereo_rig_is_followed_in_meters() {
-    let folder = Folder::new("odometry-stereo");
-    let cameras: Vec<Camera> = (0..6).map(along).collect();
-    let right: Vec<Camera> = cameras
-        .iter()
-        .map(|camera| Camera {
-            cam_from_world: RigidTransform::translation(-0.08, 0.0, 0.0) * camera.cam_from_world,
-            ..*camera
-        })
-        .collect();
-    photographs(&folder, "left", &cameras);
-    photographs(&folder, "right", &right);
-    let folders = [folder.file("left"), folder.file("right")];
-    let camera = k(&cameras[0]);
-    let rig = ["--right", path(&folders[1]), "--stereo-baseline-m", "0.08"];
-    let result = json(&[&["odometry", path(&folders[0]), "--k", &camera], &rig[..]].concat());
-    assert_eq!(result["lost"], Value::Array(Vec::new()));
-    // No alignment: the frame is that of the first camera, the unit is the meter.
-    for (got, want) in path_of(&result).iter().zip(&truth(&cameras)) {
-        let error = (got.translation.vector - want.translation.vector).norm();
-        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
-        assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
-    }
-}
-
-#[test]
-fn frames_without_a_path_are_refused() {
-    let folder = Folder::new("odometry-bad");
-    let cameras: Vec<Camera> = (0..3).map(along).collect();
-    photographs(&folder, "three", &cameras);
-    photographs(&folder, "two", &cameras[..2]);
-    photographs(&folder, "one", &cameras[..1]);
-    let turned = |n: f64| {
-        moved(
-            SIZE,
-            &RigidTransform::new(Vector3::zeros(), Vector3::y() * 0.03 * n),
-        )
-    };
-    photographs(&folder, "turned", &[0.0, 1.0, 2.0, 3.0].map(turned));
-    std::fs::create_dir(folder.file("sizes")).unwrap();
-    folder.blank("sizes/0.png", SIZE);
-    folder.blank("sizes/1.png", (100, 80));
-    std::fs::create_dir(folder.file("blank")).unwrap();
-    for name in ["blank/0.png", "blank/1.png"] {
-        folder.blank(name, SIZE);
-    }
-    std::fs::create_dir(folder.file("empty")).unwrap();
-    let [three, two] = ["three", "two"].map(|name| folder.file(name));
-    for (name, expected) in [
-        ("one", "the path of a camera from frames needs at least 2"),
-        (
-            "turned",
-            "no two pictures see enough points under a sufficient angle",
-        ),
-        ("blank", "is not determined"),
-        (
-            "sizes",
-            "1.png: all frames must have the size of the first, 400 × 300, but this one is 100 × 80",
-        ),
-        ("empty", "there are no photographs"),
-        ("missing", "there is no such file"),
-    ] {
-        let frames = folder.file(name);
-        fails(
-            &folder,
-            &["odometry", path(&frames), "--focal-px", "500"],
-            1,
-            expected,
-        );
-    }
-    let rig = [
-        "--right",
-        path(&two),
-        "--stereo-baseline-m",
-        "0.1",
-        "--focal-px",
-        "500",
-    ];
-    let arguments = [&["odometry", path(&three)], &rig[..]].concat();
-    fails(
-        &folder,
-        &arguments,
-        1,
-        "there are 3 of the left one and 2 of the right one",
-    );
-    // A name that is wrong is not one frame.
-    let nowhere = folder.file("nowhere");
-    let rig = [&["--right", path(&nowhere)], &rig[2..]].concat();
-    let arguments = [&["odometry", path(&three)], &rig[..]].concat();
-    fails(&folder, &arguments, 1, "nowhere: there is no such file");
-    for (options, expected) in [
-        (&["--right", path(&two)][..], "--stereo-baseline-m"),
-        (&["--stereo-baseline-m", "0.1"], "--right"),
-        (&["--right", path(&two), "--stereo-baseline-m", "0"], "0"),
-    ] {
-        let arguments = [&["odometry", path(&two), "--focal-px", "500"], options].concat();
-        fails(&folder, &arguments, 2, expected);
-    }
-    // Two cameras at one place, by their pictures: the same pictures on both sides.
-    let rig = [
-        "--right",
-        path(&three),
-        "--stereo-baseline-m",
-        "0.1",
-        "--focal-px",
-        "500",
-    ];
-    fails(
-        &folder,
-        &[&["odometry", path(&three)], &rig[..]].concat(),
-        1,
-        "is not determined",
-    );
 }

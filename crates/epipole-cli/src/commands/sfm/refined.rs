@@ -1,0 +1,54 @@
+//! What of the lenses is refined, by `epipole sfm` and `epipole odometry`.
+
+use crate::context::Context;
+use clap::Args;
+use epipole::camera::LensKind;
+use epipole::sfm::{SfmLens, SfmOptions};
+
+/// What of the lenses is refined.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Reconstruction")]
+pub(crate) struct RefinedArguments {
+    /// Refine one factor for the focal lengths of each lens, also where they are known.
+    #[arg(long)]
+    refine_focal: bool,
+    /// Keep the focal lengths, also where they are but a guess.
+    #[arg(long, conflicts_with = "refine_focal")]
+    keep_focal: bool,
+    /// Refine where the principal points are, one shift for each lens.
+    #[arg(long)]
+    refine_principal_point: bool,
+    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye four, of the division
+    /// model its one.
+    #[arg(long)]
+    refine_distortion: bool,
+    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model have none.
+    #[arg(long)]
+    refine_tangential: bool,
+}
+
+impl RefinedArguments {
+    /// Says what is asked for and cannot be.
+    pub(crate) fn tell_of_nothing_to_refine(&self, lenses: &[SfmLens], context: &Context) {
+        let has_tangential =
+            |lens: &SfmLens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
+        if self.refine_tangential && !lenses.iter().any(has_tangential) {
+            context.warn(
+                "--refine-tangential makes no difference here: the model of the lens has no tangential terms",
+            );
+        }
+    }
+
+    /// With what else is asked of a reconstruction, the same for the core.
+    ///
+    /// * `some_unknown`: whether some focal length is but a guess
+    pub(crate) fn options(&self, accepted: SfmOptions, some_unknown: bool) -> SfmOptions {
+        SfmOptions {
+            refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
+            refine_principal_point: self.refine_principal_point,
+            refine_distortion: self.refine_distortion,
+            refine_tangential: self.refine_tangential,
+            ..accepted
+        }
+    }
+}
