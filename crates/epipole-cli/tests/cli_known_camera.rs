@@ -4,10 +4,10 @@
 
 mod common;
 
-use common::lens::{KINDS, SIZE, camera, photograph, wall_photograph, write};
+use common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
 use common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
 use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform, look_at};
+use epipole::camera::{Lens, LensKind, RigidTransform, look_at};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
@@ -63,7 +63,7 @@ fn every_lens_gives_the_motion_between_its_photographs() {
         let camera = camera(kind);
         let poses = table(&camera);
         let truth = poses[1] * poses[0].inverse();
-        let files = pair(&folder, poses.map(|pose| photograph(&camera, &pose)));
+        let files = pair(&folder, photographs(&camera, poses));
         let file = write(&folder, &camera);
         let found = two_view(&files, &file, "essential");
         assert_eq!(found["configuration"], "general", "{kind:?}");
@@ -132,7 +132,7 @@ fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
         assert!(off < 0.02, "{kind:?}: {off}");
 
         let poses = table(&camera);
-        let turned = [poses[0], turn * poses[0]].map(|pose| photograph(&camera, &pose));
+        let turned = photographs(&camera, [poses[0], turn * poses[0]]);
         let files = pair(&folder, turned);
         for model in ["auto", "essential", "homography"] {
             let found = two_view(&files, &file, model);
@@ -152,7 +152,7 @@ fn matches_tell_the_rays_of_their_keypoints() {
     let folder = Folder::new("known-rays");
     let camera = camera(LensKind::Fisheye);
     let poses = table(&camera);
-    let files = pair(&folder, poses.map(|pose| photograph(&camera, &pose)));
+    let files = pair(&folder, photographs(&camera, poses));
     let file = write(&folder, &camera);
     let [a, b] = files.each_ref().map(|file| path(file));
     let found = json(&["match", a, b, "--camera", path(&file)]);
@@ -190,10 +190,7 @@ fn every_lens_is_rectified() {
     for kind in KINDS {
         let folder = Folder::new(&format!("known-rectify-{}", kind.name()));
         let camera = camera(kind);
-        let files = pair(
-            &folder,
-            table(&camera).map(|pose| photograph(&camera, &pose)),
-        );
+        let files = pair(&folder, photographs(&camera, table(&camera)));
         let file = write(&folder, &camera);
         let out = folder.file("out");
         let [a, b] = files.each_ref().map(|file| path(file));

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::lens::photograph;
+use common::lens::photographs;
 use common::{Folder, epipole, fails, json, motion, numbers, parse, path};
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform, look_at};
@@ -29,14 +29,12 @@ fn camera() -> CalibratedCamera {
 }
 
 /// Five views of the table from an arc.
-fn poses() -> Vec<RigidTransform> {
+fn poses() -> [RigidTransform; 5] {
     let up = Vector3::new(0.0, -1.0, 0.0);
-    [-0.3, -0.15, 0.0, 0.15, 0.3]
-        .map(|x: f64| {
-            let center = Point3::new(x, -0.35 - 0.1 * x.abs(), -0.55 + 0.3 * x.abs());
-            look_at(&center, &Point3::new(0.03, -0.1, 0.05), &up).unwrap()
-        })
-        .to_vec()
+    [-0.3, -0.15, 0.0, 0.15, 0.3].map(|x: f64| {
+        let center = Point3::new(x, -0.35 - 0.1 * x.abs(), -0.55 + 0.3 * x.abs());
+        look_at(&center, &Point3::new(0.03, -0.1, 0.05), &up).unwrap()
+    })
 }
 
 fn camera_json(coefficients: &[f64]) -> String {
@@ -67,9 +65,10 @@ fn off_m(result: &Value) -> f64 {
 fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     let folder = Folder::new("fisheye");
     let mut files: Vec<PathBuf> = Vec::new();
-    for (n, pose) in poses().iter().enumerate() {
+    let photographs = photographs(&camera(), poses());
+    for (n, photograph) in photographs.iter().enumerate() {
         files.push(folder.file(&format!("{n}.png")));
-        photograph(&camera(), pose).save(&files[n]).unwrap();
+        photograph.save(&files[n]).unwrap();
     }
     let camera = folder.write("camera.json", &camera_json(&COEFFICIENTS));
     let out = folder.file("out");
@@ -116,7 +115,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     assert!(off_px < 0.5, "{off_px}");
 
     // Photographs of another size are by another camera, and share no lens with it.
-    let small = image::imageops::thumbnail(&photograph(&self::camera(), &poses()[2]), 200, 200);
+    let small = image::imageops::thumbnail(&photographs[2], 200, 200);
     small.save(folder.file("5.png")).unwrap();
     let mut arguments = vec!["sfm", "--camera", path(&camera), "-o", path(&out), "--json"];
     arguments.extend(files.iter().map(|file| path(file)));

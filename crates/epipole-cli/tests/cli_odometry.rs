@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::lens::{self, photograph};
-use common::{Folder, epipole, fails, json, k, motion, moved, numbers, path};
+use common::lens;
+use common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
 use epipole::camera::{Camera, LensKind, RigidTransform, look_at};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
@@ -199,9 +199,9 @@ fn frames_through_any_lens_are_followed() {
             look_at(&center, &Point3::new(0.03, -0.1, 0.05), &up).unwrap()
         });
         std::fs::create_dir_all(folder.file("frames")).unwrap();
-        for (n, pose) in poses.iter().enumerate() {
+        for (n, frame) in lens::photographs(&camera, poses).iter().enumerate() {
             let file = folder.file(&format!("frames/{n}.png"));
-            photograph(&camera, pose).save(file).unwrap();
+            frame.save(file).unwrap();
         }
         let (frames, file) = (folder.file("frames"), lens::write(&folder, &camera));
         let arguments = ["odometry", path(&frames), "--camera", path(&file)];
@@ -214,13 +214,16 @@ fn frames_through_any_lens_are_followed() {
         let truth: Vec<RigidTransform> = (poses.iter())
             .map(|pose| poses[0] * pose.inverse())
             .collect();
+        // More than that is not in the matches of the narrowest: PoseLib finds .87° there between two photographs.
+        let most_deg = if kind == LensKind::Division { 1.0 } else { 0.3 };
         for [place, turn] in off(&path_of(&result), &truth) {
-            assert!(place < 0.05 && turn < 0.5, "{kind:?}: {place} {turn}");
+            assert!(place < 0.05 && turn < most_deg, "{kind:?}: {place} {turn}");
         }
-        // What is to be refined of the lens is.
-        let refined = json(&[&arguments[..], &["--refine-distortion"]].concat());
-        assert_ne!(numbers(&refined["distortion"]), camera.lens.coefficients());
-        let output = epipole(&[&arguments[..], &["--refine-tangential"]].concat());
+        // What is to be refined of the lens is, as far as it has it.
+        let more = ["--refine-distortion", "--refine-tangential", "--json"];
+        let output = epipole(&[&arguments[..], &more].concat());
+        let refined = numbers(&parse(&output)["distortion"]);
+        assert_ne!(refined, camera.lens.coefficients());
         let told = String::from_utf8(output.stderr).unwrap();
         let has_none = matches!(kind, LensKind::Fisheye | LensKind::Division);
         assert_eq!(told.contains("no tangential terms"), has_none, "{kind:?}");

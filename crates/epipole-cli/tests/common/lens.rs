@@ -6,6 +6,7 @@ use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::synthetic::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
+use std::cell::OnceCell;
 use std::path::PathBuf;
 
 /// Pixels of a side of [`camera`]'s photographs.
@@ -61,47 +62,68 @@ fn sides() -> [Matrix3<f64>; 5] {
         .map(|axes| Matrix3::from_rows(&axes.map(|axis| axis.transpose())))
 }
 
-/// What a camera sees of the still life through its lens: the sides of a cube, each rendered by a pinhole camera, and read where the
-/// rays of its pixels meet them.
-pub(crate) fn photograph(camera: &CalibratedCamera, cam_from_world: &RigidTransform) -> RgbImage {
+/// Where a pixel looks: a side of the cube, and the pixel of it.
+type Sight = Option<(usize, Point2<f64>)>;
+
+fn sight(camera: &CalibratedCamera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
+    let ray = camera.ray(&Point2::from(pixel.map(f64::from))).ok()?;
+    let facing = |axes: Matrix3<f64>| {
+        let turned = axes * ray;
+        (turned.z / turned.amax() > 0.999_999).then_some(turned)
+    };
+    let (side, turned) =
+        (sides().into_iter().enumerate()).find_map(|(side, axes)| Some((side, facing(axes)?)))?;
+    Some((side, k.project(&turned.into()).unwrap()))
+}
+
+/// What a camera sees of the still life through its lens from some places: the sides of a cube, each rendered by a pinhole
+/// camera, and read where the rays of its pixels meet them.
+pub(crate) fn photographs<const N: usize>(
+    camera: &CalibratedCamera,
+    poses: [RigidTransform; N],
+) -> [RgbImage; N] {
     let side = 500;
     let k = Intrinsics::centered(0.48 * f64::from(side), side, side).unwrap();
     let scene = Scene::still_life();
-    let shown = sides().map(|axes| {
-        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        let side_camera = Camera {
-            intrinsics: k,
-            cam_from_world: RigidTransform::from_parts(Vector3::zeros().into(), turn)
-                * cam_from_world,
+    let pixels = (0..camera.height).flat_map(|v| (0..camera.width).map(move |u| [u, v]));
+    let sights: Vec<Sight> = pixels.map(|pixel| sight(camera, &k, pixel)).collect();
+    poses.map(|cam_from_world| {
+        let side_photograph = |axes: Matrix3<f64>| {
+            let turn = Rotation3::from_matrix_unchecked(axes);
+            let turn = UnitQuaternion::from_rotation_matrix(&turn);
+            let to_side = RigidTransform::from_parts(Vector3::zeros().into(), turn);
+            let side_camera = Camera {
+                intrinsics: k,
+                cam_from_world: to_side * cam_from_world,
+            };
+            let shown = scene.render(&side_camera, side, side, Sampling::Full);
+            shown.unwrap().image
         };
-        scene
-            .render(&side_camera, side, side, Sampling::Full)
-            .unwrap()
-            .image
-    });
-    RgbImage::from_fn(camera.width, camera.height, |u, v| {
-        let Ok(ray) = camera.ray(&Point2::new(f64::from(u), f64::from(v))) else {
-            return Rgb([0; 3]);
-        };
-        let turned = sides().map(|axes| axes * ray);
-        let facing = |i: &usize| turned[*i].z / turned[*i].amax() > 0.999_999;
-        let Some(n) = (0..5).find(facing) else {
-            return Rgb([0; 3]);
-        };
-        let place = k.project(&turned[n].into()).unwrap();
-        let (left, top) = (place.x.floor(), place.y.floor());
-        let mut color = [0.5; 3];
-        for (du, dv) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-            let weight = (1.0 - (place.x - left - du).abs()) * (1.0 - (place.y - top - dv).abs());
-            let last = f64::from(side - 1);
-            let at = |x: f64| x.clamp(0.0, last) as u32;
-            let pixel = shown[n].get_pixel(at(left + du), at(top + dv));
-            for (sum, value) in color.iter_mut().zip(pixel.0) {
-                *sum += weight * f64::from(value);
-            }
-        }
-        Rgb(color.map(|value: f64| value as u8))
+        // Most lenses see the one in front alone.
+        let shown: [OnceCell<RgbImage>; 5] = Default::default();
+        RgbImage::from_fn(camera.width, camera.height, |u, v| {
+            let Some((n, place)) = sights[(v * camera.width + u) as usize] else {
+                return Rgb([0; 3]);
+            };
+            let shown = shown[n].get_or_init(|| side_photograph(sides()[n]));
+            between(shown, place)
+        })
     })
+}
+
+/// The color between pixels.
+fn between(image: &RgbImage, place: Point2<f64>) -> Rgb<u8> {
+    let (left, top) = (place.x.floor(), place.y.floor());
+    let mut color = [0.5; 3];
+    for (du, dv) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let weight = (1.0 - (place.x - left - du).abs()) * (1.0 - (place.y - top - dv).abs());
+        let at = |x: f64, size: u32| x.clamp(0.0, f64::from(size - 1)) as u32;
+        let pixel = image.get_pixel(at(left + du, image.width()), at(top + dv, image.height()));
+        for (sum, value) in color.iter_mut().zip(pixel.0) {
+            *sum += weight * f64::from(value);
+        }
+    }
+    Rgb(color.map(|value: f64| value as u8))
 }
 
 /// Gray that changes smoothly with the place, in details of any size: some of it is found again from any distance.
