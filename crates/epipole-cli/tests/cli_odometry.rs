@@ -263,6 +263,9 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
         is_refined && off(focal_px) < 0.5 * off(guess_px),
         "{focal_px}"
     );
+    // From far away it takes several rounds.
+    let (from_far_px, _) = run(&["--focal-px", "800", "--refine-focal"]);
+    assert!(off(from_far_px) < off(guess_px), "{from_far_px}");
     let told = String::from_utf8(epipole(&["odometry", path(&frames)]).stderr).unwrap();
     assert!(
         told.contains("taking 480 px") && told.contains("to be refined"),

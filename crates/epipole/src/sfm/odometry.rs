@@ -25,7 +25,7 @@ pub struct OdometryOptions {
     pub sfm: SfmOptions,
     /// Keyframes that are refined together; older ones stay. 8.
     pub window: usize,
-    /// Refine everything once more at the end. True.
+    /// Refine everything once more at the end, and again while a focal length that is refined has not arrived. True.
     pub final_adjustment: bool,
 }
 
@@ -45,6 +45,12 @@ impl Default for OdometryOptions {
         }
     }
 }
+
+/// How often everything is refined at the end, at most.
+const FINAL_ADJUSTMENTS: usize = 10;
+
+/// A focal length that changes by less than this share has arrived.
+const SETTLED_FOCAL: f64 = 2e-3;
 
 /// Where the camera went.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -268,16 +274,31 @@ fn follow(
             num_points: builder.num_points(),
         });
     }
-    if options.final_adjustment && !reporter.canceled {
-        builder.complete();
-        builder.triangulate();
-        builder.adjust(None, 50, true, &mut reporter);
-        builder.filter();
+    if options.final_adjustment {
+        adjust_finally(&mut builder, &mut reporter);
     }
     let keyframes = keyframes.into_frames(|frame| builder.cameras[frame].is_some());
     let mut result = result_of(builder, num_frames, reporter.canceled);
     result.keyframes = keyframes;
     Ok(result)
+}
+
+/// Refines everything at once, again for as long as the focal length is on its way: with a better one other matches fit.
+fn adjust_finally(builder: &mut Builder<'_>, reporter: &mut Reporter<'_>) {
+    for _ in 0..FINAL_ADJUSTMENTS {
+        if reporter.canceled {
+            return;
+        }
+        let before = builder.intrinsics.clone();
+        builder.complete();
+        builder.triangulate();
+        builder.adjust(None, 50, true, reporter);
+        builder.filter();
+        let mut both = before.iter().zip(&builder.intrinsics);
+        if both.all(|(old, new)| (new.fu_px() / old.fu_px() - 1.0).abs() < SETTLED_FOCAL) {
+            return;
+        }
+    }
 }
 
 /// Starts at the first frame whose two pictures share enough points.
