@@ -104,4 +104,22 @@ fn kitti_turn_is_followed() {
         assert!(with_true_lengths.rmse <= 0.0131, "{with_true_lengths:?}");
         assert!(own.rmse <= 0.065, "{own:?}");
     }
+    // Nobody knows the focal length: from a quarter too long or too short it is found, as far as 20 frames tell it.
+    for share in [0.75, 1.25] {
+        let guess = Intrinsics::new(share * k[0], share * k[5], k[2], k[6]).expect("intrinsics");
+        let unknown = SfmInput {
+            intrinsics: vec![guess],
+            ..input.clone()
+        };
+        let mut options = OdometryOptions::default();
+        options.sfm.refine_focal = true;
+        let result = monocular_odometry(&unknown, &options, &mut observer).expect("a path");
+        let cameras = result.reconstruction.cameras.iter().flatten();
+        let found: Vec<f64> = cameras
+            .map(|camera| camera.intrinsics.fu_px() / k[0])
+            .collect();
+        println!("from {share} of the focal length: {}", found[0]);
+        assert_eq!(found.len(), truth.len());
+        assert!(found.iter().all(|of| (of - 1.0).abs() < 0.03), "{found:?}");
+    }
 }

@@ -231,7 +231,7 @@ mod tests {
         let boxes = boxes();
         GrayImage32::from_fn(120, 100, |u, v| {
             let (x, y) = (u as f32, v as f32);
-            let ripples = (0.9 * x + 0.011 * y * y).sin() * (0.7 * y - 0.007 * x * x).cos();
+            let ripples = libm::sinf(0.9 * x + 0.011 * y * y) * libm::cosf(0.7 * y - 0.007 * x * x);
             Luma([boxes.get_pixel(u, v).0[0] + 0.08 * ripples])
         })
     }
