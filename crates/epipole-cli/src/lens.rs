@@ -4,8 +4,8 @@ use crate::failure::Failure;
 use crate::files;
 use clap::ValueEnum;
 use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, Lens, LensKind};
-use nalgebra::Point2;
+use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -58,6 +58,42 @@ pub(crate) fn unseen_share(camera: &CalibratedCamera) -> f64 {
         .map(|n| Point2::new(at(n % SIDE, camera.width), at(n / SIDE, camera.height)));
     let unseen = places.filter(|place| camera.ray(place).is_err()).count();
     unseen as f64 / f64::from(SIDE * SIDE)
+}
+
+/// Reads a stereo rig, left camera, right camera and right_from_left, from a file that `epipole calibrate --right` wrote.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn read_rig(path: &Path) -> Result<([CalibratedCamera; 2], RigidTransform), Failure> {
+    let text = files::read_text(path)?;
+    let cameras = [parse(&text, path, false)?, parse(&text, path, true)?];
+    let malformed = |why: &str| Failure::new("malformed", why).about(path);
+    let whole: Value =
+        serde_json::from_str(&text).map_err(|error| malformed(&error.to_string()))?;
+    let motion = &whole["stereo"]["right_from_left"];
+    let numbers = |name: &str| -> Option<Vec<f64>> {
+        (motion[name].as_array()?.iter())
+            .map(Value::as_f64)
+            .collect()
+    };
+    let rotation = numbers("rotation")
+        .filter(|numbers| numbers.len() == 9)
+        .map(|numbers| Matrix3::from_row_slice(&numbers))
+        .filter(|r| {
+            (r.transpose() * r - Matrix3::identity()).amax() < 1e-6 && r.determinant() > 0.0
+        })
+        .ok_or_else(|| {
+            malformed("stereo.right_from_left.rotation is not nine numbers of a rotation")
+        })?;
+    let translation = numbers("translation")
+        .filter(|numbers| numbers.len() == 3)
+        .ok_or_else(|| malformed("stereo.right_from_left.translation is not three numbers"))?;
+    let rotation = Rotation3::from_matrix_unchecked(rotation);
+    let right_from_left = RigidTransform::from_parts(
+        Vector3::from_column_slice(&translation).into(),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    );
+    Ok((cameras, right_from_left))
 }
 
 /// Reads a camera from a file that `epipole calibrate` wrote.

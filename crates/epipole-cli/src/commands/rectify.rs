@@ -1,6 +1,7 @@
 //! `epipole rectify`: two photographs turned so that matches share a row.
 
 mod lenses;
+mod rig;
 
 use crate::camera::PairArguments;
 use crate::context::Context;
@@ -27,11 +28,14 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     mut_arg("camera_file", |argument| argument.conflicts_with_all(["k", "k2", "focal_px"])),
+    mut_arg("baseline_m", |argument| argument.conflicts_with("rig")),
     after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
-    Writes left.png and right.png. Without --camera, --k or --focal-px the shapes are free up\n\
-    to a projective map, and no Q is given.\n\n\
+    Writes left.png and right.png. Without --rig, --camera, --k or --focal-px the shapes are free up\n\
+    to a projective map, and no Q is given. With --rig nothing is looked for in the photographs:\n  \
+    epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o rig.json\n  \
+    epipole rectify left.jpg right.jpg --rig rig.json -o rectified\n\n\
     JSON: homography1 and homography2 (9 numbers row by row), q (16 numbers row by row, or null),\n\
-    num_inliers (matches that agree), files (those written)."
+    num_inliers (matches that agree; null with --rig), files (those written)."
 )]
 pub(crate) struct Arguments {
     /// The left photograph.
@@ -42,7 +46,10 @@ pub(crate) struct Arguments {
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
-    /// Distance of the two cameras; the unit of Q.
+    /// A stereo rig that `epipole calibrate --right` wrote, for photographs of its two cameras, left and right.
+    #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
+    rig: Option<PathBuf>,
+    /// Distance of the two cameras; the unit of Q. That of --rig is in meters.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
     /// 0: zoom in until every pixel was photographed. 1: zoom out until all that was photographed is seen.
@@ -70,7 +77,8 @@ struct Found {
     homographies: [Matrix3<f64>; 2],
     maps: [PixelMap; 2],
     q: Option<Matrix4<f64>>,
-    num_inliers: usize,
+    /// `None` where no matches were looked for.
+    num_inliers: Option<usize>,
 }
 
 impl Arguments {
@@ -87,11 +95,53 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
     let shaped = arguments.alpha != 0.0 || arguments.size.is_some() || arguments.free_infinity;
-    if shaped && !arguments.camera.is_given() && !arguments.known.is_given() {
+    let is_known = arguments.camera.is_given() || arguments.known.is_given();
+    if shaped && !is_known && arguments.rig.is_none() {
         return Err(Failure::usage(
-            "--alpha, --size and --free-infinity need known intrinsics: give --camera, --k or --focal-px",
+            "--alpha, --size and --free-infinity need known intrinsics: give --rig, --camera, --k or --focal-px",
         ));
     }
+    let (photos, found, num_matches) = match &arguments.rig {
+        Some(file) => {
+            let (photos, found) = rig::rectify(arguments, context, file)?;
+            (photos, found, None)
+        }
+        None => by_matches(arguments, context)?,
+    };
+
+    files::make_folder(&arguments.output)?;
+    let mut written = Vec::new();
+    for ((name, photo), map) in ["left.png", "right.png"]
+        .iter()
+        .zip(&photos)
+        .zip(&found.maps)
+    {
+        let path = arguments.output.join(name);
+        files::write(&path, &picture::png(&map.warp_rgb(&photo.color))?)?;
+        written.push(path.display().to_string());
+    }
+    let q = found.q.map(|q| q.transpose().as_slice().to_vec());
+    let mut report = Report::default();
+    if let (Some(num_inliers), Some(num_matches)) = (found.num_inliers, num_matches) {
+        report = report.row(
+            "matches that agree",
+            format!("{num_inliers} of {num_matches}"),
+        );
+    }
+    Ok(report
+        .row("written", written.join(", "))
+        .field("homography1", row_major(&found.homographies[0]))
+        .field("homography2", row_major(&found.homographies[1]))
+        .field("q", q)
+        .field("num_inliers", found.num_inliers)
+        .field("files", written))
+}
+
+/// The two photographs, how they are rectified by what matches in them, and how many matches there are.
+fn by_matches(
+    arguments: &Arguments,
+    context: &Context,
+) -> Result<([Photo; 2], Found, Option<usize>), Failure> {
     let paths = [&*arguments.first, &*arguments.second];
     let photos = (arguments.known).read(paths, SizeArguments::default(), context)?;
     check_same_size(&photos)?;
@@ -110,30 +160,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         true => lenses::rectify(arguments, context, &photos, [&pixels1, &pixels2])?,
         false => rectify(arguments, context, &photos, &pixels1, &pixels2)?,
     };
-
-    files::make_folder(&arguments.output)?;
-    let mut written = Vec::new();
-    for ((name, photo), map) in ["left.png", "right.png"]
-        .iter()
-        .zip(&photos)
-        .zip(&found.maps)
-    {
-        let path = arguments.output.join(name);
-        files::write(&path, &picture::png(&map.warp_rgb(&photo.color))?)?;
-        written.push(path.display().to_string());
-    }
-    let q = found.q.map(|q| q.transpose().as_slice().to_vec());
-    Ok(Report::default()
-        .row(
-            "matches that agree",
-            format!("{} of {}", found.num_inliers, matches.len()),
-        )
-        .row("written", written.join(", "))
-        .field("homography1", row_major(&found.homographies[0]))
-        .field("homography2", row_major(&found.homographies[1]))
-        .field("q", q)
-        .field("num_inliers", found.num_inliers)
-        .field("files", written))
+    Ok((photos, found, Some(matches.len())))
 }
 
 fn rectify(
@@ -170,7 +197,7 @@ fn rectify(
             homographies: rectification.homographies,
             maps: [rectification.map(0)?, rectification.map(1)?],
             q: Some(rectification.q),
-            num_inliers: report.num_inliers,
+            num_inliers: Some(report.num_inliers),
         });
     }
     let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
@@ -201,6 +228,6 @@ fn rectify(
         ],
         homographies: rectification.homographies,
         q: None,
-        num_inliers: report.num_inliers,
+        num_inliers: Some(report.num_inliers),
     })
 }

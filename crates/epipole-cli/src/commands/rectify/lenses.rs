@@ -53,6 +53,6 @@ pub(super) fn rectify(
         homographies: rectification.homographies,
         maps: [rectification.map(0)?, rectification.map(1)?],
         q: Some(rectification.q),
-        num_inliers: report.num_inliers,
+        num_inliers: Some(report.num_inliers),
     })
 }
