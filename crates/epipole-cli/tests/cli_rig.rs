@@ -150,7 +150,8 @@ fn rigs_that_do_not_fit_get_a_sentence() {
     let motion = |value: &mut Value, name: &str, with: Value| {
         value["stereo"]["right_from_left"][name] = with;
     };
-    let cases: [(&str, &dyn Fn(&mut Value), &str); 6] = [
+    type Case<'a> = (&'a str, &'a dyn Fn(&mut Value), &'a str);
+    let cases: [Case<'_>; 6] = [
         (
             "one.json",
             &|v| v["right"] = Value::Null,
