@@ -53,9 +53,11 @@ impl BoardSearch {
             } => {
                 let larger = *seen_columns > columns.max(rows) || *seen_rows > columns.min(rows);
                 let why = if larger {
-                    "the board is of another size, or something beside it looks alike"
+                    "the board is of another size, or something beside it looks alike: count its marks once more, or cover \
+                     what is beside it"
                 } else {
-                    "a part is outside of the picture or hidden, or the board is of another size"
+                    "a part is outside of the picture or hidden, or the board is of another size: show more of it, or count its \
+                     marks once more"
                 };
                 Some(format!(
                     "a grid of {seen_columns} × {seen_rows} with {num_seen} marks was found, not {columns} × {rows}: {why}"
