@@ -27,7 +27,8 @@ pub(crate) fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Re
         100.0 * share
     );
     if share > MOST_UNSEEN {
-        return Err(Failure::new("degenerate", sentence));
+        let advice = "calibrate once more, with boards up to the edges, or with another --model";
+        return Err(Failure::new("degenerate", format!("{sentence}; {advice}")));
     }
     if share > MUCH_UNSEEN {
         context.warn(&format!("{sentence}; what is seen there is left out"));

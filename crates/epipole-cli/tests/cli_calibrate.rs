@@ -222,9 +222,12 @@ fn bad_sets_of_photographs_get_a_sentence() {
         fails(&folder, &arguments, status, expected);
     };
     run(&[&good], &board, 1, "needs at least 2");
+    run(&[&good], &board, 1, "another way in each");
     run(&[&good, &blank], &board, 1, "no board of 7 × 5");
     run(&[&good, &out], &board, 1, "outside of the picture");
+    run(&[&good, &out], &board, 1, "show more of it");
     run(&[&good, &other], &["--board", "6x5"], 1, "another size");
+    run(&[&good, &other], &["--board", "6x5"], 1, "once more");
     run(&[&good, &small], &board, 1, "must have one size");
     run(&[&good, &other], &["--board", "7by5"], 2, "is not like 9x6");
     run(&[&good, &other], &["--board", "1x5"], 2, "columns");

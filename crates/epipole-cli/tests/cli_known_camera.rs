@@ -266,4 +266,5 @@ fn cameras_that_do_not_fit_get_a_sentence() {
     let file = write(&folder, &folds);
     let arguments = ["two-view", path(&a), path(&b), "--camera", path(&file)];
     fails(&folder, &arguments, 1, "bends no ray to 9");
+    fails(&folder, &arguments, 1, "with another --model");
 }

@@ -8,6 +8,7 @@ use super::{Board, BoardView, Pattern};
 use crate::Result;
 use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::{Border, GrayImage32, pyramid_down};
+use nalgebra::Point2;
 
 /// What a search for a board came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,9 +53,11 @@ impl BoardSearch {
             } => {
                 let larger = *seen_columns > columns.max(rows) || *seen_rows > columns.min(rows);
                 let why = if larger {
-                    "the board is of another size, or something beside it looks alike"
+                    "the board is of another size, or something beside it looks alike: count its marks once more, or cover \
+                     what is beside it"
                 } else {
-                    "a part is outside of the picture or hidden, or the board is of another size"
+                    "a part is outside of the picture or hidden, or the board is of another size: show more of it, or count its \
+                     marks once more"
                 };
                 Some(format!(
                     "a grid of {seen_columns} × {seen_rows} with {num_seen} marks was found, not {columns} × {rows}: {why}"
@@ -220,16 +223,41 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
         };
         let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
             .filter(|refined| (refined - pixel).norm() < 0.25 * spacing);
-        let by_edges = by_gradients.and_then(|start| {
-            let edges = edges_through(pixel, view.beside(mark, columns))?;
+        // What the edges do not confirm may be the rim of a hand.
+        pixels.push(by_gradients.and_then(|start| {
+            let edges = edges_through(pixel, beside(view, mark, columns))?;
             let radius_px = (DISK * spacing).clamp(DISKS_PX.0, DISKS_PX.1);
             let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
             fit_crossing(image, &start, edges, radius_px)
                 .filter(|place| (place - start).norm() <= agreement_px)
-        });
-        pixels.push(by_edges.or(by_gradients));
+        }));
     }
     Ok(BoardView { pixels })
+}
+
+/// The marks beside one, as [`BoardView::beside`] has them; where none are seen along an axis, as they would stand if they
+/// stood as those beside the nearest mark that has some.
+fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
+    let mut beside = view.beside(mark, columns);
+    for (axis, pair) in beside.iter_mut().enumerate() {
+        if pair.iter().any(Option::is_some) {
+            continue;
+        }
+        let far = |other: usize| {
+            let across = (other % columns).abs_diff(mark % columns);
+            across.pow(2) + (other / columns).abs_diff(mark / columns).pow(2)
+        };
+        let step = |(other, at): (usize, Point2<f64>)| {
+            let [before, behind] = view.beside(other, columns)[axis];
+            (before.is_some() || behind.is_some())
+                .then(|| (far(other), behind.unwrap_or(at) - before.unwrap_or(at)))
+        };
+        let nearest = view.seen().filter_map(step).min_by_key(|(far, _)| *far);
+        if let (Some((_, step)), Some(Some(at))) = (nearest, view.pixels.get(mark)) {
+            pair[1] = Some(at + step);
+        }
+    }
+    beside
 }
 
 #[cfg(test)]
@@ -238,8 +266,10 @@ mod tests {
     use super::super::synthetic::{photograph_of_board, poses, true_view};
     use super::*;
     use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+    use crate::math::random::Random;
+    use core::f64::consts::FRAC_PI_2;
     use image::Luma;
-    use nalgebra::Point2;
+    use nalgebra::Vector2;
 
     fn camera(kind: LensKind, focal_px: f64, coefficients: &[f64]) -> CalibratedCamera {
         CalibratedCamera {
@@ -324,6 +354,40 @@ mod tests {
         assert!((30..=50).contains(&view.num_seen()), "{}", view.num_seen());
         let (largest, rms) = errors(&view, &truth);
         assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
+    }
+
+    /// Corners at the rim of what is hidden, some with nothing beside them along a row or a column, are as exact as the
+    /// others.
+    #[test]
+    fn corners_beside_a_hand_are_exact() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let [camera, ..] = cameras();
+        let mut random = Random::new(2);
+        let (mut num_seen, mut worst) = (0, 0.0_f64);
+        for (number, pose) in (poses(&board, 12, 15.0, 5).iter()).enumerate() {
+            let truth = true_view(&board, &camera, pose);
+            let mut image = photograph_of_board(&board, &camera, pose, 0.01, number as u64);
+            let hand = truth.pixels[random.below(54)].unwrap();
+            let mut corner = |quarter: u8| {
+                let angle_rad = f64::from(quarter) * FRAC_PI_2 + random.uniform(0.0, 1.2);
+                let (sine, cosine) = libm::sincos(angle_rad);
+                hand + Vector2::new(cosine, sine) * random.uniform(25.0, 75.0)
+            };
+            let corners = [0, 1, 2, 3].map(&mut corner);
+            let is_hidden = |p: &Point2<f64>| {
+                (0..4).all(|k| (corners[(k + 1) % 4] - corners[k]).perp(&(p - corners[k])) > 0.0)
+            };
+            for (u, v, value) in image.enumerate_pixels_mut() {
+                if is_hidden(&Point2::new(f64::from(u), f64::from(v))) {
+                    *value = Luma([0.55]);
+                }
+            }
+            if let Some(view) = find_board(&image, &board).unwrap().view() {
+                num_seen += view.num_seen();
+                worst = worst.max(errors(&view, &truth).0);
+            }
+        }
+        assert!(num_seen > 500 && worst < 0.2, "{num_seen} {worst}");
     }
 
     #[test]

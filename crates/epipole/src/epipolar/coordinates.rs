@@ -3,6 +3,8 @@
 //! Loops run over eight matches at a time, which compilers turn into vector instructions;
 //! sums are kept per lane, so the order of additions is fixed.
 
+use super::from_cameras::unit_norm;
+use crate::Result;
 use crate::robust::MatchSet;
 use nalgebra::Matrix3;
 
@@ -163,12 +165,28 @@ impl CommonFrame {
         Matrix3::new(s, 0.0, -s * cu, 0.0, s, -s * cv, 0.0, 0.0, 1.0)
     }
 
+    /// F of pixels as one of the frame.
     pub(crate) fn fundamental_to_frame(self, f: &Matrix3<f64>) -> Matrix3<f64> {
         self.frame_to_pixels(1).transpose() * f * self.frame_to_pixels(0)
     }
 
-    pub(crate) fn fundamental_to_pixels(self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)
+    /// F of the frame as one of pixels, of unit Frobenius norm.
+    ///
+    /// # Errors
+    /// As [`unit_norm`].
+    pub(crate) fn fundamental_to_pixels(self, f: &Matrix3<f64>) -> Result<Matrix3<f64>> {
+        unit_norm(&(self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)))
+    }
+
+    /// What `work` makes of an F of pixels in the frame, as an F of pixels: there and back once, whatever is done in
+    /// between.
+    pub(crate) fn fundamental_within(
+        self,
+        f: &Matrix3<f64>,
+        work: impl FnOnce(&Matrix3<f64>) -> Option<Matrix3<f64>>,
+    ) -> Option<Matrix3<f64>> {
+        let found = work(&self.fundamental_to_frame(f))?;
+        self.fundamental_to_pixels(&found).ok()
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::epipolar_row;
-use super::from_cameras::unit_norm;
 use super::plane_recovery::PlaneRecovery;
 use super::refine::refine_in_frame;
 use super::sampson;
@@ -53,17 +52,10 @@ impl FundamentalEstimator {
         })
     }
 
-    fn refined(
-        &self,
-        fundamental: &Matrix3<f64>,
-        coordinates: &Coordinates,
-        loss: RobustLoss,
-        max_iterations: usize,
-    ) -> Option<Matrix3<f64>> {
-        let options = LmOptions::few_steps(max_iterations);
-        let start = self.frame.fundamental_to_frame(fundamental);
-        let refined = refine_in_frame(coordinates, &start, loss, &options)?;
-        unit_norm(&self.frame.fundamental_to_pixels(&refined)).ok()
+    /// F of the frame, refined there by a few steps.
+    fn refined_in_frame(&self, f: &Matrix3<f64>, max_error: f64) -> Option<Matrix3<f64>> {
+        let loss = RobustLoss::Truncated { width: max_error };
+        refine_in_frame(&self.in_frame, f, loss, &LmOptions::few_steps(2))
     }
 }
 
@@ -151,7 +143,7 @@ impl Estimator for FundamentalEstimator {
         let (solutions, count) = seven_point_rows(&rows);
         for f in &solutions[..count] {
             if is_oriented(f, &points) {
-                models.extend(unit_norm(&self.frame.fundamental_to_pixels(f)));
+                models.extend(self.frame.fundamental_to_pixels(f));
             }
         }
     }
@@ -167,10 +159,8 @@ impl Estimator for FundamentalEstimator {
         _: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        let loss = RobustLoss::Truncated {
-            width: max_error_px * self.frame.scale,
-        };
-        self.refined(model, &self.in_frame, loss, 2)
+        let max_error = max_error_px * self.frame.scale;
+        (self.frame).fundamental_within(model, |f| self.refined_in_frame(f, max_error))
     }
 
     fn polish(
@@ -180,7 +170,9 @@ impl Estimator for FundamentalEstimator {
         weights: &[f64],
     ) -> Option<Matrix3<f64>> {
         let near = self.in_frame.weighted(near, weights);
-        self.refined(model, &near, RobustLoss::Trivial, 4)
+        self.frame.fundamental_within(model, |f| {
+            refine_in_frame(&near, f, RobustLoss::Trivial, &LmOptions::few_steps(4))
+        })
     }
 
     fn recover(
@@ -190,12 +182,11 @@ impl Estimator for FundamentalEstimator {
         max_error_px: f64,
         random: &mut Random,
     ) -> Option<Matrix3<f64>> {
-        let f = self.frame.fundamental_to_frame(model);
         let max_error = max_error_px * self.frame.scale;
-        let recovered = self
-            .recovery
-            .recover(&self.in_frame, &f, sample, max_error, random)?;
-        unit_norm(&self.frame.fundamental_to_pixels(&recovered)).ok()
+        self.frame.fundamental_within(model, |f| {
+            self.recovery
+                .recover(&self.in_frame, f, sample, max_error, random)
+        })
     }
 
     fn settle(
@@ -205,32 +196,28 @@ impl Estimator for FundamentalEstimator {
         max_error_px: f64,
         random: &mut Random,
     ) -> Option<Matrix3<f64>> {
-        let f = self.frame.fundamental_to_frame(model);
         let max_error = max_error_px * self.frame.scale;
-        let alternatives =
-            self.recovery
-                .alternatives(&self.in_frame, &f, inliers, max_error, random);
-        let mut best = f;
-        for start in alternatives {
-            let start = unit_norm(&self.frame.fundamental_to_pixels(&start)).ok()?;
-            let Some(refined) = self.refine(&start, &[], 2.0 * max_error_px) else {
-                continue;
-            };
-            let Some(refined) = self.refine(&refined, &[], max_error_px) else {
-                continue;
-            };
-            let refined = self.frame.fundamental_to_frame(&refined);
-            if self
-                .recovery
-                .fits_more_off_plane(&self.in_frame, &refined, &best, max_error)
-            {
-                best = refined;
+        self.frame.fundamental_within(model, |f| {
+            let alternatives =
+                self.recovery
+                    .alternatives(&self.in_frame, f, inliers, max_error, random);
+            let mut best = *f;
+            for start in alternatives {
+                let wide = self.refined_in_frame(&start, 2.0 * max_error);
+                let refined = wide.and_then(|wide| self.refined_in_frame(&wide, max_error));
+                if let Some(refined) = refined
+                    && (self.recovery).fits_more_off_plane(
+                        &self.in_frame,
+                        &refined,
+                        &best,
+                        max_error,
+                    )
+                {
+                    best = refined;
+                }
             }
-        }
-        if best == f {
-            return None;
-        }
-        unit_norm(&self.frame.fundamental_to_pixels(&best)).ok()
+            (best != *f).then_some(best)
+        })
     }
 
     fn support(&self, model: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {

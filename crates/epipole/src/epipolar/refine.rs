@@ -78,7 +78,7 @@ pub fn refine_fundamental(
         &LmOptions::default(),
     )
     .ok_or(NO_ERROR_AT_THE_START)?;
-    unit_norm(&frame.fundamental_to_pixels(&refined))
+    frame.fundamental_to_pixels(&refined)
 }
 
 /// Everything else was looked at before the refinement began.

@@ -353,7 +353,9 @@ mod tests {
         assert!(lost == 0, "{lost} of {judged}");
     }
 
-    /// The first is of whole numbers, with a root at an end of a part; in the others one root is far away.
+    /// The first, of whole numbers with a root at an end of a part, is that of COLMAP's src/colmap/math/polynomial_test.cc
+    /// (FindPolynomialRootsCompanionMatrixZeroSolution), 10 x⁴ − 5 x³ + 3 x² − 3 x, times (x² + 1)³; in the other one
+    /// root is far away.
     #[test]
     fn roots_that_were_lost() {
         let mut roots = [0.0; DEGREE];

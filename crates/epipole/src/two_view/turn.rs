@@ -22,8 +22,7 @@ pub struct ExplainingTurn {
 }
 
 impl ExplainingTurn {
-    /// The turn of a search, if it explains nearly all inliers of another model: the one place where that is
-    /// decided.
+    /// The turn of a search, if it explains nearly all inliers of another model.
     ///
     /// * `intrinsics`: of the two cameras
     /// * `inliers`: the matches that fit the other model
@@ -43,9 +42,20 @@ impl ExplainingTurn {
             num_inliers += 1;
             num_explained += usize::from(options.fits_homography(&homography, p1, p2));
         }
+        Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
+    }
+
+    /// A turn that explains so many of the inliers, if these are nearly all: the one place where that is decided,
+    /// whatever the lens.
+    pub(super) fn if_nearly_all(
+        rotation: &Matrix3<f64>,
+        num_explained: usize,
+        num_inliers: usize,
+        options: &TwoViewOptions,
+    ) -> Option<Self> {
         let needed = options.max_homography_share * num_inliers as f64;
         (num_explained as f64 >= needed).then(|| Self {
-            cam2_from_cam1: motion_of_turn(&turn.model),
+            cam2_from_cam1: motion_of_turn(rotation),
             num_explained,
             num_inliers,
         })

@@ -1,7 +1,6 @@
 //! Whether a camera with any lens only turned.
 
 use super::rotation::align_rays;
-use super::turn::motion_of_turn;
 use super::{ExplainingTurn, TwoViewOptions};
 use crate::camera::SeenRay;
 use nalgebra::{Matrix3, Vector3};
@@ -60,12 +59,7 @@ pub fn find_explaining_turn_of_rays(
     let num_explained = (errors_sq.iter())
         .filter(|e| **e < reach_px * reach_px)
         .count();
-    let is_explained = num_explained as f64 >= options.max_homography_share * rays.len() as f64;
-    is_explained.then(|| ExplainingTurn {
-        cam2_from_cam1: motion_of_turn(&best),
-        num_explained,
-        num_inliers: rays.len(),
-    })
+    ExplainingTurn::if_nearly_all(&best, num_explained, rays.len(), options)
 }
 
 #[cfg(test)]

@@ -128,15 +128,13 @@ pub(crate) fn farthest_ray<L: LensModel>(
     pixel: &Point2<f64>,
     folds: Error,
 ) -> Result<Vector3<f64>> {
-    let toward = |share: f64| {
-        let center = intrinsics.principal_point();
-        let place = intrinsics.ray(&(center + (pixel - center) * share));
-        lens.ray(&place.xy().into())
-    };
-    let missing = match toward(1.0) {
+    let ray_to = |place: &Point2<f64>| lens.ray(&intrinsics.ray(place).xy().into());
+    let missing = match ray_to(pixel) {
         Ok(ray) => return Ok(ray),
         Err(missing) => missing,
     };
+    let center = intrinsics.principal_point();
+    let toward = |share: f64| ray_to(&(center + (pixel - center) * share));
     let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
     let mut ray = toward(seen).map_err(|_| match missing {
         Error::Degenerate { .. } => folds,
@@ -175,11 +173,10 @@ pub(super) fn turned_outline<L: LensModel>(
     } = camera;
     outline(width, height, |u, v| {
         let pixel = Point2::new(u, v);
+        let ray = rect_from_cam * farthest_ray(lens, intrinsics, &pixel, FOLDS)?;
         if lens.is_wide() {
-            let ray = rect_from_cam * farthest_ray(lens, intrinsics, &pixel, FOLDS)?;
             return Ok(flat(&ray).unwrap_or_else(|clipped| clipped));
         }
-        let ray = rect_from_cam * lens.ray(&intrinsics.ray(&pixel).xy().into())?;
         if ray.z < 1e-3 {
             return Err(Error::Degenerate {
                 what: "a rectification",

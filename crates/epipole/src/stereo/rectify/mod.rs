@@ -109,11 +109,12 @@ pub struct Rectification<L = Distortion> {
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras stand at one place; if the baseline is more than 60° off the image plane
-/// halfway between the cameras; and if a pixel of a photograph looks along the baseline, which with a baseline
+/// halfway between the cameras, whichever way it slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline
 /// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
 /// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
 /// [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
-/// empty size. As [`LensModel::ray`] where the lens bends no ray to the photograph's border.
+/// empty size. [`Error::Degenerate`], too, if a lens model folds less than half-way to the photograph's border; what lies
+/// beyond a fold nearer to it is not shown.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
 /// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".

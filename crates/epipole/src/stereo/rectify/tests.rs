@@ -120,7 +120,13 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
             let lens = camera(focal_px, focal_px, 319.5, 239.5, [0.0; 5]);
             let (sideways, ahead) = (-0.3 * libm::cos(off), -0.3 * libm::sin(off));
             let corner = libm::atan(319.5 / focal_px);
-            for translation in [[sideways, 0.0, ahead], [0.0, -sideways, ahead]] {
+            let half = sideways * core::f64::consts::FRAC_1_SQRT_2;
+            for translation in [
+                [sideways, 0.0, ahead],
+                [0.0, -sideways, ahead],
+                [half, half, ahead],
+                [0.5 * sideways, -0.75_f64.sqrt() * sideways, ahead],
+            ] {
                 let cam2_from_cam1 = motion([0.0; 3], translation);
                 for alpha in [0.0, 1.0] {
                     let options = RectifyOptions {
@@ -170,11 +176,83 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
         }
         assert!(num_rectified >= 12, "{off_deg}°: {num_rectified}");
     }
-    // Beyond, the error names the limit.
-    let lens = camera(700.0, 700.0, 319.5, 239.5, [0.0; 5]);
-    let ahead = motion([0.0; 3], [-0.1, 0.0, -0.3]);
-    let error = rectify_calibrated(&[lens; 2], &ahead, 640, 480, &RectifyOptions::default());
-    assert!(error.unwrap_err().to_string().contains("60°"));
+    // The limit is where the error says, whichever way the baseline slants in the image plane.
+    let lens = camera(2000.0, 2000.0, 319.5, 239.5, [0.0; 5]);
+    for slant_deg in (0..180).step_by(15) {
+        let (sin, cos) = libm::sincos(f64::from(slant_deg).to_radians());
+        for (off_deg, is_within) in [(59.9_f64, true), (60.1, false)] {
+            let (ahead, sideways) = libm::sincos(off_deg.to_radians());
+            let motion = motion([0.0; 3], [-sideways * cos, -sideways * sin, -ahead]);
+            let rig = rectify_calibrated(&[lens; 2], &motion, 640, 480, &RectifyOptions::default());
+            match rig {
+                Ok(_) => assert!(is_within, "{slant_deg}° {off_deg}°"),
+                Err(error) => {
+                    assert!(!is_within, "{slant_deg}° {off_deg}°: {error}");
+                    assert!(error.to_string().contains("60°"));
+                }
+            }
+        }
+    }
+}
+
+/// A model that was fitted to marks in the middle often folds before the corners: the rest of the photograph is
+/// rectified, and what lies beyond the fold is not shown.
+#[test]
+fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
+    let folding = |k1: f64| StereoCamera {
+        intrinsics: Intrinsics::new(700.0, 702.0, 400.0, 300.0).unwrap(),
+        distortion: Distortion {
+            k1,
+            ..Distortion::NONE
+        },
+    };
+    let cam2_from_cam1 = motion([0.02, 0.03, -0.01], [-0.2, 0.01, 0.02]);
+    for k1 in [-0.6, -0.9] {
+        let cameras = [folding(k1); 2];
+        let corner = cameras[0].intrinsics.ray(&Point2::new(0.0, 0.0));
+        assert!(
+            cameras[0]
+                .distortion
+                .undistort(&corner.xy().into())
+                .is_err()
+        );
+        for alpha in [0.0, 1.0] {
+            let options = RectifyOptions {
+                alpha,
+                ..Default::default()
+            };
+            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, 800, 600, &options).unwrap();
+            let x = Point3::new(0.1, -0.1, 2.0);
+            let [a, b] = [(0, x), (1, cam2_from_cam1 * x)]
+                .map(|(i, x)| rig.rectify_pixel(i, &photograph(&cameras[i], &x)).unwrap());
+            assert!((a.y - b.y).abs() < 1e-6);
+            for i in 0..2 {
+                let valid = rig.valid[i];
+                assert!(valid.u_max - valid.u_min > 100.0 && valid.v_max - valid.v_min > 100.0);
+                for n in 0..=400 {
+                    let share = |k: i32| f64::from(k) / 20.0;
+                    let u = valid.u_min + share(n % 21) * (valid.u_max - valid.u_min);
+                    let v = valid.v_min + share(n / 21) * (valid.v_max - valid.v_min);
+                    let p = rig.source_pixel(i, &Point2::new(u, v)).unwrap();
+                    let p = p.unwrap_or_else(|| panic!("{k1} {alpha}: nothing at {u}, {v}"));
+                    assert!((-0.1..799.1).contains(&p.x) && (-0.1..599.1).contains(&p.y));
+                }
+            }
+        }
+    }
+    let error = rectify_calibrated(
+        &[folding(-3.0); 2],
+        &cam2_from_cam1,
+        800,
+        600,
+        &RectifyOptions::default(),
+    );
+    assert!(
+        error
+            .unwrap_err()
+            .to_string()
+            .contains("folds inside of the picture")
+    );
 }
 
 /// A second camera above and beside the first, or one of two that is held askew: the photographs stand slanted
