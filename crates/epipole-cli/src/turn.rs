@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use epipole::camera::Intrinsics;
-use epipole::robust::RansacOptions;
+use epipole::robust::{LineEstimator, RansacOptions};
 use epipole::two_view::{
     Degeneracy, ExplainingTurn, TwoViewOptions, find_degeneracy, find_explaining_turn,
     find_turn_and_focal, find_unmoved,
@@ -66,15 +66,42 @@ pub(crate) fn left_open(
     Ok(found.map(|found| sentence_of_degeneracy(&found)))
 }
 
-/// The same of a homography, which planes and turns determine.
+/// The same of a homography, which planes and turns determine, and lines do not.
 pub(crate) fn left_open_by_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     inliers: &[bool],
     ransac: &RansacOptions,
 ) -> epipole::Result<Option<String>> {
-    let found = find_unmoved(pixels1, pixels2, inliers, &judging(ransac))?;
-    Ok(found.map(|found| sentence_of_degeneracy(&found)))
+    if let Some(found) = find_unmoved(pixels1, pixels2, inliers, &judging(ransac))? {
+        return Ok(Some(sentence_of_degeneracy(&found)));
+    }
+    for (image, pixels) in [(1, pixels1), (2, pixels2)] {
+        let kept = pixels.iter().zip(inliers).filter(|(_, fits)| **fits);
+        let kept: Vec<Point2<f64>> = kept.map(|(pixel, _)| *pixel).collect();
+        if let Some(num_near) = num_near_line(&kept, ransac) {
+            return Ok(Some(format!(
+                "{num_near} of the {} inliers lie on one line in image {image}, but for noise: beside it the homography is \
+                 not determined",
+                kept.len()
+            )));
+        }
+    }
+    Ok(None)
+}
+
+/// How many pixels lie on one line, if those beside it are too few to tell what happens there: a homography fits any two of
+/// them, whatever happens on the line.
+fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
+    const OTHERS: usize = 2;
+    /// Fewer lie on some line in any case.
+    const LEAST: usize = 5;
+    let options = ransac.within(2.0 * ransac.max_error_px);
+    // Where all are the same there is no line, and nothing to say that was not said.
+    let lines = LineEstimator::new(pixels).ok()?;
+    let found = epipole::robust::ransac(lines, &options).ok()?;
+    let are_alone = found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();
+    are_alone.then_some(found.num_inliers)
 }
 
 /// Three matches that did not move make no model where down is known: that is the reason then.
@@ -85,9 +112,9 @@ pub(crate) fn if_unmoved(
     options: &RansacOptions,
 ) -> Failure {
     let all = vec![true; pixels1.len()];
-    match left_open_by_homography(pixels1, pixels2, &all, options) {
+    match find_unmoved(pixels1, pixels2, &all, &judging(options)) {
         Ok(Some(open)) if failure.kind == "no-consensus" => Failure {
-            message: format!("{failure}: {open}"),
+            message: format!("{failure}: {}", sentence_of_degeneracy(&open)),
             ..failure
         },
         _ => failure,

@@ -137,6 +137,48 @@ fn fits_of_essential_matrices_say_that_the_camera_may_have_only_turned() {
     assert!(result.get("could_be_turn").is_none());
 }
 
+/// What lies on one line tells nothing of what is beside it, and a homography fits any two matches there.
+#[test]
+fn homographies_of_lines_say_so() {
+    let folder = Folder::new("fit-line");
+    let mut random = Random::new(8);
+    let mut matches = |num_beside: usize, noise_px: f64| -> String {
+        let mut row = |u: f64, v: f64| {
+            let mut near = |x: f64| x + noise_px * random.normal();
+            let numbers = [
+                near(u),
+                near(v),
+                near(1.1 * u + 20.0),
+                near(0.9 * v + 0.1 * u),
+            ];
+            format!(
+                "{} {} {} {}\n",
+                numbers[0], numbers[1], numbers[2], numbers[3]
+            )
+        };
+        let on_line = (0..60).map(|i| f64::from(i) * 9.0);
+        let mut text: String = on_line.map(|u| row(30.0 + u, 400.0 - 0.5 * u)).collect();
+        for place in 0..num_beside {
+            let turns = 2.4 * place as f64;
+            text += &row(
+                300.0 + 250.0 * libm::cos(turns),
+                120.0 + 90.0 * libm::sin(turns),
+            );
+        }
+        text
+    };
+    for noise_px in [1e-9, 0.1, 0.5] {
+        for (num_beside, expected) in [(0, true), (2, true), (20, false)] {
+            let file = folder.write("matches.txt", &matches(num_beside, noise_px));
+            let (result, told) = told(&["fit", "--model", "homography", path(&file)]);
+            let sentence = result["not_determined"].as_str().unwrap_or_default();
+            let is_line = sentence.contains("lie on one line in image 1");
+            assert_eq!(is_line, expected, "{noise_px} {num_beside}: {sentence}");
+            assert_eq!(told.contains("on one line"), expected, "{told}");
+        }
+    }
+}
+
 /// Without intrinsics a turn cannot be told from a plane, but both from a scene with depth.
 #[test]
 fn fits_without_intrinsics_say_what_they_leave_open() {
