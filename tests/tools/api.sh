@@ -9,13 +9,13 @@ echo "the library since $since"
 if command -v cargo-semver-checks >/dev/null; then
     cargo semver-checks --package epipole --baseline-rev "$since" || status=1
 else
-    echo "cargo semver-checks is missing: install it with \`cargo install --locked cargo-semver-checks\`" >&2
+    echo "cargo semver-checks is missing: install it with \`cargo install --locked cargo-semver-checks@0.51.0\`" >&2
     status=1
 fi
 if command -v cargo-public-api >/dev/null; then
-    cargo public-api --package epipole --simplified diff "$since..HEAD" || status=1
+    cargo public-api --package epipole -ss diff "$since..HEAD" || status=1
 else
-    echo "cargo public-api is missing: install it with \`cargo install --locked cargo-public-api\`, and a nightly toolchain" >&2
+    echo "cargo public-api is missing: install it with \`cargo install --locked cargo-public-api@0.52.0\`, and a nightly toolchain" >&2
     status=1
 fi
 exit $status

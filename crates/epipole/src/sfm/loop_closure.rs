@@ -37,7 +37,7 @@ pub struct ClosedPath {
 /// wrongly, and which agree: `to_from_from * from[i]` is within `max_distance` of `to[i]`.
 ///
 /// Samples of three points are aligned; the similarity that most points agree with is fitted to
-/// them again.
+/// them again. A pair with a coordinate that is infinite is wrong in any case and left out.
 ///
 /// * `max_distance`: in the unit of `to`, > 0
 /// * `seed`: equal seeds give equal results
@@ -61,7 +61,22 @@ pub fn estimate_similarity_of_points(
             value: max_distance,
         });
     }
-    let estimator = SimilarityOfPoints::new(from, to)?;
+    if from.len() != to.len() {
+        return Err(Error::SizeMismatch {
+            what: "the two lists of matched points",
+            first: from.len(),
+            second: to.len(),
+        });
+    }
+    let is_usable: Vec<bool> = (from.iter().zip(to))
+        .map(|(a, b)| !a.iter().chain(b.iter()).any(|x| x.is_infinite()))
+        .collect();
+    let usable = |list: &[Point3<f64>]| -> Vec<Point3<f64>> {
+        let kept = list.iter().zip(&is_usable).filter(|(_, is)| **is);
+        kept.map(|(point, _)| *point).collect()
+    };
+    let (usable_from, usable_to) = (usable(from), usable(to));
+    let estimator = SimilarityOfPoints::new(&usable_from, &usable_to)?;
     let options = crate::robust::RansacOptions {
         max_error_px: max_distance,
         seed,
@@ -75,7 +90,11 @@ pub fn estimate_similarity_of_points(
             iterations: report.iterations,
         });
     }
-    Ok((report.model, report.inliers))
+    let mut fits = report.inliers.into_iter();
+    let inliers = (is_usable.iter())
+        .map(|is_usable| *is_usable && fits.next().unwrap_or(false))
+        .collect();
+    Ok((report.model, inliers))
 }
 
 struct SimilarityOfPoints<'a> {
@@ -410,6 +429,17 @@ mod tests {
         let (found, inliers) = estimate_similarity_of_points(&from, &to, 0.05, 1).unwrap();
         assert!((found.scaling() - 1.7).abs() < 1e-9);
         assert_eq!(inliers.iter().filter(|inlier| **inlier).count(), 40);
+        // One infinite pair is left out, wherever it stands, and NaN is refused.
+        let (mut far_from, mut far_to) = (from.clone(), to.clone());
+        far_from.insert(1, Point3::new(f64::INFINITY, 0.0, 1.0));
+        far_to.insert(1, Point3::origin());
+        let (same, fits) = estimate_similarity_of_points(&far_from, &far_to, 0.05, 1).unwrap();
+        let mut expected = inliers.clone();
+        expected.insert(1, false);
+        assert_eq!((same, fits), (found, expected));
+        far_to[0].x = f64::NAN;
+        assert!(estimate_similarity_of_points(&far_from, &far_to, 0.05, 1).is_err());
+        assert!(estimate_similarity_of_points(&from, &to[1..], 0.05, 1).is_err());
         assert!(estimate_similarity_of_points(&from, &to, 0.0, 1).is_err());
         assert!(estimate_similarity_of_points(&from[..2], &to[..2], 0.1, 1).is_err());
     }
