@@ -77,7 +77,11 @@ const test = base.extend({
       if (options.wait !== false) {
         await ready(found.first());
         // Some figures compute for a while after their first frame.
-        if (options.settle !== false) await expect(found.first().locator("[aria-busy]")).toHaveCount(0);
+        if (options.settle !== false) {
+          await expect(found.first().locator("[aria-busy]")).toHaveCount(0);
+          // The first picture is drawn between frames, on a busy page after those that were waited for.
+          await expect(found.first().locator("canvas")).toBeVisible();
+        }
       }
       return names.length === 1 ? found.first() : found;
     });
