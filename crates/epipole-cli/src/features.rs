@@ -13,6 +13,7 @@ use epipole::feature::{
     AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
     detect_features_with_progress, match_any_descriptors,
 };
+use nalgebra::Point2;
 
 /// The kinds of feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -162,6 +163,17 @@ impl MatchArguments {
         let (a, b) = (&first.descriptors, &second.descriptors);
         Ok(match_any_descriptors(a, b, &self.options())?)
     }
+}
+
+/// The pixels of matches in both photographs, in their order.
+pub(crate) fn matched_pixels(
+    matches: &[Match],
+    first: &AnyFeatures,
+    second: &AnyFeatures,
+) -> [Vec<Point2<f64>>; 2] {
+    let pixels1 = matches.iter().map(|m| first.keypoints[m.index1].point());
+    let pixels2 = matches.iter().map(|m| second.keypoints[m.index2].point());
+    [pixels1.collect(), pixels2.collect()]
 }
 
 /// `[u, v, scale_px, angle_rad, response]` of each keypoint.

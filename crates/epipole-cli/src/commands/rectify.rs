@@ -6,7 +6,7 @@ mod rig;
 use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::features::{FeatureArguments, MatchArguments};
+use crate::features::{FeatureArguments, MatchArguments, matched_pixels};
 use crate::known_camera::CameraFile;
 use crate::matrices::{positive, row_major, share, size};
 use crate::photo::{Photo, SizeArguments, check_same_size};
@@ -148,14 +148,7 @@ fn by_matches(
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run_best_first(&found1, &found2)?;
-    let pixels1: Vec<Point2<f64>> = matches
-        .iter()
-        .map(|m| found1.keypoints[m.index1].point())
-        .collect();
-    let pixels2: Vec<Point2<f64>> = matches
-        .iter()
-        .map(|m| found2.keypoints[m.index2].point())
-        .collect();
+    let [pixels1, pixels2] = matched_pixels(&matches, &found1, &found2);
     let found = match arguments.known.is_given() {
         true => lenses::rectify(arguments, context, &photos, [&pixels1, &pixels2])?,
         false => rectify(arguments, context, &photos, &pixels1, &pixels2)?,

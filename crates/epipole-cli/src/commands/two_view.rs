@@ -8,7 +8,7 @@ use self::search::estimate;
 use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::features::{FeatureArguments, MatchArguments};
+use crate::features::{FeatureArguments, MatchArguments, matched_pixels};
 use crate::known_camera::CameraFile;
 use crate::matrices::{Motion, positive, row_major};
 use crate::photo::SizeArguments;
@@ -16,7 +16,6 @@ use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments, threshold_words};
 use clap::{Args, ValueEnum};
 use epipole::two_view::TwoViewOptions;
-use nalgebra::Point2;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -121,14 +120,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run_best_first(&found1, &found2)?;
-    let pixels1: Vec<Point2<f64>> = matches
-        .iter()
-        .map(|m| found1.keypoints[m.index1].point())
-        .collect();
-    let pixels2: Vec<Point2<f64>> = matches
-        .iter()
-        .map(|m| found2.keypoints[m.index2].point())
-        .collect();
+    let [pixels1, pixels2] = matched_pixels(&matches, &found1, &found2);
     if arguments.model == Model::Fundamental && arguments.camera.is_given() {
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
