@@ -192,6 +192,11 @@ impl Work<'_> {
         options.sfm.lenses = vec![lens];
         let refined = &self.arguments.refined;
         refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);
+        if refined.is_given() && !options.final_adjustment {
+            self.context.warn(
+                "nothing of the lens is refined with --final-adjustment=false: it is refined by all frames at the end",
+            );
+        }
         if let Some(sentence) = sentence(guesses) {
             let is_refined = options.sfm.refine_focal && options.final_adjustment;
             let then = if is_refined { ", to be refined" } else { "" };

@@ -28,6 +28,14 @@ pub(crate) struct RefinedArguments {
 }
 
 impl RefinedArguments {
+    /// Whether something is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.refine_focal
+            || self.refine_principal_point
+            || self.refine_distortion
+            || self.refine_tangential
+    }
+
     /// Says what is asked for and cannot be.
     pub(crate) fn tell_of_nothing_to_refine(&self, lenses: &[SfmLens], context: &Context) {
         let has_tangential =
