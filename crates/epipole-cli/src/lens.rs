@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
+use crate::matrices::FAR;
 use clap::ValueEnum;
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
@@ -65,11 +66,20 @@ pub(crate) fn unseen_share(camera: &CalibratedCamera) -> f64 {
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_rig(path: &Path) -> Result<([CalibratedCamera; 2], RigidTransform), Failure> {
-    let text = files::read_text(path)?;
-    let cameras = [parse(&text, path, false)?, parse(&text, path, true)?];
+    parse_rig(&files::read_text(path)?, path)
+}
+
+/// As [`read_rig`], from the text of the file.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn parse_rig(
+    text: &str,
+    path: &Path,
+) -> Result<([CalibratedCamera; 2], RigidTransform), Failure> {
+    let cameras = [parse(text, path, false)?, parse(text, path, true)?];
     let malformed = |why: &str| Failure::new("malformed", why).about(path);
-    let whole: Value =
-        serde_json::from_str(&text).map_err(|error| malformed(&error.to_string()))?;
+    let whole: Value = serde_json::from_str(text).map_err(|error| malformed(&error.to_string()))?;
     let motion = &whole["stereo"]["right_from_left"];
     let numbers = |name: &str| -> Option<Vec<f64>> {
         (motion[name].as_array()?.iter())
@@ -86,8 +96,10 @@ pub(crate) fn read_rig(path: &Path) -> Result<([CalibratedCamera; 2], RigidTrans
             malformed("stereo.right_from_left.rotation is not nine numbers of a rotation")
         })?;
     let translation = numbers("translation")
-        .filter(|numbers| numbers.len() == 3)
-        .ok_or_else(|| malformed("stereo.right_from_left.translation is not three numbers"))?;
+        .filter(|numbers| numbers.len() == 3 && numbers.iter().all(|x| x.abs() <= *FAR.end()))
+        .ok_or_else(|| {
+            malformed("stereo.right_from_left.translation is not three numbers of meters")
+        })?;
     let rotation = Rotation3::from_matrix_unchecked(rotation);
     let right_from_left = RigidTransform::from_parts(
         Vector3::from_column_slice(&translation).into(),

@@ -61,7 +61,7 @@ pub(crate) fn direction(text: &str) -> Result<Vector3<f64>, String> {
 }
 
 /// Lengths, angles and numbers of pixels are of some size, and their squares are numbers, too.
-const FAR: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
+pub(crate) const FAR: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
 /// Reads a number above zero.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {

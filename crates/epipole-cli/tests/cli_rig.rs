@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::lens::{self, KINDS, SIZE, wall_photograph};
+use common::lens::{self, KINDS, SIZE, camera_json, wall_photograph};
 use common::{Folder, epipole, fails, json, numbers, parse, path};
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Intrinsics, LensKind, RigidTransform};
@@ -21,15 +21,6 @@ fn right_from_left() -> RigidTransform {
         Vector3::new(-BASELINE_M, 0.002, -0.001),
         Vector3::new(0.01, -0.03, 0.02),
     )
-}
-
-fn camera_json(camera: &CalibratedCamera) -> Value {
-    let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
-    json!({
-        "image": { "width": camera.width, "height": camera.height },
-        "k": [k.fu_px(), k.fv_px(), center.x, center.y],
-        "distortion": { "model": camera.lens.kind().name(), "coefficients": camera.lens.coefficients() },
-    })
 }
 
 fn rig_json(left: &CalibratedCamera, right: &CalibratedCamera) -> Value {
@@ -151,7 +142,7 @@ fn rigs_that_do_not_fit_get_a_sentence() {
         value["stereo"]["right_from_left"][name] = with;
     };
     type Case<'a> = (&'a str, &'a dyn Fn(&mut Value), &'a str);
-    let cases: [Case<'_>; 6] = [
+    let cases: [Case<'_>; 7] = [
         (
             "one.json",
             &|v| v["right"] = Value::Null,
@@ -175,6 +166,11 @@ fn rigs_that_do_not_fit_get_a_sentence() {
         (
             "short.json",
             &|v| motion(v, "translation", json!([1, 2])),
+            "translation is not three numbers",
+        ),
+        (
+            "far.json",
+            &|v| motion(v, "translation", json!([1e300, 0, 0])),
             "translation is not three numbers",
         ),
         (

@@ -6,6 +6,7 @@ use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::synthetic::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
+use serde_json::{Value, json};
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
@@ -36,23 +37,19 @@ pub(crate) const KINDS: [LensKind; 4] = [
     LensKind::Division,
 ];
 
+/// What a file says of a camera.
+pub(crate) fn camera_json(camera: &CalibratedCamera) -> Value {
+    let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
+    json!({
+        "image": { "width": camera.width, "height": camera.height },
+        "k": [k.fu_px(), k.fv_px(), center.x, center.y],
+        "distortion": { "model": camera.lens.kind().name(), "coefficients": camera.lens.coefficients() },
+    })
+}
+
 /// The file that `--camera` reads.
 pub(crate) fn write(folder: &Folder, camera: &CalibratedCamera) -> PathBuf {
-    let k = &camera.intrinsics;
-    let center = k.principal_point();
-    let text = format!(
-        r#"{{ "image": {{ "width": {}, "height": {} }}, "k": [{}, {}, {}, {}],
-        "distortion": {{ "model": "{}", "coefficients": {:?} }} }}"#,
-        camera.width,
-        camera.height,
-        k.fu_px(),
-        k.fv_px(),
-        center.x,
-        center.y,
-        camera.lens.kind().name(),
-        camera.lens.coefficients()
-    );
-    folder.write("camera.json", &text)
+    folder.write("camera.json", &camera_json(camera).to_string())
 }
 
 /// The sides of a cube around the camera that a lens sees: the rows are the axes of each.
