@@ -100,7 +100,7 @@ export async function webkit() {
     // With the last of its compilers for WebAssembly, WebKitGTK 2.50 was seen to crash under load, each time in another
     // figure, and once to give other bits; without it, that was seen in one run of three.
     JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
-    // Nor beside the code that runs: so compiled, other bits were seen in five runs of nine, and in none of five without.
+    // Nor beside the code that runs: so compiled, other bits were seen in five runs of nine, and in none of six without.
     JSC_useConcurrentJIT: process.env.JSC_useConcurrentJIT ?? "0",
   };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
