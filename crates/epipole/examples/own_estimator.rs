@@ -1,7 +1,8 @@
-//! A robust estimator of one's own, in thirty lines: a circle among points that are on none.
+//! A custom robust estimator in thirty lines: a circle among points that are on none.
 
 use epipole::math::random::Random;
 use epipole::prelude::*;
+use epipole::robust::{Data, Problem};
 
 struct Circles(Vec<Point2<f64>>);
 
@@ -24,9 +25,9 @@ impl Circles {
 impl Estimator for Circles {
     /// Center and radius, pixels.
     type Model = (Point2<f64>, f64);
-    fn name(&self) -> &'static str { "a circle from points" }
-    fn sample_size(&self) -> usize { 3 }
-    fn num_data(&self) -> usize { self.0.len() }
+    fn problem(&self) -> Problem<'_> {
+        Problem { name: "a circle from points", sample_size: 3, max_models: 1, codimension: 1, data: Data::Other(self.0.len()) }
+    }
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
         models.extend(self.fit(sample));
     }

@@ -316,7 +316,7 @@ fn scores_of_losers_change_nothing() {
                     score_every_trial: true,
                     ..brief
                 };
-                let name = estimator.name();
+                let name = estimator.problem().name;
                 let mut runs =
                     [brief, full].map(|options| Ransac::new(estimator.clone(), options).unwrap());
                 loop {
@@ -338,7 +338,7 @@ fn scores_of_losers_change_nothing() {
                     }
                     if let (Some(model), ScoreKind::Msac) = (&full.model, score) {
                         let support = estimator.support(model, 1.0, f64::INFINITY);
-                        let num_data = estimator.num_data() as f64;
+                        let num_data = estimator.problem().data.len() as f64;
                         assert_eq!(full.num_inliers, support.num_inliers, "{name}");
                         assert!(
                             (full.score - (num_data - support.cost)).abs() < 1e-9,

@@ -223,10 +223,10 @@ mod tests {
     };
 
     /// Eight points on a line, and eight that are not.
-    fn points() -> LineEstimator<'static> {
+    fn points() -> LineEstimator {
         let on = (0..8).map(|k| Point2::new(f64::from(k) * 10.0, 50.0));
         let off = (0..8).map(|k| Point2::new(f64::from(k * k) * 3.0, f64::from(k * 37 % 100)));
-        LineEstimator::new(on.chain(off).collect::<Vec<_>>()).unwrap()
+        LineEstimator::new(&on.chain(off).collect::<Vec<_>>()).unwrap()
     }
 
     #[test]

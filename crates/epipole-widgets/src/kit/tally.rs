@@ -17,7 +17,7 @@ pub(crate) struct Vote {
 
 /// Some samples, and what they came to.
 pub(crate) struct Tally {
-    pub(crate) samples: Samples<LineEstimator<'static>>,
+    pub(crate) samples: Samples<LineEstimator>,
     pub(crate) votes: Vec<Vote>,
     /// The line of the last sample, with its voters.
     pub(crate) candidate: Option<Consensus>,
@@ -39,7 +39,7 @@ impl Tally {
         num_samples: usize,
     ) -> Result<Self, Error> {
         let consensus = |line: &Line2| Consensus::of(*line, places, rules.epsilon_px);
-        let mut samples = Samples::new(LineEstimator::new(places.to_vec())?, rules)?;
+        let mut samples = Samples::new(LineEstimator::new(places)?, rules)?;
         let (mut votes, mut candidate) = (Vec::new(), None);
         for count in 1..=num_samples {
             if samples.is_finished() {

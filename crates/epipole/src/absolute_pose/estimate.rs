@@ -5,7 +5,7 @@ use super::refine::{Pose, PoseProblem, refine, rigid};
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::robust::{
-    Estimator, FARTHEST_PX, RansacOptions, RansacReport, Unique, chance_near_point, ransac,
+    Data, Estimator, FARTHEST_PX, Problem, RansacOptions, RansacReport, Unique, ransac,
 };
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
@@ -111,24 +111,17 @@ impl Estimator for AbsolutePoseEstimator {
     /// R and t of `cam_from_world`.
     type Model = (Matrix3<f64>, Vector3<f64>);
 
-    fn name(&self) -> &'static str {
-        "a camera pose from points"
-    }
-
-    fn sample_size(&self) -> usize {
-        3
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.points.len()
-    }
-
-    fn max_models(&self) -> usize {
-        4
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a camera pose from points",
+            sample_size: 3,
+            max_models: 4,
+            codimension: 2,
+            data: Data::Pixels {
+                pixels: &self.pixels,
+                unique: &self.unique,
+            },
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
@@ -161,15 +154,6 @@ impl Estimator for AbsolutePoseEstimator {
 
     fn polish(&mut self, pose: &Pose, near: &[usize], weights: &[f64]) -> Option<Pose> {
         self.refined(pose, near, Some(weights), RobustLoss::Trivial, 4)
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let coordinates = [0, 1].map(|axis| self.pixels.iter().map(|p| p[axis]).collect());
-        Some(chance_near_point(coordinates, max_error_px))
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(&self.unique)
     }
 }
 

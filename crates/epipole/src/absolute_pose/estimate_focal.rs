@@ -6,7 +6,7 @@ use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
+use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
@@ -87,7 +87,7 @@ impl AbsolutePoseFocalEstimator {
         })
     }
 
-    fn problem<'a>(
+    fn reprojection<'a>(
         &'a self,
         used: &'a [usize],
         weights: Option<&'a [f64]>,
@@ -116,7 +116,7 @@ impl AbsolutePoseFocalEstimator {
     fn focal_std_px(&self, model: &PoseFocal, max_error_px: f64) -> Option<f64> {
         let mut inliers = Vec::new();
         self.inliers(model, max_error_px, &mut inliers);
-        let problem = self.problem(&inliers, None, RobustLoss::Trivial);
+        let problem = self.reprojection(&inliers, None, RobustLoss::Trivial);
         Some(relative_focal_deviation(&problem, model)? * model.2)
     }
 }
@@ -125,24 +125,17 @@ impl Estimator for AbsolutePoseFocalEstimator {
     /// R and t of `cam_from_world`, and the focal length.
     type Model = (Matrix3<f64>, Vector3<f64>, f64);
 
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn sample_size(&self) -> usize {
-        4
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.points.len()
-    }
-
-    fn max_models(&self) -> usize {
-        MAX_SOLUTIONS
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: NAME,
+            sample_size: 4,
+            max_models: MAX_SOLUTIONS,
+            codimension: 2,
+            data: Data::Pixels {
+                pixels: &self.pixels,
+                unique: &self.unique,
+            },
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
@@ -176,23 +169,14 @@ impl Estimator for AbsolutePoseFocalEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px,
         };
-        self.refined(model, &self.problem(inliers, None, loss))
+        self.refined(model, &self.reprojection(inliers, None, loss))
     }
 
     fn polish(&mut self, model: &PoseFocal, near: &[usize], weights: &[f64]) -> Option<PoseFocal> {
         self.refined(
             model,
-            &self.problem(near, Some(weights), RobustLoss::Trivial),
+            &self.reprojection(near, Some(weights), RobustLoss::Trivial),
         )
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let coordinates = [0, 1].map(|axis| self.pixels.iter().map(|p| p[axis]).collect());
-        Some(chance_near_point(coordinates, max_error_px))
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(&self.unique)
     }
 }
 

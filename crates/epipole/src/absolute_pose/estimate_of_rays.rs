@@ -6,7 +6,7 @@ use super::refine::{Pose, rigid};
 use crate::camera::{RigidTransform, SeenRay};
 use crate::math::nearest_orthogonal;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-use crate::robust::{Estimator, RansacOptions, RansacReport, Unique, chance_near_point, ransac};
+use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, Vector3};
 
@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, Vector3};
 struct RayPoseEstimator {
     points: Vec<Vector3<f64>>,
     seen: Vec<SeenRay>,
+    pixels: Vec<Point2<f64>>,
     unique: Unique,
 }
 
@@ -22,24 +23,17 @@ impl Estimator for RayPoseEstimator {
     /// R and t of `cam_from_world`.
     type Model = Pose;
 
-    fn name(&self) -> &'static str {
-        "a camera pose from points"
-    }
-
-    fn sample_size(&self) -> usize {
-        3
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.points.len()
-    }
-
-    fn max_models(&self) -> usize {
-        4
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a camera pose from points",
+            sample_size: 3,
+            max_models: 4,
+            codimension: 2,
+            data: Data::Pixels {
+                pixels: &self.pixels,
+                unique: &self.unique,
+            },
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Pose>) {
@@ -69,15 +63,6 @@ impl Estimator for RayPoseEstimator {
         let rotation = nearest_orthogonal(&pose.0);
         let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
         finite.then_some((rotation, pose.1))
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let of = |axis: usize| self.seen.iter().map(|seen| seen.pixel()[axis]).collect();
-        Some(chance_near_point([of(0), of(1)], max_error_px))
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(&self.unique)
     }
 }
 
@@ -183,6 +168,7 @@ pub fn estimate_absolute_pose_of_rays(
     let kept = unique.first_occurrences();
     let estimator = RayPoseEstimator {
         points: kept.iter().map(|&i| points_in_world[i].coords).collect(),
+        pixels: kept.iter().map(|&i| pixels[i]).collect(),
         seen: kept.iter().map(|&i| seen[i]).collect(),
         unique: unique.clone(),
     };

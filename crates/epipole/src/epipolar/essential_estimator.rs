@@ -14,7 +14,7 @@ use crate::Result;
 use crate::camera::Intrinsics;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, Support};
+use crate::robust::{Data, Estimator, Evidence, MatchSet, Problem, Support};
 use nalgebra::{Matrix3, Vector3};
 
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
@@ -161,24 +161,14 @@ const FEW_BEHIND: f64 = 0.8;
 impl Estimator for EssentialEstimator {
     type Model = RelativePose;
 
-    fn name(&self) -> &'static str {
-        "an essential matrix from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        5
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
-    }
-
-    fn max_models(&self) -> usize {
-        10
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "an essential matrix from matches",
+            sample_size: 5,
+            max_models: 10,
+            codimension: 1,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {
@@ -228,13 +218,16 @@ impl Estimator for EssentialEstimator {
         })
     }
 
-    fn settle(
+    fn alternative(
         &mut self,
         model: &RelativePose,
-        inliers: &[usize],
+        evidence: Evidence<'_>,
         max_error_px: f64,
         random: &mut Random,
     ) -> Option<RelativePose> {
+        let Evidence::Inliers(inliers) = evidence else {
+            return None;
+        };
         let f = self.frame.fundamental_to_frame(&model.fundamental);
         let max_error = max_error_px * self.frame.scale;
         let plane = self

@@ -8,7 +8,9 @@ use super::sampson;
 use super::seven_point::seven_point_rows;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
+use crate::robust::{
+    Data, Estimator, Evidence, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
+};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
@@ -113,24 +115,14 @@ fn is_oriented(f: &Matrix3<f64>, sample: &[[f64; 4]; 7]) -> bool {
 impl Estimator for FundamentalEstimator {
     type Model = Matrix3<f64>;
 
-    fn name(&self) -> &'static str {
-        "a fundamental matrix from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        7
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
-    }
-
-    fn max_models(&self) -> usize {
-        3
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a fundamental matrix from matches",
+            sample_size: 7,
+            max_models: 3,
+            codimension: 1,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
@@ -175,29 +167,22 @@ impl Estimator for FundamentalEstimator {
         })
     }
 
-    fn recover(
+    fn alternative(
         &mut self,
         model: &Matrix3<f64>,
-        sample: &[usize],
+        evidence: Evidence<'_>,
         max_error_px: f64,
         random: &mut Random,
     ) -> Option<Matrix3<f64>> {
         let max_error = max_error_px * self.frame.scale;
-        self.frame.fundamental_within(model, |f| {
-            self.recovery
-                .recover(&self.in_frame, f, sample, max_error, random)
-        })
-    }
-
-    fn settle(
-        &mut self,
-        model: &Matrix3<f64>,
-        inliers: &[usize],
-        max_error_px: f64,
-        random: &mut Random,
-    ) -> Option<Matrix3<f64>> {
-        let max_error = max_error_px * self.frame.scale;
-        self.frame.fundamental_within(model, |f| {
+        let frame = self.frame;
+        frame.fundamental_within(model, |f| {
+            let inliers = match evidence {
+                Evidence::Inliers(inliers) => inliers,
+                Evidence::Sample(sample) => {
+                    return (self.recovery).recover(&self.in_frame, f, sample, max_error, random);
+                }
+            };
             let alternatives =
                 self.recovery
                     .alternatives(&self.in_frame, f, inliers, max_error, random);

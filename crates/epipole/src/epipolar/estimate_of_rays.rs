@@ -7,7 +7,9 @@ use crate::camera::{RigidTransform, SeenRay, cross_matrix};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 #[cfg(doc)]
 use crate::robust::ransac;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Trial, ransac_with};
+use crate::robust::{
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Trial, ransac_with,
+};
 use crate::{Error, Result};
 use core::ops::ControlFlow;
 use nalgebra::{
@@ -109,24 +111,14 @@ impl From<Pose> for Motion {
 impl Estimator for RayMotionEstimator {
     type Model = Motion;
 
-    fn name(&self) -> &'static str {
-        "a relative pose from rays"
-    }
-
-    fn sample_size(&self) -> usize {
-        5
-    }
-
-    fn num_data(&self) -> usize {
-        self.pairs.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
-    }
-
-    fn max_models(&self) -> usize {
-        10
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a relative pose from rays",
+            sample_size: 5,
+            max_models: 10,
+            codimension: 1,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Motion>) {

@@ -11,7 +11,7 @@ use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{
-    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, Trial, ransac_with,
 };
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
@@ -159,24 +159,14 @@ impl FocalEstimator {
 impl Estimator for FocalEstimator {
     type Model = PoseWithFocal;
 
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn sample_size(&self) -> usize {
-        6
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
-    }
-
-    fn max_models(&self) -> usize {
-        MAX_SOLUTIONS
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: NAME,
+            sample_size: 6,
+            max_models: MAX_SOLUTIONS,
+            codimension: 1,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<PoseWithFocal>) {

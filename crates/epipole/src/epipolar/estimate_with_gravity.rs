@@ -9,7 +9,7 @@ use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
 use crate::robust::{
-    Estimator, MatchSet, RansacOptions, RansacReport, Support, Trial, ransac_with,
+    Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, Trial, ransac_with,
 };
 use crate::{Error, Result};
 use core::ops::ControlFlow;
@@ -61,24 +61,14 @@ impl GravityEstimator {
 impl Estimator for GravityEstimator {
     type Model = RelativePose;
 
-    fn name(&self) -> &'static str {
-        "a relative pose with gravity from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        3
-    }
-
-    fn num_data(&self) -> usize {
-        self.free.num_data()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        self.free.matches()
-    }
-
-    fn max_models(&self) -> usize {
-        MAX_SOLUTIONS
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a relative pose with gravity from matches",
+            sample_size: 3,
+            max_models: MAX_SOLUTIONS,
+            codimension: 1,
+            data: self.free.problem().data,
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {

@@ -6,7 +6,9 @@ use super::refine_both::refine_by_both_images;
 use super::sums;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
+use crate::robust::{
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
+};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -87,24 +89,14 @@ impl HomographyEstimator {
 impl Estimator for HomographyEstimator {
     type Model = Matrix3<f64>;
 
-    fn name(&self) -> &'static str {
-        "a homography from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        4
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a homography from matches",
+            sample_size: 4,
+            max_models: 1,
+            codimension: 2,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {

@@ -7,7 +7,9 @@ use crate::camera::SeenRay;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 #[cfg(doc)]
 use crate::robust::ransac;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Trial, ransac_with};
+use crate::robust::{
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Trial, ransac_with,
+};
 use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
@@ -43,24 +45,14 @@ fn unit(homography: &Matrix3<f64>) -> Option<Matrix3<f64>> {
 impl Estimator for RayHomographyEstimator {
     type Model = Matrix3<f64>;
 
-    fn name(&self) -> &'static str {
-        "a homography of rays"
-    }
-
-    fn sample_size(&self) -> usize {
-        4
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.rays1.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a homography of rays",
+            sample_size: 4,
+            max_models: 1,
+            codimension: 2,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {

@@ -144,6 +144,7 @@ impl<M: Clone> Search<'_, M> {
     fn suited(&self, estimator: &dyn Estimator<Model = M>, report: RansacReport<M>) -> Suited<M> {
         let background = &self.background;
         let model = &report.model;
+        let problem = estimator.problem();
         let mut near = Vec::new();
         estimator.inliers(model, self.most_px, &mut near);
         let errors_sq: Vec<f64> = (near.iter())
@@ -152,21 +153,21 @@ impl<M: Clone> Search<'_, M> {
         let quantile = QUANTILES[background.codimension() - 1];
         let scale_px = noise_scale_px(
             &errors_sq,
-            estimator.num_data(),
+            problem.data.len(),
             background,
             report.max_error_px / quantile,
             LEAST_PX / quantile,
-            background.codimension() * estimator.sample_size(),
+            background.codimension() * problem.sample_size,
         );
         let max_error_px = scale_px.map_or(report.max_error_px, |scale_px| {
             (quantile * scale_px).clamp(LEAST_PX, self.most_px)
         });
         estimator.inliers(model, max_error_px, &mut near);
         let log10_false_alarms = log10_false_alarms(
-            estimator.num_distinct(&near),
-            estimator.num_data(),
-            estimator.sample_size(),
-            estimator.max_models(),
+            problem.data.num_distinct(&near),
+            problem.data.len(),
+            problem.sample_size,
+            problem.max_models,
             background.chance(max_error_px),
         );
         Suited {

@@ -77,10 +77,11 @@ pub fn least_median<E: Estimator>(
     mut estimator: E,
     options: &LeastMedianOptions,
 ) -> Result<LeastMedian<E::Model>> {
-    let (num_data, size) = (estimator.num_data(), estimator.sample_size());
+    let problem = estimator.problem();
+    let (num_data, size, name) = (problem.data.len(), problem.sample_size, problem.name);
     if num_data <= size {
         return Err(Error::TooFew {
-            what: estimator.name(),
+            what: name,
             needed: size + 1,
             got: num_data,
         });
@@ -95,7 +96,7 @@ pub fn least_median<E: Estimator>(
     let mut random = Random::new(options.seed);
     let mut sampler = Sampler::new(SamplerKind::Uniform, num_data, size, options.num_samples);
     let mut sample = Vec::with_capacity(size);
-    let mut models = Vec::with_capacity(estimator.max_models());
+    let mut models = Vec::with_capacity(problem.max_models);
     let mut errors_sq = vec![0.0; num_data];
     let mut best: Option<(f64, E::Model)> = None;
     for _ in 0..options.num_samples {
@@ -113,7 +114,7 @@ pub fn least_median<E: Estimator>(
         }
     }
     let (median_sq, mut model) = best.ok_or(Error::Degenerate {
-        what: estimator.name(),
+        what: name,
         why: "no sample gives a model",
     })?;
     let median_px = median_sq.sqrt();

@@ -1,8 +1,6 @@
 //! Straight lines: least squares, and the estimator for the loop.
 
-use std::borrow::Cow;
-
-use super::{Estimator, Unique, chance_near_line};
+use super::{Data, Estimator, Problem, Unique};
 use crate::math::Line2;
 use crate::{Error, Result};
 use nalgebra::Point2;
@@ -133,19 +131,19 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
 /// # Ok(()) }
 /// ```
 #[derive(Debug, Clone)]
-pub struct LineEstimator<'a> {
-    points: Cow<'a, [Point2<f64>]>,
+pub struct LineEstimator {
+    /// Different points.
+    points: Vec<Point2<f64>>,
     unique: Unique,
 }
 
-impl<'a> LineEstimator<'a> {
-    /// Prepares the estimation; takes a slice or a `Vec` of points, pixels.
+impl LineEstimator {
+    /// Prepares the estimation from points, pixels.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two points that are not at infinity, which are left out;
     /// [`Error::NotFinite`] for NaN, [`Error::Degenerate`] if all points are equal.
-    pub fn new(points: impl Into<Cow<'a, [Point2<f64>]>>) -> Result<Self> {
-        let points = points.into();
+    pub fn new(points: &[Point2<f64>]) -> Result<Self> {
         if points.iter().any(|p| p.x.is_nan() || p.y.is_nan()) {
             return Err(NOT_FINITE);
         }
@@ -160,51 +158,44 @@ impl<'a> LineEstimator<'a> {
                 why: "all points are equal",
             });
         }
-        Ok(Self { points, unique })
-    }
-
-    #[inline]
-    fn point(&self, index: usize) -> &Point2<f64> {
-        &self.points[self.unique.first_occurrences()[index]]
+        let different = unique.first_occurrences().iter().map(|&i| points[i]);
+        Ok(Self {
+            points: different.collect(),
+            unique,
+        })
     }
 }
 
-impl Estimator for LineEstimator<'_> {
+impl Estimator for LineEstimator {
     type Model = Line2;
 
-    fn name(&self) -> &'static str {
-        "a line through points"
-    }
-
-    fn sample_size(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.unique.len()
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a line through points",
+            sample_size: 2,
+            max_models: 1,
+            codimension: 1,
+            data: Data::Pixels {
+                pixels: &self.points,
+                unique: &self.unique,
+            },
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Line2>) {
-        models.extend(Line2::through(self.point(sample[0]), self.point(sample[1])));
+        models.extend(Line2::through(
+            &self.points[sample[0]],
+            &self.points[sample[1]],
+        ));
     }
 
     fn error_sq(&self, line: &Line2, index: usize) -> f64 {
-        let distance = line.signed_distance(self.point(index));
+        let distance = line.signed_distance(&self.points[index]);
         distance * distance
     }
 
     fn refine(&mut self, _: &Line2, inliers: &[usize], _: f64) -> Option<Line2> {
-        fit(inliers.len(), |i| *self.point(inliers[i])).ok()
-    }
-
-    fn chance(&self, max_error_px: f64) -> Option<f64> {
-        let places = || (0..self.unique.len()).map(|i| self.point(i));
-        let coordinates = [0, 1].map(|axis| places().map(|p| p[axis]).collect());
-        Some(chance_near_line(coordinates, max_error_px))
-    }
-
-    fn unique(&self) -> Option<&Unique> {
-        Some(&self.unique)
+        fit(inliers.len(), |i| self.points[inliers[i]]).ok()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Matches between two images, laid out for speed.
 
-use super::{Support, Unique, chance_near_line, chance_near_point};
+use super::{Unique, chance_near_line, chance_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -178,41 +178,6 @@ impl MatchSet {
     /// each F with its epipole there fits them all.
     pub(crate) fn votes(&self) -> Option<&[f64]> {
         self.crowds.as_ref().map(|crowds| &*crowds.votes)
-    }
-
-    /// How well the matches support a model, given their squared errors in px²; as
-    /// [`Estimator::support`](super::Estimator::support), each with its votes.
-    pub(crate) fn support(
-        &self,
-        error_sq: impl Fn(usize) -> f64,
-        max_error_px: f64,
-        cost_limit: f64,
-    ) -> Support {
-        let per_threshold_sq = 1.0 / (max_error_px * max_error_px);
-        let mut support = Support {
-            cost: 0.0,
-            num_inliers: 0,
-        };
-        for i in 0..self.len() {
-            let relative = error_sq(i) * per_threshold_sq;
-            let vote = self.votes().map_or(1.0, |votes| votes[i]);
-            if relative < 1.0 {
-                support.cost += vote * relative;
-                support.num_inliers += 1;
-            } else {
-                support.cost += vote;
-                if support.cost > cost_limit {
-                    break;
-                }
-            }
-        }
-        support
-    }
-
-    /// All votes together.
-    pub(crate) fn num_votes(&self) -> f64 {
-        let count = || self.len() as f64;
-        self.votes().map_or_else(count, |votes| votes.iter().sum())
     }
 
     /// Whether two of these matches have a pixel in common: no more than one of them can be right.

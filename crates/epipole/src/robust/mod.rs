@@ -13,6 +13,7 @@
 mod budget;
 mod by_noise;
 mod chance;
+mod data;
 mod engine;
 mod estimator;
 mod least_median;
@@ -30,8 +31,9 @@ mod unique;
 pub use budget::{num_trials_with_replacement, num_trials_without_replacement};
 pub use chance::log10_false_alarms;
 pub(crate) use chance::{chance_near_line, chance_near_point};
+pub use data::Data;
 pub use engine::Ransac;
-pub use estimator::{Estimator, Support};
+pub use estimator::{Estimator, Evidence, Problem, Support};
 pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;

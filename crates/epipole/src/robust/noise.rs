@@ -23,8 +23,9 @@ impl Background {
         little_px: f64,
         unknown_px: f64,
     ) -> Self {
-        let codimension = estimator.codimension().clamp(1, 2);
-        let (chance, within_px) = (estimator.chance(little_px))
+        let problem = estimator.problem();
+        let codimension = problem.codimension.clamp(1, 2);
+        let (chance, within_px) = (problem.data.chance(problem.codimension, little_px))
             .map_or((UNKNOWN_CHANCE, unknown_px), |chance| (chance, little_px));
         Self {
             codimension,

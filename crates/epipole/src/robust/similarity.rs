@@ -1,6 +1,6 @@
 //! Similarities of the plane: turn, scale, shift.
 
-use super::{Estimator, MatchSet, RansacOptions, RansacReport, ransac};
+use super::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -133,24 +133,14 @@ impl SimilarityEstimator {
 impl Estimator for SimilarityEstimator {
     type Model = PlaneSimilarity;
 
-    fn name(&self) -> &'static str {
-        "a similarity from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        2
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a similarity from matches",
+            sample_size: 2,
+            max_models: 1,
+            codimension: 2,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<PlaneSimilarity>) {

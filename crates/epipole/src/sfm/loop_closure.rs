@@ -121,15 +121,16 @@ impl<'a> SimilarityOfPoints<'a> {
 impl crate::robust::Estimator for SimilarityOfPoints<'_> {
     type Model = Similarity3<f64>;
 
-    fn name(&self) -> &'static str {
-        "a similarity from matched points"
+    fn problem(&self) -> crate::robust::Problem<'_> {
+        crate::robust::Problem {
+            name: "a similarity from matched points",
+            sample_size: 3,
+            max_models: 1,
+            codimension: 1,
+            data: crate::robust::Data::Other(self.from.len()),
+        }
     }
-    fn sample_size(&self) -> usize {
-        3
-    }
-    fn num_data(&self) -> usize {
-        self.from.len()
-    }
+
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Similarity3<f64>>) {
         models.extend(self.fit(sample));
     }

@@ -6,7 +6,9 @@ use crate::Result;
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
-use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, Support, ransac};
+use crate::robust::{
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
+};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
@@ -92,24 +94,14 @@ impl Estimator for RotationEstimator {
     /// R of `cam2_from_cam1`.
     type Model = Matrix3<f64>;
 
-    fn name(&self) -> &'static str {
-        "a rotation from matches"
-    }
-
-    fn sample_size(&self) -> usize {
-        2
-    }
-
-    fn codimension(&self) -> usize {
-        2
-    }
-
-    fn num_data(&self) -> usize {
-        self.matches.len()
-    }
-
-    fn matches(&self) -> Option<&MatchSet> {
-        Some(&self.matches)
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a rotation from matches",
+            sample_size: 2,
+            max_models: 1,
+            codimension: 2,
+            data: Data::Matches(&self.matches),
+        }
     }
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
@@ -129,7 +121,7 @@ impl Estimator for RotationEstimator {
     fn support(&self, rotation: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {
         let homography = self.homography(rotation);
         let error_sq = |i| self.transfer_error_sq(rotation, &homography, i);
-        self.matches.support(error_sq, max_error_px, cost_limit)
+        (self.problem().data).support(error_sq, max_error_px, cost_limit)
     }
 }
 

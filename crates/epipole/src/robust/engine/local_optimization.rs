@@ -1,15 +1,29 @@
-//! Local optimization: what becomes of a sample's model that beats those before it.
+//! Local optimization of a sample's model that beats those before it.
 
 use super::{Candidate, Ransac};
-use crate::robust::Estimator;
+use crate::robust::{Estimator, Evidence};
 
-/// A model whose first fits bring it to the cost of the best one, up to this share, is improved no further where there are
-/// several ways to do so: most samples without outliers lead there.
-///
-/// Where there is one way, the rule would gain little and is not asked. On photographs with known cameras, ten orders of the
-/// matches each, F took 1 to 6 % less time with it and E none, and the AUC up to 10° changed by +.21 to −.23 for F (less in
-/// three of seven sets, more in one; orders alone spread it by up to 3) and by .01 at most for E.
-const KNOWN: f64 = 0.01;
+/// Constants of local optimization.
+struct Tuning {
+    /// A model whose first fits bring it to the cost of the best one, up to this share, is not improved further where
+    /// there are several ways to do so: most samples without outliers lead there.
+    ///
+    /// On photographs with known cameras, ten orders of the matches each: F takes 1 to 6 % less time, E the same; AUC@10°
+    /// changes by +.21 to −.23 for F, by .01 at most for E.
+    known: f64,
+    /// Reaches of the first fits in thresholds, way by way, for errors of one dimension and of two. Errors of two are
+    /// small by chance so seldom that nearly all within four thresholds belong to a model that is right in a part of the
+    /// image.
+    first_reaches: [&'static [&'static [f64]]; 2],
+    /// An improvement below this cost is not worth another round.
+    least_gain: f64,
+}
+
+const TUNING: Tuning = Tuning {
+    known: 0.01,
+    first_reaches: [&[&[2.0, 1.0]], &[&[2.0, 1.0], &[4.0, 2.0, 1.0]]],
+    least_gain: 1e-3,
+};
 
 impl<E: Estimator> Ransac<E> {
     /// Takes the best model of a sample through recovery and local optimization, and keeps the
@@ -20,9 +34,9 @@ impl<E: Estimator> Ransac<E> {
     ) -> (bool, Option<E::Model>) {
         let mut changed = false;
         if self.options.local_optimization {
-            let recovered = self.estimator.recover(
+            let recovered = self.estimator.alternative(
                 &candidate.model,
-                &self.sample,
+                Evidence::Sample(&self.sample),
                 self.options.max_error_px,
                 &mut self.random,
             );
@@ -52,7 +66,7 @@ impl<E: Estimator> Ransac<E> {
         let max_error_px = self.judge_px;
         let rough = candidate.model.clone();
         let mut changed = false;
-        let ways = self.first_reaches();
+        let ways = TUNING.first_reaches[self.codimension_index()];
         for &reaches in ways {
             let mut model = Some(rough.clone());
             for reach in reaches {
@@ -72,37 +86,27 @@ impl<E: Estimator> Ransac<E> {
                 break;
             }
             changed = true;
-            // Less than a thousandth of one datum is not worth another round.
-            if before - candidate.support.cost < 1e-3 {
+            if before - candidate.support.cost < TUNING.least_gain {
                 break;
             }
         }
         changed
     }
 
-    /// Whether a model costs what the best one does, or nearly so: then it is on the way to the same optimum, around which
-    /// the end of the run looks anyway.
+    /// Whether a model costs nearly what the best one does: then it leads to the same optimum, around which the end of
+    /// the run looks anyway.
     fn is_known(&self, candidate: &Candidate<E::Model>) -> bool {
         self.best.as_ref().is_some_and(|best| {
             let known = best.support.cost;
-            (candidate.support.cost - known).abs() < KNOWN * known.max(1.0)
+            (candidate.support.cost - known).abs() < TUNING.known * known.max(1.0)
         })
-    }
-
-    /// How far the first fits look, in thresholds, way by way. Errors of two dimensions are small by chance so
-    /// seldom that nearly all within four thresholds belong to a model that is right in a part of the picture.
-    fn first_reaches(&self) -> &'static [&'static [f64]] {
-        match self.estimator.codimension() {
-            2 => &[&[2.0, 1.0], &[4.0, 2.0, 1.0]],
-            _ => &[&[2.0, 1.0]],
-        }
     }
 
     /// A model refined from its inliers, if there are enough.
     pub(super) fn fitted(&mut self, model: &E::Model, max_error_px: f64) -> Option<E::Model> {
         self.estimator
             .inliers(model, max_error_px, &mut self.inliers);
-        if self.inliers.len() < self.estimator.sample_size() {
+        if self.inliers.len() < self.problem().sample_size {
             return None;
         }
         self.estimator.refine(model, &self.inliers, max_error_px)
@@ -114,7 +118,7 @@ impl<E: Estimator> Ransac<E> {
         model: E::Model,
     ) -> bool {
         let support = self.support(&model, candidate.support.cost);
-        let better = support.cost < candidate.support.cost && !self.is_gathered(&model);
+        let better = support.cost < candidate.support.cost && !self.is_concentrated(&model);
         if better {
             *candidate = Candidate { model, support };
             self.refinements += 1;

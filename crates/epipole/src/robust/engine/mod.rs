@@ -1,13 +1,21 @@
-//! The one loop: draw, fit, judge, improve, until enough samples were drawn.
+//! The one loop: draw, fit, score, improve, until enough samples were drawn.
+//!
+//! Its stages are files: `local_optimization` improves a sample's model, `concentration` rejects models of one image
+//! region, `stopping` says when enough samples were drawn; at the end `neighborhood` looks for a better optimum nearby,
+//! `degeneracy` asks for an alternative, `polish` fits all inliers once more, `report` sums up. Each keeps its constants
+//! in a `Tuning`.
 
-mod enough;
-mod finale;
-mod gathered;
+mod concentration;
+mod degeneracy;
 mod local_optimization;
+mod neighborhood;
+mod polish;
+mod report;
+mod stopping;
 
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
-use super::{Estimator, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
+use super::{Estimator, Problem, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
 use crate::math::random::Random;
 use crate::{Error, Result};
 
@@ -83,20 +91,22 @@ impl<E: Estimator> Ransac<E> {
     /// [`Error::OutOfRange`] for options outside their range.
     pub fn new(estimator: E, options: RansacOptions) -> Result<Self> {
         options.check()?;
-        let (num_data, size) = (estimator.num_data(), estimator.sample_size());
+        let problem = estimator.problem();
+        let (num_data, size) = (problem.data.len(), problem.sample_size);
         if num_data < size || size == 0 {
             return Err(Error::TooFew {
-                what: estimator.name(),
+                what: problem.name,
                 needed: size.max(1),
                 got: num_data,
             });
         }
+        let chance = (problem.data).chance(problem.codimension, options.max_error_px);
         Ok(Self {
             sampler: Sampler::new(options.sampler, num_data, size, options.max_iterations),
             random: Random::new(options.seed),
             sample: Vec::with_capacity(size),
             sample_as_given: Vec::with_capacity(size),
-            models: Vec::with_capacity(estimator.max_models()),
+            models: Vec::with_capacity(problem.max_models),
             inliers: Vec::with_capacity(num_data),
             values: Vec::with_capacity(num_data),
             best: None,
@@ -106,7 +116,7 @@ impl<E: Estimator> Ransac<E> {
             required: u64::MAX,
             log_miss: libm::log1p(-options.confidence),
             stop: None,
-            chance: estimator.chance(options.max_error_px),
+            chance,
             judge_px: options.max_error_px,
             estimator,
             options,
@@ -160,14 +170,14 @@ impl<E: Estimator> Ransac<E> {
             model = Some(candidate.model.clone());
             score = self.score(&support);
             num_inliers = support.num_inliers;
-            if support.cost < least_cost && !self.is_gathered(&candidate.model) {
+            if support.cost < least_cost && !self.is_concentrated(&candidate.model) {
                 self.block_costs[0] = support.cost;
                 (is_best, refined) = self.consider(candidate);
             }
         }
         self.update_stop();
         self.sample_as_given.clear();
-        match self.estimator.unique() {
+        match self.estimator.problem().data.unique() {
             Some(unique) => self
                 .sample_as_given
                 .extend(self.sample.iter().map(|&i| unique.first_occurrences()[i])),
@@ -225,11 +235,15 @@ impl<E: Estimator> Ransac<E> {
         self.conclude()
     }
 
+    fn problem(&self) -> Problem<'_> {
+        self.estimator.problem()
+    }
+
     /// What a support is worth, as [`ScoreKind`] defines it.
     fn score(&self, support: &Support) -> f64 {
         match self.options.score {
             ScoreKind::InlierCount => support.num_inliers as f64,
-            ScoreKind::Msac => (self.estimator.num_votes() - support.cost).max(0.0),
+            ScoreKind::Msac => (self.problem().data.num_votes() - support.cost).max(0.0),
         }
     }
 
@@ -240,7 +254,7 @@ impl<E: Estimator> Ransac<E> {
         let max_error_px = self.judge_px;
         let mut support = self.estimator.support(model, max_error_px, limit);
         if by_count {
-            support.cost = (self.estimator.num_data() - support.num_inliers) as f64;
+            support.cost = (self.problem().data.len() - support.num_inliers) as f64;
         }
         if support.cost.is_nan() {
             support.cost = f64::INFINITY;

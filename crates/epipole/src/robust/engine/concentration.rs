@@ -1,57 +1,65 @@
-//! Models that say no more than one place would: many wrong matches may lead to nearly the same pixel, and a map that
-//! takes the whole image there, or an F with its epipole there, fits all of them. Scale alone would not tell: a map from
-//! pixels to meters has a small one, too.
+//! Rejection of models that a single image region supports.
+//!
+//! Many wrong matches may lead to nearly one pixel. A map that takes the whole image there, or an F with its epipole
+//! there, fits all of them. Scale alone does not tell: a map from pixels to meters has a small one, too.
 
 use super::Ransac;
 use crate::math::order::at_rank;
 use crate::robust::Estimator;
 
-/// Inliers must be so many times as far from their middle as they are from the model: both are medians, so a few
-/// that are elsewhere do not matter. Matches at one place have about 1, and somewhat more for F, whose errors have one
-/// dimension and are shared by both images; those of an honest model a hundred.
-const FAR_APART: f64 = 3.0;
+/// Constants of the test.
+struct Tuning {
+    /// Minimum distance of the inliers from their center, in units of their errors (medians). Concentrated matches have
+    /// about 1, and somewhat more for F, whose errors have one dimension; honest models about 100.
+    min_spread: f64,
+    /// Number of matches, evenly chosen, in the first and cheap test.
+    subset_size: usize,
+    /// A subset with more inliers than this is representative
+    subset_inliers: usize,
+    /// if they are this many thresholds from their center.
+    subset_spread: f64,
+}
 
-/// So many matches, evenly chosen, are looked at first.
-const A_FEW: usize = 48;
-/// More inliers than this among them tell what all would,
-const FEWEST: usize = 10;
-/// if they are so many thresholds from their middle: of gathered ones all are nearer than [`FAR_APART`].
-const SURELY: f64 = 3.0 * FAR_APART;
+const TUNING: Tuning = Tuning {
+    min_spread: 3.0,
+    subset_size: 48,
+    subset_inliers: 10,
+    subset_spread: 9.0,
+};
 
 impl<E: Estimator> Ransac<E> {
-    /// Whether the inliers of a model are gathered at one place, which explains them as well as the model does.
+    /// Whether the inliers of a model lie in one region, which explains them as well as the model does.
     ///
-    /// It is the spread in the image where errors are measured that is compared with them, in the same unit; so maps to
-    /// meters are judged as those to pixels are. Errors of one dimension are measured in both images. Pixels that are
-    /// exactly equal have few votes anyway.
-    pub(super) fn is_gathered(&mut self, model: &E::Model) -> bool {
-        let Some(matches) = self.estimator.matches() else {
+    /// The spread is that in the image where errors are measured, in the same unit, so maps to meters are judged as those
+    /// to pixels are. Errors of one dimension are measured in both images.
+    pub(super) fn is_concentrated(&mut self, model: &E::Model) -> bool {
+        let problem = self.estimator.problem();
+        let Some(matches) = problem.data.matches() else {
             return false;
         };
         let coordinates = matches.coordinates();
-        let in_both = self.estimator.codimension() == 1;
+        let (in_both, size) = (problem.codimension == 1, problem.sample_size);
         let max_error_sq = self.judge_px * self.judge_px;
 
-        // A few of them nearly always tell, at a fraction of the cost.
-        let stride = coordinates[0].len().div_ceil(A_FEW);
+        let stride = coordinates[0].len().div_ceil(TUNING.subset_size);
         let few = (0..coordinates[0].len()).step_by(stride.max(1));
         self.inliers.clear();
         self.inliers
             .extend(few.filter(|&i| self.estimator.error_sq(model, i) < max_error_sq));
-        if self.inliers.len() > FEWEST {
+        if self.inliers.len() > TUNING.subset_inliers {
             let least_sq = spread_sq(&self.inliers, coordinates, in_both, &mut self.values);
-            if least_sq > SURELY * SURELY * max_error_sq {
+            if least_sq > TUNING.subset_spread * TUNING.subset_spread * max_error_sq {
                 return false;
             }
         }
 
         self.estimator
             .inliers(model, self.judge_px, &mut self.inliers);
-        if self.inliers.len() <= self.estimator.sample_size() {
+        if self.inliers.len() <= size {
             return false;
         }
         let least_sq = spread_sq(&self.inliers, coordinates, in_both, &mut self.values);
-        let most_sq = least_sq / (FAR_APART * FAR_APART);
+        let most_sq = least_sq / (TUNING.min_spread * TUNING.min_spread);
         // Errors are at most the threshold.
         most_sq < max_error_sq
             && most_sq

@@ -1,4 +1,4 @@
-//! How many samples are enough.
+//! The number of samples that are enough.
 
 use super::{Candidate, Ransac};
 use crate::robust::budget::{all_inlier_probability, ratio_to_the, trials};
@@ -16,13 +16,14 @@ impl<E: Estimator> Ransac<E> {
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC", §2.2 (maximality and non-randomness).
     pub(super) fn require(&mut self, best: &Candidate<E::Model>) {
-        let num_data = self.estimator.num_data();
+        let problem = self.estimator.problem();
+        let (num_data, size, max_models) =
+            (problem.data.len(), problem.sample_size, problem.max_models);
         self.required = self.required_for(best.support.num_inliers, num_data);
         if !self.sampler.is_ordered() {
             return;
         }
         let max_error_px = self.options.max_error_px;
-        let size = self.estimator.sample_size();
         let chance = self.chance.unwrap_or(UNKNOWN_CHANCE);
         self.estimator
             .inliers(&best.model, max_error_px, &mut self.inliers);
@@ -31,13 +32,7 @@ impl<E: Estimator> Ransac<E> {
             let (num_inliers, front) = (place + 1, index + 1);
             let required = self.required_for(num_inliers, front);
             if required < self.required
-                && log10_false_alarms(
-                    num_inliers,
-                    front,
-                    size,
-                    self.estimator.max_models(),
-                    chance,
-                ) < HARDLY_CHANCE
+                && log10_false_alarms(num_inliers, front, size, max_models, chance) < HARDLY_CHANCE
             {
                 self.required = required;
                 limit = front;
@@ -47,7 +42,7 @@ impl<E: Estimator> Ransac<E> {
     }
 
     pub(super) fn required_for(&self, num_inliers: usize, num_data: usize) -> u64 {
-        let size = self.estimator.sample_size();
+        let size = self.problem().sample_size;
         let probability = match self.options.budget {
             Budget::WithReplacement => ratio_to_the(num_inliers as f64 / num_data as f64, size),
             Budget::WithoutReplacement => all_inlier_probability(num_inliers, num_data, size),
