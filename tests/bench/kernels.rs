@@ -143,11 +143,13 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         HOMOGRAPHY => {
             let [pixels1, pixels2] = &room.matches;
-            room.found = estimate_homography(pixels1, pixels2, &RansacOptions::default())?.model;
+            room.found =
+                estimate_homography(pixels1, pixels2, &RansacOptions::default(), &mut ())?.model;
         }
         FUNDAMENTAL => {
             let [pixels1, pixels2] = &room.matches;
-            room.found = estimate_fundamental(pixels1, pixels2, &RansacOptions::default())?.model;
+            room.found =
+                estimate_fundamental(pixels1, pixels2, &RansacOptions::default(), &mut ())?.model;
         }
         SEMI_GLOBAL => {
             let [left, right] = &room.pair;

@@ -1,19 +1,19 @@
-//! The options of robust estimation that commands share, and runs that can be watched and ended.
+//! Command-line options of robust estimation, and runs with progress that Ctrl-C ends.
 
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Progress;
 use clap::{ArgAction, Args, ValueEnum};
+use epipole::progress::{Monitor, Stage};
 use epipole::robust::{
-    Budget, Estimator, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason,
-    ThresholdKind, Trial, ransac_with,
+    Budget, Estimator, Ransac, RansacOptions, RansacReport, SamplerKind, ScoreKind, Step,
+    StopReason, ThresholdKind, ransac,
 };
 use std::fmt;
-use std::ops::ControlFlow;
 
-/// The bar moves once in so many samples: looking more often would cost more than small samples do.
-const SAMPLES_A_LOOK: usize = 64;
+/// Number of samples between two moves of the bar.
+const SAMPLES_PER_LOOK: usize = 64;
 
 /// How samples are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -164,59 +164,48 @@ impl RobustArguments {
         }
     }
 
-    /// Runs RANSAC to its end, or until Ctrl-C asks for the best model so far.
+    /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold is given.
     ///
     /// # Errors
-    /// As [`ransac_with`].
+    /// As [`ransac`].
     pub(crate) fn run<E: Estimator>(
         &self,
         estimator: E,
         context: &Context,
     ) -> Result<RansacReport<E::Model>, Failure> {
-        self.watched(context, |options, watch| {
-            ransac_with(estimator, options, watch)
-        })
-    }
-
-    /// The same for a function that runs RANSAC itself and shows its trials.
-    pub(crate) fn watched<M>(
-        &self,
-        context: &Context,
-        run: impl FnOnce(
-            &RansacOptions,
-            &mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>,
-        ) -> epipole::Result<RansacReport<M>>,
-    ) -> Result<RansacReport<M>, Failure> {
-        let mut look = self.look(context);
-        let report = run(&self.options(context), &mut |trial| {
-            look(trial.iteration, trial.required_iterations)
-        })?;
-        drop(look);
+        let options = self.options(context);
+        if options.threshold == ThresholdKind::Noise {
+            return self.watched(context, |options, monitor| {
+                ransac(estimator, options, monitor)
+            });
+        }
+        let mut run = Ransac::new(estimator, options)?;
+        let progress = Progress::new(context, Stage::RobustEstimation.words());
+        while let Step::Trial(trial) = run.step() {
+            if trial.iteration.is_multiple_of(SAMPLES_PER_LOOK) {
+                progress.set(trial.iteration as f64 / run.expected_iterations() as f64);
+            }
+            if interrupt::requested() {
+                break;
+            }
+        }
+        drop(progress);
+        let report = run.finish()?;
         self.warn(&report, context);
         Ok(report)
     }
 
-    /// What watches samples: a bar moves with their number, counted from 1, towards the number
-    /// required, and Ctrl-C breaks.
-    pub(crate) fn look(
+    /// The same for a function that runs RANSAC itself; Ctrl-C cancels it.
+    pub(crate) fn watched<M>(
         &self,
         context: &Context,
-    ) -> impl FnMut(usize, u64) -> ControlFlow<()> + use<> {
-        let options = self.options(context);
-        let progress = Progress::new(context, "drawing samples");
-        move |iteration, required_iterations| {
-            if iteration.is_multiple_of(SAMPLES_A_LOOK) {
-                let most = options.max_iterations;
-                let required = usize::try_from(required_iterations).unwrap_or(most);
-                let expected = required.max(options.min_iterations).min(most);
-                progress.set(iteration as f64 / expected as f64);
-            }
-            if interrupt::requested() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        }
+        run: impl FnOnce(&RansacOptions, &mut dyn Monitor) -> epipole::Result<RansacReport<M>>,
+    ) -> Result<RansacReport<M>, Failure> {
+        let progress = Progress::new(context, Stage::RobustEstimation.words());
+        let report = run(&self.options(context), &mut |status| progress.show(status))?;
+        drop(progress);
+        self.warn(&report, context);
+        Ok(report)
     }
 
     /// Tells of a run that ended before it could be confident.
@@ -240,7 +229,7 @@ impl RobustArguments {
         context: &Context,
     ) {
         match stop {
-            StopReason::Canceled => context.warn(interrupt::ENDED_EARLY),
+            StopReason::Interrupted => context.warn(interrupt::ENDED_EARLY),
             // The last refinement may find enough inliers after all.
             StopReason::Exhausted if required > drawn as u64 => {
                 let needed = match required {
@@ -263,7 +252,7 @@ pub(crate) fn stop_word(stop: StopReason) -> &'static str {
     match stop {
         StopReason::Confident => "confident",
         StopReason::Exhausted => "exhausted",
-        StopReason::Canceled => "canceled",
+        StopReason::Interrupted => "canceled",
     }
 }
 

@@ -99,7 +99,7 @@ fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize
     let options = ransac.within(2.0 * ransac.max_error_px);
     // Where all are the same there is no line, and nothing to say that was not said.
     let lines = LineEstimator::new(pixels).ok()?;
-    let found = epipole::robust::ransac(lines, &options).ok()?;
+    let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
     let are_alone = found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();
     are_alone.then_some(found.num_inliers)
 }

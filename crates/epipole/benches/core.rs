@@ -42,7 +42,7 @@ fn line(criterion: &mut Criterion) {
     criterion.bench_function("ransac/line-200-points-30-percent-outliers", |bencher| {
         bencher.iter(|| {
             let estimator = LineEstimator::new(black_box(&points));
-            estimator.and_then(|estimator| ransac(estimator, &RansacOptions::default()))
+            estimator.and_then(|estimator| ransac(estimator, &RansacOptions::default(), &mut ()))
         });
     });
 }

@@ -119,21 +119,21 @@ fn robust(c: &mut Criterion) {
     let s = scene(2, 1000, 0.6, false);
     let k = s.left.intrinsics;
     group.bench_function("F 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_fundamental(&s.p1, &s.p2, &options()))
+        b.iter(|| estimate_fundamental(&s.p1, &s.p2, &options(), &mut ()))
     });
     group.bench_function("E 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options()))
+        b.iter(|| estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options(), &mut ()))
     });
     group.bench_function("P3P 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_absolute_pose(&s.points, &s.p2, &k, &options()))
+        b.iter(|| estimate_absolute_pose(&s.points, &s.p2, &k, &options(), &mut ()))
     });
     let plane = scene(3, 1000, 0.6, true);
     group.bench_function("H 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_homography(&plane.p1, &plane.p2, &options()))
+        b.iter(|| estimate_homography(&plane.p1, &plane.p2, &options(), &mut ()))
     });
     let few = scene(4, 200, 0.7, false);
     group.bench_function("F 200, 30 % outliers", |b| {
-        b.iter(|| estimate_fundamental(&few.p1, &few.p2, &options()))
+        b.iter(|| estimate_fundamental(&few.p1, &few.p2, &options(), &mut ()))
     });
     group.finish();
 }

@@ -58,16 +58,16 @@ fn fit(p: &Problem) -> epipole::Result<RansacReport<Vec<f64>>> {
     let (a, b, options) = (&p.pixels1, &p.pixels2, &p.options);
     let rows_of = |m: Matrix3<f64>| m.transpose().as_slice().to_vec();
     Ok(match p.kind {
-        0 => estimate_fundamental(a, b, options)?.map(rows_of),
+        0 => estimate_fundamental(a, b, options, &mut ())?.map(rows_of),
         1 => {
             let [fu, fv, cu, cv] = p.intrinsics;
             let k = Intrinsics::new(fu, fv, cu, cv)?;
-            estimate_relative_pose(a, b, &k, &k, options)?.map(|pose| {
+            estimate_relative_pose(a, b, &k, &k, options, &mut ())?.map(|pose| {
                 let m = pose.cam2_from_cam1().to_matrix();
                 (0..12).map(|i| m[(i / 4, i % 4)]).collect()
             })
         }
-        _ => estimate_homography(a, b, options)?.map(rows_of),
+        _ => estimate_homography(a, b, options, &mut ())?.map(rows_of),
     })
 }
 

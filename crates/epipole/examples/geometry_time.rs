@@ -78,23 +78,25 @@ fn main() -> Result<(), Box<dyn Error>> {
         let Some(p) = read(folder, "general", index)? else {
             break;
         };
-        let (ms, found) = time(|| estimate_fundamental(&p.pixels1, &p.pixels2, &options));
+        let (ms, found) = time(|| estimate_fundamental(&p.pixels1, &p.pixels2, &options, &mut ()));
         print("F RANSAC", index, ms, &flat(&found?.model));
-        let (ms, found) = time(|| estimate_relative_pose(&p.pixels1, &p.pixels2, &k, &k, &options));
+        let (ms, found) =
+            time(|| estimate_relative_pose(&p.pixels1, &p.pixels2, &k, &k, &options, &mut ()));
         print(
             "E RANSAC",
             index,
             ms,
             &rows_of(&found?.model.cam2_from_cam1()),
         );
-        let (ms, found) = time(|| estimate_absolute_pose(&p.points, &p.pixels2, &k, &options));
+        let (ms, found) =
+            time(|| estimate_absolute_pose(&p.points, &p.pixels2, &k, &options, &mut ()));
         print("P3P RANSAC", index, ms, &rows_of(&found?.model));
     }
     for index in 0.. {
         let Some(p) = read(folder, "planar", index)? else {
             break;
         };
-        let (ms, found) = time(|| estimate_homography(&p.pixels1, &p.pixels2, &options));
+        let (ms, found) = time(|| estimate_homography(&p.pixels1, &p.pixels2, &options, &mut ()));
         print("H RANSAC", index, ms, &flat(&found?.model));
     }
     let clean = read(folder, "clean", 0)?.ok_or("no clean-0.f64")?;

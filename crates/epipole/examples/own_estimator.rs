@@ -49,7 +49,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let mut points: Vec<_> = (0..60).map(on_circle).collect();
     let anywhere = |_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
     points.extend((0..60).map(anywhere));
-    let found = ransac(Circles(points), &RansacOptions::default())?;
+    let found = ransac(Circles(points), &RansacOptions::default(), &mut ())?;
     let (center, radius) = found.model;
     println!("{} around {center}", found.num_inliers);
     assert!((center - Point2::new(300.0, 200.0)).norm() + (radius - 90.0).abs() < 0.5);

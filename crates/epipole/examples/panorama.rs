@@ -14,7 +14,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     let (first, second) = (gray(&first), gray(&photograph(&turn)?.1));
     let (pixels1, pixels2) = matches(&first, &second)?;
     // From the second photograph to the first, where the panorama is drawn.
-    let found = estimate_homography(&pixels2, &pixels1, &RansacOptions::default())?;
+    let found = estimate_homography(&pixels2, &pixels1, &RansacOptions::default(), &mut ())?;
     println!("{} of {} matches agree", found.num_inliers, pixels1.len());
 
     let (k, k_inverse) = (

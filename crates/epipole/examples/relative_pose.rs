@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         })
         .unzip();
     let options = TwoViewOptions::default();
-    let found = estimate_two_view_calibrated(&pixels1, &pixels2, &k, &k, &options)?;
+    let found = estimate_two_view_calibrated(&pixels1, &pixels2, &k, &k, &options, &mut ())?;
     let count = found.num_inliers;
     println!("{count} of {}: {:?}", matches.len(), found.configuration);
     let motion = found.cam2_from_cam1.ok_or("the motion cannot be told")?;

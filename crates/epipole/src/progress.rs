@@ -19,6 +19,8 @@ pub enum Stage {
     BundleAdjustment,
     /// The poses of a graph are refined together.
     PoseGraph,
+    /// Samples are drawn, and models fitted to them are scored.
+    RobustEstimation,
     /// Rows of a rectified pair are matched, pixel by pixel.
     DenseMatching,
     /// Intrinsics, distortion and the poses of boards are refined.
@@ -40,6 +42,7 @@ impl Stage {
             Self::Registration => "adding photographs",
             Self::BundleAdjustment => "refining cameras and points",
             Self::PoseGraph => "refining poses",
+            Self::RobustEstimation => "drawing samples",
             Self::DenseMatching => "matching along the rows",
             Self::Calibration => "fitting the lens",
         }

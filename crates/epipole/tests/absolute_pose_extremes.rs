@@ -133,7 +133,8 @@ fn robust_estimation_does_not_depend_on_where_the_origin_is() {
             };
             let found = |shift: &Vector3<f64>| {
                 let points = scene.points(shift, 1.0);
-                estimate_absolute_pose(&points, &scene.pixels, &scene.intrinsics, &options).unwrap()
+                estimate_absolute_pose(&points, &scene.pixels, &scene.intrinsics, &options, &mut ())
+                    .unwrap()
             };
             let near = found(&Vector3::zeros());
             let shift = Vector3::new(5e5, 5e6, 1.5e6);

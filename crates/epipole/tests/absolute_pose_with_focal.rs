@@ -85,8 +85,10 @@ fn half_of_the_points_are_wrong() {
             let scene = scene(seed, depth, 0.5, 0.5);
             let (points, pixels) = (&scene.points, &scene.pixels);
             let report =
-                estimate_absolute_pose_and_focal(points, pixels, &CENTER, &options).unwrap();
-            let known = estimate_absolute_pose(points, pixels, &scene.k, &options).unwrap();
+                estimate_absolute_pose_and_focal(points, pixels, &CENTER, &options, &mut ())
+                    .unwrap();
+            let known =
+                estimate_absolute_pose(points, pixels, &scene.k, &options, &mut ()).unwrap();
             as_good += usize::from(report.num_inliers + 3 >= known.num_inliers);
             let (focal, center) =
                 errors(&scene, report.model.focal_px, &report.model.cam_from_world);
@@ -122,9 +124,14 @@ fn exact_points_give_the_truth() {
                 seed,
                 ..RansacOptions::default()
             };
-            let report =
-                estimate_absolute_pose_and_focal(&scene.points, &scene.pixels, &CENTER, &options)
-                    .unwrap();
+            let report = estimate_absolute_pose_and_focal(
+                &scene.points,
+                &scene.pixels,
+                &CENTER,
+                &options,
+                &mut (),
+            )
+            .unwrap();
             let found = errors(&scene, report.model.focal_px, &report.model.cam_from_world);
             assert!(found.0 < 1e-4 && found.1 < 1e-4, "{found:?}");
             assert!(report.model.tells_focal());
@@ -147,7 +154,13 @@ fn a_plane_in_front_tells_nothing() {
             p.y + 0.5 * random.normal(),
         ));
     }
-    match estimate_absolute_pose_and_focal(&points, &pixels, &CENTER, &RansacOptions::default()) {
+    match estimate_absolute_pose_and_focal(
+        &points,
+        &pixels,
+        &CENTER,
+        &RansacOptions::default(),
+        &mut (),
+    ) {
         Ok(report) => assert!(!report.model.tells_focal(), "{:?}", report.model),
         Err(error) => assert!(matches!(error, Error::NoConsensus { .. }), "{error}"),
     }
@@ -158,7 +171,7 @@ fn bad_input_is_refused() {
     let scene = scene(1, 1.0, 0.5, 0.0);
     let options = RansacOptions::default();
     let run = |points: &[Point3<f64>], pixels: &[Point2<f64>], center: &Point2<f64>| {
-        estimate_absolute_pose_and_focal(points, pixels, center, &options)
+        estimate_absolute_pose_and_focal(points, pixels, center, &options, &mut ())
     };
     let (points, pixels) = (&scene.points, &scene.pixels);
     assert!(matches!(

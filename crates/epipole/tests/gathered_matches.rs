@@ -72,7 +72,7 @@ fn one_place_wins_no_similarity() {
     for seed in 0..20 {
         for reach_px in [0.05, 0.2, 0.5] {
             let Scene { p1, p2 } = scene(seed, reach_px, turned);
-            let found = estimate_similarity(&p1, &p2, &options(seed));
+            let found = estimate_similarity(&p1, &p2, &options(seed), &mut ());
             assert!(is_true(&found), "{seed} {reach_px} {found:?}");
         }
     }
@@ -83,7 +83,7 @@ fn one_place_wins_no_homography() {
     for seed in 0..20 {
         for reach_px in [0.05, 0.2, 0.5] {
             let Scene { p1, p2 } = scene(seed, reach_px, tilted);
-            let found = estimate_homography(&p1, &p2, &options(seed));
+            let found = estimate_homography(&p1, &p2, &options(seed), &mut ());
             assert!(is_true(&found), "{seed} {reach_px} {found:?}");
         }
     }
@@ -95,7 +95,7 @@ fn one_place_wins_no_fundamental() {
     for seed in 0..20 {
         let Scene { p1, p2 } = scene(seed, 0.2, sideways);
         for (p1, p2) in [(&p1, &p2), (&p2, &p1)] {
-            let found = estimate_fundamental(p1, p2, &options(seed));
+            let found = estimate_fundamental(p1, p2, &options(seed), &mut ());
             let report = found.as_ref().unwrap();
             let honest = report.inliers[NUM_GATHERED..].iter().filter(|fits| **fits);
             assert!(honest.count() > 100, "{seed} {found:?}");
@@ -112,7 +112,7 @@ fn one_place_wins_with_no_threshold() {
             threshold: ThresholdKind::Noise,
             ..options(seed)
         };
-        let found = estimate_homography(&p1, &p2, &of_noise);
+        let found = estimate_homography(&p1, &p2, &of_noise, &mut ());
         assert!(is_true(&found), "{seed} {found:?}");
     }
 }
@@ -128,11 +128,11 @@ fn maps_to_meters_and_from_them_are_as_good() {
                 max_error_px: unit,
                 ..options(seed)
             };
-            let found = estimate_similarity(&p1, &plan, &meters);
+            let found = estimate_similarity(&p1, &plan, &meters, &mut ());
             assert!(is_true(&found), "{size_m} m {found:?}");
             // Only the honest ones back: in an area of millimeters each is far from the others by the pixel.
             let (from, to) = (&plan[NUM_GATHERED..], &p1[NUM_GATHERED..]);
-            let back = estimate_similarity(from, to, &options(seed)).unwrap();
+            let back = estimate_similarity(from, to, &options(seed), &mut ()).unwrap();
             assert!(back.num_inliers > 110, "{size_m} m {back:?}");
         }
     }
@@ -145,9 +145,9 @@ fn a_picture_smaller_than_the_threshold_is_no_place() {
     let p1: Vec<_> = (0..40).map(at).collect();
     let moved = |p: &Point2<f64>| turned(p, &mut Random::new(0));
     let p2: Vec<_> = p1.iter().map(moved).collect();
-    let report = estimate_similarity(&p1, &p2, &options(0)).unwrap();
+    let report = estimate_similarity(&p1, &p2, &options(0), &mut ()).unwrap();
     assert!((report.model.a - 0.9).abs() < 1e-9 && report.num_inliers == 40);
-    let report = estimate_homography(&p1, &p2, &options(0)).unwrap();
+    let report = estimate_homography(&p1, &p2, &options(0), &mut ()).unwrap();
     assert_eq!(report.num_inliers, 40);
 }
 
@@ -165,9 +165,9 @@ fn a_place_alone_is_no_model() {
             Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0))
         };
         let Scene { p1, p2 } = scene(seed, 0.2, anywhere);
-        let similarity = estimate_similarity(&p1, &p2, &options(seed));
+        let similarity = estimate_similarity(&p1, &p2, &options(seed), &mut ());
         assert!(says_little(&similarity), "{seed} {similarity:?}");
-        let homography = estimate_homography(&p1, &p2, &options(seed));
+        let homography = estimate_homography(&p1, &p2, &options(seed), &mut ());
         assert!(says_little(&homography), "{seed} {homography:?}");
     }
 }

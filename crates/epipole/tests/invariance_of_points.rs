@@ -234,10 +234,11 @@ proptest! {
         prop_assert!(pose_error(&order, &before, 5.0) < 1e-7);
 
         let options = RansacOptions { max_error_px: 4.0, seed, ..RansacOptions::default() };
-        let before = estimate_absolute_pose(&points, &pixels, &k, &options).unwrap();
-        let after = estimate_absolute_pose(&moved, &pixels, &k, &options).unwrap();
+        let before = estimate_absolute_pose(&points, &pixels, &k, &options, &mut ()).unwrap();
+        let after = estimate_absolute_pose(&moved, &pixels, &k, &options, &mut ()).unwrap();
         let order = estimate_absolute_pose(
             &rotated(&points, places), &rotated(&pixels, places), &k, &options,
+            &mut (),
         ).unwrap();
         prop_assert_eq!(after.num_inliers, before.num_inliers);
         prop_assert_eq!(order.num_inliers, before.num_inliers);

@@ -59,7 +59,8 @@ impl Scene {
     fn estimate(&self) -> RansacReport<PoseWithFocal> {
         let middle = self.k.principal_point();
         let options = RansacOptions::default();
-        estimate_relative_pose_and_focal(&self.p1, &self.p2, &middle, &middle, &options).unwrap()
+        estimate_relative_pose_and_focal(&self.p1, &self.p2, &middle, &middle, &options, &mut ())
+            .unwrap()
     }
 
     fn error_deg(&self, found: &RigidTransform) -> f64 {
@@ -104,7 +105,8 @@ fn a_found_focal_length_is_better_than_a_guess() {
             let f = factor * scene.k.fu_px();
             let k = Intrinsics::new(f, f, 500.0, 400.0).unwrap();
             let options = RansacOptions::default();
-            let report = estimate_relative_pose(&scene.p1, &scene.p2, &k, &k, &options).unwrap();
+            let report =
+                estimate_relative_pose(&scene.p1, &scene.p2, &k, &k, &options, &mut ()).unwrap();
             scene.error_deg(&report.model.cam2_from_cam1())
         };
         known.push(with(1.0));
@@ -149,7 +151,8 @@ fn it_is_said_where_the_focal_length_is_open() {
         }
         let middle = k.principal_point();
         let options = RansacOptions::default();
-        let found = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &options).unwrap();
+        let found = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &options, &mut ())
+            .unwrap();
         let open =
             (found.model.focal_std_px).is_none_or(|std_px| std_px > 0.1 * found.model.focal_px);
         assert!(
@@ -167,7 +170,7 @@ fn bad_input_is_refused() {
     let middle = scene.k.principal_point();
     let options = RansacOptions::default();
     let find = |p1: &[Point2<f64>], p2: &[Point2<f64>], c: &Point2<f64>| {
-        estimate_relative_pose_and_focal(p1, p2, c, c, &options)
+        estimate_relative_pose_and_focal(p1, p2, c, c, &options, &mut ())
     };
     let few = find(&scene.p1[..5], &scene.p2[..5], &middle);
     assert!(matches!(few, Err(Error::TooFew { needed: 6, .. })));

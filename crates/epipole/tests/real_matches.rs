@@ -100,7 +100,7 @@ fn annotated_epipolar_geometry() {
         let (a1, a2) = m.with(|label| label == 1.0);
         let over_seeds = (0..SEEDS)
             .map(|seed| {
-                let f = estimate_fundamental(&t1, &t2, &options(1.0, seed))
+                let f = estimate_fundamental(&t1, &t2, &options(1.0, seed), &mut ())
                     .unwrap()
                     .model;
                 median(
@@ -127,7 +127,7 @@ fn labelled_scenes_fundamental() {
     for name in ["barrsmith", "elderhalla", "hartley", "library", "napiera"] {
         let m = load(&data.join(format!("correspondences/adelaide/{name}.txt")));
         for seed in 0..SEEDS {
-            let f = estimate_fundamental(&m.p1, &m.p2, &options(1.5, seed))
+            let f = estimate_fundamental(&m.p1, &m.p2, &options(1.5, seed), &mut ())
                 .unwrap()
                 .model;
             let share = |labelled: bool| {
@@ -162,7 +162,7 @@ fn annotated_homographies() {
         let (a1, a2) = m.with(|label| label == 1.0);
         let over_seeds = (0..SEEDS)
             .map(|seed| {
-                let h = estimate_homography(&t1, &t2, &options(3.0, seed))
+                let h = estimate_homography(&t1, &t2, &options(3.0, seed), &mut ())
                     .unwrap()
                     .model;
                 let squares: Vec<f64> = a1
@@ -189,7 +189,7 @@ fn extreme_viewpoints() {
         let m = load(&data.join(format!("correspondences/evd/{name}.txt")));
         let (a1, a2) = m.with(|label| label == 1.0);
         for seed in 0..SEEDS {
-            let h = estimate_homography(&m.p1, &m.p2, &options(3.0, seed))
+            let h = estimate_homography(&m.p1, &m.p2, &options(3.0, seed), &mut ())
                 .unwrap()
                 .model;
             let fits: Vec<f64> = a1
@@ -219,7 +219,8 @@ fn fountain_relative_pose() {
     let magsac_deg = [0.31, 0.40];
     let t = Vector3::new(6.440001437217612, 0.1140717518472, 1.3006062294314402).normalize();
     for seed in 0..SEEDS {
-        let report = estimate_relative_pose(&m.p1, &m.p2, &k, &k, &options(1.0, seed)).unwrap();
+        let report =
+            estimate_relative_pose(&m.p1, &m.p2, &k, &k, &options(1.0, seed), &mut ()).unwrap();
         let turn = (report.model.rotation.transpose() * rotation).trace();
         let rotation_deg = libm::acos(((turn - 1.0) / 2.0).clamp(-1.0, 1.0)).to_degrees();
         let direction_deg =

@@ -83,7 +83,7 @@ impl Scene {
             seed,
             ..RansacOptions::default()
         };
-        estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, &options).unwrap()
+        estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, &options, &mut ()).unwrap()
     }
 
     /// What least squares makes of the right matches alone, from the pose given on.

@@ -83,15 +83,23 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
             ..RansacOptions::default()
         };
         let [g1, g2] = &s.gravity;
-        let report =
-            estimate_relative_pose_with_gravity(&s.p1, &s.p2, &s.k, &s.k, g1, g2, &options)
-                .unwrap();
+        let report = estimate_relative_pose_with_gravity(
+            &s.p1,
+            &s.p2,
+            &s.k,
+            &s.k,
+            g1,
+            g2,
+            &options,
+            &mut (),
+        )
+        .unwrap();
         with.push(error(&s, &report.model));
         samples += report.iterations;
         // What it makes of gravity is what it was given.
         let kept = report.model.rotation * g1;
         assert!(kept.angle(g2) < 1e-6, "{}", kept.angle(g2));
-        let free = estimate_relative_pose(&s.p1, &s.p2, &s.k, &s.k, &options).unwrap();
+        let free = estimate_relative_pose(&s.p1, &s.p2, &s.k, &s.k, &options, &mut ()).unwrap();
         without.push(error(&s, &free.model));
     }
     for list in [&mut with, &mut without] {
@@ -130,9 +138,17 @@ fn exact_matches_give_the_truth() {
             seed,
             ..RansacOptions::default()
         };
-        let report =
-            estimate_relative_pose_with_gravity(&s.p1, &s.p2, &s.k, &s.k, g1, g2, &options)
-                .unwrap();
+        let report = estimate_relative_pose_with_gravity(
+            &s.p1,
+            &s.p2,
+            &s.k,
+            &s.k,
+            g1,
+            g2,
+            &options,
+            &mut (),
+        )
+        .unwrap();
         assert!(
             error(&s, &report.model) < 1e-5,
             "{}",
@@ -154,6 +170,7 @@ fn bad_input_is_refused() {
             gravity,
             &s.gravity[1],
             &options,
+            &mut (),
         )
     };
     let down = s.gravity[0];
@@ -189,6 +206,7 @@ fn bad_input_is_refused() {
         &down,
         &s.gravity[1],
         &options,
+        &mut (),
     );
     if let Ok(report) = turn {
         assert!(report.model.fundamental.iter().all(|x| x.is_finite()));

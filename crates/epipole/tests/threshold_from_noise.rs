@@ -5,9 +5,9 @@
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{decompose_essential, select_pose};
 use epipole::math::random::Random;
+use epipole::progress::{Monitor, Status};
 use epipole::robust::{
-    LineEstimator, RansacOptions, RansacReport, StopReason, ThresholdKind, estimate_similarity,
-    ransac, ransac_with,
+    LineEstimator, RansacOptions, StopReason, ThresholdKind, estimate_similarity, ransac,
 };
 use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
 use epipole::{Error, estimate_fundamental, estimate_homography, estimate_relative_pose};
@@ -103,13 +103,14 @@ impl Scene {
     }
 
     fn essential(&self, options: &RansacOptions) -> Outcome {
-        let report = estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, options).unwrap();
+        let report =
+            estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, options, &mut ()).unwrap();
         let error_deg = self.pose_error_deg(&report.model.cam2_from_cam1());
         (error_deg, report.max_error_px)
     }
 
     fn fundamental(&self, options: &RansacOptions) -> Outcome {
-        let report = estimate_fundamental(&self.p1, &self.p2, options).unwrap();
+        let report = estimate_fundamental(&self.p1, &self.p2, options, &mut ()).unwrap();
         let essential = self.k.matrix().transpose() * report.model * self.k.matrix();
         let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
             let kept = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
@@ -124,7 +125,7 @@ impl Scene {
 
     /// The error is the mean of the four corners', in pixels.
     fn homography(&self, options: &RansacOptions) -> Outcome {
-        let report = estimate_homography(&self.p1, &self.p2, options).unwrap();
+        let report = estimate_homography(&self.p1, &self.p2, options, &mut ()).unwrap();
         let turn = self.motion.rotation.to_rotation_matrix().into_inner();
         let rays = turn - self.motion.translation.vector * self.plane.transpose();
         let truth = self.k.matrix() * rays * self.k.inverse_matrix();
@@ -232,7 +233,8 @@ fn a_line_finds_its_threshold() {
                     p => p,
                 })
                 .collect();
-            let report = ransac(LineEstimator::new(&points).unwrap(), &from_noise()).unwrap();
+            let report =
+                ransac(LineEstimator::new(&points).unwrap(), &from_noise(), &mut ()).unwrap();
             let ratio = report.max_error_px / (IN_ONE * noise_px);
             assert!(
                 (0.7..1.3).contains(&ratio),
@@ -250,7 +252,7 @@ fn no_guess_of_the_threshold_matters() {
             max_error_px,
             ..from_noise()
         };
-        estimate_fundamental(&scene.p1, &scene.p2, &options).unwrap()
+        estimate_fundamental(&scene.p1, &scene.p2, &options, &mut ()).unwrap()
     };
     let first = find(0.25);
     for max_error_px in [1.0, 3.0, 10.0] {
@@ -262,7 +264,7 @@ fn no_guess_of_the_threshold_matters() {
 #[test]
 fn inliers_are_within_the_threshold_found() {
     let scene = scene(2, 0.4, 0.7, false);
-    let report = estimate_fundamental(&scene.p1, &scene.p2, &from_noise()).unwrap();
+    let report = estimate_fundamental(&scene.p1, &scene.p2, &from_noise(), &mut ()).unwrap();
     for (i, inlier) in report.inliers.iter().enumerate() {
         let error_px = epipole::epipolar::sampson_px(&report.model, &scene.p1[i], &scene.p2[i]);
         assert_eq!(error_px < report.max_error_px, *inlier);
@@ -286,7 +288,8 @@ fn two_views_share_the_threshold_of_the_fundamental_matrix() {
             for seed in 0..5 {
                 let s = scene(seed, 0.4, noise_px, planar);
                 let report =
-                    estimate_two_view_calibrated(&s.p1, &s.p2, &s.k, &s.k, &options).unwrap();
+                    estimate_two_view_calibrated(&s.p1, &s.p2, &s.k, &s.k, &options, &mut ())
+                        .unwrap();
                 let ratio = report.max_error_px / (IN_ONE * noise_px);
                 assert!((0.6..1.4).contains(&ratio), "{planar} {seed}: {ratio}");
                 assert_eq!(report.configuration, expected, "{noise_px} {seed}");
@@ -298,13 +301,13 @@ fn two_views_share_the_threshold_of_the_fundamental_matrix() {
 #[test]
 fn exact_matches_have_a_threshold_above_zero() {
     let s = scene(3, 0.3, 0.0, false);
-    let report = estimate_fundamental(&s.p1, &s.p2, &from_noise()).unwrap();
+    let report = estimate_fundamental(&s.p1, &s.p2, &from_noise(), &mut ()).unwrap();
     // A wrong match that happens to lie within it may add a little.
     assert!((0.05..0.055).contains(&report.max_error_px));
     assert!(report.inliers[75..].iter().all(|inlier| *inlier));
     // Not one too many, either: all points on one line.
     let row: Vec<_> = (0..20).map(|i| Point2::new(f64::from(i), 7.0)).collect();
-    let report = ransac(LineEstimator::new(&row).unwrap(), &from_noise()).unwrap();
+    let report = ransac(LineEstimator::new(&row).unwrap(), &from_noise(), &mut ()).unwrap();
     assert!((report.max_error_px - 0.05).abs() < 1e-12);
     assert_eq!(report.num_inliers, 20);
 }
@@ -313,57 +316,50 @@ fn exact_matches_have_a_threshold_above_zero() {
 fn bad_input_is_refused_and_never_gives_a_strange_threshold() {
     let options = from_noise();
     let few = scene(4, 0.0, 0.5, false);
-    let refused = estimate_fundamental(&few.p1[..6], &few.p2[..6], &options);
+    let refused = estimate_fundamental(&few.p1[..6], &few.p2[..6], &options, &mut ());
     assert!(matches!(refused, Err(Error::TooFew { .. })));
     let same = vec![Point2::new(3.0, 4.0); 50];
-    assert!(estimate_fundamental(&same, &same, &options).is_err());
-    assert!(estimate_homography(&same, &same, &options).is_err());
+    assert!(estimate_fundamental(&same, &same, &options, &mut ()).is_err());
+    assert!(estimate_homography(&same, &same, &options, &mut ()).is_err());
     let sane = |px: f64| (0.05..1000.0).contains(&px);
     // As many as a sample, and one more: nothing is left over to tell the noise from.
     for count in [7, 8, 9, 12] {
-        if let Ok(report) = estimate_fundamental(&few.p1[..count], &few.p2[..count], &options) {
+        if let Ok(report) =
+            estimate_fundamental(&few.p1[..count], &few.p2[..count], &options, &mut ())
+        {
             assert!(sane(report.max_error_px), "{count}");
         }
     }
     for count in [2, 3, 4] {
         let (p1, p2) = (&few.p1[..count], &few.p2[..count]);
-        if let Ok(report) = estimate_similarity(p1, p2, &options) {
+        if let Ok(report) = estimate_similarity(p1, p2, &options, &mut ()) {
             assert!(sane(report.max_error_px), "{count}");
         }
     }
     // Nothing but wrong matches.
     let nothing = scene(5, 1.0, 0.0, false);
-    let report = estimate_fundamental(&nothing.p1, &nothing.p2, &options).unwrap();
+    let report = estimate_fundamental(&nothing.p1, &nothing.p2, &options, &mut ()).unwrap();
     assert!(sane(report.max_error_px) && report.could_be_chance());
 }
 
 #[test]
-fn a_search_that_is_ended_gives_what_it_has() {
+fn shares_rise_over_all_runs_and_the_search_can_be_canceled() {
     let points: Vec<_> = (0..100)
         .map(|i| Point2::new(f64::from(i), f64::from(i * 7 % 3)))
         .collect();
-    let until = |last: usize| -> Result<RansacReport<_>, Error> {
-        let mut before = 0;
-        ransac_with(
-            LineEstimator::new(&points).unwrap(),
-            &from_noise(),
-            |trial| {
-                // One after the other, over all runs.
-                assert_eq!(trial.iteration, before + 1);
-                before = trial.iteration;
-                match trial.iteration == last {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
-            },
-        )
+    let run = |monitor: &mut dyn Monitor| {
+        ransac(LineEstimator::new(&points).unwrap(), &from_noise(), monitor)
     };
-    for last in [50, 250, 450] {
-        let report = until(last).unwrap();
-        assert_eq!(
-            (report.iterations, report.stop),
-            (last, StopReason::Canceled)
-        );
-    }
-    assert!(until(usize::MAX).unwrap().iterations >= 600);
+    let mut shares = Vec::new();
+    let mut watch = |status: Status| {
+        shares.push(status.share);
+        ControlFlow::Continue(())
+    };
+    assert!(run(&mut watch).unwrap().iterations >= 600);
+    assert!(shares.len() > 15 && shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
+    let canceled = run(&mut |status: Status| match status.share > 0.2 {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    });
+    assert_eq!(canceled.unwrap_err(), Error::Canceled);
 }

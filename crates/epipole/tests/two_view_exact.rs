@@ -100,7 +100,7 @@ fn a_hundred_pairs_with_known_intrinsics() {
             ransac: options(seed),
             ..TwoViewOptions::default()
         };
-        let report = estimate_two_view_calibrated(p1, p2, &k1, &k2, &choice).unwrap();
+        let report = estimate_two_view_calibrated(p1, p2, &k1, &k2, &choice, &mut ()).unwrap();
         check_general(&report, seed);
         pair.check(&report.cam2_from_cam1.unwrap(), 1e-6);
         let median = report.median_triangulation_angle_rad.unwrap();
@@ -122,7 +122,7 @@ fn a_hundred_pairs_with_unknown_intrinsics() {
             ransac: options(seed),
             ..TwoViewOptions::default()
         };
-        let report = estimate_two_view(p1, p2, &choice).unwrap();
+        let report = estimate_two_view(p1, p2, &choice, &mut ()).unwrap();
         check_general(&report, seed);
         assert!(matches!(report.model, TwoViewModel::Fundamental(_)));
         // What only intrinsics could tell is left open.
@@ -213,7 +213,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
             let pair = Pair::new(&mut Random::new(1000 + seed), num_matches);
             let [p1, p2] = &pair.pixels;
             let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
-            let report = estimate_essential(p1, p2, &k1, &k2, &options(seed)).unwrap();
+            let report = estimate_essential(p1, p2, &k1, &k2, &options(seed), &mut ()).unwrap();
             let truth = essential_from_motion(&pair.motion()).unwrap();
             let error = same_up_to_sign(&report.model, &truth);
             assert!(error < 1e-4, "{num_matches} matches, {seed}: {error}");
@@ -252,8 +252,10 @@ fn repeated_matches_do_not_change_what_is_seen() {
         let choice = TwoViewOptions::default();
         let see = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
             [
-                estimate_two_view(p1, p2, &choice).unwrap().configuration,
-                estimate_two_view_calibrated(p1, p2, &k, &k, &choice)
+                estimate_two_view(p1, p2, &choice, &mut ())
+                    .unwrap()
+                    .configuration,
+                estimate_two_view_calibrated(p1, p2, &k, &k, &choice, &mut ())
                     .unwrap()
                     .configuration,
             ]
@@ -283,7 +285,7 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
     let at = |i: usize| Point2::new((i * 37 % 100) as f64, (i * 71 % 90) as f64);
     let p1: Vec<_> = (0..3).map(at).collect();
     let p2: Vec<_> = (3..6).map(at).collect();
-    let error = estimate_two_view(&p1, &p2, &TwoViewOptions::default()).unwrap_err();
+    let error = estimate_two_view(&p1, &p2, &TwoViewOptions::default(), &mut ()).unwrap_err();
     assert!(
         matches!(
             error,
@@ -295,8 +297,14 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
         ),
         "{error}"
     );
-    let error =
-        estimate_two_view_calibrated(&p1[..1], &p2[..1], &k, &k, &TwoViewOptions::default());
+    let error = estimate_two_view_calibrated(
+        &p1[..1],
+        &p2[..1],
+        &k,
+        &k,
+        &TwoViewOptions::default(),
+        &mut (),
+    );
     assert!(
         matches!(
             error,

@@ -164,7 +164,7 @@ fn fundamental_matrices() {
             let scene = scene(&mut random, Shape::Cube, 2000, share, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
-                let report = estimate_fundamental(p1, p2, options)?;
+                let report = estimate_fundamental(p1, p2, options, &mut ())?;
                 let pairs = p1.iter().zip(p2);
                 let errors = pairs.map(|(a, b)| sampson_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
@@ -187,7 +187,7 @@ fn essential_matrices() {
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
                 let k = &scene.cameras[0].intrinsics;
-                let report = estimate_relative_pose(p1, p2, k, k, options)?;
+                let report = estimate_relative_pose(p1, p2, k, k, options, &mut ())?;
                 let f = report.model.fundamental;
                 let errors = p1.iter().zip(p2).map(|(a, b)| sampson_px(&f, a, b));
                 Ok((report.inliers, errors.collect()))
@@ -216,7 +216,7 @@ fn homographies() {
             let scene = scene(&mut random, Shape::Plane, 1500, share, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
-                let report = estimate_homography(p1, p2, options)?;
+                let report = estimate_homography(p1, p2, options, &mut ())?;
                 let pairs = p1.iter().zip(p2);
                 let errors = pairs.map(|(a, b)| transfer_error_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
@@ -239,7 +239,8 @@ fn absolute_poses() {
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let pixels = &scene.pixels[1];
                 let intrinsics = scene.cameras[1].intrinsics;
-                let report = estimate_absolute_pose(&scene.points, pixels, &intrinsics, options)?;
+                let report =
+                    estimate_absolute_pose(&scene.points, pixels, &intrinsics, options, &mut ())?;
                 let camera = Camera {
                     intrinsics,
                     cam_from_world: report.model,

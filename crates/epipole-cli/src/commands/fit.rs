@@ -11,7 +11,7 @@ use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homograph
 use clap::{Args, ValueEnum};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
-    FundamentalEstimator, GravityEstimator, estimate_relative_pose_with, sampson_px,
+    FundamentalEstimator, GravityEstimator, estimate_relative_pose, sampson_px,
 };
 use epipole::homography::{HomographyEstimator, transfer_error_px};
 use epipole::robust::{
@@ -236,8 +236,8 @@ fn fit(
                         if_unmoved(failure, pixels1, pixels2, &robust.options(context))
                     })?
                 }
-                _ => robust.watched(context, |options, watch| {
-                    estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+                _ => robust.watched(context, |options, monitor| {
+                    estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
                 })?,
             };
             let pose = found.model;

@@ -16,7 +16,7 @@ use crate::turn::{self, find_turn, left_open};
 use crate::{files, picture};
 use clap::Args;
 use epipole::camera::{Distortion, RigidTransform};
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
 use epipole::robust::MatchSet;
 use epipole::stereo::{
     PixelMap, RectifyOptions, StereoCamera, rectify_calibrated, rectify_uncalibrated,
@@ -165,8 +165,8 @@ fn rectify(
 ) -> Result<Found, Failure> {
     let (width, height) = photos[0].color.dimensions();
     if let Some([k1, k2]) = arguments.camera.given(photos)? {
-        let report = arguments.robust.watched(context, |options, watch| {
-            estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+        let report = arguments.robust.watched(context, |options, monitor| {
+            estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
         })?;
         let ransac = (arguments.robust.options(context)).within(report.max_error_px);
         if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac)? {

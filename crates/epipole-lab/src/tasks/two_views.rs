@@ -2,16 +2,12 @@
 
 use super::convert::{intrinsics, sentence};
 use super::{Calibrated, PairOptions, Progress, Shows, Told, TwoViews, ViewModel, ask};
+use epipole::progress::Status;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_calibrated_with,
-    find_turn_and_focal,
+    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal,
 };
 use nalgebra::{Matrix3, Point2};
-use std::ops::ControlFlow;
-
-/// Whether to go on is asked once in so many samples: the answer may come from another thread.
-const ASK_EVERY: usize = 64;
 
 /// Chooses among E, F and H, just as `epipole two-view` does with known intrinsics: the least ambiguous matches first.
 ///
@@ -44,17 +40,9 @@ pub(super) fn two_views(
         ..TwoViewOptions::default()
     };
     how.check().map_err(sentence)?;
-    let (mut num_samples, mut stopped) = (0, false);
-    let mut watch = |_: &TwoViewTrial| {
-        num_samples += 1;
-        stopped = num_samples % ASK_EVERY == 1 && progress(Told::Share(0.0, "")).is_break();
-        match stopped {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    };
-    let found = estimate_two_view_calibrated_with(&first, &second, &k1, &k2, &how, &mut watch);
-    if stopped {
+    let mut monitor = |status: Status| progress(Told::Share(status.share, ""));
+    let found = estimate_two_view_calibrated(&first, &second, &k1, &k2, &how, &mut monitor);
+    if found == Err(epipole::Error::Canceled) {
         return Err("stopped".to_owned());
     }
     let Ok(found) = found else {

@@ -53,7 +53,7 @@ impl Rules {
         estimator: E,
         refit: impl FnOnce(&[bool]) -> Result<E::Model, Error>,
     ) -> Result<(E::Model, usize), Error> {
-        let report = ransac(estimator, &self.options())?;
+        let report = ransac(estimator, &self.options(), &mut ())?;
         let model = match self.local_optimization {
             true => report.model,
             false => refit(&report.inliers).unwrap_or(report.model),

@@ -4,6 +4,7 @@ use super::p3p::solve;
 use super::refine::{Pose, PoseProblem, refine, rigid};
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, FARTHEST_PX, Problem, RansacOptions, RansacReport, Unique, ransac,
 };
@@ -186,7 +187,7 @@ impl Estimator for AbsolutePoseEstimator {
 /// for pixel in pixels.iter_mut().step_by(4) {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
-/// let report = estimate_absolute_pose(&points, &pixels, &k, &RansacOptions::default())?;
+/// let report = estimate_absolute_pose(&points, &pixels, &k, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!(report.model.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
 /// assert!((report.model.translation.vector - cam_from_world.translation.vector).norm() < 1e-6);
@@ -197,9 +198,10 @@ pub fn estimate_absolute_pose(
     pixels: &[Point2<f64>],
     intrinsics: &Intrinsics,
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
     let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, *intrinsics)?;
-    let report = ransac(estimator, options)?;
+    let report = ransac(estimator, options, monitor)?;
     // One of the inliers, of which there are three at least, stays where it is seen.
     let inlier = report.inliers.iter().position(|&inlier| inlier);
     let fixed = points_in_world[inlier.unwrap_or(0)].coords;

@@ -6,6 +6,7 @@ use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
@@ -215,7 +216,7 @@ impl Estimator for AbsolutePoseFocalEstimator {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
 /// let options = RansacOptions::default();
-/// let report = estimate_absolute_pose_and_focal(&points, &pixels, &k.principal_point(), &options)?;
+/// let report = estimate_absolute_pose_and_focal(&points, &pixels, &k.principal_point(), &options, &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!((report.model.focal_px - 700.0).abs() < 1e-3 && report.model.tells_focal());
 /// assert!(report.model.cam_from_world.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
@@ -227,10 +228,11 @@ pub fn estimate_absolute_pose_and_focal(
     pixels: &[Point2<f64>],
     principal: &Point2<f64>,
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<AbsolutePoseWithFocal>> {
     let estimator = AbsolutePoseFocalEstimator::new(points_in_world, pixels, principal)?;
     let all = estimator.clone();
-    let report = ransac(estimator, options)?;
+    let report = ransac(estimator, options, monitor)?;
     // One of the inliers, of which there are four at least, stays where it is seen.
     let inlier = report.inliers.iter().position(|&inlier| inlier);
     let fixed = points_in_world[inlier.unwrap_or(0)].coords;

@@ -6,6 +6,7 @@ use super::refine::{Pose, rigid};
 use crate::camera::{RigidTransform, SeenRay};
 use crate::math::nearest_orthogonal;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, Vector3};
@@ -146,7 +147,7 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
 ///     seen.push(camera.seen_ray(&camera.project(&(cam_from_world * x))?)?);
 ///     points.push(x);
 /// }
-/// let report = estimate_absolute_pose_of_rays(&points, &seen, &RansacOptions::default())?;
+/// let report = estimate_absolute_pose_of_rays(&points, &seen, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!((report.model.to_matrix() - cam_from_world.to_matrix()).norm() < 1e-6);
 /// # Ok(()) }
@@ -155,6 +156,7 @@ pub fn estimate_absolute_pose_of_rays(
     points_in_world: &[Point3<f64>],
     seen: &[SeenRay],
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
     let pixels: Vec<Point2<f64>> = seen.iter().map(SeenRay::pixel).collect();
     let unique = usable(points_in_world, &pixels)?;
@@ -173,7 +175,7 @@ pub fn estimate_absolute_pose_of_rays(
         unique: unique.clone(),
     };
     let fixed = estimator.points[0];
-    Ok(ransac(estimator, options)?.map(|pose| rigid(&pose, &fixed)))
+    Ok(ransac(estimator, options, monitor)?.map(|pose| rigid(&pose, &fixed)))
 }
 
 #[cfg(test)]
@@ -221,7 +223,7 @@ mod tests {
     fn a_fisheye_finds_its_place_among_wrong_matches() {
         let (points, seen, truth) = world(300, 1);
         let options = RansacOptions::default().within(3.0);
-        let report = estimate_absolute_pose_of_rays(&points, &seen, &options).unwrap();
+        let report = estimate_absolute_pose_of_rays(&points, &seen, &options, &mut ()).unwrap();
         assert!(report.num_inliers >= 198 && report.num_inliers < 210);
         let off = report.model.to_matrix() - truth.to_matrix();
         assert!(off.norm() < 0.005, "{off}");
@@ -257,12 +259,12 @@ mod tests {
     fn bad_input_is_refused() {
         let (points, seen, _) = world(8, 3);
         let options = RansacOptions::default();
-        let few = estimate_absolute_pose_of_rays(&points[..3], &seen[..3], &options);
+        let few = estimate_absolute_pose_of_rays(&points[..3], &seen[..3], &options, &mut ());
         assert!(matches!(few, Err(Error::TooFew { .. })));
-        let unlike = estimate_absolute_pose_of_rays(&points, &seen[..7], &options);
+        let unlike = estimate_absolute_pose_of_rays(&points, &seen[..7], &options, &mut ());
         assert!(matches!(unlike, Err(Error::SizeMismatch { .. })));
         let nowhere = vec![Point3::new(f64::NAN, 0.0, 1.0); 8];
-        let refused = estimate_absolute_pose_of_rays(&nowhere, &seen, &options);
+        let refused = estimate_absolute_pose_of_rays(&nowhere, &seen, &options, &mut ());
         assert!(matches!(refused, Err(Error::NotFinite { .. })));
     }
 }

@@ -148,7 +148,8 @@ mod tests {
                 .unzip();
             let options = RansacOptions::default();
             let found =
-                estimate_absolute_pose(&points, &straight, &camera.intrinsics, &options).unwrap();
+                estimate_absolute_pose(&points, &straight, &camera.intrinsics, &options, &mut ())
+                    .unwrap();
             assert_eq!(found.num_inliers, 40, "{kind:?}");
             let off = found.model.to_matrix() - pose.to_matrix();
             assert!(off.norm() < 1e-8, "{kind:?} {off}");

@@ -4,10 +4,8 @@ use super::essential_estimator::EssentialEstimator;
 use super::{RelativePose, decompose_essential, select_pose};
 use crate::Result;
 use crate::camera::Intrinsics;
-#[cfg(doc)]
-use crate::robust::ransac;
-use crate::robust::{MatchSet, RansacOptions, RansacReport, Trial, ransac_with};
-use core::ops::ControlFlow;
+use crate::progress::Monitor;
+use crate::robust::{MatchSet, RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2};
 
 /// The relative pose of two calibrated cameras that most matches agree on.
@@ -44,7 +42,7 @@ use nalgebra::{Matrix3, Point2};
 /// for i in (0..40).step_by(5) {
 ///     p2[i] = Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
 /// }
-/// let report = estimate_relative_pose(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_relative_pose(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 32);
 /// // The direction of t is found; its length is not to be seen.
 /// let found = report.model.cam2_from_cam1();
@@ -59,47 +57,11 @@ pub fn estimate_relative_pose(
     k1: &Intrinsics,
     k2: &Intrinsics,
     options: &RansacOptions,
-) -> Result<RansacReport<RelativePose>> {
-    estimate_relative_pose_with(pixels1, pixels2, k1, k2, options, |_| {
-        ControlFlow::Continue(())
-    })
-}
-
-/// As [`estimate_relative_pose`], and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`estimate_relative_pose`] and [`ransac_with`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
-/// use epipole::epipolar::estimate_relative_pose_with;
-/// use epipole::robust::{RansacOptions, StopReason};
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
-/// // A step to the right: near things move more than far ones.
-/// let p2: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
-/// let report = estimate_relative_pose_with(&p1, &p2, &k, &k, &RansacOptions::default(), |trial| {
-///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
-/// assert!((report.model.direction.x + 1.0).abs() < 1e-6);
-/// # Ok(()) }
-/// ```
-pub fn estimate_relative_pose_with(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
-    options: &RansacOptions,
-    watch: impl FnMut(&Trial<'_, RelativePose>) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RelativePose>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     let estimator = EssentialEstimator::new(matches, *k1, *k2)?;
-    let mut report = ransac_with(estimator, options, watch)?;
+    let mut report = ransac(estimator, options, monitor)?;
     let inliers_of = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
         pixels
             .iter()
@@ -139,7 +101,7 @@ pub fn estimate_relative_pose_with(
 ///     p1.push(k.project(&x)?);
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
-/// let report = estimate_essential(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_essential(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ())?;
 /// let truth = essential_from_motion(&cam2_from_cam1)?;
 /// assert_eq!(report.num_inliers, 40);
 /// assert!((report.model - truth).norm() < 1e-5);
@@ -152,7 +114,8 @@ pub fn estimate_essential(
     k1: &Intrinsics,
     k2: &Intrinsics,
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
-    estimate_relative_pose(pixels1, pixels2, k1, k2, options)
+    estimate_relative_pose(pixels1, pixels2, k1, k2, options, monitor)
         .map(|report| report.map(|pose| pose.essential()))
 }

@@ -8,6 +8,7 @@ use super::sampson;
 use super::seven_point::seven_point_rows;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, Evidence, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
@@ -240,7 +241,7 @@ impl Estimator for FundamentalEstimator {
 ///     let wrong = if i % 4 == 0 { 40.0 + i as f64 } else { 0.0 };
 ///     Point2::new(p.x - (5 + i * 13 % 31) as f64, p.y + wrong)
 /// }).collect();
-/// let report = estimate_fundamental(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_fundamental(&p1, &p2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 45);
 /// assert!(report.model[(2, 2)].abs() < 1e-6);
 /// # Ok(()) }
@@ -250,7 +251,8 @@ pub fn estimate_fundamental(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
-    ransac(FundamentalEstimator::new(matches)?, options)
+    ransac(FundamentalEstimator::new(matches)?, options, monitor)
 }

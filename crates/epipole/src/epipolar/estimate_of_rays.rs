@@ -5,13 +5,9 @@ use super::five_point::{pose_in_front, solve};
 use super::refine_pose::{Pose, essential_derivatives, moved_pose, orthogonal};
 use crate::camera::{RigidTransform, SeenRay, cross_matrix};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-#[cfg(doc)]
-use crate::robust::ransac;
-use crate::robust::{
-    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Trial, ransac_with,
-};
+use crate::progress::Monitor;
+use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use crate::{Error, Result};
-use core::ops::ControlFlow;
 use nalgebra::{
     Matrix3, Matrix3x2, Point2, Rotation3, SVector, Translation3, UnitQuaternion, Vector2, Vector3,
 };
@@ -242,7 +238,7 @@ impl FixedProblem<5> for MotionProblem<'_> {
 ///     seen1.push(camera.seen_ray(&camera.project(&x)?)?);
 ///     seen2.push(camera.seen_ray(&camera.project(&(cam2_from_cam1 * x))?)?);
 /// }
-/// let report = estimate_relative_pose_of_rays(&seen1, &seen2, &RansacOptions::default())?;
+/// let report = estimate_relative_pose_of_rays(&seen1, &seen2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 40);
 /// assert!(report.model.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
 /// let direction = cam2_from_cam1.translation.vector.normalize();
@@ -253,41 +249,7 @@ pub fn estimate_relative_pose_of_rays(
     seen1: &[SeenRay],
     seen2: &[SeenRay],
     options: &RansacOptions,
-) -> Result<RansacReport<RigidTransform>> {
-    estimate_relative_pose_of_rays_with(seen1, seen2, options, |_| ControlFlow::Continue(()))
-}
-
-/// As [`estimate_relative_pose_of_rays`], and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`estimate_relative_pose_of_rays`] and [`ransac_with`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, Lens, LensKind, SeenRay};
-/// use epipole::epipolar::estimate_relative_pose_of_rays_with;
-/// use epipole::robust::{RansacOptions, StopReason};
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let (k, lens) = (Intrinsics::centered(600.0, 640, 480)?, Lens::from_coefficients(LensKind::Division, &[-0.1])?);
-/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
-/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
-/// for i in 0..60 {
-///     seen1.push(see(i * 37 % 640, i * 71 % 480)?);
-///     seen2.push(see(i * 37 % 640 - 5 - i * 13 % 31, i * 71 % 480)?);
-/// }
-/// let report = estimate_relative_pose_of_rays_with(&seen1, &seen2, &RansacOptions::default(), |trial| {
-///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
-/// # Ok(()) }
-/// ```
-pub fn estimate_relative_pose_of_rays_with(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
-    options: &RansacOptions,
-    mut watch: impl FnMut(&Trial<'_, RigidTransform>) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
     let pixels = [seen1, seen2]
         .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
@@ -303,19 +265,7 @@ pub fn estimate_relative_pose_of_rays_with(
         why: "a lens folds where a pixel was seen",
     })?;
     let estimator = RayMotionEstimator { matches, pairs };
-    let report = ransac_with(estimator, options, |trial: &Trial<'_, Motion>| {
-        watch(&Trial {
-            iteration: trial.iteration,
-            sample: trial.sample,
-            num_models: trial.num_models,
-            model: trial.model.map(|motion| motion.to_transform()),
-            score: trial.score,
-            num_inliers: trial.num_inliers,
-            required_iterations: trial.required_iterations,
-            is_best: trial.is_best,
-            refined: trial.refined.map(|motion| motion.to_transform()),
-        })
-    })?;
+    let report = ransac(estimator, options, monitor)?;
     Ok(report.map(|motion| motion.to_transform()))
 }
 
@@ -412,7 +362,7 @@ mod tests {
     fn a_fisheye_finds_its_motion_among_wrong_matches() {
         let (seen, truth) = world(400, 0.5, 3);
         let options = RansacOptions::default().within(2.0);
-        let report = estimate_relative_pose_of_rays(&seen[0], &seen[1], &options).unwrap();
+        let report = estimate_relative_pose_of_rays(&seen[0], &seen[1], &options, &mut ()).unwrap();
         assert!(
             report.num_inliers >= 295 && report.num_inliers < 315,
             "{}",
@@ -467,9 +417,9 @@ mod tests {
     fn bad_input_is_refused() {
         let (seen, _) = world(8, 0.5, 5);
         let options = RansacOptions::default();
-        let few = estimate_relative_pose_of_rays(&seen[0][..4], &seen[1][..4], &options);
+        let few = estimate_relative_pose_of_rays(&seen[0][..4], &seen[1][..4], &options, &mut ());
         assert!(matches!(few, Err(Error::TooFew { .. })));
-        let unlike = estimate_relative_pose_of_rays(&seen[0], &seen[1][..7], &options);
+        let unlike = estimate_relative_pose_of_rays(&seen[0], &seen[1][..7], &options, &mut ());
         assert!(matches!(unlike, Err(Error::SizeMismatch { .. })));
     }
 }

@@ -8,14 +8,12 @@ use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-#[cfg(doc)]
-use crate::robust::ransac;
+use crate::progress::Monitor;
 use crate::robust::{
-    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, Trial, ransac_with,
+    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
-use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The motion between two cameras that share a focal length, up to the length of the translation.
@@ -262,7 +260,7 @@ impl Estimator for FocalEstimator {
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
 /// let middle = k.principal_point();
-/// let report = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &RansacOptions::default())?;
+/// let report = estimate_relative_pose_and_focal(&p1, &p2, &middle, &middle, &RansacOptions::default(), &mut ())?;
 /// assert!((report.model.focal_px - 700.0).abs() < 0.1);
 /// let found = report.model.pose.cam2_from_cam1();
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-4);
@@ -274,56 +272,12 @@ pub fn estimate_relative_pose_and_focal(
     principal1: &Point2<f64>,
     principal2: &Point2<f64>,
     options: &RansacOptions,
-) -> Result<RansacReport<PoseWithFocal>> {
-    estimate_relative_pose_and_focal_with(pixels1, pixels2, principal1, principal2, options, |_| {
-        ControlFlow::Continue(())
-    })
-}
-
-/// As [`estimate_relative_pose_and_focal`], and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`estimate_relative_pose_and_focal`] and [`ransac_with`].
-///
-/// Source: as [`FocalEstimator`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::estimate_relative_pose_and_focal_with;
-/// use epipole::robust::{RansacOptions, StopReason};
-/// use nalgebra::{Point3, Vector3};
-/// use std::ops::ControlFlow;
-/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.6), Vector3::new(0.2, 0.1, 0.0));
-/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
-/// for i in 0..40 {
-///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
-///     p1.push(k.project(&x)?);
-///     p2.push(k.project(&(cam2_from_cam1 * x))?);
-/// }
-/// let middle = k.principal_point();
-/// let options = RansacOptions::default();
-/// let report = estimate_relative_pose_and_focal_with(&p1, &p2, &middle, &middle, &options, |trial| {
-///     if trial.iteration == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (20, StopReason::Canceled));
-/// assert!((report.model.focal_px - 700.0).abs() < 0.1);
-/// # Ok(()) }
-/// ```
-pub fn estimate_relative_pose_and_focal_with(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    principal1: &Point2<f64>,
-    principal2: &Point2<f64>,
-    options: &RansacOptions,
-    watch: impl FnMut(&Trial<'_, PoseWithFocal>) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<PoseWithFocal>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     let estimator = FocalEstimator::new(matches, principal1, principal2)?;
     let all = estimator.clone();
-    let mut report = ransac_with(estimator, options, watch)?;
+    let mut report = ransac(estimator, options, monitor)?;
     report.model.focal_std_px = all.focal_std_px(&report.model, report.max_error_px);
     let focal_px = report.model.focal_px;
     let [k1, k2] = [principal1, principal2].map(|c| Intrinsics::new(focal_px, focal_px, c.x, c.y));

@@ -6,13 +6,9 @@ use super::refine_gravity::refine_upright_in_frame;
 use super::three_point::{MAX_SOLUTIONS, Upright, solve};
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
-#[cfg(doc)]
-use crate::robust::ransac;
-use crate::robust::{
-    Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, Trial, ransac_with,
-};
+use crate::progress::Monitor;
+use crate::robust::{Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
-use core::ops::ControlFlow;
 use nalgebra::{Point2, Vector3};
 
 /// Relative poses of calibrated cameras that know the direction of gravity from matches, for
@@ -168,7 +164,7 @@ impl Estimator for GravityEstimator {
 /// let gravity1 = Vector3::new(0.1, 1.0, 0.2);
 /// let gravity2 = cam2_from_cam1.rotation * gravity1;
 /// let options = RansacOptions::default();
-/// let report = estimate_relative_pose_with_gravity(&p1, &p2, &k, &k, &gravity1, &gravity2, &options)?;
+/// let report = estimate_relative_pose_with_gravity(&p1, &p2, &k, &k, &gravity1, &gravity2, &options, &mut ())?;
 /// let found = report.model.cam2_from_cam1();
 /// assert!(report.num_inliers >= 20);
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
@@ -183,10 +179,9 @@ pub fn estimate_relative_pose_with_gravity(
     gravity1: &Vector3<f64>,
     gravity2: &Vector3<f64>,
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RelativePose>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     let estimator = GravityEstimator::new(matches, *k1, *k2, gravity1, gravity2)?;
-    ransac_with(estimator, options, |_: &Trial<'_, RelativePose>| {
-        ControlFlow::Continue(())
-    })
+    ransac(estimator, options, monitor)
 }

@@ -195,7 +195,8 @@ mod tests {
                 p2 + n2
             });
         }
-        let report = estimate_fundamental(&pixels1, &pixels2, &RansacOptions::default()).unwrap();
+        let report =
+            estimate_fundamental(&pixels1, &pixels2, &RansacOptions::default(), &mut ()).unwrap();
         let places = [k1.principal_point(), k2.principal_point()];
         let [f1, f2] =
             focal_lengths_from_fundamental(&report.model, &places[0], &places[1]).unwrap();

@@ -44,16 +44,11 @@ pub use epipoles::{Epipole, epipoles};
 pub(crate) use essential::signed_depths;
 pub use essential::{SelectedPose, decompose_essential, project_to_essential, select_pose};
 pub use essential_estimator::EssentialEstimator;
-pub use estimate_essential::{
-    estimate_essential, estimate_relative_pose, estimate_relative_pose_with,
-};
+pub use estimate_essential::{estimate_essential, estimate_relative_pose};
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
-pub use estimate_of_rays::{
-    estimate_relative_pose_of_rays, estimate_relative_pose_of_rays_with, sampson_px_of_rays,
-};
+pub use estimate_of_rays::{estimate_relative_pose_of_rays, sampson_px_of_rays};
 pub use estimate_pose_and_focal::{
     FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
-    estimate_relative_pose_and_focal_with,
 };
 pub use estimate_with_gravity::{GravityEstimator, estimate_relative_pose_with_gravity};
 pub use five_point::essential_5point;

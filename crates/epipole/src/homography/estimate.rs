@@ -6,6 +6,7 @@ use super::refine_both::refine_by_both_images;
 use super::sums;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
 use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
@@ -178,7 +179,7 @@ impl Estimator for HomographyEstimator {
 /// let p2: Vec<_> = p1.iter().enumerate().map(|(i, p)| {
 ///     if i % 4 == 0 { Point2::new(p.y, 90.0) } else { Point2::new(p.x + 5.0, p.y + 3.0) }
 /// }).collect();
-/// let report = estimate_homography(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_homography(&p1, &p2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!((report.model[(0, 2)] / report.model[(2, 2)] - 5.0).abs() < 1e-6);
 /// # Ok(()) }
@@ -188,9 +189,10 @@ pub fn estimate_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
-    ransac(HomographyEstimator::new(matches)?, options)
+    ransac(HomographyEstimator::new(matches)?, options, monitor)
 }
 
 #[cfg(test)]
@@ -207,7 +209,8 @@ mod tests {
             .map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480)))
             .collect();
         for (p1, p2) in [(&line, &line), (&line, &anywhere), (&anywhere, &line)] {
-            let error = estimate_homography(p1, p2, &RansacOptions::default()).unwrap_err();
+            let error =
+                estimate_homography(p1, p2, &RansacOptions::default(), &mut ()).unwrap_err();
             assert!(matches!(error, Error::Degenerate { .. }), "{error}");
             assert!(error.to_string().contains("one line"));
         }
@@ -215,7 +218,7 @@ mod tests {
         let mut bent = line.clone();
         bent[3].y += 40.0;
         bent[40].y -= 30.0;
-        let report = estimate_homography(&bent, &bent, &RansacOptions::default()).unwrap();
+        let report = estimate_homography(&bent, &bent, &RansacOptions::default(), &mut ()).unwrap();
         assert_eq!(report.num_inliers, 50);
     }
 }

@@ -5,12 +5,8 @@ use crate::Error;
 use crate::Result;
 use crate::camera::SeenRay;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-#[cfg(doc)]
-use crate::robust::ransac;
-use crate::robust::{
-    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Trial, ransac_with,
-};
-use core::ops::ControlFlow;
+use crate::progress::Monitor;
+use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
 /// Homographies of rays, for RANSAC: four matches a sample, errors in the pixels of image 2.
@@ -162,7 +158,7 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 ///     seen1.push(see(&x)?);
 ///     seen2.push(see(&(cam2_from_cam1 * x))?);
 /// }
-/// let report = estimate_homography_of_rays(&seen1, &seen2, &RansacOptions::default())?;
+/// let report = estimate_homography_of_rays(&seen1, &seen2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 40);
 /// // As `homography_from_motion` has it, with n = −y and d = 1.
 /// let h = cam2_from_cam1.rotation.to_rotation_matrix().matrix()
@@ -174,44 +170,7 @@ pub fn estimate_homography_of_rays(
     seen1: &[SeenRay],
     seen2: &[SeenRay],
     options: &RansacOptions,
-) -> Result<RansacReport<Matrix3<f64>>> {
-    estimate_homography_of_rays_with(seen1, seen2, options, |_| ControlFlow::Continue(()))
-}
-
-/// As [`estimate_homography_of_rays`], and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far.
-///
-/// # Errors
-/// As [`estimate_homography_of_rays`] and [`ransac_with`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
-/// use epipole::homography::estimate_homography_of_rays_with;
-/// use epipole::robust::{RansacOptions, StopReason};
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
-/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
-/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
-/// for i in 0..60 {
-///     seen1.push(see(120 + i * 37 % 400, 120 + i * 71 % 400)?);
-///     // Every third match is wrong.
-///     let off = if i % 3 == 0 { i * 53 % 90 } else { 0 };
-///     seen2.push(see(120 + i * 37 % 400 + off, 120 + i * 71 % 400)?);
-/// }
-/// let options = RansacOptions::default();
-/// let report = estimate_homography_of_rays_with(&seen1, &seen2, &options, |trial| {
-///     if trial.iteration == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (5, StopReason::Canceled));
-/// # Ok(()) }
-/// ```
-pub fn estimate_homography_of_rays_with(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
-    options: &RansacOptions,
-    watch: impl FnMut(&Trial<'_, Matrix3<f64>>) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let pixels = [seen1, seen2]
         .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
@@ -225,7 +184,7 @@ pub fn estimate_homography_of_rays_with(
         rays1,
         seen2,
     };
-    ransac_with(estimator, options, watch)
+    ransac(estimator, options, monitor)
 }
 
 #[cfg(test)]
@@ -266,7 +225,7 @@ mod tests {
     fn a_wall_is_found_among_wrong_matches() {
         let (seen, truth) = wall(200, 0.5, 1);
         let options = RansacOptions::default().within(3.0);
-        let report = estimate_homography_of_rays(&seen[0], &seen[1], &options).unwrap();
+        let report = estimate_homography_of_rays(&seen[0], &seen[1], &options, &mut ()).unwrap();
         assert!(
             (148..156).contains(&report.num_inliers),
             "{}",
@@ -302,9 +261,9 @@ mod tests {
     fn bad_input_is_refused() {
         let (seen, _) = wall(8, 0.5, 5);
         let options = RansacOptions::default();
-        let few = estimate_homography_of_rays(&seen[0][..3], &seen[1][..3], &options);
+        let few = estimate_homography_of_rays(&seen[0][..3], &seen[1][..3], &options, &mut ());
         assert!(matches!(few, Err(Error::TooFew { .. })));
-        let unlike = estimate_homography_of_rays(&seen[0], &seen[1][..7], &options);
+        let unlike = estimate_homography_of_rays(&seen[0], &seen[1][..7], &options, &mut ());
         assert!(matches!(unlike, Err(Error::SizeMismatch { .. })));
         // Rays of one plane through the center give none.
         let flat = [0.1, 0.2, 0.4, 0.8, 0.9].map(|x| Vector3::new(x, 0.0, 1.0));

@@ -1,8 +1,9 @@
 //! The loop at a threshold that the data themselves give.
 
 use super::noise::{Background, noise_scale_px};
-use super::run::Watch;
-use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, StopReason, log10_false_alarms};
+use super::run::run_to_end;
+use super::{Estimator, Ransac, RansacOptions, RansacReport, log10_false_alarms};
+use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 
 /// Thresholds to begin with, pixels. Each one leads to those around it.
@@ -32,18 +33,19 @@ struct Suited<M> {
     log10_false_alarms: f64,
 }
 
-/// Runs of the loop at several thresholds, watched together.
-struct Search<'a, M> {
+/// Runs of the loop at several thresholds.
+struct Search<'a> {
     options: &'a RansacOptions,
     background: Background,
     most_px: f64,
-    watch: Watch<'a, M>,
-    /// Samples drawn so far.
+    monitor: &'a mut dyn Monitor,
+    /// Number of runs so far.
+    runs: usize,
+    /// Number of samples drawn so far.
     iterations: usize,
-    canceled: bool,
 }
 
-/// [`ransac_with`](super::ransac_with) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
+/// [`ransac`](super::ransac) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
 ///
 /// A run at some threshold gives a model, the errors of all data from it tell the noise, and the noise another
 /// threshold, until both agree. Of what several starts lead to, the model is kept that is least likely by
@@ -51,7 +53,7 @@ struct Search<'a, M> {
 pub(super) fn ransac_by_noise<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,
-    watch: Watch<'_, M>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<M>> {
     options.check()?;
     let background = Background::new(estimator, LEAST_PX, options.max_error_px);
@@ -59,9 +61,9 @@ pub(super) fn ransac_by_noise<M: Clone>(
         options,
         background,
         most_px: background.reach_px(MOST_CHANCE).max(LEAST_PX),
-        watch,
+        monitor,
+        runs: 0,
         iterations: 0,
-        canceled: false,
     };
     let mut best: Option<Suited<M>> = None;
     let mut failure = None;
@@ -85,12 +87,9 @@ pub(super) fn ransac_by_noise<M: Clone>(
             if known.is_none_or(|known| suited.log10_false_alarms < known.log10_false_alarms) {
                 best = Some(suited);
             }
-            if settled || search.canceled {
+            if settled {
                 break;
             }
-        }
-        if search.canceled {
-            break;
         }
     }
     let Some(Suited {
@@ -101,12 +100,8 @@ pub(super) fn ransac_by_noise<M: Clone>(
     else {
         return Err(failure.unwrap_or(Error::Canceled));
     };
-    if search.canceled {
-        report.stop = StopReason::Canceled;
-    } else {
-        let last = search.run(estimator, Some(report.model.clone()), max_error_px)?;
-        report = last.unwrap_or(report);
-    }
+    let last = search.run(estimator, Some(report.model.clone()), max_error_px)?;
+    report = last.unwrap_or(report);
     report.iterations = search.iterations;
     Ok(report)
 }
@@ -115,9 +110,12 @@ fn same(first_px: f64, second_px: f64) -> bool {
     first_px < SAME * second_px && second_px < SAME * first_px
 }
 
-impl<M: Clone> Search<'_, M> {
-    /// One run. What it fails with from the start is the outer error.
-    fn run(
+impl Search<'_> {
+    /// One run. The inner error is that of a run without a result.
+    ///
+    /// # Errors
+    /// As [`Ransac::new`]; [`Error::Canceled`] if the monitor cancels.
+    fn run<M: Clone>(
         &mut self,
         estimator: &mut dyn Estimator<Model = M>,
         model: Option<M>,
@@ -125,23 +123,34 @@ impl<M: Clone> Search<'_, M> {
     ) -> Result<Result<RansacReport<M>>> {
         let mut run = Ransac::new(estimator, self.options.within(max_error_px))?;
         if let Some(model) = model {
-            run.propose(model);
+            run.start_from(model);
         }
-        let before = self.iterations;
-        while let Step::Trial(mut trial) = run.step() {
-            trial.iteration += before;
-            trial.required_iterations = trial.required_iterations.saturating_add(before as u64);
-            if (self.watch)(&trial).is_break() {
-                self.canceled = true;
-                run.cancel();
+        // The last run is one more than those from all starts.
+        let most = (STARTS_PX.len() * ROUNDS + 1) as f32;
+        let share = self.runs as f32 / most;
+        self.runs += 1;
+        let mut part = Part::new(&mut *self.monitor, share, self.runs as f32 / most);
+        match run_to_end(run, &mut part) {
+            Err(Error::Canceled) => Err(Error::Canceled),
+            Ok(report) => {
+                self.iterations += report.iterations;
+                Ok(Ok(report))
+            }
+            Err(error) => {
+                if let Error::NoConsensus { iterations, .. } = error {
+                    self.iterations += iterations;
+                }
+                Ok(Err(error))
             }
         }
-        self.iterations += run.iterations();
-        Ok(run.finish())
     }
 
     /// The threshold that suits the model of a run.
-    fn suited(&self, estimator: &dyn Estimator<Model = M>, report: RansacReport<M>) -> Suited<M> {
+    fn suited<M: Clone>(
+        &self,
+        estimator: &dyn Estimator<Model = M>,
+        report: RansacReport<M>,
+    ) -> Suited<M> {
         let background = &self.background;
         let model = &report.model;
         let problem = estimator.problem();

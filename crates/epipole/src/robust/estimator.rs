@@ -74,7 +74,7 @@ pub enum Evidence<'a> {
 /// }
 ///
 /// # fn main() -> Result<(), epipole::Error> {
-/// let report = ransac(Level(vec![4.75, 5.25, 99.0, 5.0]), &RansacOptions::default())?;
+/// let report = ransac(Level(vec![4.75, 5.25, 99.0, 5.0]), &RansacOptions::default(), &mut ())?;
 /// assert_eq!((report.model, report.num_inliers), (5.0, 3));
 /// # Ok(()) }
 /// ```
@@ -242,7 +242,7 @@ mod tests {
         assert!(support.num_inliers == 20 && (support.cost - 3.0).abs() < 1e-12);
         let chance = data.chance(2, 1.0).unwrap();
         assert!(chance > 0.0 && chance < 1e-4, "{chance}");
-        let report = ransac(shifts, &RansacOptions::default()).unwrap();
+        let report = ransac(shifts, &RansacOptions::default(), &mut ()).unwrap();
         assert_eq!(report.model, shift);
         assert_eq!((report.inliers.len(), report.num_inliers), (90, 20));
         assert!(!report.could_be_chance());

@@ -126,7 +126,7 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
 /// use nalgebra::Point2;
 /// let points: Vec<_> = [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0), (0.0, 30.0)]
 ///     .map(|(u, v)| Point2::new(u, v)).into();
-/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default())?;
+/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.inliers, [true, true, true, true, false]);
 /// # Ok(()) }
 /// ```
@@ -295,7 +295,7 @@ mod tests {
                 score,
                 ..RansacOptions::default()
             };
-            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options).unwrap();
+            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options, &mut ()).unwrap();
             assert_eq!(report.inliers, [true, true, true, true, true, false]);
             assert!((report.model.angle_rad() - libm::atan(2.0)).abs() < 1e-12);
             assert!((report.score - 5.0).abs() < 1e-12);
@@ -323,7 +323,7 @@ mod tests {
                 seed,
                 ..RansacOptions::default()
             };
-            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options).unwrap();
+            let report = ransac(LineEstimator::new(&cloud).unwrap(), &options, &mut ()).unwrap();
             assert_eq!(report.num_inliers, 70);
             assert!((-report.model.a / report.model.b - 2.0).abs() < 1e-9);
             assert!((-report.model.c / report.model.b - 6.3).abs() < 1e-9);
@@ -337,6 +337,7 @@ mod tests {
         let report = ransac(
             LineEstimator::new(&cloud).unwrap(),
             &RansacOptions::default(),
+            &mut (),
         )
         .unwrap();
         assert_eq!(report.num_inliers, 4);

@@ -41,7 +41,7 @@ pub use matches::{FARTHEST_PX, MatchSet};
 pub use options::{
     Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason, ThresholdKind,
 };
-pub use run::{ransac, ransac_with};
+pub use run::ransac;
 pub use similarity::{PlaneSimilarity, SimilarityEstimator, estimate_similarity, fit_similarity};
 pub use step::{Step, Trial};
 pub use unique::Unique;

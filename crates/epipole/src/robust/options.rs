@@ -171,8 +171,8 @@ pub enum StopReason {
     Confident,
     /// [`RansacOptions::max_iterations`] were drawn; the confidence was not reached.
     Exhausted,
-    /// The caller ended it.
-    Canceled,
+    /// The caller finished the run early.
+    Interrupted,
 }
 
 /// What [`Ransac`](super::Ransac) found.
@@ -227,7 +227,7 @@ impl<M> RansacReport<M> {
     ///     (0..100).map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0))).collect()
     /// };
     /// // Matches without any rhyme or reason; some of them agree nevertheless.
-    /// let report = estimate_fundamental(&anywhere(), &anywhere(), &RansacOptions::default())?;
+    /// let report = estimate_fundamental(&anywhere(), &anywhere(), &RansacOptions::default(), &mut ())?;
     /// assert!(report.num_inliers > 7 && report.could_be_chance());
     /// # Ok(()) }
     /// ```

@@ -1,22 +1,22 @@
 //! The loop from start to end.
 
-use std::ops::ControlFlow;
-
 use super::by_noise::ransac_by_noise;
-use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, ThresholdKind, Trial};
+use super::{Estimator, Ransac, RansacOptions, RansacReport, Step, ThresholdKind};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
+use crate::progress::{Monitor, Stage, report};
 
-/// Hears of every trial and may end the run.
-pub(super) type Watch<'a, M> = &'a mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>;
+/// Number of samples between two reports.
+const SAMPLES_PER_REPORT: usize = 32;
 
 /// Runs [`Ransac`] to its end.
 ///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
+/// The stage is [`Stage::RobustEstimation`]. [`Ransac::step`] shows every sample, and can end a run with the best model
+/// so far.
 ///
-/// The example of [`LineEstimator`](super::LineEstimator) calls it.
+/// # Errors
+/// As [`Ransac::new`] and [`Ransac::finish`]; [`Error::Canceled`] if the monitor cancels.
 ///
 /// Source: as [`Ransac`].
 ///
@@ -27,59 +27,45 @@ pub(super) type Watch<'a, M> = &'a mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<(
 /// // Twenty points of the row v = 2, and four that are elsewhere.
 /// let mut points: Vec<_> = (0..20).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
 /// points.extend([(3.0, 40.0), (17.0, 90.0), (50.0, 33.0), (81.0, 70.0)].map(|(u, v)| Point2::new(u, v)));
-/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default())?;
+/// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 20);
 /// assert!(report.model.signed_distance(&Point2::new(-100.0, 2.0)).abs() < 1e-9);
 /// # Ok(()) }
 /// ```
 pub fn ransac<E: Estimator>(
-    estimator: E,
-    options: &RansacOptions,
-) -> Result<RansacReport<E::Model>> {
-    ransac_with(estimator, options, |_| ControlFlow::Continue(()))
-}
-
-/// Runs [`Ransac`] and shows every trial to `watch`, which may end the run by
-/// [`ControlFlow::Break`]; the report is then about the best model so far, and [`Error::Canceled`] says
-/// that there is none yet.
-///
-/// # Errors
-/// As [`Ransac::new`] and [`Ransac::finish`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use std::ops::ControlFlow;
-/// use epipole::robust::{LineEstimator, RansacOptions, StopReason, ransac_with};
-/// use nalgebra::Point2;
-/// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
-/// let report = ransac_with(LineEstimator::new(&points)?, &RansacOptions::default(), |trial| {
-///     if trial.iteration == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-/// })?;
-/// assert_eq!((report.iterations, report.stop), (3, StopReason::Canceled));
-/// # Ok(()) }
-/// ```
-pub fn ransac_with<E: Estimator>(
     mut estimator: E,
     options: &RansacOptions,
-    mut watch: impl FnMut(&Trial<'_, E::Model>) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<E::Model>> {
-    run(&mut estimator, options, &mut watch)
+    run(&mut estimator, options, monitor)
 }
 
-/// Compiled once for all estimators of one kind of model: the loop asks them little, and what it asks takes long, so
-/// a pointer on the way costs nothing, but a copy of the loop for each is 10 KB.
+/// Body of [`ransac`], compiled once for each kind of model: a copy of the loop for every estimator is 10 KB.
 fn run<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,
-    watch: Watch<'_, M>,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<M>> {
     if options.threshold == ThresholdKind::Noise {
-        return ransac_by_noise(estimator, options, watch);
+        return ransac_by_noise(estimator, options, monitor);
     }
-    let mut run = Ransac::new(estimator, *options)?;
+    run_to_end(Ransac::new(estimator, *options)?, monitor)
+}
+
+/// Draws samples until the run has finished.
+///
+/// # Errors
+/// [`Error::Canceled`] if the monitor cancels, and as [`Ransac::finish`].
+pub(super) fn run_to_end<E: Estimator>(
+    mut run: Ransac<E>,
+    monitor: &mut dyn Monitor,
+) -> Result<RansacReport<E::Model>> {
+    let mut share = 0.0_f32;
     while let Step::Trial(trial) = run.step() {
-        if watch(&trial).is_break() {
-            run.cancel();
+        if trial.iteration % SAMPLES_PER_REPORT == 1 {
+            // A better model can ask for more samples than the one before: shares never fall.
+            share = share.max(run.iterations() as f32 / run.expected_iterations() as f32);
+            report(monitor, Stage::RobustEstimation, share)?;
         }
     }
     run.finish()

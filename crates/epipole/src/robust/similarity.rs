@@ -1,6 +1,7 @@
 //! Similarities of the plane: turn, scale, shift.
 
 use super::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
@@ -182,7 +183,7 @@ impl Estimator for SimilarityEstimator {
 /// let p1 = [(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (5.0, 5.0)].map(|(u, v)| Point2::new(u, v));
 /// let mut p2 = p1.map(|p| Point2::new(p.x + 3.0, p.y));
 /// p2[3] = Point2::new(50.0, -20.0);
-/// let report = estimate_similarity(&p1, &p2, &RansacOptions::default())?;
+/// let report = estimate_similarity(&p1, &p2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.inliers, [true, true, true, false]);
 /// assert!((report.model.tu - 3.0).abs() < 1e-12);
 /// # Ok(()) }
@@ -191,10 +192,12 @@ pub fn estimate_similarity(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<PlaneSimilarity>> {
     ransac(
         SimilarityEstimator::new(MatchSet::new(pixels1, pixels2)?),
         options,
+        monitor,
     )
 }
 
@@ -246,13 +249,16 @@ mod tests {
                         score,
                         ..RansacOptions::default()
                     };
-                    let report = estimate_similarity(&p1, &p2, &options).unwrap();
+                    let report = estimate_similarity(&p1, &p2, &options, &mut ()).unwrap();
                     let wrong = (report.inliers.iter().enumerate())
                         .filter(|&(i, &inlier)| inlier != (i >= 400))
                         .count();
                     assert_eq!(wrong, 0, "seed {seed} {sampler:?} {score:?} {report:?}");
                     assert!((report.model.matrix() - truth.matrix()).norm() < 1e-6);
-                    assert_eq!(estimate_similarity(&p1, &p2, &options).unwrap(), report);
+                    assert_eq!(
+                        estimate_similarity(&p1, &p2, &options, &mut ()).unwrap(),
+                        report
+                    );
                 }
             }
         }
@@ -262,13 +268,13 @@ mod tests {
     fn degenerate_matches_are_refused() {
         let options = RansacOptions::default();
         let same = vec![Point2::new(1.0, 1.0); 5];
-        assert!(estimate_similarity(&same, &same, &options).is_err());
+        assert!(estimate_similarity(&same, &same, &options, &mut ()).is_err());
         assert!(fit_similarity(&same, &same).is_err());
         assert!(fit_similarity(&[], &[]).is_err());
         let spread: Vec<_> = (0..5).map(|i| Point2::new(f64::from(i), 0.0)).collect();
         assert!(fit_similarity(&same, &spread).is_err());
         assert!(matches!(
-            estimate_similarity(&same, &spread, &options),
+            estimate_similarity(&same, &spread, &options, &mut ()),
             Err(Error::NoConsensus { .. })
         ));
     }

@@ -82,7 +82,7 @@ pub fn estimate_similarity_of_points(
         seed,
         ..crate::robust::RansacOptions::default()
     };
-    let report = crate::robust::ransac(estimator, &options)?;
+    let report = crate::robust::ransac(estimator, &options, &mut ())?;
     if report.num_inliers < 4 {
         return Err(Error::NoConsensus {
             needed: 4,

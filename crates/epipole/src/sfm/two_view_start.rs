@@ -119,8 +119,15 @@ pub(super) fn verify_pair(
         pixels2.push(pixels[1][j as usize]);
     }
     // Without consensus the two photographs simply do not overlap.
-    let report =
-        estimate_relative_pose(&pixels1, &pixels2, intrinsics[0], intrinsics[1], options).ok()?;
+    let report = estimate_relative_pose(
+        &pixels1,
+        &pixels2,
+        intrinsics[0],
+        intrinsics[1],
+        options,
+        &mut (),
+    )
+    .ok()?;
     if report.num_unique_inliers < min_num_inliers {
         return None;
     }
@@ -156,7 +163,7 @@ pub(super) fn verify_pair(
         ransac: few,
         ..TwoViewOptions::default()
     };
-    let flat = estimate_homography(&pixels1, &pixels2, &few).ok();
+    let flat = estimate_homography(&pixels1, &pixels2, &few, &mut ()).ok();
     let flat = flat.filter(|flat| {
         flat.num_inliers as f64 > judging.max_homography_share * matches.len() as f64
     });

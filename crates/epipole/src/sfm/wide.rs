@@ -55,7 +55,9 @@ pub(super) static WIDE: Wide = Wide {
     derivatives: |kind, numbers, p| Lens::of(kind, *numbers).derivatives(p),
     rays,
     verify,
-    register: estimate_absolute_pose_of_rays,
+    register: |points, seen, options| {
+        estimate_absolute_pose_of_rays(points, seen, options, &mut ())
+    },
     adjust: adjust_wide,
 };
 
@@ -103,7 +105,7 @@ fn verify(
         return None;
     }
     // Without consensus the two photographs simply do not overlap.
-    let report = estimate_relative_pose_of_rays(&seen1, &seen2, options).ok()?;
+    let report = estimate_relative_pose_of_rays(&seen1, &seen2, options, &mut ()).ok()?;
     if report.num_unique_inliers < min_num_inliers {
         return None;
     }

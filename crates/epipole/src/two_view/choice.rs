@@ -1,24 +1,21 @@
 //! The model that two views deserve.
 
-use std::ops::ControlFlow;
-
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
 use super::pairs::Pairs;
-use super::search::{Searches, TwoViewObserver, TwoViewSearch};
+use super::search::Searches;
 use super::turn::{ExplainingTurn, homography_of_turn};
 use super::{RotationEstimator, TwoViewOptions};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
 use crate::camera::{Intrinsics, RigidTransform};
-use crate::epipolar::{
-    FundamentalEstimator, RelativePose, estimate_relative_pose_with, sampson_px,
-};
 #[cfg(doc)]
-use crate::epipolar::{estimate_fundamental, estimate_relative_pose};
+use crate::epipolar::estimate_fundamental;
+use crate::epipolar::{FundamentalEstimator, RelativePose, estimate_relative_pose, sampson_px};
 #[cfg(doc)]
 use crate::homography::estimate_homography;
 use crate::homography::{HomographyEstimator, homography_sampson_px};
+use crate::progress::Monitor;
 #[cfg(doc)]
 use crate::robust::RansacOptions;
 use crate::robust::{MatchSet, RansacReport, StopReason};
@@ -78,7 +75,9 @@ pub struct TwoViewReport {
     pub max_error_px: f64,
     /// Samples drawn, over all models tried.
     pub iterations: usize,
-    /// Why the search for `model` ended, or [`StopReason::Canceled`] if any search was ended early.
+    /// Number of samples that `model` asks for.
+    pub required_iterations: u64,
+    /// Why the search for `model` ended.
     pub stop: StopReason,
     /// The median angle at which the inliers' rays meet, radians, for a calibrated pair with motion.
     pub median_triangulation_angle_rad: Option<f64>,
@@ -102,11 +101,11 @@ pub struct TwoViewReport {
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// // A step to the right past a wall that stands straight ahead: everything moves by 12 pixels.
 /// let wall: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
-/// let report = estimate_two_view(&p1, &wall, &TwoViewOptions::default())?;
+/// let report = estimate_two_view(&p1, &wall, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
 /// // With depth, near things move more than far ones.
 /// let depth: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
-/// let report = estimate_two_view(&p1, &depth, &TwoViewOptions::default())?;
+/// let report = estimate_two_view(&p1, &depth, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::General);
 /// # Ok(()) }
 /// ```
@@ -114,52 +113,15 @@ pub fn estimate_two_view(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     options: &TwoViewOptions,
-) -> Result<TwoViewReport> {
-    let mut go_on = |_: &_| ControlFlow::Continue(());
-    estimate_two_view_with(pixels1, pixels2, options, &mut go_on)
-}
-
-/// As [`estimate_two_view`], and shows every sample of every search to `observer`, which may end the
-/// work by [`ControlFlow::Break`]; the answer is then about the models found until then.
-///
-/// # Errors
-/// As [`estimate_two_view`]; [`Error::Canceled`] if nothing was found until then.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::robust::StopReason;
-/// use epipole::two_view::{TwoViewModel, TwoViewOptions, TwoViewSearch, estimate_two_view_with};
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
-/// let p2: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
-/// // As soon as homographies come up, F is to be enough.
-/// let mut only_f = |trial: &epipole::two_view::TwoViewTrial| match trial.search {
-///     TwoViewSearch::Fundamental => ControlFlow::Continue(()),
-///     _ => ControlFlow::Break(()),
-/// };
-/// let report = estimate_two_view_with(&p1, &p2, &TwoViewOptions::default(), &mut only_f)?;
-/// assert_eq!(report.stop, StopReason::Canceled);
-/// # Ok(()) }
-/// ```
-pub fn estimate_two_view_with(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    options: &TwoViewOptions,
-    observer: TwoViewObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
     options.check()?;
     let set = MatchSet::new(pixels1, pixels2)?;
     let pairs = Pairs::new(pixels1, pixels2, &set);
-    let mut searches = Searches::new(observer);
+    let mut searches = Searches::new(monitor);
     let options = &searches.with_threshold(options, &set);
-    let fundamental = searches.ransac(
-        TwoViewSearch::Fundamental,
-        FundamentalEstimator::new(set.clone()),
-        &options.ransac,
-    );
+    let fundamental = searches.ransac(FundamentalEstimator::new(set.clone()), &options.ransac);
     let homography = searches.ransac(
-        TwoViewSearch::Homography,
         HomographyEstimator::new(set.clone()),
         &options.in_two_dimensions(),
     );
@@ -174,6 +136,7 @@ pub fn estimate_two_view_with(
                     >= options.max_homography_share
         }
     };
+    searches.check()?;
     let mut found = TwoViewReport::nothing(&searches, options);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     if homography_wins {
@@ -220,7 +183,7 @@ pub fn estimate_two_view_with(
 ///     let x = k.matrix() * (turn * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
-/// let report = estimate_two_view_calibrated(&p1, &p2, &k, &k, &TwoViewOptions::default())?;
+/// let report = estimate_two_view_calibrated(&p1, &p2, &k, &k, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Panoramic);
 /// assert!((report.cam2_from_cam1.unwrap().rotation.angle() - 0.1).abs() < 1e-6);
 /// # Ok(()) }
@@ -231,72 +194,23 @@ pub fn estimate_two_view_calibrated(
     k1: &Intrinsics,
     k2: &Intrinsics,
     options: &TwoViewOptions,
-) -> Result<TwoViewReport> {
-    let mut go_on = |_: &_| ControlFlow::Continue(());
-    estimate_two_view_calibrated_with(pixels1, pixels2, k1, k2, options, &mut go_on)
-}
-
-/// As [`estimate_two_view_calibrated`], and shows every sample of every search to `observer`, which may
-/// end the work by [`ControlFlow::Break`]; the answer is then about the models found until then. E is
-/// searched for first, then F, H and the turn.
-///
-/// # Errors
-/// As [`estimate_two_view_calibrated`]; [`Error::Canceled`] if nothing was found until then.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
-/// use epipole::two_view::{
-///     TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_calibrated_with,
-/// };
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
-/// let p2: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
-/// // A budget of 500 samples in all.
-/// let mut drawn = 0;
-/// let mut within_budget = |_: &TwoViewTrial| {
-///     drawn += 1;
-///     if drawn < 500 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-/// };
-/// let options = TwoViewOptions::default();
-/// let report = estimate_two_view_calibrated_with(&p1, &p2, &k, &k, &options, &mut within_budget)?;
-/// assert!(report.iterations <= 500 && matches!(report.model, TwoViewModel::Essential(_)));
-/// # Ok(()) }
-/// ```
-pub fn estimate_two_view_calibrated_with(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
-    options: &TwoViewOptions,
-    observer: TwoViewObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
     options.check()?;
     let set = MatchSet::new(pixels1, pixels2)?;
     let pairs = Pairs::new(pixels1, pixels2, &set);
-    let mut searches = Searches::new(observer);
+    let mut searches = Searches::new(monitor);
     let options = &searches.with_threshold(options, &set);
     let in_two_dimensions = options.in_two_dimensions();
-    let essential = searches.run(TwoViewSearch::Essential, |watch| {
-        estimate_relative_pose_with(pixels1, pixels2, k1, k2, &options.ransac, watch)
-    });
-    let fundamental = searches.ransac(
-        TwoViewSearch::Fundamental,
-        FundamentalEstimator::new(set.clone()),
-        &options.ransac,
-    );
-    let homography = searches.ransac(
-        TwoViewSearch::Homography,
-        HomographyEstimator::new(set.clone()),
-        &in_two_dimensions,
-    );
+    let essential = searches
+        .run(|monitor| estimate_relative_pose(pixels1, pixels2, k1, k2, &options.ransac, monitor));
+    let fundamental = searches.ransac(FundamentalEstimator::new(set.clone()), &options.ransac);
+    let homography = searches.ransac(HomographyEstimator::new(set.clone()), &in_two_dimensions);
     let rotation = searches.ransac(
-        TwoViewSearch::Rotation,
         RotationEstimator::new(set.clone(), *k1, *k2),
         &in_two_dimensions,
     );
+    searches.check()?;
     let mut found = TwoViewReport::nothing(&searches, options);
     found.homography = homography.as_ref().ok().map(|report| report.model);
     let (num_e, num_f) = (support(&essential), support(&fundamental));
@@ -395,11 +309,8 @@ impl TwoViewReport {
             num_left_out: 0,
             max_error_px: options.ransac.max_error_px,
             iterations: searches.iterations,
-            stop: if searches.canceled() {
-                StopReason::Canceled
-            } else {
-                StopReason::Exhausted
-            },
+            required_iterations: u64::MAX,
+            stop: StopReason::Exhausted,
             median_triangulation_angle_rad: None,
         }
     }
@@ -409,9 +320,8 @@ impl TwoViewReport {
         self.num_inliers = inliers.iter().filter(|&&inlier| inlier).count();
         self.inliers = inliers;
         self.num_left_out = report.num_left_out;
-        if self.stop != StopReason::Canceled {
-            self.stop = report.stop;
-        }
+        self.required_iterations = report.required_iterations;
+        self.stop = report.stop;
         if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {
             self.configuration = Configuration::Degenerate;
             self.cam2_from_cam1 = None;

@@ -2,20 +2,17 @@
 
 use super::motion::{best_and_rival, in_front_of_plane};
 use super::turn_of_rays::find_explaining_turn_of_rays;
-use super::{
-    Configuration, TwoViewModel, TwoViewObserver, TwoViewOptions, TwoViewReport, TwoViewSearch,
-    TwoViewTrial,
-};
+use super::{Configuration, TwoViewModel, TwoViewOptions, TwoViewReport};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
 use crate::camera::{Intrinsics, RigidTransform, SeenRay, cross_matrix};
-use crate::epipolar::{estimate_relative_pose_of_rays_with, sampson_px_of_rays};
+use crate::epipolar::{estimate_relative_pose_of_rays, sampson_px_of_rays};
 use crate::homography::{decompose_homography, estimate_homography_of_rays};
 use crate::math::order::at_rank;
+use crate::progress::Monitor;
 use crate::robust::{RansacOptions, RansacReport};
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use std::ops::ControlFlow;
 
 /// Samples of four matches, at most: where a homography explains nearly all, a tenth is plenty.
 const MAX_SAMPLES: usize = 500;
@@ -33,7 +30,7 @@ pub(crate) fn plane_of_rays(
     };
     let [seen1, seen2] =
         [0, 1].map(|side| -> Vec<SeenRay> { inliers.iter().map(|pair| pair[side]).collect() });
-    let found = estimate_homography_of_rays(&seen1, &seen2, &ransac).ok()?;
+    let found = estimate_homography_of_rays(&seen1, &seen2, &ransac, &mut ()).ok()?;
     let needed = options.max_homography_share * inliers.len() as f64;
     (found.num_inliers as f64 >= needed).then_some(found)
 }
@@ -70,7 +67,7 @@ pub(crate) fn plane_of_rays(
 ///     seen1.push(seen);
 ///     seen2.push(SeenRay::through(&lens, &k, &pixel2)?);
 /// }
-/// let report = estimate_two_view_of_rays(&seen1, &seen2, &TwoViewOptions::default())?;
+/// let report = estimate_two_view_of_rays(&seen1, &seen2, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Panoramic);
 /// assert!((report.cam2_from_cam1.unwrap().rotation.angle() - 0.2).abs() < 1e-6);
 /// # Ok(()) }
@@ -79,52 +76,10 @@ pub fn estimate_two_view_of_rays(
     seen1: &[SeenRay],
     seen2: &[SeenRay],
     options: &TwoViewOptions,
-) -> Result<TwoViewReport> {
-    let mut go_on = |_: &_| ControlFlow::Continue(());
-    estimate_two_view_of_rays_with(seen1, seen2, options, &mut go_on)
-}
-
-/// As [`estimate_two_view_of_rays`], and shows every sample of the search for E to `observer`, which may end it by
-/// [`ControlFlow::Break`]; the answer is then about the best motion until then.
-///
-/// # Errors
-/// As [`estimate_two_view_of_rays`]; [`Error::Canceled`] if nothing was found until then.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
-/// use epipole::two_view::{TwoViewOptions, TwoViewTrial, estimate_two_view_of_rays_with};
-/// use nalgebra::Point2;
-/// use std::ops::ControlFlow;
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
-/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
-/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
-/// for i in 0..60 {
-///     seen1.push(see(120 + i * 37 % 400, 120 + i * 71 % 400)?);
-///     seen2.push(see(120 + i * 37 % 400 - 3 - i * 13 % 29, 120 + i * 71 % 400)?);
-/// }
-/// let mut num_trials = 0;
-/// let report = estimate_two_view_of_rays_with(&seen1, &seen2, &TwoViewOptions::default(), &mut |_: &TwoViewTrial| {
-///     num_trials += 1;
-///     ControlFlow::Continue(())
-/// })?;
-/// assert!(num_trials > 0 && report.inliers.len() == 60);
-/// # Ok(()) }
-/// ```
-pub fn estimate_two_view_of_rays_with(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
-    options: &TwoViewOptions,
-    observer: TwoViewObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
     options.check()?;
-    let epipolar = estimate_relative_pose_of_rays_with(seen1, seen2, &options.ransac, |trial| {
-        observer(&TwoViewTrial {
-            search: TwoViewSearch::Essential,
-            iteration: trial.iteration,
-            required_iterations: trial.required_iterations,
-        })
-    })?;
+    let epipolar = estimate_relative_pose_of_rays(seen1, seen2, &options.ransac, monitor)?;
     let options = &options.within(epipolar.max_error_px);
     let motion = epipolar.model;
     let is_degenerate =
@@ -143,6 +98,7 @@ pub fn estimate_two_view_of_rays_with(
         num_left_out: epipolar.num_left_out,
         max_error_px: epipolar.max_error_px,
         iterations: epipolar.iterations,
+        required_iterations: epipolar.required_iterations,
         stop: epipolar.stop,
         median_triangulation_angle_rad: None,
     };
@@ -294,7 +250,7 @@ mod tests {
         for (lens, focal_px) in [(fisheye, 260.0), (narrow, 1400.0)] {
             let run = |motion, point: fn(&mut Random) -> Point3<f64>| {
                 let [seen1, seen2] = seen(&lens, focal_px, motion, point);
-                estimate_two_view_of_rays(&seen1, &seen2, &options).unwrap()
+                estimate_two_view_of_rays(&seen1, &seen2, &options, &mut ()).unwrap()
             };
             let general = run(&step, room);
             assert_eq!(general.configuration, Configuration::General, "{lens:?}");
@@ -339,10 +295,10 @@ mod tests {
         let step = RigidTransform::translation(-0.5, 0.0, 0.0);
         let [seen1, seen2] = seen(&lens, 260.0, &step, room);
         let options = TwoViewOptions::default().within(2.0);
-        let few = estimate_two_view_of_rays(&seen1[..12], &seen2[..12], &options).unwrap();
+        let few = estimate_two_view_of_rays(&seen1[..12], &seen2[..12], &options, &mut ()).unwrap();
         assert_eq!(few.configuration, Configuration::Degenerate);
         assert_eq!(few.cam2_from_cam1, None);
-        let refused = estimate_two_view_of_rays(&seen1[..4], &seen2[..4], &options);
+        let refused = estimate_two_view_of_rays(&seen1[..4], &seen2[..4], &options, &mut ());
         assert!(matches!(refused, Err(Error::TooFew { .. })));
     }
 }

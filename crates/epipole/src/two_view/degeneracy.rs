@@ -79,7 +79,7 @@ pub fn find_degeneracy(
         max_iterations: in_two_dimensions.max_iterations.min(MAX_SAMPLES),
         ..in_two_dimensions
     };
-    let num_explained = match estimate_homography(&in1, &in2, &ransac) {
+    let num_explained = match estimate_homography(&in1, &in2, &ransac, &mut ()) {
         Ok(report) => report.num_inliers,
         Err(Error::TooFew { .. } | Error::NoConsensus { .. } | Error::Degenerate { .. }) => 0,
         Err(error) => return Err(error),

@@ -14,14 +14,12 @@ mod turn_of_rays;
 
 pub use choice::{
     Configuration, TwoViewModel, TwoViewReport, estimate_two_view, estimate_two_view_calibrated,
-    estimate_two_view_calibrated_with, estimate_two_view_with,
 };
+pub use choice_of_rays::estimate_two_view_of_rays;
 pub(crate) use choice_of_rays::plane_of_rays;
-pub use choice_of_rays::{estimate_two_view_of_rays, estimate_two_view_of_rays_with};
 pub use degeneracy::{Degeneracy, find_degeneracy, find_unmoved};
 pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
 pub use rotation::{RotationEstimator, estimate_rotation};
-pub use search::{TwoViewObserver, TwoViewSearch, TwoViewTrial};
 pub use turn::{ExplainingTurn, find_explaining_turn};
 pub use turn_and_focal::{TurnAndFocal, find_turn_and_focal};
 pub use turn_of_rays::find_explaining_turn_of_rays;

@@ -6,6 +6,7 @@ use crate::Result;
 use crate::camera::Intrinsics;
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
+use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
@@ -151,7 +152,7 @@ impl Estimator for RotationEstimator {
 /// for i in (0..40).step_by(4) {
 ///     p2[i].x += 90.0;
 /// }
-/// let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default())?;
+/// let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
 /// assert!((report.model - quarter).norm() < 1e-9);
@@ -163,9 +164,10 @@ pub fn estimate_rotation(
     k1: &Intrinsics,
     k2: &Intrinsics,
     options: &RansacOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
-    ransac(RotationEstimator::new(matches, *k1, *k2)?, options)
+    ransac(RotationEstimator::new(matches, *k1, *k2)?, options, monitor)
 }
 
 #[cfg(test)]
@@ -188,7 +190,8 @@ mod tests {
                 (p, Point2::new(q.x + off, q.y - 0.5 * off))
             })
             .unzip();
-        let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default()).unwrap();
+        let report =
+            estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ()).unwrap();
         assert!((report.model - truth).norm() < 1e-9);
         assert_eq!(report.num_inliers, 66);
         // A crowd of matches that lead to one pixel counts as it does for a homography.
@@ -204,8 +207,8 @@ mod tests {
             max_error_px: 60.0,
             ..RansacOptions::default()
         };
-        let report = estimate_rotation(&p1, &p2, &k, &k, &options).unwrap();
-        let h = crate::homography::estimate_homography(&p1, &p2, &options).unwrap();
+        let report = estimate_rotation(&p1, &p2, &k, &k, &options, &mut ()).unwrap();
+        let h = crate::homography::estimate_homography(&p1, &p2, &options, &mut ()).unwrap();
         assert!((report.model - truth).norm() < 0.05, "{}", report.model);
         let in_crowd = report.inliers[100..].iter().filter(|is| **is).count();
         assert!(in_crowd > 1);
@@ -215,6 +218,16 @@ mod tests {
             of_turn + 1 == in_crowd || of_turn == in_crowd,
             "{of_turn} {of_h} {in_crowd}"
         );
-        assert!(estimate_rotation(&p1[..1], &p2[..1], &k, &k, &RansacOptions::default()).is_err());
+        assert!(
+            estimate_rotation(
+                &p1[..1],
+                &p2[..1],
+                &k,
+                &k,
+                &RansacOptions::default(),
+                &mut ()
+            )
+            .is_err()
+        );
     }
 }

@@ -1,54 +1,30 @@
-//! The searches for the models of two views, watched together.
-
-use std::ops::ControlFlow;
+//! The searches for the models of two views, one after the other.
 
 use super::TwoViewOptions;
 use crate::epipolar::FundamentalEstimator;
 use crate::homography::HomographyEstimator;
-use crate::robust::{
-    Estimator, MatchSet, RansacOptions, RansacReport, ThresholdKind, Trial, ransac_with,
-};
+use crate::progress::{Monitor, Part};
+use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, ThresholdKind, ransac};
 use crate::{Error, Result};
 
-/// A model that two views are tried with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TwoViewSearch {
-    /// E and its motion.
-    Essential,
-    /// F.
-    Fundamental,
-    /// H.
-    Homography,
-    /// The turn of a camera that stays where it is.
-    Rotation,
-}
+/// Searches that share one run, at most: two for the threshold, then E, F, H and the turn.
+const MOST: usize = 6;
 
-/// A sample drawn in the search for one of the models.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TwoViewTrial {
-    /// Which model is searched for.
-    pub search: TwoViewSearch,
-    /// Counts from 1 in each search.
-    pub iteration: usize,
-    /// Samples that the best model of this search so far asks for; `u64::MAX` before there is one.
-    pub required_iterations: u64,
-}
-
-/// Hears of every sample; answers [`ControlFlow::Break`] to end with what is there.
-pub type TwoViewObserver<'a> = &'a mut dyn FnMut(&TwoViewTrial) -> ControlFlow<()>;
-
-/// Runs one search after the other, and none after the observer wanted to end.
+/// Runs one search after the other.
 pub(super) struct Searches<'a> {
-    observer: TwoViewObserver<'a>,
-    /// Samples drawn so far, over all searches.
+    monitor: &'a mut dyn Monitor,
+    /// Number of searches so far.
+    count: usize,
+    /// Number of samples drawn so far, over all searches.
     pub(super) iterations: usize,
     canceled: bool,
 }
 
 impl<'a> Searches<'a> {
-    pub(super) fn new(observer: TwoViewObserver<'a>) -> Self {
+    pub(super) fn new(monitor: &'a mut dyn Monitor) -> Self {
         Self {
-            observer,
+            monitor,
+            count: 0,
             iterations: 0,
             canceled: false,
         }
@@ -67,14 +43,14 @@ impl<'a> Searches<'a> {
             return *options;
         }
         let f = FundamentalEstimator::new(set.clone());
-        let found = self.ransac(TwoViewSearch::Fundamental, f, &options.ransac);
+        let found = self.ransac(f, &options.ransac);
         if let Ok(report) = found
             && !report.could_be_chance()
         {
             return options.within(report.max_error_px);
         }
         let h = HomographyEstimator::new(set.clone());
-        let found = self.ransac(TwoViewSearch::Homography, h, &options.ransac);
+        let found = self.ransac(h, &options.ransac);
         let of_f = |h_px: f64| h_px / options.within(1.0).in_two_dimensions().max_error_px;
         options.within(found.map_or(given_px, |report| of_f(report.max_error_px)))
     }
@@ -82,37 +58,39 @@ impl<'a> Searches<'a> {
     /// Searches by the one loop.
     pub(super) fn ransac<E: Estimator>(
         &mut self,
-        search: TwoViewSearch,
         estimator: Result<E>,
         options: &RansacOptions,
     ) -> Result<RansacReport<E::Model>> {
         let estimator = estimator?;
-        self.run(search, |watch| ransac_with(estimator, options, watch))
+        self.run(|monitor| ransac(estimator, options, monitor))
     }
 
-    /// Searches by a function that shows the loop's trials.
+    /// Searches by a function that runs the loop.
     pub(super) fn run<M>(
         &mut self,
-        search: TwoViewSearch,
-        run: impl FnOnce(&mut dyn FnMut(&Trial<'_, M>) -> ControlFlow<()>) -> Result<RansacReport<M>>,
+        run: impl FnOnce(&mut dyn Monitor) -> Result<RansacReport<M>>,
     ) -> Result<RansacReport<M>> {
         if self.canceled {
             return Err(Error::Canceled);
         }
-        run(&mut |trial| {
-            self.iterations += 1;
-            let answer = (self.observer)(&TwoViewTrial {
-                search,
-                iteration: trial.iteration,
-                required_iterations: trial.required_iterations,
-            });
-            self.canceled |= answer.is_break();
-            answer
-        })
+        let share = |count: usize| count as f32 / MOST as f32;
+        let from = share(self.count);
+        self.count += 1;
+        let report = run(&mut Part::new(&mut *self.monitor, from, share(self.count)));
+        match &report {
+            Ok(report) => self.iterations += report.iterations,
+            Err(Error::NoConsensus { iterations, .. }) => self.iterations += iterations,
+            Err(error) => self.canceled = *error == Error::Canceled,
+        }
+        report
     }
 
-    /// Whether the observer ended them.
-    pub(super) fn canceled(&self) -> bool {
-        self.canceled
+    /// # Errors
+    /// [`Error::Canceled`] if the monitor canceled a search.
+    pub(super) fn check(&self) -> Result<()> {
+        match self.canceled {
+            true => Err(Error::Canceled),
+            false => Ok(()),
+        }
     }
 }

@@ -107,7 +107,7 @@ pub(super) fn homography_of_turn(
 /// }).collect();
 /// let options = TwoViewOptions::default();
 /// // The pose fits every match, and its direction means nothing.
-/// let pose = estimate_relative_pose(&p1, &p2, &k, &k, &options.ransac)?;
+/// let pose = estimate_relative_pose(&p1, &p2, &k, &k, &options.ransac, &mut ())?;
 /// assert_eq!(pose.num_inliers, 60);
 /// let turn = find_explaining_turn(&p1, &p2, &k, &k, &pose.inliers, &options)?;
 /// assert_eq!(turn.map(|turn| turn.num_explained), Some(60));
@@ -127,7 +127,7 @@ pub fn find_explaining_turn(
         max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
         ..options.in_two_dimensions()
     };
-    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac) {
+    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac, &mut ()) {
         Ok(report) => report,
         Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
         Err(error) => return Err(error),

@@ -92,7 +92,7 @@ struct Search<'a> {
 /// // Whoever believes 480 px sees a plane.
 /// let guess = Intrinsics::centered(480.0, 640, 480)?;
 /// let options = TwoViewOptions::default();
-/// let report = estimate_two_view_calibrated(&p1, &p2, &guess, &guess, &options)?;
+/// let report = estimate_two_view_calibrated(&p1, &p2, &guess, &guess, &options, &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
 /// let turn = find_turn_and_focal(&p1, &p2, &guess, &guess, &report.inliers, &options)?.unwrap();
 /// assert!((turn.focal_factor - 600.0 / 480.0).abs() < 1e-3);
@@ -289,7 +289,7 @@ mod tests {
     /// What is made of matches of a homography by somebody who guesses the focal length.
     fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<TurnAndFocal> {
         let (guess, options) = (intrinsics(GUESS_PX), options());
-        let h = estimate_homography(p1, p2, &options.in_two_dimensions()).unwrap();
+        let h = estimate_homography(p1, p2, &options.in_two_dimensions(), &mut ()).unwrap();
         let pairs = p1.iter().zip(p2);
         let inliers: Vec<bool> = pairs
             .map(|(a, b)| options.fits_homography(&h.model, a, b))

@@ -93,11 +93,11 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
     };
     let mut errors = Vec::new();
     let mut note = |result: Result<(), Error>| errors.push(result.err());
-    note(estimate_fundamental(p1, p2, &budget).map(|r| {
+    note(estimate_fundamental(p1, p2, &budget, &mut ()).map(|r| {
         check_epipolar(&r.model);
         check_report(&r, &budget, &errors_px(&|a, b| sampson_px(&r.model, a, b)));
     }));
-    note(estimate_homography(p1, p2, &budget).map(|r| {
+    note(estimate_homography(p1, p2, &budget, &mut ()).map(|r| {
         check_unit(&r.model);
         check_report(
             &r,
@@ -105,19 +105,21 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
             &errors_px(&|a, b| transfer_error_px(&r.model, a, b)),
         );
     }));
-    note(estimate_relative_pose(p1, p2, &k, &k, &budget).map(|r| {
-        let pose = &r.model;
-        check_rotation(&pose.rotation);
-        assert!((pose.direction.norm() - 1.0).abs() < 1e-9);
-        check_epipolar(&pose.fundamental);
-        check_epipolar(&pose.essential());
-        check_report(
-            &r,
-            &budget,
-            &errors_px(&|a, b| sampson_px(&pose.fundamental, a, b)),
-        );
-    }));
-    note(estimate_similarity(p1, p2, &budget).map(|r| {
+    note(
+        estimate_relative_pose(p1, p2, &k, &k, &budget, &mut ()).map(|r| {
+            let pose = &r.model;
+            check_rotation(&pose.rotation);
+            assert!((pose.direction.norm() - 1.0).abs() < 1e-9);
+            check_epipolar(&pose.fundamental);
+            check_epipolar(&pose.essential());
+            check_report(
+                &r,
+                &budget,
+                &errors_px(&|a, b| sampson_px(&pose.fundamental, a, b)),
+            );
+        }),
+    );
+    note(estimate_similarity(p1, p2, &budget, &mut ()).map(|r| {
         let matrix = r.model.matrix();
         assert!(matrix.iter().all(|x| x.is_finite()), "{matrix}");
         check_report(
@@ -126,29 +128,33 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
             &errors_px(&|a, b| (r.model.apply(a) - b).norm()),
         );
     }));
-    note(estimate_absolute_pose(&points, p2, &k, &budget).map(|r| {
-        check_rotation(r.model.rotation.to_rotation_matrix().matrix());
-        let center = r.model.inverse().translation.vector;
-        assert!(center.iter().all(|x| x.is_finite()), "{center}");
-        let camera = Camera {
-            intrinsics: k,
-            cam_from_world: r.model,
-        };
-        let errors: Vec<f64> = (points.iter().zip(p2))
-            .map(|(point, pixel)| match camera.project(point) {
-                Ok(seen) => (seen - pixel).norm(),
-                Err(_) => f64::INFINITY,
-            })
-            .collect();
-        check_report(&r, &budget, &errors);
-    }));
+    note(
+        estimate_absolute_pose(&points, p2, &k, &budget, &mut ()).map(|r| {
+            check_rotation(r.model.rotation.to_rotation_matrix().matrix());
+            let center = r.model.inverse().translation.vector;
+            assert!(center.iter().all(|x| x.is_finite()), "{center}");
+            let camera = Camera {
+                intrinsics: k,
+                cam_from_world: r.model,
+            };
+            let errors: Vec<f64> = (points.iter().zip(p2))
+                .map(|(point, pixel)| match camera.project(point) {
+                    Ok(seen) => (seen - pixel).norm(),
+                    Err(_) => f64::INFINITY,
+                })
+                .collect();
+            check_report(&r, &budget, &errors);
+        }),
+    );
     let choice = TwoViewOptions {
         ransac: budget,
         ..TwoViewOptions::default()
     };
-    note(estimate_two_view(p1, p2, &choice).map(|r| check_two_view(&r, p1.len(), &choice)));
     note(
-        estimate_two_view_calibrated(p1, p2, &k, &k, &choice)
+        estimate_two_view(p1, p2, &choice, &mut ()).map(|r| check_two_view(&r, p1.len(), &choice)),
+    );
+    note(
+        estimate_two_view_calibrated(p1, p2, &k, &k, &choice, &mut ())
             .map(|r| check_two_view(&r, p1.len(), &choice)),
     );
     errors
@@ -218,34 +224,34 @@ fn a_match_beyond_all_images_is_left_out() {
                 assert_eq!(inliers, expected, "{far}");
             };
             let (with, without) = (
-                estimate_fundamental(&p1, &p2, &options).unwrap(),
-                estimate_fundamental(&s.p1, &s.p2, &options).unwrap(),
+                estimate_fundamental(&p1, &p2, &options, &mut ()).unwrap(),
+                estimate_fundamental(&s.p1, &s.p2, &options, &mut ()).unwrap(),
             );
             assert_eq!(with.model, without.model);
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_homography(&p1, &p2, &options).unwrap(),
-                estimate_homography(&s.p1, &s.p2, &options).unwrap(),
+                estimate_homography(&p1, &p2, &options, &mut ()).unwrap(),
+                estimate_homography(&s.p1, &s.p2, &options, &mut ()).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_relative_pose(&p1, &p2, &k, &k, &options).unwrap(),
-                estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options).unwrap(),
+                estimate_relative_pose(&p1, &p2, &k, &k, &options, &mut ()).unwrap(),
+                estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options, &mut ()).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_similarity(&p1, &p2, &options).unwrap(),
-                estimate_similarity(&s.p1, &s.p2, &options).unwrap(),
+                estimate_similarity(&p1, &p2, &options, &mut ()).unwrap(),
+                estimate_similarity(&s.p1, &s.p2, &options, &mut ()).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_two_view(&p1, &p2, &choice).unwrap(),
-                estimate_two_view(&s.p1, &s.p2, &choice).unwrap(),
+                estimate_two_view(&p1, &p2, &choice, &mut ()).unwrap(),
+                estimate_two_view(&s.p1, &s.p2, &choice, &mut ()).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_two_view_calibrated(&p1, &p2, &k, &k, &choice).unwrap(),
-                estimate_two_view_calibrated(&s.p1, &s.p2, &k, &k, &choice).unwrap(),
+                estimate_two_view_calibrated(&p1, &p2, &k, &k, &choice, &mut ()).unwrap(),
+                estimate_two_view_calibrated(&s.p1, &s.p2, &k, &k, &choice, &mut ()).unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
         }
@@ -266,10 +272,10 @@ fn nothing_but_outliers() {
         max_iterations: 2000,
         ..RansacOptions::default()
     };
-    let report = estimate_fundamental(&a, &b, &options).unwrap();
+    let report = estimate_fundamental(&a, &b, &options, &mut ()).unwrap();
     assert!(report.num_inliers < 30);
     assert_eq!(report.stop, StopReason::Exhausted);
     assert!(report.required_iterations > 100_000);
-    let report = estimate_homography(&a, &b, &options).unwrap();
+    let report = estimate_homography(&a, &b, &options, &mut ()).unwrap();
     assert!(report.num_inliers < 15);
 }

@@ -47,8 +47,9 @@ fn configurations_are_recognized() {
                     ..TwoViewOptions::default()
                 };
                 (
-                    estimate_two_view_calibrated(&s.p1, &s.p2, &k1, &k2, &options).unwrap(),
-                    estimate_two_view(&s.p1, &s.p2, &options).unwrap(),
+                    estimate_two_view_calibrated(&s.p1, &s.p2, &k1, &k2, &options, &mut ())
+                        .unwrap(),
+                    estimate_two_view(&s.p1, &s.p2, &options, &mut ()).unwrap(),
                 )
             };
             let told = format!("{max_error_px} px, noise {noise_px} px, seed {seed}");
@@ -133,23 +134,24 @@ fn chance_is_no_pair() {
                 },
                 ..TwoViewOptions::default()
             };
-            let calibrated = estimate_two_view_calibrated(&a, &b, &k, &k, &choice).unwrap();
+            let calibrated =
+                estimate_two_view_calibrated(&a, &b, &k, &k, &choice, &mut ()).unwrap();
             assert_eq!(calibrated.configuration, Configuration::Degenerate);
             assert_eq!(calibrated.cam2_from_cam1, None);
-            let uncalibrated = estimate_two_view(&a, &b, &choice).unwrap();
+            let uncalibrated = estimate_two_view(&a, &b, &choice, &mut ()).unwrap();
             assert_eq!(uncalibrated.configuration, Configuration::Degenerate);
             assert!(
-                estimate_fundamental(&a, &b, &choice.ransac)
+                estimate_fundamental(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
                     .could_be_chance()
             );
             assert!(
-                estimate_homography(&a, &b, &choice.ransac)
+                estimate_homography(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
                     .could_be_chance()
             );
             assert!(
-                estimate_similarity(&a, &b, &choice.ransac)
+                estimate_similarity(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
                     .could_be_chance()
             );
@@ -157,7 +159,7 @@ fn chance_is_no_pair() {
                 .iter()
                 .map(|p| Point3::new(p.x / 100.0, p.y / 100.0, random.uniform(4.0, 9.0)))
                 .collect();
-            let pose = estimate_absolute_pose(&points, &b, &k, &choice.ransac);
+            let pose = estimate_absolute_pose(&points, &b, &k, &choice.ransac, &mut ());
             assert!(pose.is_err() || pose.unwrap().could_be_chance());
         }
     }
@@ -177,7 +179,8 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
             min_essential_share: 2.0,
             ..TwoViewOptions::default()
         };
-        let found = estimate_two_view_calibrated(&scene.p1, &scene.p2, &k1, &k2, &choose).unwrap();
+        let found =
+            estimate_two_view_calibrated(&scene.p1, &scene.p2, &k1, &k2, &choose, &mut ()).unwrap();
         assert!(matches!(found.model, TwoViewModel::Fundamental(_)));
         let motion = found.cam2_from_cam1.unwrap();
         let truth = scene.motion();

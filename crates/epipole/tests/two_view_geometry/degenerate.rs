@@ -32,7 +32,7 @@ fn a_dominant_plane_does_not_mislead() {
             let pair = cameras(&mut random);
             let shape = Shape::Mostly(share_on_plane);
             let s = scene(&mut random, pair, shape, count, share_true, noise_px);
-            let report = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+            let report = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
             let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
             // Points anywhere in space, not only those that were matched.
             let mut errors: Vec<f64> = (0..200)
@@ -69,11 +69,11 @@ fn forward_motion() {
         let pair = (camera(-5.0), camera(-4.0));
         let s = scene(&mut random, pair, Shape::Volume, 300, 0.7, 0.3);
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-        let pose = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let pose = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
         let motion = pose.model.cam2_from_cam1();
         assert!(rotation_error(&motion, &s.motion()) < 0.002, "{seed}");
         assert!(direction_error(&motion, &s.motion()) < 0.01, "{seed}");
-        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
         // 210 are true, with noise of 0.3 px in each coordinate.
         assert!(f.num_inliers > 180);
         // Points anywhere in space, not only those that were matched.
@@ -118,13 +118,15 @@ fn no_motion_and_almost_none() {
                     RigidTransform::rotation(Vector3::new(0.0, yaw, 0.0)) * pair.1.cam_from_world;
                 let s = scene(&mut random, pair, Shape::Volume, 150, 0.8, noise_px);
                 let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-                for report in [estimate_fundamental(&s.p1, &s.p2, &options(1))] {
+                for report in [estimate_fundamental(&s.p1, &s.p2, &options(1), &mut ())] {
                     match report {
                         Ok(report) => assert!(report.model.iter().all(|x| x.is_finite())),
                         Err(error) => assert!(!error.to_string().is_empty()),
                     }
                 }
-                if let Ok(report) = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(1)) {
+                if let Ok(report) =
+                    estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(1), &mut ())
+                {
                     let RelativePose {
                         rotation,
                         direction,
@@ -139,7 +141,8 @@ fn no_motion_and_almost_none() {
                     assert!(report.iterations <= RansacOptions::default().max_iterations);
                 }
                 let choice = TwoViewOptions::default();
-                let report = estimate_two_view_calibrated(&s.p1, &s.p2, k1, k2, &choice).unwrap();
+                let report =
+                    estimate_two_view_calibrated(&s.p1, &s.p2, k1, k2, &choice, &mut ()).unwrap();
                 assert_eq!(report.configuration, Configuration::Panoramic);
             }
         }
@@ -159,8 +162,8 @@ fn duplicates_count_once() {
             p2.push(s.p2[i]);
         }
     }
-    let once = estimate_fundamental(&s.p1, &s.p2, &options(1)).unwrap();
-    let often = estimate_fundamental(&p1, &p2, &options(1)).unwrap();
+    let once = estimate_fundamental(&s.p1, &s.p2, &options(1), &mut ()).unwrap();
+    let often = estimate_fundamental(&p1, &p2, &options(1), &mut ()).unwrap();
     assert_eq!(once.model, often.model);
     assert_eq!(once.num_inliers, often.num_unique_inliers);
     assert_eq!(once.inliers, often.inliers[..100]);
@@ -168,7 +171,7 @@ fn duplicates_count_once() {
     // Seven different matches in many copies are seven matches.
     let few: Vec<_> = s.p1[..6].iter().cycle().take(60).copied().collect();
     assert!(matches!(
-        estimate_fundamental(&few, &few, &options(1)),
+        estimate_fundamental(&few, &few, &options(1), &mut ()),
         Err(Error::TooFew { got: 6, .. })
     ));
 }
@@ -194,7 +197,7 @@ fn a_good_order_saves_samples() {
                 max_iterations: 100_000,
                 ..options(seed)
             };
-            estimate_fundamental(p1, p2, &options).unwrap()
+            estimate_fundamental(p1, p2, &options, &mut ()).unwrap()
         };
         for (count, sampler) in drawn
             .iter_mut()
@@ -239,8 +242,8 @@ fn a_crowded_pixel_has_few_votes() {
             }
         }
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
-        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
+        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
         for inliers in [&f.inliers, &e.inliers] {
             let found = inliers.iter().zip(&s.truth).filter(|(a, b)| **a && **b);
             let found = found.count();
@@ -259,7 +262,7 @@ fn a_crowded_pixel_has_few_votes() {
     ];
     let points =
         |list: &[f64]| -> Vec<_> { list.chunks(2).map(|p| Point2::new(p[0], p[1])).collect() };
-    let report = estimate_fundamental(&points(&u), &points(&v), &RansacOptions::default());
+    let report = estimate_fundamental(&points(&u), &points(&v), &RansacOptions::default(), &mut ());
     assert!(
         matches!(report, Err(Error::NoConsensus { .. })),
         "{report:?}"

@@ -26,13 +26,13 @@ fn a_hundred_exact_pairs() {
         let s = scene(&mut random, pair, Shape::Volume, 50, 1.0, 0.0);
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
         let truth = s.motion();
-        let report = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let report = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
         let motion = report.model.cam2_from_cam1();
         assert!(rotation_error(&motion, &truth) < 1e-6, "{seed}");
         assert!(direction_error(&motion, &truth) < 1e-6, "{seed}");
         assert_eq!(report.num_inliers, 50);
 
-        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed))
+        let f = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ())
             .unwrap()
             .model;
         let e = essential_from_fundamental(&f, k1, k2).unwrap();
@@ -57,17 +57,17 @@ fn equal_seeds_give_equal_bits() {
     let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
     let mut different = 0;
     for seed in 0..5 {
-        let one = estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap();
+        let one = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
         assert_eq!(
             one,
-            estimate_fundamental(&s.p1, &s.p2, &options(seed)).unwrap()
+            estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap()
         );
-        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap();
+        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
         assert_eq!(
             e,
-            estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed)).unwrap()
+            estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap()
         );
-        let other = estimate_fundamental(&s.p1, &s.p2, &options(seed + 100)).unwrap();
+        let other = estimate_fundamental(&s.p1, &s.p2, &options(seed + 100), &mut ()).unwrap();
         different += usize::from(other.model != one.model);
     }
     assert!(different > 0);
@@ -98,7 +98,7 @@ proptest! {
         let again = fundamental_from_cameras(&moved(&s.cam1), &moved(&s.cam2)).unwrap();
         prop_assert!(same_up_to_sign(&truth, &again) < 1e-9);
 
-        let find = |p1: &Points, p2: &Points| estimate_fundamental(p1, p2, &options(seed)).unwrap();
+        let find = |p1: &Points, p2: &Points| estimate_fundamental(p1, p2, &options(seed), &mut ()).unwrap();
         let f = find(&s.p1, &s.p2);
         let fits = |f: &Matrix3<f64>, p1: &Points, p2: &Points| {
             p1.iter().zip(p2).map(|(a, b)| sampson_px(f, a, b)).fold(0.0, f64::max)
@@ -113,6 +113,7 @@ proptest! {
             &scaled(&s.p1),
             &scaled(&s.p2),
             &RansacOptions { max_error_px: factor, ..options(seed) },
+            &mut (),
         ).unwrap();
         prop_assert_eq!(large.num_inliers, 40);
         let undo = Matrix3::from_diagonal(&Vector3::new(factor, factor, 1.0));
@@ -140,8 +141,8 @@ proptest! {
             .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
             .collect();
         let p2: Points = p1.iter().map(|p| transfer(&h, p).unwrap()).collect();
-        let there = estimate_homography(&p1, &p2, &options(seed)).unwrap().model;
-        let back = estimate_homography(&p2, &p1, &options(seed)).unwrap().model;
+        let there = estimate_homography(&p1, &p2, &options(seed), &mut ()).unwrap().model;
+        let back = estimate_homography(&p2, &p1, &options(seed), &mut ()).unwrap().model;
         prop_assert!(same_up_to_sign(&there, &h) < 1e-7);
         prop_assert!(same_up_to_sign(&(there * back), &Matrix3::identity()) < 1e-6);
     }

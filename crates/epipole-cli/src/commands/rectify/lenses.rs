@@ -7,7 +7,7 @@ use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::turn;
 use epipole::camera::{Distortion, Lens, RigidTransform};
-use epipole::epipolar::estimate_relative_pose_of_rays_with;
+use epipole::epipolar::estimate_relative_pose_of_rays;
 use epipole::stereo::{StereoCamera, rectify_calibrated};
 use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
 use nalgebra::Point2;
@@ -24,8 +24,8 @@ pub(super) fn rectify(
 ) -> Result<Found, Failure> {
     let (seen, intrinsics) = SeenMatches::of(&arguments.camera, context, photos, pixels)?;
     let [rays1, rays2] = &seen.rays;
-    let report = arguments.robust.watched(context, |options, watch| {
-        estimate_relative_pose_of_rays_with(rays1, rays2, options, watch)
+    let report = arguments.robust.watched(context, |options, monitor| {
+        estimate_relative_pose_of_rays(rays1, rays2, options, monitor)
     })?;
     let judging = TwoViewOptions {
         ransac: (arguments.robust.options(context)).within(report.max_error_px),

@@ -7,8 +7,8 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::photo::Photo;
 use epipole::camera::Intrinsics;
-use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal_with};
-use epipole::robust::{RansacOptions, RansacReport, Trial};
+use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
+use epipole::robust::{RansacOptions, RansacReport};
 use nalgebra::Point2;
 use std::ops::ControlFlow;
 
@@ -48,15 +48,15 @@ pub(super) fn intrinsics(
             && !report.could_be_chance()
             && report.model.tells_focal()
     };
-    let watch = |_: &Trial<'_, PoseWithFocal>| {
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+    let mut monitor = |_| match interrupt::requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
     };
     let found =
-        estimate_relative_pose_and_focal_with(pixels1, pixels2, &middle, &middle, &ransac, watch);
+        estimate_relative_pose_and_focal(pixels1, pixels2, &middle, &middle, &ransac, &mut monitor);
+    if found == Err(epipole::Error::Canceled) {
+        return Err(epipole::Error::Canceled.into());
+    }
     let Some(PoseWithFocal {
         focal_px,
         focal_std_px: Some(std_px),

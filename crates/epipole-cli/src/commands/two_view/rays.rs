@@ -6,15 +6,14 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
+use crate::progress::Progress;
 use crate::turn;
 use epipole::camera::{RigidTransform, SeenRay, cross_matrix};
-use epipole::epipolar::{
-    decompose_essential, estimate_relative_pose_of_rays_with, sampson_px_of_rays,
-};
-use epipole::homography::estimate_homography_of_rays_with;
+use epipole::epipolar::{decompose_essential, estimate_relative_pose_of_rays, sampson_px_of_rays};
+use epipole::homography::estimate_homography_of_rays;
+use epipole::progress::Stage;
 use epipole::two_view::{
-    TwoViewModel, TwoViewOptions, TwoViewTrial, estimate_two_view_of_rays_with,
-    find_explaining_turn_of_rays,
+    TwoViewModel, TwoViewOptions, estimate_two_view_of_rays, find_explaining_turn_of_rays,
 };
 use nalgebra::{Matrix3, Point2};
 
@@ -91,18 +90,17 @@ fn auto(
     seen: &SeenMatches,
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
-    let mut look = arguments.robust.look(context);
-    let mut end = (0, 0);
-    let mut observer = |trial: &TwoViewTrial| {
-        end = (trial.iteration, trial.required_iterations);
-        look(trial.iteration, trial.required_iterations)
-    };
+    let progress = Progress::new(context, Stage::RobustEstimation.words());
     let [rays1, rays2] = &seen.rays;
-    let report = estimate_two_view_of_rays_with(rays1, rays2, options, &mut observer)?;
-    drop(look);
-    arguments
-        .robust
-        .warn_of_stop(report.stop, end.0, end.1, context);
+    let mut monitor = |status| progress.show(status);
+    let report = estimate_two_view_of_rays(rays1, rays2, options, &mut monitor)?;
+    drop(progress);
+    arguments.robust.warn_of_stop(
+        report.stop,
+        options.ransac.max_iterations,
+        report.required_iterations,
+        context,
+    );
     let (kind, model, errors_px) = match report.model {
         TwoViewModel::Homography(h) => ("homography", h, seen.homography_errors_px(&h)),
         TwoViewModel::Essential(e) | TwoViewModel::Fundamental(e) => {
@@ -129,8 +127,8 @@ fn essential(
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
     let [rays1, rays2] = &seen.rays;
-    let report = arguments.robust.watched(context, |options, watch| {
-        estimate_relative_pose_of_rays_with(rays1, rays2, options, watch)
+    let report = arguments.robust.watched(context, |options, monitor| {
+        estimate_relative_pose_of_rays(rays1, rays2, options, monitor)
     })?;
     let motion = report.model;
     let rotation = motion.rotation.to_rotation_matrix().into_inner();
@@ -157,8 +155,8 @@ fn homography(
     options: &TwoViewOptions,
 ) -> Result<Found, Failure> {
     let [rays1, rays2] = &seen.rays;
-    let report = arguments.robust.watched(context, |options, watch| {
-        estimate_homography_of_rays_with(rays1, rays2, options, watch)
+    let report = arguments.robust.watched(context, |options, monitor| {
+        estimate_homography_of_rays(rays1, rays2, options, monitor)
     })?;
     let judging = options.within(report.max_error_px);
     let (h, errors_px) = (report.model, seen.homography_errors_px(&report.model));

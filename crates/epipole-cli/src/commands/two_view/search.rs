@@ -5,14 +5,16 @@ use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
+use crate::progress::Progress;
 use crate::turn::{self, left_open, left_open_by_homography};
 use epipole::camera::RigidTransform;
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose_with, sampson_px};
+use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
 use epipole::homography::{HomographyEstimator, homography_sampson_px};
+use epipole::progress::Stage;
 use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
-    Configuration, ExplainingTurn, TwoViewModel, TwoViewOptions, TwoViewReport, TwoViewSearch,
-    TwoViewTrial, estimate_two_view_calibrated_with, estimate_two_view_with, find_explaining_turn,
+    Configuration, ExplainingTurn, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
+    estimate_two_view_calibrated, find_explaining_turn,
 };
 use nalgebra::{Matrix3, Point2};
 
@@ -84,35 +86,21 @@ pub(super) fn estimate(
     match arguments.model {
         Model::Auto => {
             let given = arguments.camera.given(photos)?;
-            let mut look = arguments.robust.look(context);
-            // The last trial of each search.
-            let mut ends: Vec<TwoViewTrial> = Vec::new();
-            let mut observer = |trial: &TwoViewTrial| {
-                match ends.last_mut() {
-                    Some(end) if end.search == trial.search => *end = *trial,
-                    _ => ends.push(*trial),
-                }
-                look(trial.iteration, trial.required_iterations)
-            };
+            let progress = Progress::new(context, Stage::RobustEstimation.words());
+            let mut monitor = |status| progress.show(status);
             let report = match given {
-                Some([k1, k2]) => estimate_two_view_calibrated_with(
-                    pixels1,
-                    pixels2,
-                    &k1,
-                    &k2,
-                    &options,
-                    &mut observer,
-                ),
-                None => estimate_two_view_with(pixels1, pixels2, &options, &mut observer),
+                Some([k1, k2]) => {
+                    estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options, &mut monitor)
+                }
+                None => estimate_two_view(pixels1, pixels2, &options, &mut monitor),
             }?;
-            drop(look);
-            let chosen = search_of(&report);
-            let end = ends.iter().find(|end| end.search == chosen);
-            let (drawn, required) =
-                end.map_or((0, 0), |end| (end.iteration, end.required_iterations));
-            arguments
-                .robust
-                .warn_of_stop(report.stop, drawn, required, context);
+            drop(progress);
+            arguments.robust.warn_of_stop(
+                report.stop,
+                options.ransac.max_iterations,
+                report.required_iterations,
+                context,
+            );
             let found = of_report(report, pixels1, pixels2);
             warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
             Ok(found)
@@ -132,8 +120,8 @@ pub(super) fn estimate(
         }
         Model::Essential => {
             let [k1, k2] = intrinsics(arguments, context, photos, pixels1, pixels2)?;
-            let report = arguments.robust.watched(context, |options, watch| {
-                estimate_relative_pose_with(pixels1, pixels2, &k1, &k2, options, watch)
+            let report = arguments.robust.watched(context, |options, monitor| {
+                estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
             })?;
             let pose = report.model;
             let judging = options.within(report.max_error_px);
@@ -226,18 +214,6 @@ fn configuration<M>(
         "degenerate"
     } else {
         otherwise
-    }
-}
-
-/// The search that gave the model.
-fn search_of(report: &TwoViewReport) -> TwoViewSearch {
-    match report.model {
-        TwoViewModel::Fundamental(_) => TwoViewSearch::Fundamental,
-        TwoViewModel::Essential(_) => TwoViewSearch::Essential,
-        TwoViewModel::Homography(_) if report.configuration == Configuration::Panoramic => {
-            TwoViewSearch::Rotation
-        }
-        TwoViewModel::Homography(_) => TwoViewSearch::Homography,
     }
 }
 

@@ -80,15 +80,21 @@ pub(super) fn judge(
         ..TwoViewOptions::default()
     };
     options.ransac.check()?;
-    let report: TwoViewReport =
-        match estimate_two_view_calibrated(pixels1, pixels2, &lenses[0], &lenses[1], &options) {
-            Ok(report) => report,
-            // Wrong matches agree on nothing, and matches at one place determine nothing.
-            Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
-                return Ok(nothing(Verdict::NoConsensus));
-            }
-            Err(error) => return Err(error),
-        };
+    let report: TwoViewReport = match estimate_two_view_calibrated(
+        pixels1,
+        pixels2,
+        &lenses[0],
+        &lenses[1],
+        &options,
+        &mut (),
+    ) {
+        Ok(report) => report,
+        // Wrong matches agree on nothing, and matches at one place determine nothing.
+        Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
+            return Ok(nothing(Verdict::NoConsensus));
+        }
+        Err(error) => return Err(error),
+    };
     let median_angle_deg = (report.median_triangulation_angle_rad).map_or(0.0, f64::to_degrees);
     let turn_deg =
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
@@ -142,7 +148,7 @@ fn turned_otherwise(
         )));
     }
     let [k1, k2] = [k1.zoomed(turn.focal_factor)?, k2.zoomed(turn.focal_factor)?];
-    let better = estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, options)?;
+    let better = estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, options, &mut ())?;
     let count = |inliers: &[bool]| inliers.iter().filter(|inlier| **inlier).count() as f64;
     let gain = count(&better.inliers) / count(&report.inliers);
     let motion = better.cam2_from_cam1.filter(|_| gain > MIN_GAIN);

@@ -123,8 +123,22 @@ impl<E: Estimator> Ransac<E> {
         })
     }
 
-    /// Begins with a model that is known already; samples may still find a better one.
-    pub(super) fn propose(&mut self, model: E::Model) {
+    /// Starts from an initial model, improved from its inliers; samples can still find a better one.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::math::Line2;
+    /// use epipole::robust::{LineEstimator, Ransac, RansacOptions, Step};
+    /// use nalgebra::Point2;
+    /// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
+    /// let mut run = Ransac::new(LineEstimator::new(&points)?, RansacOptions::default())?;
+    /// // From a frame before, say: half a pixel off.
+    /// run.start_from(Line2 { a: 0.0, b: 1.0, c: -1.5 });
+    /// assert_eq!(run.required_iterations(), 1);
+    /// assert!((run.finish()?.model.c.abs() - 2.0).abs() < 1e-12);
+    /// # Ok(()) }
+    /// ```
+    pub fn start_from(&mut self, model: E::Model) {
         let support = self.support(&model, f64::INFINITY);
         let mut candidate = Candidate { model, support };
         if self.options.local_optimization {
@@ -216,21 +230,25 @@ impl<E: Estimator> Ransac<E> {
         self.required
     }
 
+    /// Number of samples after which the run ends if no better model is found.
+    pub fn expected_iterations(&self) -> usize {
+        let (least, most) = (self.options.min_iterations, self.options.max_iterations);
+        let required = usize::try_from(self.required).unwrap_or(most);
+        required.max(least).min(most)
+    }
+
     /// The problem that is being solved.
     pub fn estimator(&self) -> &E {
         &self.estimator
     }
 
-    /// Ends the run: [`step`](Ransac::step) will draw no more.
-    pub fn cancel(&mut self) {
-        self.stop.get_or_insert(StopReason::Canceled);
-    }
-
-    /// Improves the best model one last time and reports, also before the run has ended.
+    /// Improves the best model one last time and reports.
+    ///
+    /// Before the run has ended, the report is about the best model so far, and
+    /// [`StopReason::Interrupted`].
     ///
     /// # Errors
-    /// [`Error::NoConsensus`] if no sample gave a model that the data of one sample, at least,
-    /// support; [`Error::Canceled`] if the run was ended before one did.
+    /// [`Error::NoConsensus`] if no sample gave a model that at least the data of one sample support.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
         self.conclude()
     }

@@ -11,13 +11,10 @@ impl<E: Estimator> Ransac<E> {
         let problem = self.problem();
         let (size, num_data, max_models) =
             (problem.sample_size, problem.data.len(), problem.max_models);
-        let no_consensus = match self.stop {
-            Some(StopReason::Canceled) => Error::Canceled,
-            _ => Error::NoConsensus {
-                needed: size,
-                got: num_data,
-                iterations: self.iterations,
-            },
+        let no_consensus = Error::NoConsensus {
+            needed: size,
+            got: num_data,
+            iterations: self.iterations,
         };
         let Some(mut best) = self.best.take() else {
             return Err(no_consensus);
@@ -62,7 +59,7 @@ impl<E: Estimator> Ransac<E> {
             score: self.score(&best.support),
             log10_false_alarms,
             refinements: self.refinements,
-            stop: self.stop.unwrap_or(StopReason::Canceled),
+            stop: self.stop.unwrap_or(StopReason::Interrupted),
             model: best.model,
         })
     }

@@ -293,7 +293,9 @@ impl Builder<'_> {
         }
         // Without consensus the image is not registered, and may be later.
         let found = match &self.views {
-            Views::Pinhole(_) => estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac),
+            Views::Pinhole(_) => {
+                estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac, &mut ())
+            }
             Views::Rays { wide, .. } => (wide.register)(&positions, &rays, &ransac),
         };
         let found = found.ok()?;
