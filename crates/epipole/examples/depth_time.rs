@@ -14,7 +14,7 @@ use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
 use epipole::optim::{Iteration, LmOptions, RobustLoss};
 use epipole::sfm::{BalProblem, adjust_bal};
 use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use std::ops::ControlFlow;
 use std::path::Path;
 use timing::timed;

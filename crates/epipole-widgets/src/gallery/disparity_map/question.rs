@@ -7,7 +7,7 @@ use epipole::Error;
 use epipole::camera::{Camera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
 use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
-use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 use image::GrayImage;
 use serde::{Deserialize, Serialize};
 

@@ -126,7 +126,7 @@ fn searched([first, last]: [i32; 2]) -> (i32, u32) {
 mod tests {
     use super::*;
     use epipole::camera::{Camera, look_at, relative_motion};
-    use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+    use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
     use nalgebra::Point2;
     use nalgebra::Vector3;
     use std::ops::ControlFlow;

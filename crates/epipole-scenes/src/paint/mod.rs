@@ -1,0 +1,14 @@
+//! Painted surfaces. Each function returns a texture that depends on nothing but its arguments.
+//!
+//! Colors are linear, so they look darker as numbers than on the screen: 0.2 is middle gray.
+
+mod lettering;
+pub(crate) mod noise;
+mod prints;
+mod rooms;
+pub(crate) mod texture;
+mod wares;
+
+pub(crate) use prints::{block_print, geometric, landscape, star_chart};
+pub(crate) use rooms::{boards, floor, measured_boards, number, plaster, window};
+pub(crate) use wares::{apple, book_cover, book_spine, citrus, jug, linen, mug, pages, tin};

@@ -1,0 +1,41 @@
+//! What is on walls: windows and pictures.
+
+use super::{PICTURE_DEPTH_M, Wares};
+use crate::paint::texture::Texture;
+use crate::shape::{Cuboid, FRONT, RIGHT, Shape};
+use crate::things::body::{Body, Paint};
+use std::sync::Arc;
+
+impl Wares {
+    /// A window in a wall whose inside faces +x, `middle` on that wall.
+    pub(crate) fn window(&self, middle: [f64; 3], size_m: [f64; 2]) -> Body {
+        let deep = 0.03;
+        Body::new(
+            "the window",
+            Shape::Cuboid(Cuboid::solid(deep, size_m[1], size_m[0])),
+            [middle[0] + deep / 2.0, middle[1], middle[2]],
+            &Paint::new(&self.floor).tinted([1.6; 3]),
+        )
+        .painted(RIGHT, &Paint::new(&self.window).glowing(1.25))
+    }
+
+    /// A framed picture that hangs on a wall, its painted face toward local −z.
+    pub(crate) fn picture(
+        &self,
+        texture: &Arc<Texture>,
+        size_m: [f64; 2],
+        middle: [f64; 3],
+        yaw_rad: f64,
+    ) -> Body {
+        let side = Paint::new(&self.linen).tinted([0.12, 0.07, 0.04]);
+        Body::new(
+            "a picture",
+            Shape::Cuboid(Cuboid::solid(size_m[0], size_m[1], PICTURE_DEPTH_M)),
+            middle,
+            &side,
+        )
+        .turned(yaw_rad)
+        .painted(FRONT, &Paint::new(texture).glossy(0.25).lit(16, 16))
+        .boxed()
+    }
+}
