@@ -6,8 +6,8 @@ use crate::kit::space::Space;
 use epipole::Error;
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use epipole::stereo::{
-    DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera, StereoSgm,
-    point_cloud, rectify_calibrated,
+    DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera,
+    StereoSgm, point_cloud, rectify_calibrated,
 };
 use image::RgbImage;
 use nalgebra::Point3;
@@ -81,7 +81,10 @@ pub(super) fn surface(
     let matcher = StereoSgm {
         min_disparity_px,
         num_disparities,
-        speckle_size: SPECKLE_PX,
+        filter: DisparityFilter {
+            speckle_size: SPECKLE_PX,
+            ..DisparityFilter::default()
+        },
         ..StereoSgm::default()
     };
     let found = redrawn.disparity(|first, second| {
