@@ -64,6 +64,29 @@ impl Lighting {
         }
     }
 
+    /// Even light from far away, as through the high windows of a hall.
+    ///
+    /// * `toward`: where it comes from
+    /// * `half_side`: half the side of its square, as a share of the distance
+    pub(crate) fn even(toward: [f64; 3], far_m: f64, half_side: f64, color: [f32; 3]) -> Self {
+        let toward = Vector3::from(toward).normalize();
+        let half_u = toward.cross(&Vector3::y()).normalize() * (half_side * far_m);
+        let half_v = toward.cross(&half_u).normalize() * (half_side * far_m);
+        Self::new(
+            [toward * far_m, half_v, half_u],
+            color,
+            None,
+            [
+                [0.36, 0.37, 0.40],
+                [0.38, 0.37, 0.35],
+                [0.36, 0.375, 0.40],
+                [0.24, 0.19, 0.14],
+                [0.30, 0.30, 0.30],
+                [0.28, 0.28, 0.275],
+            ],
+        )
+    }
+
     /// Soft light from all around on a surface with this normal: the sides mixed by the squares
     /// of the normal's components (McTaggart 2004).
     #[inline]

@@ -3,9 +3,8 @@
 use crate::light::Lighting;
 use crate::paint;
 use crate::scene::{Fixed, Movable, Scene};
-use crate::shape::{BACK, BOTTOM, Cuboid, Shape, TOP};
+use crate::shape::{BACK, BOTTOM, TOP};
 use crate::things::body::{Body, Paint, Placement};
-use crate::things::proxy::Proxy;
 use crate::things::wares::{PICTURE_DEPTH_M, PLASTER_M, Wares, placed};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::{Error, Result};
@@ -74,33 +73,18 @@ impl Scene {
         static HALL: OnceLock<Arc<Fixed>> = OnceLock::new();
         static MUG: OnceLock<Arc<Movable>> = OnceLock::new();
         static BALL: OnceLock<Arc<Movable>> = OnceLock::new();
-        for (what, requirement, value, low, high) in [
-            (
-                "the thing's place across the table",
-                "between -0.8 and 0.8 meters",
-                object.x_m,
-                -0.8,
-                0.8,
-            ),
-            (
-                "the thing's depth",
-                "between 0.6 and 11 meters",
-                object.z_m,
-                0.6,
-                11.0,
-            ),
-        ] {
-            if !value.is_finite() {
-                return Err(Error::NotFinite { what });
-            }
-            if !(low..=high).contains(&value) {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
+        Error::check_range(
+            "the thing's place across the table",
+            "between -0.8 and 0.8 meters",
+            object.x_m,
+            -0.8..=0.8,
+        )?;
+        Error::check_range(
+            "the thing's depth",
+            "between 0.6 and 11 meters",
+            object.z_m,
+            0.6..=11.0,
+        )?;
         let movable = match object.kind {
             MovableKind::Mug => &MUG,
             MovableKind::Ball => &BALL,
@@ -153,23 +137,7 @@ pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<Camera> {
 
 /// Even light through high windows on the left.
 fn lighting() -> Lighting {
-    let toward = Vector3::new(-0.62, -0.66, -0.42).normalize();
-    let far_m = 80.0;
-    let half_u = toward.cross(&Vector3::y()).normalize() * (0.09 * far_m);
-    let half_v = toward.cross(&half_u).normalize() * (0.09 * far_m);
-    Lighting::new(
-        [toward * far_m, half_v, half_u],
-        [1.25, 1.16, 1.00],
-        None,
-        [
-            [0.36, 0.37, 0.40],
-            [0.38, 0.37, 0.35],
-            [0.36, 0.375, 0.40],
-            [0.24, 0.19, 0.14],
-            [0.30, 0.30, 0.30],
-            [0.28, 0.28, 0.275],
-        ],
-    )
+    Lighting::even([-0.62, -0.66, -0.42], 80.0, 0.09, [1.25, 1.16, 1.00])
 }
 
 fn build_hall() -> Fixed {
@@ -186,13 +154,7 @@ fn build_movable(kind: MovableKind) -> Movable {
         MovableKind::Mug => wares.mug([0.0; 3], -0.5, 1.7),
         MovableKind::Ball => vec![wares.ball([0.0; 3], 0.11)],
     };
-    let slab = Body::new(
-        "the table",
-        Shape::Cuboid(Cuboid::solid(TABLE_WIDTH, 0.04, 4.0)),
-        [0.0, 0.02, 0.0],
-        &Paint::new(&wares.plaster).lit(1, 1),
-    );
-    Movable::new(bodies, slab.boxed(), TABLE_TOP)
+    Movable::new(bodies, wares.slab(TABLE_WIDTH, 4.0), TABLE_TOP)
 }
 
 /// The table with its numbered meters; its top comes first.
@@ -203,14 +165,8 @@ fn table() -> Vec<Body> {
     let edge = Paint::new(&wood).repeated(0.4, 0.04).lit(4, 4);
     let length = TABLE_FAR_Z - TABLE_NEAR_Z;
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
-    let cuboid = |size: [f64; 3], center: [f64; 3], paint: &Paint| {
-        Body::new(
-            name,
-            Shape::Cuboid(Cuboid::solid(size[0], size[1], size[2])),
-            center,
-            paint,
-        )
-    };
+    let cuboid =
+        |size: [f64; 3], center: [f64; 3], paint: &Paint| Body::cuboid(name, size, center, paint);
     // On the chart, t runs toward the camera from the far end; whole t are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
@@ -271,22 +227,13 @@ fn hall() -> Vec<Body> {
             .lit(40, 16)
     };
     let warm = [1.18, 1.05, 0.82];
-    let mut walls = Body::new(
-        "the wall",
-        Shape::Cuboid(Cuboid::room(size.x, size.y, size.z)),
-        HALL_CENTER,
-        &wall(size.z, 2.0, 0.2).tinted(warm),
-    )
-    .painted(BACK, &wall(size.x, 3.0, 0.1).tinted(warm).lit(40, 24))
-    .painted(TOP, &wall(size.x, 2.0, 0.0).tinted([2.1, 2.3, 2.7]))
-    .painted(
-        BOTTOM,
-        &Paint::new(&wares.floor).repeated(4.0, 10.0).lit(24, 60),
-    );
-    walls.proxies = vec![Proxy::Room {
-        center: walls.center,
-        half: size / 2.0,
-    }];
+    let walls = Body::room(HALL_SIZE, HALL_CENTER, &wall(size.z, 2.0, 0.2).tinted(warm))
+        .painted(BACK, &wall(size.x, 3.0, 0.1).tinted(warm).lit(40, 24))
+        .painted(TOP, &wall(size.x, 2.0, 0.0).tinted([2.1, 2.3, 2.7]))
+        .painted(
+            BOTTOM,
+            &Paint::new(&wares.floor).repeated(4.0, 10.0).lit(24, 60),
+        );
     let mut bodies = vec![walls];
     for z in [2.6, 5.4, 8.2, 11.0] {
         bodies.push(wares.window([left, -1.0, z], [1.3, 1.5]));

@@ -3,9 +3,8 @@
 use crate::light::Lighting;
 use crate::paint;
 use crate::scene::{Fixed, Scene};
-use crate::shape::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, Shape, TOP};
+use crate::shape::{BACK, BOTTOM, FRONT, RIGHT, TOP};
 use crate::things::body::{Body, Paint};
-use crate::things::proxy::Proxy;
 use crate::things::wares::{
     GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
 };
@@ -111,23 +110,14 @@ fn room() -> Vec<Body> {
             .lit(24, 24)
     };
     let size = Vector3::from(ROOM_SIZE);
-    let mut walls = Body::new(
-        "the wall",
-        Shape::Cuboid(Cuboid::room(size.x, size.y, size.z)),
-        ROOM_CENTER,
-        &wall(size.z, 0.37),
-    )
-    .painted(BACK, &wall(size.x, 0.0).lit(88, 60))
-    .painted(RIGHT, &wall(size.z, 0.61))
-    .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
-    .painted(
-        BOTTOM,
-        &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(24, 24),
-    );
-    walls.proxies = vec![Proxy::Room {
-        center: walls.center,
-        half: size / 2.0,
-    }];
+    let walls = Body::room(ROOM_SIZE, ROOM_CENTER, &wall(size.z, 0.37))
+        .painted(BACK, &wall(size.x, 0.0).lit(88, 60))
+        .painted(RIGHT, &wall(size.z, 0.61))
+        .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
+        .painted(
+            BOTTOM,
+            &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(24, 24),
+        );
     let quarter = std::f64::consts::FRAC_PI_2;
     let on_back = BACK_WALL_Z - PICTURE_DEPTH_M / 2.0;
     vec![
@@ -165,13 +155,7 @@ fn table() -> Vec<Body> {
     let plank = |across: f32, down: f32| Paint::new(&top).repeated(across, down).lit(24, 4);
     let name = "the table";
     let cuboid = |size: [f64; 3], center: [f64; 3], paint: &Paint| {
-        Body::new(
-            name,
-            Shape::Cuboid(Cuboid::solid(size[0], size[1], size[2])),
-            center,
-            paint,
-        )
-        .boxed()
+        Body::cuboid(name, size, center, paint).boxed()
     };
     let mut bodies = vec![
         cuboid(
@@ -220,9 +204,9 @@ fn things() -> Vec<Body> {
     ));
     let print = Paint::new(&cloth);
     let mut bodies = vec![
-        Body::new(
+        Body::cuboid(
             "the cloth",
-            Shape::Cuboid(Cuboid::solid(cloth_width, cloth_m, cloth_depth)),
+            [cloth_width, cloth_m, cloth_depth],
             cloth_at,
             &print.clone().repeated(1.0, 0.01),
         )

@@ -3,9 +3,8 @@
 use crate::light::Lighting;
 use crate::paint;
 use crate::scene::{Fixed, Movable, Scene};
-use crate::shape::{BACK, BOTTOM, Cuboid, FRONT, Shape, TOP};
+use crate::shape::{BACK, BOTTOM, FRONT, TOP};
 use crate::things::body::{Body, Paint, Placement};
-use crate::things::proxy::Proxy;
 use crate::things::wares::{
     GEOMETRIC_M, LANDSCAPE_M, MUG_HEIGHT_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares,
 };
@@ -63,40 +62,24 @@ impl Scene {
         static ROOM: OnceLock<Arc<Fixed>> = OnceLock::new();
         static MUG: OnceLock<Arc<Movable>> = OnceLock::new();
         let [x_m, z_m] = foot_m;
-        for (what, requirement, value, low, high) in [
-            (
-                "the mug's place across the table",
-                "between -0.7 and 0.7 meters",
-                x_m,
-                -0.7,
-                0.7,
-            ),
-            (
-                "the mug's distance",
-                "between 0.4 and 3.4 meters",
-                z_m,
-                TABLE_NEAR_Z,
-                TABLE_FAR_Z,
-            ),
-            (
-                "the mug's height",
-                "between 0.05 and 1 meter",
-                height_m,
-                0.05,
-                1.0,
-            ),
-        ] {
-            if !value.is_finite() {
-                return Err(Error::NotFinite { what });
-            }
-            if !(low..=high).contains(&value) {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
+        Error::check_range(
+            "the mug's place across the table",
+            "between -0.7 and 0.7 meters",
+            x_m,
+            -0.7..=0.7,
+        )?;
+        Error::check_range(
+            "the mug's distance",
+            "between 0.4 and 3.4 meters",
+            z_m,
+            TABLE_NEAR_Z..=TABLE_FAR_Z,
+        )?;
+        Error::check_range(
+            "the mug's height",
+            "between 0.05 and 1 meter",
+            height_m,
+            0.05..=1.0,
+        )?;
         let placement = Placement {
             foot: Vector3::new(x_m, 0.0, z_m),
             scale: height_m / MUG_HEIGHT_M,
@@ -113,35 +96,14 @@ impl Scene {
 
 /// Light from so far away that it is the same everywhere, also in the glaze of the mug.
 fn lighting() -> Lighting {
-    let toward = Vector3::new(-0.55, -0.70, -0.46).normalize();
-    let far_m = 1e6;
-    let half_u = toward.cross(&Vector3::y()).normalize() * (0.12 * far_m);
-    let half_v = toward.cross(&half_u).normalize() * (0.12 * far_m);
-    Lighting::new(
-        [toward * far_m, half_v, half_u],
-        [1.20, 1.13, 1.00],
-        None,
-        [
-            [0.36, 0.37, 0.40],
-            [0.38, 0.37, 0.35],
-            [0.36, 0.375, 0.40],
-            [0.24, 0.19, 0.14],
-            [0.30, 0.30, 0.30],
-            [0.28, 0.28, 0.275],
-        ],
-    )
+    Lighting::even([-0.55, -0.70, -0.46], 1e6, 0.12, [1.20, 1.13, 1.00])
 }
 
 /// The mug at the origin of the plane y = 0, with the shade that it throws on the table.
 fn build_mug() -> Movable {
     let wares = Wares::shared();
-    let slab = Body::new(
-        "the table",
-        Shape::Cuboid(Cuboid::solid(TABLE_WIDTH, 0.04, 3.0)),
-        [0.0, 0.02, 0.0],
-        &Paint::new(&wares.plaster).lit(1, 1),
-    );
-    Movable::new(wares.mug([0.0; 3], -0.5, 1.0), slab.boxed(), TABLE_TOP)
+    let slab = wares.slab(TABLE_WIDTH, 3.0);
+    Movable::new(wares.mug([0.0; 3], -0.5, 1.0), slab, TABLE_TOP)
 }
 
 /// Everything that stands still; the table's top comes first.
@@ -162,14 +124,8 @@ fn table() -> Vec<Body> {
     ));
     let length = TABLE_FAR_Z - TABLE_NEAR_Z;
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
-    let cuboid = |size: [f64; 3], center: [f64; 3], paint: &Paint| {
-        Body::new(
-            name,
-            Shape::Cuboid(Cuboid::solid(size[0], size[1], size[2])),
-            center,
-            paint,
-        )
-    };
+    let cuboid =
+        |size: [f64; 3], center: [f64; 3], paint: &Paint| Body::cuboid(name, size, center, paint);
     // On the chart, t runs toward the camera from the far end; whole t are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
@@ -190,9 +146,9 @@ fn table() -> Vec<Body> {
             &edge,
         )
         .boxed(),
-        Body::new(
+        Body::cuboid(
             "the cloth",
-            Shape::Cuboid(Cuboid::solid(CLOTH_M[0], CLOTH_M[1], 0.002)),
+            [CLOTH_M[0], CLOTH_M[1], 0.002],
             [0.0, CLOTH_M[1] / 2.0, TABLE_NEAR_Z - 0.001],
             &Paint::new(&cloth).repeated(0.05, 1.0).lit(4, 4),
         )
@@ -222,22 +178,13 @@ fn walls() -> Vec<Body> {
             .lit(12, 8)
     };
     let warm = [1.18, 1.05, 0.82];
-    let mut room = Body::new(
-        "the wall",
-        Shape::Cuboid(Cuboid::room(size.x, size.y, size.z)),
-        ROOM_CENTER,
-        &wall(size.z, 0.2).tinted(warm),
-    )
-    .painted(BACK, &wall(size.x, 0.1).tinted(warm))
-    .painted(TOP, &wall(size.x, 0.0).tinted([2.1, 2.3, 2.7]))
-    .painted(
-        BOTTOM,
-        &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(12, 12),
-    );
-    room.proxies = vec![Proxy::Room {
-        center: room.center,
-        half: size / 2.0,
-    }];
+    let room = Body::room(ROOM_SIZE, ROOM_CENTER, &wall(size.z, 0.2).tinted(warm))
+        .painted(BACK, &wall(size.x, 0.1).tinted(warm))
+        .painted(TOP, &wall(size.x, 0.0).tinted([2.1, 2.3, 2.7]))
+        .painted(
+            BOTTOM,
+            &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(12, 12),
+        );
     let quarter = std::f64::consts::FRAC_PI_2;
     let (on_back, on_left) = (back - PICTURE_DEPTH_M / 2.0, left + PICTURE_DEPTH_M / 2.0);
     let mut bodies = vec![room];

@@ -2,7 +2,7 @@
 
 use super::proxy::Proxy;
 use crate::paint::texture::Texture;
-use crate::shape::{Contact, Ray, Shape};
+use crate::shape::{Contact, Cuboid, Ray, Shape};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::sync::Arc;
 
@@ -129,6 +129,30 @@ impl Body {
             proxies: Vec::new(),
             hollow: false,
         }
+    }
+
+    /// A box with these sides, in meters.
+    #[inline(never)]
+    pub(crate) fn cuboid(
+        name: &'static str,
+        [width, height, depth]: [f64; 3],
+        center: [f64; 3],
+        paint: &Paint,
+    ) -> Self {
+        let shape = Shape::Cuboid(Cuboid::solid(width, height, depth));
+        Self::new(name, shape, center, paint)
+    }
+
+    /// The room around everything, its own stand-in.
+    #[inline(never)]
+    pub(crate) fn room([width, height, depth]: [f64; 3], center: [f64; 3], paint: &Paint) -> Self {
+        let shape = Shape::Cuboid(Cuboid::room(width, height, depth));
+        let mut room = Self::new("the wall", shape, center, paint);
+        room.proxies = vec![Proxy::Room {
+            center: room.center,
+            half: Vector3::new(width, height, depth) / 2.0,
+        }];
+        room
     }
 
     /// Turned about the vertical axis; positive turns x toward z.

@@ -9,10 +9,10 @@ mod two_view;
 pub use multi_view::{MultiViewProblem, MultiViewProblemOptions, Path, Sighting};
 pub use two_view::{TwoViewProblem, TwoViewProblemOptions};
 
-use crate::camera::{Camera, Intrinsics};
+use crate::camera::{Camera, Intrinsics, look_at};
 use crate::math::random::Random;
 use crate::{Error, Result};
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector3};
 
 /// Where the points of a world lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,25 +63,26 @@ impl Structure {
     }
 }
 
-/// Checks a number that must be finite and not negative, at most `most`.
-fn check(
-    what: &'static str,
-    requirement: &'static str,
-    value: f64,
-    low: f64,
-    high: f64,
-) -> Result<()> {
-    if !value.is_finite() {
-        return Err(Error::NotFinite { what });
-    }
-    if !(low..=high).contains(&value) {
-        return Err(Error::OutOfRange {
-            what,
-            requirement,
-            value,
-        });
-    }
-    Ok(())
+/// Checks what all worlds share.
+fn check_world(structure: Structure, noise_px: f64, outlier_fraction: f64) -> Result<()> {
+    Error::check_range(
+        "the half side of the structure",
+        "between 0.001 and 1000 meters",
+        structure.half_side_m(),
+        1e-3..=1e3,
+    )?;
+    Error::check_range(
+        "the noise",
+        "between 0 and 100 pixels",
+        noise_px,
+        0.0..=100.0,
+    )?;
+    Error::check_range(
+        "the fraction of outliers",
+        "between 0 and 1",
+        outlier_fraction,
+        0.0..=1.0,
+    )
 }
 
 /// The picture that all cameras of a world take: 640 × 480, focal length 600 px.
@@ -90,6 +91,14 @@ const HEIGHT: u32 = 480;
 
 fn intrinsics() -> Intrinsics {
     Intrinsics::centered(600.0, WIDTH, HEIGHT).expect("600 px is a focal length")
+}
+
+/// An upright camera at a place, looking at another.
+fn camera_at(center: &Point3<f64>, target: &Point3<f64>) -> Result<Camera> {
+    Ok(Camera {
+        intrinsics: intrinsics(),
+        cam_from_world: look_at(center, target, &Vector3::new(0.0, -1.0, 0.0))?,
+    })
 }
 
 fn in_picture(pixel: &Point2<f64>) -> bool {
@@ -102,7 +111,42 @@ fn observe(camera: &Camera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
     camera.project(x_in_world).ok().filter(in_picture)
 }
 
-fn disturbed(random: &mut Random, pixel: &Point2<f64>, noise_px: f64) -> Point2<f64> {
+/// Draws points until `num` of them are seen: `see` takes a point and its index, and says whether it is.
+///
+/// # Errors
+/// `nothing` after a thousand draws a point.
+fn draw_points(
+    random: &mut Random,
+    structure: Structure,
+    num: usize,
+    nothing: Error,
+    mut see: impl FnMut(&mut Random, usize, &Point3<f64>) -> bool,
+) -> Result<Vec<Point3<f64>>> {
+    let mut points = Vec::new();
+    let mut num_tries = 0;
+    while points.len() < num {
+        num_tries += 1;
+        if num_tries > 1000 * (num + 1) {
+            return Err(nothing);
+        }
+        let point = structure.draw(random);
+        if see(random, points.len(), &point) {
+            points.push(point);
+        }
+    }
+    Ok(points)
+}
+
+/// What is measured of a pixel: with noise, or wrong.
+fn measured(
+    random: &mut Random,
+    pixel: &Point2<f64>,
+    noise_px: f64,
+    is_inlier: bool,
+) -> Point2<f64> {
+    if !is_inlier {
+        return wrong(random, pixel);
+    }
     Point2::new(
         pixel.x + noise_px * random.normal(),
         pixel.y + noise_px * random.normal(),

@@ -1,7 +1,7 @@
 //! Many cameras on a path around the points that they see.
 
-use super::{Structure, check, choose_inliers, disturbed, intrinsics, observe, wrong};
-use crate::camera::{Camera, look_at};
+use super::{Structure, camera_at, check_world, choose_inliers, draw_points, measured, observe};
+use crate::camera::Camera;
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -115,62 +115,42 @@ impl MultiViewProblem {
                 got: options.num_cameras,
             });
         }
-        let half = options.structure.half_side_m();
-        check(
-            "the half side of the structure",
-            "between 0.001 and 1000 meters",
-            half,
-            1e-3,
-            1e3,
+        check_world(
+            options.structure,
+            options.noise_px,
+            options.outlier_fraction,
         )?;
-        check(
+        Error::check_range(
             "the visible fraction",
             "between 0 and 1",
             options.visible_fraction,
-            0.0,
-            1.0,
-        )?;
-        check(
-            "the noise",
-            "between 0 and 100 pixels",
-            options.noise_px,
-            0.0,
-            100.0,
-        )?;
-        check(
-            "the fraction of outliers",
-            "between 0 and 1",
-            options.outlier_fraction,
-            0.0,
-            1.0,
+            0.0..=1.0,
         )?;
         let cameras = cameras(options)?;
         let mut random = Random::new(options.seed);
-        let (mut points, mut exact) = (Vec::new(), Vec::new());
-        let mut num_tries = 0;
-        while points.len() < options.num_points {
-            num_tries += 1;
-            if num_tries > 1000 * (options.num_points + 1) {
-                return Err(Error::Degenerate {
-                    what: "a problem of several views",
-                    why: "too few points are seen by two cameras",
-                });
-            }
-            let point = options.structure.draw(&mut random);
-            let seen: Vec<(usize, Point2<f64>)> = cameras
-                .iter()
-                .enumerate()
-                .filter_map(|(index, camera)| Some((index, observe(camera, &point)?)))
-                .filter(|_| random.unit() < options.visible_fraction)
-                .collect();
-            if seen.len() >= 2 {
-                exact.extend(
-                    seen.into_iter()
-                        .map(|(camera, pixel)| (camera, points.len(), pixel)),
-                );
-                points.push(point);
-            }
-        }
+        let mut exact = Vec::new();
+        let nothing = Error::Degenerate {
+            what: "a problem of several views",
+            why: "too few points are seen by two cameras",
+        };
+        let num = options.num_points;
+        let points = draw_points(
+            &mut random,
+            options.structure,
+            num,
+            nothing,
+            |random, i, point| {
+                let seen: Vec<_> = (cameras.iter().enumerate())
+                    .filter_map(|(camera, view)| Some((camera, i, observe(view, point)?)))
+                    .filter(|_| random.unit() < options.visible_fraction)
+                    .collect();
+                let is_seen = seen.len() >= 2;
+                if is_seen {
+                    exact.extend(seen);
+                }
+                is_seen
+            },
+        )?;
         let is_inlier = choose_inliers(&mut random, exact.len(), options.outlier_fraction);
         let observations = exact
             .into_iter()
@@ -178,11 +158,7 @@ impl MultiViewProblem {
             .map(|((camera, point, pixel), is_inlier)| Sighting {
                 camera,
                 point,
-                pixel: if is_inlier {
-                    disturbed(&mut random, &pixel, options.noise_px)
-                } else {
-                    wrong(&mut random, &pixel)
-                },
+                pixel: measured(&mut random, &pixel, options.noise_px, is_inlier),
                 is_inlier,
             })
             .collect();
@@ -209,24 +185,21 @@ impl MultiViewProblem {
 }
 
 fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
-    let up = Vector3::new(0.0, -1.0, 0.0);
     let num = options.num_cameras as f64;
     match options.path {
         Path::Arc { radius_m, span_rad } => {
             let circle = std::f64::consts::TAU;
-            check(
+            Error::check_range(
                 "the radius of the path",
                 "between 0.001 and 10 000 meters",
                 radius_m,
-                1e-3,
-                1e4,
+                1e-3..=1e4,
             )?;
-            check(
+            Error::check_range(
                 "the span of the path",
                 "between 0 and 2π radians",
                 span_rad,
-                0.0,
-                circle,
+                0.0..=circle,
             )?;
             // The last camera of a full circle must not be the first again.
             let num_steps = if span_rad < circle { num - 1.0 } else { num };
@@ -235,10 +208,7 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
                     let angle = span_rad * (i as f64 / num_steps - 0.5);
                     let (sin, cos) = libm::sincos(angle);
                     let center = Point3::new(sin, -0.15, -cos) * radius_m;
-                    Ok(Camera {
-                        intrinsics: intrinsics(),
-                        cam_from_world: look_at(&center, &Point3::origin(), &up)?,
-                    })
+                    camera_at(&center, &Point3::origin())
                 })
                 .collect()
         }
@@ -246,29 +216,23 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
             distance_m,
             spacing_m,
         } => {
-            check(
+            Error::check_range(
                 "the distance of the path",
                 "between 0.001 and 10 000 meters",
                 distance_m,
-                1e-3,
-                1e4,
+                1e-3..=1e4,
             )?;
-            check(
+            Error::check_range(
                 "the spacing of the cameras",
                 "between 0 and 1000 meters",
                 spacing_m,
-                0.0,
-                1e3,
+                0.0..=1e3,
             )?;
             (0..options.num_cameras)
                 .map(|i| {
                     let x = spacing_m * (i as f64 - (num - 1.0) / 2.0);
                     let center = Point3::new(x, 0.0, -distance_m);
-                    let target = center + Vector3::new(0.0, 0.0, 1.0);
-                    Ok(Camera {
-                        intrinsics: intrinsics(),
-                        cam_from_world: look_at(&center, &target, &up)?,
-                    })
+                    camera_at(&center, &(center + Vector3::z()))
                 })
                 .collect()
         }

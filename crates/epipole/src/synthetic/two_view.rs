@@ -1,10 +1,12 @@
 //! Two cameras and the points that both see.
 
-use super::{Structure, WIDTH, check, choose_inliers, disturbed, intrinsics, observe, wrong};
-use crate::camera::{Camera, look_at};
+use super::{
+    Structure, WIDTH, camera_at, check_world, choose_inliers, draw_points, measured, observe,
+};
+use crate::camera::Camera;
 use crate::math::random::Random;
 use crate::{Error, Result};
-use nalgebra::{Point2, Point3, Vector3};
+use nalgebra::{Point2, Point3};
 
 /// What a [`TwoViewProblem`] shall be like.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,99 +79,66 @@ impl TwoViewProblem {
     /// # Ok(()) }
     /// ```
     pub fn new(options: &TwoViewProblemOptions) -> Result<Self> {
-        let half = options.structure.half_side_m();
-        check(
-            "the half side of the structure",
-            "between 0.001 and 1000 meters",
-            half,
-            1e-3,
-            1e3,
+        check_world(
+            options.structure,
+            options.noise_px,
+            options.outlier_fraction,
         )?;
-        check(
+        Error::check_range(
             "the baseline",
             "between 0 and 1000 meters",
             options.baseline_m,
-            0.0,
-            1e3,
+            0.0..=1e3,
         )?;
-        check(
+        Error::check_range(
             "the distance",
             "between 0.001 and 10 000 meters",
             options.distance_m,
-            1e-3,
-            1e4,
+            1e-3..=1e4,
         )?;
-        check(
-            "the noise",
-            "between 0 and 100 pixels",
-            options.noise_px,
-            0.0,
-            100.0,
-        )?;
-        check(
-            "the fraction of outliers",
-            "between 0 and 1",
-            options.outlier_fraction,
-            0.0,
-            1.0,
-        )?;
-        let up = Vector3::new(0.0, -1.0, 0.0);
-        let camera_at = |center: Point3<f64>, target: Point3<f64>| -> Result<Camera> {
-            Ok(Camera {
-                intrinsics: intrinsics(),
-                cam_from_world: look_at(&center, &target, &up)?,
-            })
-        };
         // On a circle around the origin, so that both are equally far.
         let sin = (options.baseline_m / (2.0 * options.distance_m)).min(1.0);
         let (chord_sin, chord_cos) = libm::sincos(2.0 * libm::asin(sin));
         let center1 = Point3::new(0.0, 0.0, -options.distance_m);
         let center2 = Point3::new(chord_sin, 0.0, -chord_cos) * options.distance_m;
-        let camera1 = camera_at(center1, Point3::origin())?;
+        let camera1 = camera_at(&center1, &Point3::origin())?;
         let camera2 = if options.baseline_m == 0.0 {
             // A tenth of the field of view to the right.
             let target = f64::from(WIDTH) / 6000.0 * options.distance_m;
-            camera_at(center1, Point3::new(target, 0.0, 0.0))?
+            camera_at(&center1, &Point3::new(target, 0.0, 0.0))?
         } else {
-            camera_at(center2, Point3::origin())?
+            camera_at(&center2, &Point3::origin())?
         };
         let mut random = Random::new(options.seed);
         let is_inlier = choose_inliers(&mut random, options.num_points, options.outlier_fraction);
-        let mut problem = Self {
+        let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
+        let nothing = Error::Degenerate {
+            what: "a problem of two views",
+            why: "the two cameras see too little in common",
+        };
+        let (num, noise_px) = (options.num_points, options.noise_px);
+        let points = draw_points(
+            &mut random,
+            options.structure,
+            num,
+            nothing,
+            |random, i, point| {
+                let seen = observe(&camera1, point).zip(observe(&camera2, point));
+                if let Some((pixel1, pixel2)) = seen {
+                    pixels2.push(measured(random, &pixel2, noise_px, is_inlier[i]));
+                    pixels1.push(measured(random, &pixel1, noise_px, true));
+                }
+                seen.is_some()
+            },
+        )?;
+        Ok(Self {
             camera1,
             camera2,
-            pixels1: Vec::new(),
-            pixels2: Vec::new(),
+            pixels1,
+            pixels2,
             is_inlier,
-            points: Vec::new(),
-        };
-        let mut num_tries = 0;
-        while problem.points.len() < options.num_points {
-            num_tries += 1;
-            if num_tries > 1000 * (options.num_points + 1) {
-                return Err(Error::Degenerate {
-                    what: "a problem of two views",
-                    why: "the two cameras see too little in common",
-                });
-            }
-            let point = options.structure.draw(&mut random);
-            let (Some(pixel1), Some(pixel2)) =
-                (observe(&camera1, &point), observe(&camera2, &point))
-            else {
-                continue;
-            };
-            let second = if problem.is_inlier[problem.points.len()] {
-                disturbed(&mut random, &pixel2, options.noise_px)
-            } else {
-                wrong(&mut random, &pixel2)
-            };
-            problem
-                .pixels1
-                .push(disturbed(&mut random, &pixel1, options.noise_px));
-            problem.pixels2.push(second);
-            problem.points.push(point);
-        }
-        Ok(problem)
+            points,
+        })
     }
 }
 

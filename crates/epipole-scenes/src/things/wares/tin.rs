@@ -1,7 +1,6 @@
 //! The tea tin.
 
 use super::{Wares, placed};
-use crate::shape::{Cuboid, Shape};
 use crate::things::body::{Body, Paint};
 
 impl Wares {
@@ -15,17 +14,17 @@ impl Wares {
             .lit(16, 16);
         let lid_m = 0.012;
         vec![
-            Body::new(
+            Body::cuboid(
                 name,
-                Shape::Cuboid(Cuboid::solid(size_m[0], size_m[1], size_m[2])),
+                size_m,
                 placed(foot, yaw_rad, [0.0, -size_m[1] / 2.0, 0.0]),
                 &side,
             )
             .turned(yaw_rad)
             .boxed(),
-            Body::new(
+            Body::cuboid(
                 name,
-                Shape::Cuboid(Cuboid::solid(size_m[0] * 1.03, lid_m, size_m[2] * 1.03)),
+                [size_m[0] * 1.03, lid_m, size_m[2] * 1.03],
                 placed(foot, yaw_rad, [0.0, -size_m[1] - lid_m / 2.0, 0.0]),
                 &lid,
             )

@@ -2,17 +2,24 @@
 
 use super::{PICTURE_DEPTH_M, Wares};
 use crate::paint::texture::Texture;
-use crate::shape::{Cuboid, FRONT, RIGHT, Shape};
+use crate::shape::{FRONT, RIGHT};
 use crate::things::body::{Body, Paint};
 use std::sync::Arc;
 
 impl Wares {
+    /// What a movable thing stands on while its light is computed: the plane y = 0.
+    pub(crate) fn slab(&self, width_m: f64, depth_m: f64) -> Body {
+        let paint = Paint::new(&self.plaster).lit(1, 1);
+        let center = [0.0, 0.02, 0.0];
+        Body::cuboid("the table", [width_m, 0.04, depth_m], center, &paint).boxed()
+    }
+
     /// A window in a wall whose inside faces +x, `middle` on that wall.
     pub(crate) fn window(&self, middle: [f64; 3], size_m: [f64; 2]) -> Body {
         let deep = 0.03;
-        Body::new(
+        Body::cuboid(
             "the window",
-            Shape::Cuboid(Cuboid::solid(deep, size_m[1], size_m[0])),
+            [deep, size_m[1], size_m[0]],
             [middle[0] + deep / 2.0, middle[1], middle[2]],
             &Paint::new(&self.floor).tinted([1.6; 3]),
         )
@@ -28,9 +35,9 @@ impl Wares {
         yaw_rad: f64,
     ) -> Body {
         let side = Paint::new(&self.linen).tinted([0.12, 0.07, 0.04]);
-        Body::new(
+        Body::cuboid(
             "a picture",
-            Shape::Cuboid(Cuboid::solid(size_m[0], size_m[1], PICTURE_DEPTH_M)),
+            [size_m[0], size_m[1], PICTURE_DEPTH_M],
             middle,
             &side,
         )
