@@ -145,7 +145,7 @@ impl StereoBm {
     fn check(&self, search: &Search) -> Result<()> {
         let (window, cap) = (u64::from(self.window_px), u64::from(self.prefilter_cap));
         let shorter = search.width.min(search.height) as u64;
-        for (what, requirement, value, good) in [
+        Error::check_rules(&[
             (
                 "the window",
                 "an odd number of pixels, at least 3",
@@ -179,15 +179,7 @@ impl StereoBm {
                 f64::from(self.min_texture),
                 self.min_texture >= 0.0,
             ),
-        ] {
-            if !good {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
+        ])?;
         self.filter.check()
     }
 }

@@ -152,7 +152,7 @@ impl StereoSgm {
 
     fn check(&self) -> Result<()> {
         let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
-        for (what, requirement, value, good) in [
+        Error::check_rules(&[
             (
                 "the largest cost of a difference of gray values",
                 "from 1 to 63",
@@ -165,15 +165,7 @@ impl StereoSgm {
                 f64::from(p2),
                 p1 <= p2 && p2 <= 150,
             ),
-        ] {
-            if !good {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
+        ])?;
         self.filter.check()
     }
 
