@@ -46,7 +46,7 @@ pub mod progress;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
-#[cfg(feature = "synthetic")]
+#[cfg(any(test, feature = "synthetic"))]
 pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
