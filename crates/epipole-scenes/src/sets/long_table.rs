@@ -6,9 +6,8 @@ use crate::scene::{Fixed, Movable, Scene};
 use crate::shape::{BACK, BOTTOM, TOP};
 use crate::things::body::{Body, Paint, Placement};
 use crate::things::wares::{PICTURE_DEPTH_M, PLASTER_M, Wares, placed};
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::{Error, Result};
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
 /// Height of the table's top below the camera (y is down).
@@ -46,7 +45,7 @@ impl Scene {
     /// A hall with a table of eleven meters, marked every decimeter, and one thing that stands on
     /// it at a given place.
     ///
-    /// The world's origin is the center of [`long_table_camera`]`(0.0, …)`: x right, y down, z
+    /// The world's origin is the center of [`long_table_camera`](crate::long_table_camera)`(0.0, …)`: x right, y down, z
     /// along the table, meters. The table's top is y = 0.25, from z = 0.35 to 11.35, its meters
     /// numbered; the wall behind is z = 12.
     ///
@@ -98,41 +97,6 @@ impl Scene {
             )),
         })
     }
-}
-
-/// A camera of the rectified pair that looks along the long table: its center at (`x_m`, 0, 0),
-/// no rotation, and a focal length of 700 px for a picture of 640 × 480.
-///
-/// The second camera of a pair with baseline B has `x_m` = B.
-///
-/// # Errors
-/// [`Error::NotFinite`] if `x_m` is not finite.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole_scenes::long_table_camera;
-/// use nalgebra::Point3;
-/// let (left, right) = (long_table_camera(0.0, 640, 480)?, long_table_camera(0.2, 640, 480)?);
-/// let x_in_world = Point3::new(0.0, 0.1, 2.0);
-/// let disparity_px = left.project(&x_in_world)?.x - right.project(&x_in_world)?.x;
-/// assert!((disparity_px - 700.0 * 0.2 / 2.0).abs() < 1e-9);
-/// # Ok(()) }
-/// ```
-pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<Camera> {
-    if !x_m.is_finite() {
-        return Err(Error::NotFinite {
-            what: "the camera's place",
-        });
-    }
-    let (width, height) = (width.max(1), height.max(1));
-    let focal_px = (f64::from(width) / 640.0).min(f64::from(height) / 480.0) * 700.0;
-    Ok(Camera {
-        intrinsics: Intrinsics::centered(focal_px, width, height)?,
-        cam_from_world: RigidTransform::from_parts(
-            Translation3::new(-x_m, 0.0, 0.0),
-            UnitQuaternion::identity(),
-        ),
-    })
 }
 
 /// Even light through high windows on the left.
@@ -303,7 +267,7 @@ fn props() -> Vec<Body> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Sampling, Transfer};
+    use crate::{Sampling, Transfer, long_table_camera};
     use nalgebra::{Point2, Point3};
 
     fn thing(kind: MovableKind, x_m: f64, z_m: f64) -> MovableObject {

@@ -8,8 +8,7 @@ use crate::things::body::{Body, Paint};
 use crate::things::wares::{
     GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
 };
-use epipole::camera::{Camera, Intrinsics, look_at};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
 /// The room: middle and sides, meters. The table's top is y = 0.
@@ -24,7 +23,7 @@ impl Scene {
     /// by a window; pictures on a plastered wall.
     ///
     /// The world's origin is on the table's top in the middle of the things; x points right,
-    /// y **down** and z away from the viewer of [`still_life_camera`], meters. The room reaches
+    /// y **down** and z away from the viewer of [`still_life_camera`](crate::still_life_camera), meters. The room reaches
     /// from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05; every camera inside of it
     /// (and outside of the things) gets a photograph without holes.
     ///
@@ -40,30 +39,6 @@ impl Scene {
     pub fn still_life() -> Self {
         static SCENE: OnceLock<Scene> = OnceLock::new();
         SCENE.get_or_init(build).clone()
-    }
-}
-
-/// The viewpoint for which the still life was composed, for a picture of this size.
-///
-/// The focal length is 1.25 × the width of a 4:3 picture; other shapes show the whole composition
-/// and more of the room at two sides.
-///
-/// ```
-/// use epipole_scenes::still_life_camera;
-/// assert_eq!(still_life_camera(640, 480).intrinsics.fu_px(), 800.0);
-/// ```
-pub fn still_life_camera(width: u32, height: u32) -> Camera {
-    let (width, height) = (width.max(1), height.max(1));
-    let focal_px = (f64::from(width) / 640.0).min(f64::from(height) / 480.0) * 800.0;
-    Camera {
-        intrinsics: Intrinsics::centered(focal_px, width, height)
-            .expect("a focal length made of positive numbers is positive"),
-        cam_from_world: look_at(
-            &Point3::new(0.035, -0.43, -1.30),
-            &Point3::new(0.035, -0.165, 0.05),
-            &Vector3::new(0.0, -1.0, 0.0),
-        )
-        .expect("the table is below the camera, not above it"),
     }
 }
 

@@ -5,11 +5,13 @@
 
 mod cuboid;
 mod lathe;
+mod profile;
 mod ray;
 mod ring;
 
 pub(crate) use cuboid::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, TOP};
-pub(crate) use lathe::{Lathe, Profile};
+pub(crate) use lathe::Lathe;
+pub(crate) use profile::Profile;
 pub(crate) use ray::{Contact, Place, Ray};
 pub(crate) use ring::Ring;
 
