@@ -5,17 +5,24 @@
 use epipole_tests::{files_below, root};
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A crate and the crates of the house that it may name.
 const CRATES: &[(&str, &[&str])] = &[
     ("epipole", &[]),
+    ("epipole-scenes", &["epipole"]),
     ("epipole-canvas", &[]),
-    ("epipole-widgets", &["epipole", "epipole-canvas"]),
+    (
+        "epipole-widgets",
+        &["epipole", "epipole-scenes", "epipole-canvas"],
+    ),
     ("epipole-web", &["epipole", "epipole-widgets"]),
     ("epipole-book", &["epipole", "epipole-widgets"]),
     ("epipole-cli", &["epipole", "epipole-widgets"]),
-    ("epipole-lab", &["epipole", "epipole-canvas"]),
+    (
+        "epipole-lab",
+        &["epipole", "epipole-scenes", "epipole-canvas"],
+    ),
 ];
 
 /// A dependency that only some crates may name, so that it stays in one place.
@@ -48,6 +55,19 @@ const ROOMS: &[&str] = &[
     "calibration",
     "sfm",
     "synthetic",
+];
+
+/// The rooms of the scenes, likewise.
+const ROOMS_OF_SCENES: &[&str] = &[
+    "gradual",
+    "detail",
+    "shape",
+    "paint",
+    "things",
+    "light",
+    "scene",
+    "sets",
+    "photograph",
 ];
 
 fn manifest(name: &str) -> toml::Table {
@@ -156,23 +176,25 @@ fn before_tests(text: &str) -> String {
     code.lines().filter(comment).collect::<Vec<_>>().join("\n")
 }
 
-#[test]
-fn rooms_of_the_core_use_only_the_rooms_before_them() {
-    let source = root().join("crates/epipole/src");
+/// A room's files: those of its folder, or the one of its name.
+fn files_of(source: &Path, room: &str) -> Vec<PathBuf> {
+    let folder = source.join(room);
+    match folder.is_dir() {
+        true => files_below(&folder, &["rs"]),
+        false => vec![source.join(room).with_extension("rs")],
+    }
+}
+
+/// Asserts that no room names one after it, and that the list of rooms is complete.
+fn check_rooms(name: &str, rooms: &[&str]) {
+    let source = root().join("crates").join(name).join("src");
     let mut wrong = Vec::new();
-    for (rank, room) in ROOMS.iter().enumerate() {
-        let folder = source.join(room);
-        if !folder.is_dir() {
-            continue;
-        }
-        for file in files_below(&folder, &["rs"]) {
+    for (rank, room) in rooms.iter().enumerate() {
+        for file in files_of(&source, room) {
             let text = before_tests(&fs::read_to_string(&file).unwrap());
             for named in rooms_named(&text) {
-                if ROOMS
-                    .iter()
-                    .position(|other| *other == named)
-                    .is_some_and(|r| r > rank)
-                {
+                let later = rooms.iter().position(|other| *other == named);
+                if later.is_some_and(|other| other > rank) {
                     let file = file.strip_prefix(&source).unwrap_or(&file);
                     wrong.push(format!("{} names {named}", file.display()));
                 }
@@ -181,20 +203,24 @@ fn rooms_of_the_core_use_only_the_rooms_before_them() {
     }
     assert!(
         wrong.is_empty(),
-        "rooms that import a later one: {wrong:#?}"
+        "rooms of {name} that import a later one: {wrong:#?}"
     );
-}
-
-#[test]
-fn every_room_of_the_core_is_on_the_map() {
-    let source = root().join("crates/epipole/src");
     for entry in fs::read_dir(source).unwrap() {
         let entry = entry.unwrap();
         if entry.path().is_dir() && !files_below(&entry.path(), &["rs"]).is_empty() {
-            let name = entry.file_name().into_string().unwrap();
-            assert!(ROOMS.contains(&&*name), "the room {name} is not on the map");
+            let room = entry.file_name().into_string().unwrap();
+            assert!(
+                rooms.contains(&&*room),
+                "the room {room} of {name} is not on the map"
+            );
         }
     }
+}
+
+#[test]
+fn rooms_use_only_the_rooms_before_them() {
+    check_rooms("epipole", ROOMS);
+    check_rooms("epipole-scenes", ROOMS_OF_SCENES);
 }
 
 /// The code without what stands in double quotes: words for readers are no imports.

@@ -1,7 +1,7 @@
 //! Renders photographs to measure with: `photographs FOLDER [COUNT] [WIDTH]`, of the still life, on an arc around it.
 
 use epipole::camera::{Camera, look_at};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::codecs::jpeg::JpegEncoder;
 use nalgebra::{Point3, Vector3};
 

@@ -10,11 +10,11 @@ mod program;
 
 use common::{answer, finish, jpeg, solved};
 use epipole::camera::{Camera, look_at};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal, Saved, SavedPhoto, VERSION};
 use epipole_lab::tasks::{
     Answer, Blob, FeatureKind, FeatureOptions, LensCamera, LensModel, Request, Sample, Shows,
 };
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;

@@ -5,7 +5,7 @@ use epipole::camera::Camera;
 use epipole::epipolar::fundamental_from_cameras;
 use epipole::math::random::Random;
 use epipole::robust::{LineEstimator, RansacOptions, ransac};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use nalgebra::{Point2, Translation3};
 use std::hint::black_box;
 

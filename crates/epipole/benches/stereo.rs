@@ -5,7 +5,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use epipole::math::random::Random;
 use epipole::stereo::{
-    RectifyOptions, StereoBm, StereoCamera, StereoPaths, StereoSgm, fill_gaps, rectify_calibrated,
+    DisparityFilter, RectifyOptions, StereoBm, StereoCamera, StereoPaths, StereoSgm, fill_gaps,
+    rectify_calibrated,
 };
 use image::{GrayImage, Luma};
 use std::hint::black_box;
@@ -43,8 +44,11 @@ fn dense(criterion: &mut Criterion) {
         bencher.iter(|| bm.compute(black_box(&left), black_box(&right)));
     });
     let plain = StereoBm {
-        left_right_max_px: None,
-        speckle_size: 0,
+        filter: DisparityFilter {
+            left_right_max_px: None,
+            speckle_size: 0,
+            ..StereoBm::default().filter
+        },
         ..StereoBm::default()
     };
     group.bench_function("block-matching-plain", |bencher| {

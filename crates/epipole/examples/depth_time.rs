@@ -13,8 +13,8 @@ use epipole::camera::RigidTransform;
 use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
 use epipole::optim::{Iteration, LmOptions, RobustLoss};
 use epipole::sfm::{BalProblem, adjust_bal};
-use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoPaths, StereoSgm};
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use std::ops::ControlFlow;
 use std::path::Path;
 use timing::timed;
@@ -76,9 +76,11 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
     };
     // With the tests that OpenCV's has, and no others.
     let plain = StereoBm {
-        left_right_max_px: None,
-        speckle_size: 0,
-        max_gap_px: 0,
+        filter: DisparityFilter {
+            left_right_max_px: None,
+            speckle_size: 0,
+            ..StereoBm::default().filter
+        },
         ..StereoBm::default()
     };
     run("bm_plain", &|| plain.compute(&left, &right))?;

@@ -1,5 +1,7 @@
 //! The one error of the core: every failure is a sentence for a person.
 
+use std::ops::RangeInclusive;
+
 /// Why an operation could not give a result.
 ///
 /// Bad data is never a panic and never a NaN: it is one of these.
@@ -95,6 +97,58 @@ pub enum Error {
         /// What is wrong there.
         why: String,
     },
+}
+
+impl Error {
+    /// Checks that a number is finite and in a range.
+    ///
+    /// * `what`, `requirement`: as in [`Error::OutOfRange`]
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] or [`Error::OutOfRange`].
+    ///
+    /// ```
+    /// use epipole::Error;
+    /// let check = |share| Error::check_range("the share", "between 0 and 1", share, 0.0..=1.0);
+    /// assert!(check(1.0).is_ok());
+    /// let message = check(1.5).unwrap_err().to_string();
+    /// assert_eq!(message, "the share must be between 0 and 1, but is 1.5");
+    /// ```
+    pub fn check_range(
+        what: &'static str,
+        requirement: &'static str,
+        value: f64,
+        range: RangeInclusive<f64>,
+    ) -> Result<(), Self> {
+        if !value.is_finite() {
+            return Err(Self::NotFinite { what });
+        }
+        if !range.contains(&value) {
+            return Err(Self::OutOfRange {
+                what,
+                requirement,
+                value,
+            });
+        }
+        Ok(())
+    }
+
+    /// Checks rules for parameters: name, range in words, value, and whether it is in the range.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the first that is not.
+    pub(crate) fn check_rules(
+        rules: &[(&'static str, &'static str, f64, bool)],
+    ) -> Result<(), Self> {
+        match rules.iter().find(|(.., is_good)| !is_good) {
+            None => Ok(()),
+            Some(&(what, requirement, value, _)) => Err(Self::OutOfRange {
+                what,
+                requirement,
+                value,
+            }),
+        }
+    }
 }
 
 /// That there are so few, in words.

@@ -19,7 +19,7 @@
 //! | [`stereo`] | rectification, dense disparity, depth, point clouds |
 //! | [`calibration`] | boards in photographs, intrinsics and distortion from them, rigs, undistortion |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
-//! | [`synthetic`] | seeded worlds with ground truth: ray-cast photographs, point clouds, trajectories |
+//! | `synthetic` | seeded worlds with ground truth: points, cameras, noise, outliers (feature `synthetic`) |
 //!
 //! # Conventions
 //!
@@ -46,6 +46,7 @@ pub mod progress;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
+#[cfg(any(test, feature = "synthetic"))]
 pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;

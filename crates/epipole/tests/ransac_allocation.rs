@@ -1,10 +1,6 @@
 //! The RANSAC loop takes no memory: everything is allocated before the first step.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::type_complexity,
-    reason = "a test may fail"
-)]
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 // A counting allocator is the only way to see allocations, and its trait is unsafe.
 #![allow(unsafe_code)]
 
@@ -12,16 +8,14 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use epipole::absolute_pose::AbsolutePoseEstimator;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{EssentialEstimator, FundamentalEstimator};
 use epipole::homography::HomographyEstimator;
-use epipole::math::random::Random;
 use epipole::robust::{
     Estimator, LineEstimator, MatchSet, Ransac, RansacOptions, SamplerKind, ScoreKind,
     SimilarityEstimator, Step,
 };
+use epipole::synthetic::{Structure, TwoViewProblem, TwoViewProblemOptions};
 use epipole::two_view::RotationEstimator;
-use nalgebra::{Point2, Point3, Vector3};
 
 struct Counting;
 
@@ -46,49 +40,27 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Matches of a scene of which `share_on_plane` lies on a plane; every third match is wrong.
-fn matches(
-    share_on_plane: f64,
-) -> (
-    Vec<Point2<f64>>,
-    Vec<Point2<f64>>,
-    Vec<Point3<f64>>,
-    Intrinsics,
-) {
-    let mut random = Random::new(5);
-    let intrinsics = Intrinsics::centered(700.0, 640, 480).unwrap();
-    let left = Camera {
-        intrinsics,
-        cam_from_world: RigidTransform::identity(),
-    };
-    let right = Camera {
-        intrinsics,
-        cam_from_world: RigidTransform::new(
-            Vector3::new(-0.5, 0.1, 0.2),
-            Vector3::new(0.02, 0.1, -0.03),
-        ),
-    };
-    let (mut p1, mut p2, mut points) = (Vec::new(), Vec::new(), Vec::new());
-    while p1.len() < 300 {
-        let depth = if random.unit() < share_on_plane {
-            5.0
-        } else {
-            random.uniform(3.0, 8.0)
+/// Matches of points of which some lie on a plane; every third match is wrong.
+fn matches(num_on_plane: usize) -> TwoViewProblem {
+    let draw = |structure, num_points| {
+        let options = TwoViewProblemOptions {
+            num_points,
+            structure,
+            noise_px: 0.3,
+            outlier_fraction: 1.0 / 3.0,
+            seed: 5,
+            ..TwoViewProblemOptions::default()
         };
-        let point = Point3::new(random.uniform(-2.0, 2.0), random.uniform(-1.5, 1.5), depth);
-        let (Ok(a), Ok(mut b)) = (left.project(&point), right.project(&point)) else {
-            continue;
-        };
-        if p1.len() % 3 == 0 {
-            b = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
-        }
-        let mut noisy =
-            |p: Point2<f64>| Point2::new(p.x + 0.3 * random.normal(), p.y + 0.3 * random.normal());
-        p1.push(noisy(a));
-        p2.push(noisy(b));
-        points.push(point);
-    }
-    (p1, p2, points, intrinsics)
+        TwoViewProblem::new(&options).unwrap()
+    };
+    let half_side_m = 1.5;
+    let mut all = draw(Structure::Plane { half_side_m }, num_on_plane);
+    // The same two cameras see both.
+    let others = draw(Structure::Cube { half_side_m }, 300 - num_on_plane);
+    all.pixels1.extend(others.pixels1);
+    all.pixels2.extend(others.pixels2);
+    all.points.extend(others.points);
+    all
 }
 
 /// Every way to draw and to judge samples. A copy of an estimator would lack its buffers, so each run
@@ -128,9 +100,10 @@ fn check_run<E: Estimator>(name: &str, estimator: E, options: RansacOptions) {
 
 #[test]
 fn no_step_allocates() {
-    let (p1, p2, points, k) = matches(0.0);
-    let set = || MatchSet::new(&p1, &p2).unwrap();
-    check("line", || LineEstimator::new(&p1).unwrap());
+    let world = matches(0);
+    let (p1, k) = (&world.pixels1, world.camera1.intrinsics);
+    let set = || MatchSet::new(p1, &world.pixels2).unwrap();
+    check("line", || LineEstimator::new(p1).unwrap());
     check("similarity", || SimilarityEstimator::new(set()));
     check("homography", || HomographyEstimator::new(set()).unwrap());
     check("fundamental", || FundamentalEstimator::new(set()).unwrap());
@@ -139,14 +112,14 @@ fn no_step_allocates() {
     });
     check("rotation", || RotationEstimator::new(set(), k, k).unwrap());
     check("absolute pose", || {
-        AbsolutePoseEstimator::new(&points, &p1, k).unwrap()
+        AbsolutePoseEstimator::new(&world.points, p1, k).unwrap()
     });
 }
 
 #[test]
 fn recovery_from_a_plane_does_not_allocate() {
-    let (p1, p2, _, _) = matches(0.9);
-    let set = || MatchSet::new(&p1, &p2).unwrap();
+    let world = matches(270);
+    let set = || MatchSet::new(&world.pixels1, &world.pixels2).unwrap();
     check("fundamental", || FundamentalEstimator::new(set()).unwrap());
 }
 

@@ -10,7 +10,8 @@ use epipole::Error;
 use epipole::math::random::Random;
 use epipole::progress::{Stage, Status};
 use epipole::stereo::{
-    DisparityImage, StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm, fill_gaps,
+    DisparityFilter, DisparityImage, StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm,
+    fill_gaps,
 };
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::ControlFlow;
@@ -212,7 +213,10 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
     let truth = |u: u32, v: u32| if on_board(f64::from(u), v) { 14.0 } else { 4.0 };
     let matcher = StereoSgm {
         num_disparities: 32,
-        max_gap_px: 0,
+        filter: DisparityFilter {
+            max_gap_px: 0,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let found = matcher.compute(&left, &right).unwrap();
@@ -350,19 +354,31 @@ fn bad_input_is_refused_in_a_sentence() {
         ..Default::default()
     }));
     out_of_range(bm(StereoBm {
-        uniqueness_percent: 100,
+        filter: DisparityFilter {
+            uniqueness_percent: 100,
+            ..Default::default()
+        },
         ..Default::default()
     }));
     out_of_range(bm(StereoBm {
-        speckle_range_px: -1.0,
+        filter: DisparityFilter {
+            speckle_range_px: -1.0,
+            ..Default::default()
+        },
         ..Default::default()
     }));
     out_of_range(sgm(StereoSgm {
-        uniqueness_percent: 100,
+        filter: DisparityFilter {
+            uniqueness_percent: 100,
+            ..Default::default()
+        },
         ..Default::default()
     }));
     out_of_range(sgm(StereoSgm {
-        speckle_range_px: f32::NAN,
+        filter: DisparityFilter {
+            speckle_range_px: f32::NAN,
+            ..Default::default()
+        },
         ..Default::default()
     }));
     out_of_range(sgm(StereoSgm {

@@ -3,7 +3,7 @@
 use super::Folder;
 use epipole::calibration::CalibratedCamera;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
-use epipole::synthetic::{Sampling, Scene};
+use epipole_scenes::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};

@@ -10,7 +10,7 @@ pub(crate) mod exif;
 pub(crate) mod lens;
 
 use epipole::camera::{Camera, RigidTransform};
-use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
 use std::collections::BTreeSet;

@@ -42,7 +42,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
     use super::*;
-    use epipole::synthetic::{Sampling, Scene, still_life_camera};
+    use epipole_scenes::{Sampling, Scene, still_life_camera};
     use image::{RgbImage, imageops};
     use std::io::Cursor;
     use std::ops::ControlFlow;

@@ -7,7 +7,7 @@ use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, look_at};
 use epipole::math::random::Random;
 use epipole::stereo::PixelMap;
-use epipole::synthetic::{Sampling, Scene, still_life_camera};
+use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
 

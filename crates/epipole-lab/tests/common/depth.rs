@@ -3,11 +3,11 @@
 use super::{answer, exported, finish};
 use epipole::camera::{Camera, look_at};
 use epipole::stereo::DisparityImage;
-use epipole::synthetic::{Scene, still_life_camera};
 use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::{
     Answer, CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Request,
 };
+use epipole_scenes::{Scene, still_life_camera};
 use image::{RgbImage, imageops};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 

@@ -74,7 +74,7 @@ pub(crate) fn three_points_set_the_floor(project: &mut Project) {
     // Which points are on the table is known from where the photographs were rendered: by height below the cameras, in
     // the direction that is down in all of them.
     let truth: Vec<_> = (0..9).map(true_camera).collect();
-    let scene = epipole::synthetic::Scene::still_life();
+    let scene = epipole_scenes::Scene::still_life();
     let on_table = |point: usize| {
         let (image, keypoint) = component.points[point].track[0];
         let photo = &project.document().photos[image as usize];

@@ -8,7 +8,7 @@ use epipole::Error;
 use epipole::camera::Camera;
 use epipole::feature::{Features, SiftOptions, detect_sift_with_progress};
 use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
-use epipole::synthetic::Transfer;
+use epipole_scenes::Transfer;
 use image::RgbImage;
 use nalgebra::Point2;
 use std::sync::OnceLock;

@@ -9,7 +9,7 @@
 
 use epipole::Error;
 use epipole::camera::Camera;
-use epipole::synthetic::{Moved, Photograph, Reprojected, Sampling, Scene};
+use epipole_scenes::{Moved, Photograph, Reprojected, Sampling, Scene};
 use image::RgbImage;
 use std::ops::Range;
 

@@ -4,7 +4,7 @@ use crate::contract::Progress;
 use epipole::Error;
 use epipole::camera::Camera;
 use epipole::math::random::Random;
-use epipole::synthetic::{
+use epipole_scenes::{
     MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, Transfer, still_life_camera,
 };
 use image::RgbImage;

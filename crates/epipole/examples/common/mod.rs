@@ -4,7 +4,7 @@
 
 use epipole::prelude::*;
 use epipole::sfm::Photo;
-use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 
 pub(crate) type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 

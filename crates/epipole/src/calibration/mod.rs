@@ -21,6 +21,7 @@ mod closed_form;
 mod coverage;
 mod crossing;
 mod find_board;
+mod footprint;
 mod lattice;
 #[cfg(feature = "decode")]
 mod prepare;

@@ -2,49 +2,63 @@
 
 #[cfg(test)]
 use super::BoardView;
+use super::footprint::Footprint;
 use super::{Board, CalibratedCamera, Pattern};
 use crate::camera::RigidTransform;
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
-use nalgebra::{Point2, Point3, Vector3};
+use image::Luma;
+use nalgebra::{Point2, Point3, Vector2, Vector3};
 
-/// Samples along each side of a pixel.
-const SAMPLES: usize = 3;
-const BLACK: f32 = 0.12;
-const WHITE: f32 = 0.85;
-const TABLE: f32 = 0.45;
+const BLACK: f64 = 0.12;
+const WHITE: f64 = 0.85;
+const TABLE: f64 = 0.45;
+/// Width of the white margin around the marks of a chessboard's corners or a grid's disks, squares.
+const MARGIN: f64 = 2.2;
+/// Radius of a disk, squares.
+const DISK: f64 = 0.45;
 
-/// The gray of a place on the board, whose margin is 1.2 squares wide.
-fn gray(board: &Board, x: f64, y: f64) -> f32 {
-    let (x, y) = (x / board.square_m(), y / board.square_m());
+/// The mean gray of a part of the board.
+///
+/// * `seen`: what one pixel sees, in squares
+fn gray(board: &Board, seen: &Footprint) -> f64 {
     let across = match board.pattern() {
         Pattern::Chessboard => board.columns(),
         Pattern::AsymmetricCircles => 2 * board.columns(),
     } as f64;
     let down = board.rows() as f64;
-    if x < -2.2 || y < -2.2 || x > across + 1.2 || y > down + 1.2 {
+    let whole = seen.area();
+    let [low, high] = seen.bounds();
+    let corner = Point2::new(across - 1.0 + MARGIN, down - 1.0 + MARGIN);
+    let is_aside = |i: usize| low[i] > corner[i] || high[i] < -MARGIN;
+    if !(whole > 0.0 && whole.is_finite()) || is_aside(0) || is_aside(1) {
         return TABLE;
     }
-    match board.pattern() {
-        Pattern::Chessboard => {
-            let on_squares = x > -1.0 && y > -1.0 && x < across && y < down;
-            let even = (x.floor() + y.floor()).rem_euclid(2.0) == 0.0;
-            if on_squares && even { BLACK } else { WHITE }
-        }
-        Pattern::AsymmetricCircles => {
-            let (i, j) = (x.round(), y.round());
-            let is_mark = i >= 0.0
-                && j >= 0.0
-                && i < across
-                && j < down
-                && (i + j).rem_euclid(2.0) == 0.0
-                && libm::hypot(x - i, y - j) < 0.45;
-            if is_mark { BLACK } else { WHITE }
+    let sheet = seen.area_in_rectangle(Point2::new(-MARGIN, -MARGIN), corner);
+    // The first square ends at the first corner; the first disk is around it.
+    let (first, before, after) = match board.pattern() {
+        Pattern::Chessboard => (-1.0, 0.0, 1.0),
+        Pattern::AsymmetricCircles => (0.0, DISK, DISK),
+    };
+    let marks = |i: usize, num: f64| {
+        let begin = (low[i] - after).ceil().max(first);
+        let end = (high[i] + before).floor().min(num - 1.0);
+        begin as i64..=end as i64
+    };
+    let mut black = 0.0;
+    for j in marks(1, down) {
+        for i in marks(0, across).filter(|i| (i + j) % 2 == 0) {
+            let mark = Point2::new(i as f64, j as f64);
+            black += match board.pattern() {
+                Pattern::Chessboard => seen.area_in_rectangle(mark, mark + Vector2::new(1.0, 1.0)),
+                Pattern::AsymmetricCircles => seen.area_in_disk(mark, DISK),
+            };
         }
     }
+    TABLE + ((WHITE - TABLE) * sheet + (BLACK - WHITE) * black) / whole
 }
 
-/// A photograph of a board on a gray table, each pixel the mean over its area.
+/// A photograph of a board on a gray table, each pixel the exact mean over the area that it sees.
 ///
 /// * `cam_from_board`: where the board is, meters
 /// * `noise`: one standard deviation of the noise, white being 1 and black 0
@@ -81,25 +95,33 @@ pub fn photograph_of_board(
     let mut random = Random::new(seed);
     let board_from_cam = cam_from_board.inverse();
     let origin = board_from_cam * Point3::origin();
-    GrayImage32::from_fn(camera.width, camera.height, |u, v| {
-        let mut sum = 0.0;
-        for k in 0..SAMPLES * SAMPLES {
-            let offset = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
-            let pixel = Point2::new(
-                f64::from(u) + offset(k % SAMPLES),
-                f64::from(v) + offset(k / SAMPLES),
-            );
-            let value = camera.ray(&pixel).ok().and_then(|ray| {
-                let ray: Vector3<f64> = board_from_cam.rotation * ray;
-                let depth = -origin.z / ray.z;
-                (depth > 0.0)
-                    .then(|| gray(board, origin.x + depth * ray.x, origin.y + depth * ray.y))
-            });
-            sum += value.unwrap_or(TABLE);
+    // The place of the board that an image point sees, in squares.
+    let place = |u: f64, v: f64| {
+        let ray: Vector3<f64> = board_from_cam.rotation * camera.ray(&Point2::new(u, v)).ok()?;
+        let depth = -origin.z / ray.z;
+        (depth > 0.0).then(|| (origin + ray * depth).xy() / board.square_m())
+    };
+    let row = |v: u32| -> Vec<_> {
+        (0..=camera.width)
+            .map(|u| place(f64::from(u) - 0.5, f64::from(v) - 0.5))
+            .collect()
+    };
+    let mut above = row(0);
+    let mut image = GrayImage32::new(camera.width, camera.height);
+    for v in 0..camera.height {
+        let below = row(v + 1);
+        for u in 0..camera.width {
+            let k = u as usize;
+            let mean = match [above[k], above[k + 1], below[k + 1], below[k]] {
+                [Some(a), Some(b), Some(c), Some(d)] => gray(board, &Footprint::new([a, b, c, d])),
+                _ => TABLE,
+            };
+            let value = mean + noise * random.normal();
+            image.put_pixel(u, v, Luma([value.clamp(0.0, 1.0) as f32]));
         }
-        let mean = sum / (SAMPLES * SAMPLES) as f32;
-        image::Luma([(mean + (noise * random.normal()) as f32).clamp(0.0, 1.0)])
-    })
+        above = below;
+    }
+    image
 }
 
 /// Where the marks are seen.
@@ -143,4 +165,108 @@ pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Ve
             RigidTransform::from_parts((at - rotation * middle).into(), rotation)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Intrinsics, Lens, LensKind};
+    use core::f64::consts::PI;
+    use nalgebra::UnitQuaternion;
+
+    const SQUARE_M: f64 = 0.03;
+
+    fn camera() -> CalibratedCamera {
+        CalibratedCamera {
+            intrinsics: Intrinsics::new(300.0, 300.0, 99.3, 79.8).unwrap(),
+            lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5]).unwrap(),
+            width: 200,
+            height: 160,
+        }
+    }
+
+    /// The middle of the board's mark 1 before the camera, turned about its own normal and tipped.
+    fn pose(board: &Board, turn_rad: f64, tip_rad: f64, offset_px: f64) -> RigidTransform {
+        let rotation = UnitQuaternion::from_euler_angles(tip_rad, 0.3 * tip_rad, 0.0)
+            * UnitQuaternion::from_euler_angles(0.0, 0.0, turn_rad);
+        let mark = board.mark(4);
+        let at = Vector3::new(offset_px * 0.25 / 300.0, 0.0, 0.25);
+        let middle = rotation * Vector3::new(mark.x, mark.y, 0.0);
+        RigidTransform::from_parts((at - middle).into(), rotation)
+    }
+
+    /// Where an edge crosses a row of pixels, from the sum of their gray values: the area on either side of it.
+    fn crossing(image: &GrayImage32, columns: core::ops::Range<u32>, v: u32) -> f64 {
+        let gray = |u: u32| f64::from(image.get_pixel(u, v).0[0]);
+        let (first, last) = (gray(columns.start), gray(columns.end - 1));
+        let sum: f64 = columns
+            .clone()
+            .map(|u| (gray(u) - last) / (first - last))
+            .sum();
+        f64::from(columns.start) - 0.5 + sum
+    }
+
+    /// Edges of squares lie where projected corners say, at any angle.
+    #[test]
+    fn edges_are_exact() {
+        let board = Board::new(Pattern::Chessboard, 3, 3, SQUARE_M).unwrap();
+        let camera = camera();
+        let mut num_rows = 0;
+        for degrees in [3.0, 17.0, 30.0, 45.0, 58.0, -45.0, -20.0] {
+            for tip_rad in [0.0, 0.35, -0.5] {
+                for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
+                    let pose = pose(&board, f64::to_radians(degrees), tip_rad, offset_px);
+                    let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+                    // The edges above and below of the middle corner, along the board's y.
+                    let corner = |j: f64| {
+                        let place = Point3::new(SQUARE_M, j * SQUARE_M, 0.0);
+                        camera.project(&(pose * place)).unwrap()
+                    };
+                    for [a, b] in [[corner(0.0), corner(1.0)], [corner(1.0), corner(2.0)]] {
+                        let slope = (b.x - a.x) / (b.y - a.y);
+                        // Far enough from both ends for windows of 5 pixels on either side.
+                        let (top, bottom) = (a.y.min(b.y) + 12.0, a.y.max(b.y) - 12.0);
+                        for v in top.ceil() as u32..bottom.floor() as u32 {
+                            let truth = a.x + slope * (f64::from(v) - a.y);
+                            let middle = truth.round() as u32;
+                            let found = crossing(&image, middle - 5..middle + 6, v);
+                            assert!(
+                                (found - truth).abs() < 0.01,
+                                "{degrees} {tip_rad} {v}: {found} {truth}"
+                            );
+                            num_rows += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert!(num_rows > 1000, "{num_rows}");
+    }
+
+    /// A disk that faces the camera has the area and the center of its circle.
+    #[test]
+    fn disks_are_exact() {
+        let board = Board::new(Pattern::AsymmetricCircles, 3, 3, SQUARE_M).unwrap();
+        let camera = camera();
+        for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
+            let pose = pose(&board, 0.7, 0.0, offset_px);
+            let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+            let mark = board.mark(4);
+            let center = camera
+                .project(&(pose * Point3::new(mark.x, mark.y, 0.0)))
+                .unwrap();
+            let radius_px = 0.45 * SQUARE_M * 300.0 / 0.25;
+            let (mut area, mut moment) = (0.0, Vector2::zeros());
+            for (u, v, value) in image.enumerate_pixels() {
+                let from = Vector2::new(f64::from(u), f64::from(v)) - center.coords;
+                if from.norm() < radius_px + 3.0 {
+                    let dark = (WHITE - f64::from(value.0[0])) / (WHITE - BLACK);
+                    area += dark;
+                    moment += from * dark;
+                }
+            }
+            assert!((area - PI * radius_px * radius_px).abs() < 0.01, "{area}");
+            assert!((moment / area).norm() < 1e-4, "{moment}");
+        }
+    }
 }

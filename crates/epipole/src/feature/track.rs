@@ -277,16 +277,7 @@ fn check(options: &TrackOptions) -> Result<()> {
             back > 0.0,
         ),
     ];
-    for (what, requirement, value, fine) in ranges {
-        if !fine {
-            return Err(Error::OutOfRange {
-                what,
-                requirement,
-                value,
-            });
-        }
-    }
-    Ok(())
+    Error::check_rules(&ranges)
 }
 
 #[cfg(test)]

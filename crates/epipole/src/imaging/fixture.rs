@@ -50,19 +50,6 @@ pub(crate) fn bytes(name: &str) -> Array<u8> {
     Array { shape, values }
 }
 
-pub(crate) fn shorts(name: &str) -> Array<i16> {
-    let (shape, raw) = read(name, "<i2");
-    let values = raw
-        .as_chunks::<2>()
-        .0
-        .iter()
-        .map(|&b| i16::from_le_bytes(b));
-    Array {
-        shape,
-        values: values.collect(),
-    }
-}
-
 pub(crate) fn floats(name: &str) -> Array<f32> {
     let (shape, raw) = read(name, "<f4");
     let values = raw

@@ -96,7 +96,7 @@ pub fn box_filter(image: &GrayImage32, size: usize, border: Border) -> Result<Gr
     Ok(mean)
 }
 
-pub(crate) fn require_box_size(size: usize) -> Result<()> {
+fn require_box_size(size: usize) -> Result<()> {
     if size % 2 == 1 && size <= 1001 {
         return Ok(());
     }

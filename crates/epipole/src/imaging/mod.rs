@@ -34,7 +34,7 @@ mod warp;
 mod weigh;
 
 pub use border::Border;
-pub use bytes::{GrayImageI16, box_filter_u8, derivative_u8, gaussian_blur_u8, pyramid_down_u8};
+pub use bytes::gaussian_blur_u8;
 pub use correlate::{correlate, noise_gain};
 #[cfg(feature = "decode")]
 pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};

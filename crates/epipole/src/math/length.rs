@@ -7,8 +7,13 @@ use nalgebra::SVector;
 /// `norm` takes its square root from `libm`, like all that transcendental functions are asked of here, and without
 /// unstable features that computes it bit by bit in WebAssembly. A square root is rounded correctly everywhere, so
 /// the processor's own, one instruction, gives nothing else.
+///
+/// ```
+/// use epipole::math::length;
+/// assert_eq!(length(&epipole::nalgebra::Vector2::new(3.0, 4.0)), 5.0);
+/// ```
 #[inline]
-pub(crate) fn length<const N: usize>(vector: &SVector<f64, N>) -> f64 {
+pub fn length<const N: usize>(vector: &SVector<f64, N>) -> f64 {
     vector.norm_squared().sqrt()
 }
 

@@ -13,7 +13,7 @@ pub(crate) mod simd;
 pub(crate) mod svd3;
 
 pub use geodetic::{Geodetic, local_from_geodetic};
-pub(crate) use length::length;
+pub use length::length;
 pub use line::Line2;
 pub(crate) use svd3::nearest_orthogonal;
 pub use svd3::{Svd3, svd3};

@@ -5,7 +5,7 @@ use super::bundle::PositionPrior;
 use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::shares::{Begin, Shares};
-use super::tracks::{PairMatches, build_tracks};
+use super::tracks::{PairMatches, build_tracks, track_of_keypoints};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
 use super::views::Views;
 use crate::camera::Intrinsics;
@@ -399,12 +399,7 @@ fn grow(
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
     let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
     let tracks = build_tracks(&counts, &surviving)?;
-    let mut track_of: Vec<Vec<u32>> = counts.iter().map(|n| vec![u32::MAX; *n]).collect();
-    for (index, track) in tracks.iter().enumerate() {
-        for element in track {
-            track_of[element.image as usize][element.keypoint as usize] = index as u32;
-        }
-    }
+    let track_of = track_of_keypoints(&counts, &tracks);
     let mut result = SfmResult::default();
     let mut taken = vec![false; images.len()];
     while !reporter.canceled {

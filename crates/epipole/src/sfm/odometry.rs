@@ -7,7 +7,7 @@ use super::incremental::{
 };
 use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
-use super::tracks::{PairMatches, build_tracks};
+use super::tracks::{PairMatches, build_tracks, track_of_keypoints};
 use super::views::Views;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::robust::RansacOptions;
@@ -188,12 +188,7 @@ fn follow(
     let verified = verify(input, &options.sfm, &intrinsics, &views, &mut reporter);
     let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
     let tracks = build_tracks(&counts, &surviving)?;
-    let mut track_of: Vec<Vec<u32>> = counts.iter().map(|n| vec![u32::MAX; *n]).collect();
-    for (index, track) in tracks.iter().enumerate() {
-        for element in track {
-            track_of[element.image as usize][element.keypoint as usize] = index as u32;
-        }
-    }
+    let track_of = track_of_keypoints(&counts, &tracks);
     let mut builder = Builder {
         images,
         options: &options.sfm,

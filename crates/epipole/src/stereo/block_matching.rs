@@ -1,10 +1,10 @@
 //! Block matching.
 
 use super::DisparityImage;
-use super::clean::{close_gaps, remove_speckles};
+use super::filter::DisparityFilter;
 use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
-use super::winner::{Selector, Tests};
+use super::winner::Selector;
 use super::work::Strips;
 use crate::math::simd::dispatched;
 use crate::progress::Progress;
@@ -54,19 +54,8 @@ pub struct StereoBm {
     /// The smallest mean, per pixel of the window, of the pre-filtered left values' magnitudes;
     /// 0: no such test.
     pub min_texture: f32,
-    /// Percent by which the sums of all disparities two or more away from the best must be
-    /// higher, 0 to 99; 0: no such test.
-    pub uniqueness_percent: u32,
-    /// The largest difference between the disparities seen from the left and from the right,
-    /// pixels; none: no such test.
-    pub left_right_max_px: Option<u32>,
-    /// Answers that hang together in fewer pixels than this are removed; 0 or 1: none.
-    pub speckle_size: u32,
-    /// Neighbors whose disparities differ by no more than this hang together, pixels.
-    pub speckle_range_px: f32,
-    /// The longest gap along a row or a column, pixels, that is closed by interpolation where
-    /// the answers at its two ends hang together; 0: none.
-    pub max_gap_px: u32,
+    /// Which answers are kept.
+    pub filter: DisparityFilter,
 }
 
 impl Default for StereoBm {
@@ -79,11 +68,11 @@ impl Default for StereoBm {
             prefilter: StereoPrefilter::default(),
             prefilter_cap: 31,
             min_texture: 0.5,
-            uniqueness_percent: 10,
-            left_right_max_px: Some(1),
-            speckle_size: 100,
-            speckle_range_px: 2.0,
-            max_gap_px: 0,
+            filter: DisparityFilter {
+                uniqueness_percent: 10,
+                max_gap_px: 0,
+                ..DisparityFilter::default()
+            },
         }
     }
 }
@@ -139,11 +128,7 @@ impl StereoBm {
         };
         strips.run(&mut values, progress, |first_row, values, reporter| {
             let mut windows = Windows::new(search, self, &left, &right, first_row);
-            let tests = Tests {
-                uniqueness_percent: self.uniqueness_percent,
-                left_right_max: self.left_right_max_px,
-            };
-            let mut selector = Selector::new(search, tests);
+            let mut selector = Selector::new(search, self.filter);
             let mut sums = vec![0; search.width * search.num_cells];
             let num_rows = values.len() / search.width;
             for (i, out) in values.chunks_exact_mut(search.width).enumerate() {
@@ -154,20 +139,13 @@ impl StereoBm {
             }
             Ok(())
         })?;
-        let mut disparity = search.image(values);
-        remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
-        close_gaps(
-            &mut disparity,
-            self.max_gap_px as usize,
-            self.speckle_range_px,
-        );
-        Ok(disparity)
+        self.filter.clean(search.image(values))
     }
 
     fn check(&self, search: &Search) -> Result<()> {
         let (window, cap) = (u64::from(self.window_px), u64::from(self.prefilter_cap));
         let shorter = search.width.min(search.height) as u64;
-        for (what, requirement, value, good) in [
+        Error::check_rules(&[
             (
                 "the window",
                 "an odd number of pixels, at least 3",
@@ -201,22 +179,8 @@ impl StereoBm {
                 f64::from(self.min_texture),
                 self.min_texture >= 0.0,
             ),
-            (
-                "the uniqueness",
-                "from 0 to 99 percent",
-                f64::from(self.uniqueness_percent),
-                self.uniqueness_percent < 100,
-            ),
-        ] {
-            if !good {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
-        Ok(())
+        ])?;
+        self.filter.check()
     }
 }
 

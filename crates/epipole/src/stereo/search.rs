@@ -54,7 +54,7 @@ impl<'a> Search<'a> {
             });
         }
         let longest = left.width();
-        for (what, requirement, value, good) in [
+        Error::check_rules(&[
             (
                 "the number of disparities",
                 "at least 1, and at most 4096",
@@ -67,15 +67,7 @@ impl<'a> Search<'a> {
                 f64::from(min_disparity),
                 min_disparity.unsigned_abs() < longest,
             ),
-        ] {
-            if !good {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
+        ])?;
         Ok(Self {
             left,
             right,

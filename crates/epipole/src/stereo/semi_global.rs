@@ -1,11 +1,11 @@
 //! Semi-global matching.
 
 use super::DisparityImage;
-use super::clean::{close_gaps, remove_speckles};
+use super::filter::DisparityFilter;
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
-use super::winner::{Selector, Tests};
+use super::winner::Selector;
 use super::work::{Reporter, alone, in_two};
 use crate::progress::Progress;
 use crate::{Error, Result};
@@ -39,13 +39,14 @@ pub enum StereoPaths {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::stereo::StereoSgm;
+/// use epipole::stereo::{DisparityFilter, StereoSgm};
 /// use image::{GrayImage, Luma};
 /// // A pattern, and the same moved 3 pixels to the left.
 /// let gray = |u: u32, v: u32| Luma([((u * u * 7 + v * v * 5 + u * v * 3) % 251) as u8]);
 /// let left = GrayImage::from_fn(40, 24, gray);
 /// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
-/// let matcher = StereoSgm { num_disparities: 8, speckle_size: 0, ..Default::default() };
+/// let filter = DisparityFilter { speckle_size: 0, ..Default::default() };
+/// let matcher = StereoSgm { num_disparities: 8, filter, ..Default::default() };
 /// let disparity = matcher.compute(&left, &right)?;
 /// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
 /// # Ok(()) }
@@ -69,19 +70,8 @@ pub struct StereoSgm {
     /// The difference of gray values between two neighbors that halves P2 (never below P1), since
     /// the edges of objects are mostly edges of the picture. 0: P2 is the same everywhere.
     pub edge_gray: u8,
-    /// Percent by which the costs of all disparities two or more away from the best must be
-    /// higher, 0 to 99; 0: no such test.
-    pub uniqueness_percent: u32,
-    /// The largest difference between the disparities seen from the left and from the right,
-    /// pixels; none: no such test.
-    pub left_right_max_px: Option<u32>,
-    /// Answers that hang together in fewer pixels than this are removed; 0 or 1: none.
-    pub speckle_size: u32,
-    /// Neighbors whose disparities differ by no more than this hang together, pixels.
-    pub speckle_range_px: f32,
-    /// The longest gap along a row or a column, pixels, that is closed by interpolation where
-    /// the answers at its two ends hang together; 0: none.
-    pub max_gap_px: u32,
+    /// Which answers are kept.
+    pub filter: DisparityFilter,
 }
 
 impl Default for StereoSgm {
@@ -96,11 +86,7 @@ impl Default for StereoSgm {
             small_step_penalty: 20,
             large_step_penalty: 100,
             edge_gray: 10,
-            uniqueness_percent: 3,
-            left_right_max_px: Some(1),
-            speckle_size: 100,
-            speckle_range_px: 2.0,
-            max_gap_px: 16,
+            filter: DisparityFilter::default(),
         }
     }
 }
@@ -161,19 +147,12 @@ impl StereoSgm {
             StereoPaths::Four => task.both_ways::<2>(progress)?,
             StereoPaths::Eight => task.both_ways::<4>(progress)?,
         };
-        let mut disparity = search.image(values);
-        remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
-        close_gaps(
-            &mut disparity,
-            self.max_gap_px as usize,
-            self.speckle_range_px,
-        );
-        Ok(disparity)
+        self.filter.clean(search.image(values))
     }
 
     fn check(&self) -> Result<()> {
         let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
-        for (what, requirement, value, good) in [
+        Error::check_rules(&[
             (
                 "the largest cost of a difference of gray values",
                 "from 1 to 63",
@@ -186,22 +165,8 @@ impl StereoSgm {
                 f64::from(p2),
                 p1 <= p2 && p2 <= 150,
             ),
-            (
-                "the uniqueness",
-                "from 0 to 99 percent",
-                f64::from(self.uniqueness_percent),
-                self.uniqueness_percent < 100,
-            ),
-        ] {
-            if !good {
-                return Err(Error::OutOfRange {
-                    what,
-                    requirement,
-                    value,
-                });
-            }
-        }
-        Ok(())
+        ])?;
+        self.filter.check()
     }
 
     fn penalties(&self) -> Penalties {
@@ -216,13 +181,6 @@ impl StereoSgm {
                 let edge = usize::from(self.edge_gray);
                 ((usize::from(p2) * edge / (edge + step)) as u8).max(lowest)
             }),
-        }
-    }
-
-    fn tests(&self) -> Tests {
-        Tests {
-            uniqueness_percent: self.uniqueness_percent,
-            left_right_max: self.left_right_max_px,
         }
     }
 }
@@ -252,7 +210,7 @@ impl Task<'_> {
         let mut sums = vec![0; self.row_cells()];
         let mut down = Sweep::<4>::new(search.width, search.num_cells, false);
         let mut back = Sweep::<1>::new(search.width, search.num_cells, true);
-        let mut selector = Selector::new(search, self.options.tests());
+        let mut selector = Selector::new(search, self.options.filter);
         let mut values = vec![0.0; search.width * search.height];
         for (v, out) in values.chunks_exact_mut(search.width).enumerate() {
             reporter.report(v, search.height)?;
@@ -351,7 +309,7 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
             task,
             cost_rows: task.cost_rows(),
             paths: Sweep::new(search.width, search.num_cells, upward),
-            selector: Selector::new(search, task.options.tests()),
+            selector: Selector::new(search, task.options.filter),
             upward,
         }
     }

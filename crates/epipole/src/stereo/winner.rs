@@ -1,21 +1,13 @@
 //! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
 
+use super::filter::DisparityFilter;
 use super::search::Search;
 use crate::math::simd::dispatched;
-
-/// What makes an answer credible.
-#[derive(Clone, Copy)]
-pub(super) struct Tests {
-    /// Percent by which every other disparity (two or more away) must cost more; below 100.
-    pub(super) uniqueness_percent: u32,
-    /// Largest difference between the left picture's and the right picture's answer.
-    pub(super) left_right_max: Option<u32>,
-}
 
 /// Selects the answers row by row.
 pub(super) struct Selector<'a> {
     search: Search<'a>,
-    tests: Tests,
+    filter: DisparityFilter,
     /// The best disparity of each left pixel, from the smallest looked for.
     winners: Vec<i16>,
     /// The fraction beside the winner; NaN where it is not unique.
@@ -27,14 +19,14 @@ pub(super) struct Selector<'a> {
 }
 
 impl<'a> Selector<'a> {
-    pub(super) fn new(search: Search<'a>, tests: Tests) -> Self {
-        let len = match tests.left_right_max {
+    pub(super) fn new(search: Search<'a>, filter: DisparityFilter) -> Self {
+        let len = match filter.left_right_max_px {
             Some(_) => search.width + search.num_cells,
             None => 0,
         };
         Self {
             search,
-            tests,
+            filter,
             winners: vec![0; search.width],
             offsets: vec![0.0; search.width],
             right_sums: vec![0; len],
@@ -54,7 +46,7 @@ impl<'a> Selector<'a> {
         self.right_sums.fill(i16::MAX);
         find_winners(
             n,
-            self.tests.uniqueness_percent as i32,
+            self.filter.uniqueness_percent as i32,
             sums,
             &mut self.winners,
             &mut self.offsets,
@@ -77,7 +69,7 @@ impl<'a> Selector<'a> {
     /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
     #[inline(always)]
     fn is_mutual(&self, u: usize, winner: usize, offset: f32) -> bool {
-        let Some(max) = self.tests.left_right_max else {
+        let Some(max) = self.filter.left_right_max_px else {
             return true;
         };
         let second = if offset > 0.0 {

@@ -1,9 +1,11 @@
-//! What the two matchers of `epipole stereo` can be told: each field of theirs is a flag.
+//! Command-line options of the two stereo matchers.
 
 use crate::failure::Failure;
 use crate::matrices::not_negative;
 use clap::{Args, ValueEnum};
-use epipole::stereo::{StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm};
+use epipole::stereo::{
+    DisparityFilter, StereoBm, StereoCost, StereoPaths, StereoPrefilter, StereoSgm,
+};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Cost {
@@ -34,14 +36,27 @@ pub(super) struct KeepArguments {
     #[arg(long, default_value = "1", value_name = "PX|any", value_parser = left_right)]
     left_right_max_px: LeftRight,
     /// Answers that hang together in fewer pixels than this are removed.
-    #[arg(long, default_value_t = StereoSgm::default().speckle_size, value_name = "N")]
+    #[arg(long, default_value_t = DisparityFilter::default().speckle_size, value_name = "N")]
     speckle_size: u32,
     /// Neighbors whose disparities differ by no more than this hang together, pixels.
-    #[arg(long, default_value_t = f64::from(StereoSgm::default().speckle_range_px), value_name = "PX", value_parser = not_negative)]
+    #[arg(long, default_value_t = f64::from(DisparityFilter::default().speckle_range_px), value_name = "PX", value_parser = not_negative)]
     speckle_range_px: f64,
     /// The longest gap that is closed where the answers at its ends hang together, pixels [default: 16 for SGM, 0 for BM].
     #[arg(long, value_name = "PX")]
     max_gap_px: Option<u32>,
+}
+
+impl KeepArguments {
+    /// The filter for the core, where `usual` is that of the matcher.
+    fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
+        DisparityFilter {
+            uniqueness_percent: self.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
+            left_right_max_px: self.left_right_max_px.0,
+            speckle_size: self.speckle_size,
+            speckle_range_px: self.speckle_range_px as f32,
+            max_gap_px: self.max_gap_px.unwrap_or(usual.max_gap_px),
+        }
+    }
 }
 
 /// How far the two directions may disagree; none: as far as they like.
@@ -138,11 +153,7 @@ impl SgmArguments {
             small_step_penalty: self.small_step_penalty.unwrap_or(usual.small_step_penalty),
             large_step_penalty: self.large_step_penalty.unwrap_or(usual.large_step_penalty),
             edge_gray: self.edge_gray.unwrap_or(usual.edge_gray),
-            uniqueness_percent: keep.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
-            left_right_max_px: keep.left_right_max_px.0,
-            speckle_size: keep.speckle_size,
-            speckle_range_px: keep.speckle_range_px as f32,
-            max_gap_px: keep.max_gap_px.unwrap_or(usual.max_gap_px),
+            filter: keep.filter(usual.filter),
         }
     }
 }
@@ -173,11 +184,7 @@ impl BmArguments {
             }),
             prefilter_cap: self.prefilter_cap.unwrap_or(usual.prefilter_cap),
             min_texture: (self.min_texture).map_or(usual.min_texture, |texture| texture as f32),
-            uniqueness_percent: keep.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
-            left_right_max_px: keep.left_right_max_px.0,
-            speckle_size: keep.speckle_size,
-            speckle_range_px: keep.speckle_range_px as f32,
-            max_gap_px: keep.max_gap_px.unwrap_or(usual.max_gap_px),
+            filter: keep.filter(usual.filter),
         }
     }
 }
@@ -228,6 +235,13 @@ mod tests {
             --max-gap-px 4 --cost census --gray-cap 21 --paths 5 --small-step-penalty 11 --large-step-penalty 90 \
             --edge-gray 0 --window-px 9 --prefilter local-mean --prefilter-cap 20 --min-texture 2";
         let all = parsed(&words.split_whitespace().collect::<Vec<_>>());
+        let filter = DisparityFilter {
+            uniqueness_percent: 7,
+            left_right_max_px: None,
+            speckle_size: 9,
+            speckle_range_px: 1.5,
+            max_gap_px: 4,
+        };
         assert_eq!(
             all.sgm.matcher(&all.keep, (-3, 20)),
             StereoSgm {
@@ -239,11 +253,7 @@ mod tests {
                 small_step_penalty: 11,
                 large_step_penalty: 90,
                 edge_gray: 0,
-                uniqueness_percent: 7,
-                left_right_max_px: None,
-                speckle_size: 9,
-                speckle_range_px: 1.5,
-                max_gap_px: 4,
+                filter,
             }
         );
         assert_eq!(
@@ -255,11 +265,7 @@ mod tests {
                 prefilter: StereoPrefilter::LocalMean,
                 prefilter_cap: 20,
                 min_texture: 2.0,
-                uniqueness_percent: 7,
-                left_right_max_px: None,
-                speckle_size: 9,
-                speckle_range_px: 1.5,
-                max_gap_px: 4,
+                filter,
             }
         );
     }

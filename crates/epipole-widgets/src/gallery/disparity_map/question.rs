@@ -6,8 +6,8 @@ use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::camera::{Camera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
-use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
-use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
+use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 use image::GrayImage;
 use serde::{Deserialize, Serialize};
 
@@ -147,31 +147,38 @@ impl Question {
     ) -> Result<DisparityImage, Error> {
         match self.method {
             Method::Blocks(window_px) => {
-                let mut matcher = StereoBm {
+                let usual = StereoBm::default();
+                StereoBm {
                     num_disparities: self.num_disparities,
                     window_px,
-                    ..StereoBm::default()
-                };
-                if !self.checks {
-                    matcher.left_right_max_px = None;
-                    matcher.uniqueness_percent = 0;
-                    matcher.min_texture = 0.0;
-                    matcher.speckle_size = 0;
+                    min_texture: if self.checks { usual.min_texture } else { 0.0 },
+                    filter: self.filter(usual.filter),
+                    ..usual
                 }
-                matcher.compute_with_progress(left, right, progress)
+                .compute_with_progress(left, right, progress)
             }
             Method::SemiGlobal => {
-                let mut matcher = StereoSgm {
+                let usual = StereoSgm::default();
+                StereoSgm {
                     num_disparities: self.num_disparities,
-                    ..StereoSgm::default()
-                };
-                if !self.checks {
-                    matcher.left_right_max_px = None;
-                    matcher.uniqueness_percent = 0;
-                    matcher.speckle_size = 0;
+                    filter: self.filter(usual.filter),
+                    ..usual
                 }
-                matcher.compute_with_progress(left, right, progress)
+                .compute_with_progress(left, right, progress)
             }
+        }
+    }
+
+    /// The usual filter, or none of its tests.
+    fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
+        match self.checks {
+            true => usual,
+            false => DisparityFilter {
+                left_right_max_px: None,
+                uniqueness_percent: 0,
+                speckle_size: 0,
+                ..usual
+            },
         }
     }
 

@@ -265,7 +265,7 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
 mod tests {
     use super::*;
     use crate::contract::Words;
-    use epipole::synthetic::{Sampling, Scene};
+    use epipole_scenes::{Sampling, Scene};
 
     fn changed(events: &[Event]) -> EpipolarClick {
         let mut model = EpipolarClick::new();

@@ -383,7 +383,7 @@ const CHALLENGES: &[Challenge<EpipolarPlane>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::synthetic::{Sampling, Scene};
+    use epipole_scenes::{Sampling, Scene};
 
     fn handle(model: &EpipolarPlane, id: &str) -> Handle {
         let mut handles = model.handles().into_iter();

@@ -5,7 +5,7 @@ use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use epipole::Error;
 use epipole::camera::{Camera, look_at};
 use epipole::math::Line2;
-use epipole::synthetic::{Transfer, still_life_camera};
+use epipole_scenes::{Transfer, still_life_camera};
 use nalgebra::{Point2, Point3, Vector3};
 
 /// How high both cameras stand; y is down and 0 on the table.

@@ -5,7 +5,7 @@ use crate::contract::{Problem, Progress};
 use crate::kit::picture::{Picture, gray_levels};
 use crate::kit::question::{self, tell};
 use crate::kit::scenes;
-use epipole::synthetic::still_life_camera;
+use epipole_scenes::still_life_camera;
 use serde::{Deserialize, Serialize};
 
 /// Size of the rendered photograph, pixels.

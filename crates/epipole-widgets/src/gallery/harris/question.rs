@@ -8,7 +8,7 @@ use epipole::feature::{
     StructureTensorOptions, Window, WindowTensor, harris_response, non_maximum_suppression,
 };
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
-use epipole::synthetic::still_life_camera;
+use epipole_scenes::still_life_camera;
 use image::RgbImage;
 use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;

@@ -43,7 +43,7 @@ mod tests {
     use super::*;
     use crate::kit::scenes::photograph;
     use epipole::imaging::rgb_to_gray;
-    use epipole::synthetic::still_life_camera;
+    use epipole_scenes::still_life_camera;
     use std::ops::ControlFlow;
 
     #[test]

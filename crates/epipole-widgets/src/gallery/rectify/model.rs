@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{in_picture, still_life};
-use epipole::synthetic::Transfer;
+use epipole_scenes::Transfer;
 use nalgebra::{Point2, Point3};
 use std::cell::OnceCell;
 

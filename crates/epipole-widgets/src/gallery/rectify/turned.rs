@@ -221,7 +221,7 @@ pub(super) fn image_ends(camera: &Camera) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::synthetic::Scene;
+    use epipole_scenes::Scene;
 
     const RAW: Way = Way {
         parallel: 0.0,

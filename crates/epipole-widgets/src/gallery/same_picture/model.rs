@@ -6,7 +6,7 @@ use crate::contract::{
     format_number, knobs,
 };
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
-use epipole::synthetic::Scene;
+use epipole_scenes::Scene;
 use nalgebra::{Point3, Vector3};
 
 pub(super) const SIZE: (u32, u32) = (640, 480);
@@ -174,7 +174,7 @@ const CHALLENGES: &[Challenge<SamePicture>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::synthetic::Sampling;
+    use epipole_scenes::Sampling;
 
     #[test]
     fn photograph_1_stays_the_same_and_photograph_2_does_not() {

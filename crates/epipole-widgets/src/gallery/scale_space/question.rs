@@ -7,7 +7,7 @@ use crate::kit::question::{self, tell};
 use crate::kit::scenes::photograph;
 use epipole::feature::{SiftOptions, scale_space};
 use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32, sample_bilinear};
-use epipole::synthetic::still_life_camera;
+use epipole_scenes::still_life_camera;
 use serde::{Deserialize, Serialize};
 
 /// Octaves that are shown, and layers of each in which extrema are looked for.

@@ -12,7 +12,7 @@ use crate::kit::question;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
-use epipole::synthetic::still_life_camera;
+use epipole_scenes::still_life_camera;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 

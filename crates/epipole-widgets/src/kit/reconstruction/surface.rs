@@ -6,8 +6,8 @@ use crate::kit::space::Space;
 use epipole::Error;
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use epipole::stereo::{
-    DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera, StereoSgm,
-    point_cloud, rectify_calibrated,
+    DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera,
+    StereoSgm, point_cloud, rectify_calibrated,
 };
 use image::RgbImage;
 use nalgebra::Point3;
@@ -81,7 +81,10 @@ pub(super) fn surface(
     let matcher = StereoSgm {
         min_disparity_px,
         num_disparities,
-        speckle_size: SPECKLE_PX,
+        filter: DisparityFilter {
+            speckle_size: SPECKLE_PX,
+            ..DisparityFilter::default()
+        },
         ..StereoSgm::default()
     };
     let found = redrawn.disparity(|first, second| {
@@ -126,7 +129,7 @@ fn searched([first, last]: [i32; 2]) -> (i32, u32) {
 mod tests {
     use super::*;
     use epipole::camera::{Camera, look_at, relative_motion};
-    use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
+    use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
     use nalgebra::Point2;
     use nalgebra::Vector3;
     use std::ops::ControlFlow;

@@ -204,16 +204,7 @@ fn check(options: &OrbOptions) -> Result<()> {
             (0.0..=1.0).contains(&options.fast_threshold),
         ),
     ];
-    for (what, requirement, value, fine) in ranges {
-        if !fine {
-            return Err(Error::OutOfRange {
-                what,
-                requirement,
-                value,
-            });
-        }
-    }
-    Ok(())
+    Error::check_rules(&ranges)
 }
 
 #[cfg(test)]

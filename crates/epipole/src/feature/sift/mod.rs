@@ -315,16 +315,7 @@ fn check(options: &SiftOptions) -> Result<()> {
             options.orientation_peak_ratio > 0.0 && options.orientation_peak_ratio <= 1.0,
         ),
     ];
-    for (what, requirement, value, fine) in ranges {
-        if !fine {
-            return Err(Error::OutOfRange {
-                what,
-                requirement,
-                value,
-            });
-        }
-    }
-    Ok(())
+    Error::check_rules(&ranges)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::theme::{Rgb, Role};
 use epipole::camera::{Camera, look_at};
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
-use epipole::synthetic::{Sampling, still_life_camera};
+use epipole_scenes::{Sampling, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 

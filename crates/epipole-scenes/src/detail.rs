@@ -1,0 +1,19 @@
+//! How finely paint and light are computed.
+
+/// Fineness of textures and light maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// Every cell.
+    Full,
+    /// For drafts: a sixteenth of the cells.
+    Sketch,
+}
+
+impl Detail {
+    pub(crate) fn side(self, cells: usize) -> usize {
+        match self {
+            Self::Full => cells,
+            Self::Sketch => cells.div_ceil(4),
+        }
+    }
+}

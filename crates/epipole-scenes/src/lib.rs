@@ -1,0 +1,44 @@
+//! Photographs of still lifes with ground truth: exact depth, exact rays, exact correspondences.
+//!
+//! * [`Scene`]: a furnished room. [`Scene::still_life`] is a table by a window,
+//!   [`Scene::long_table`] a hall with one thing that moves, [`Scene::studio`] a mug that moves and
+//!   grows. A scene gives photographs with exact
+//!   depth ([`Scene::render`]), exact rays ([`Scene::cast`]) and exact correspondences between
+//!   any two cameras ([`Scene::transfer`]).
+//! * [`Photograph::reproject`]: a photograph as another camera would have taken it.
+//!
+//! A photograph is made in three steps. Surfaces are *painted* once into textures, with their
+//! smaller copies for distant views. Light is *baked* once into maps: the part of the window that
+//! each place of a surface sees, and how open its surroundings are. A pixel then needs one ray,
+//! one look into the texture and one into the light; edges get eight rays more.
+//!
+//! Geometry is exact (`f64`, closed form or iterated to convergence), shading is `f32`. No
+//! function outside of `libm` and nothing that depends on threads or the platform touches a pixel.
+//!
+//! The folders are rooms; each uses those listed before it:
+//!
+//! | room | what it holds |
+//! |---|---|
+//! | `shape` | cuboids, lathes and rings that rays meet |
+//! | `paint` | noise, textures, and everything that is painted on surfaces |
+//! | `things` | bodies: a shape with its paint; the wares on tables and walls |
+//! | `light` | a window, soft light, and maps of both |
+//! | `scene` | bodies with their light, rays through them |
+//! | `sets` | the three scenes |
+//! | `photograph` | rendering, and reprojection of what was rendered |
+
+mod detail;
+mod gradual;
+mod light;
+mod paint;
+mod photograph;
+mod scene;
+mod sets;
+mod shape;
+mod things;
+
+pub use photograph::reproject::{Moved, Reprojected};
+pub use photograph::{Photograph, Sampling};
+pub use scene::Scene;
+pub use scene::rays::{Hit, Transfer};
+pub use sets::{MovableKind, MovableObject, long_table_camera, still_life_camera};

@@ -1,0 +1,517 @@
+//! Photographs as another camera would have taken them, as far as their pixels tell.
+//!
+//! Every pixel has its depth, so it is known where the other camera sees it: [`carry`] takes it there. What the other
+//! camera sees and this one did not is left out, and filled from a draft: [`gaps`].
+
+mod carry;
+mod gaps;
+
+pub use gaps::Reprojected;
+
+use super::Photograph;
+use carry::{Carry, NEAR_M, Run};
+use epipole::camera::{Camera, Intrinsics};
+use epipole::{Error, Result};
+use nalgebra::{Point3, Vector3};
+use std::ops::Range;
+
+/// A thing that has moved since a photograph was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved {
+    /// Its middle at that time, in the world, meters.
+    pub center: Point3<f64>,
+    /// It is the surface within this distance of its middle, meters.
+    pub radius_m: f64,
+    /// Within this distance of where it was and of where it is, nothing else looks as it did, because
+    /// its shade has moved along, meters.
+    pub stale_m: f64,
+    /// How far it has moved, meters.
+    pub by: Vector3<f64>,
+}
+
+impl Photograph {
+    /// This photograph as the camera `to` would have taken it, with gaps where it sees what this one
+    /// did not.
+    ///
+    /// * `from`: the camera that took it
+    /// * `to`: another one, for a picture of the same size
+    /// * `moved`: what has moved in between
+    ///
+    /// Reflections and whatever else changes with the place of the eye stay as they were.
+    ///
+    /// # Errors
+    /// [`Error::SizeMismatch`] if colors and depths are not of one size; [`Error::NotFinite`] for a
+    /// camera that is nowhere.
+    ///
+    /// Source: McMillan and Bishop 1995, "Plenoptic Modeling: An Image-Based Rendering System".
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole_scenes::{Reprojected, Sampling, Scene, still_life_camera};
+    /// let camera = still_life_camera(64, 48);
+    /// let photograph = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
+    /// let mut seen = Reprojected::default();
+    /// photograph.reproject(&camera, &camera, None, &mut seen)?;
+    /// assert_eq!(seen.image(), &photograph.image);
+    /// // A camera that has moved sees something new.
+    /// let mut other = camera;
+    /// other.cam_from_world.translation.x -= 0.2;
+    /// photograph.reproject(&camera, &other, None, &mut seen)?;
+    /// assert!((100..1000).contains(&seen.num_missing()));
+    /// # Ok(()) }
+    /// ```
+    pub fn reproject(
+        &self,
+        from: &Camera,
+        to: &Camera,
+        moved: Option<&Moved>,
+        target: &mut Reprojected,
+    ) -> Result<()> {
+        let size = self.image.dimensions();
+        let depth_size = self.depth_m.dimensions();
+        for (first, second) in [(size.0, depth_size.0), (size.1, depth_size.1)] {
+            if first != second {
+                return Err(Error::SizeMismatch {
+                    what: "the colors and the depths of a photograph",
+                    first: first as usize,
+                    second: second as usize,
+                });
+            }
+        }
+        let carry = Carry::new(from, to, size)?;
+        target.begin(size);
+        let depths = self.depth_m.as_raw();
+        let Some(moved) = moved else {
+            if from == to {
+                target.pixels = self.packed().collect();
+            } else if from.cam_from_world == to.cam_from_world {
+                self.zoom(from, to, &mut target.pixels);
+            } else {
+                carry.all(self, depths, &mut target.pixels);
+            }
+            target.finish();
+            return Ok(());
+        };
+        let (stale, carried) = moved.find(self, from);
+        if from == to {
+            target.pixels = self.packed().collect();
+            for &index in stale.iter().chain(&carried) {
+                target.pixels[index as usize] = 0;
+            }
+        } else {
+            let mut depths = depths.clone();
+            for &index in stale.iter().chain(&carried) {
+                depths[index as usize] = 0.0;
+            }
+            carry.all(self, &depths, &mut target.pixels);
+        }
+        // It comes last, as if nothing stood in front of it.
+        let carry = carry.moved(to, &moved.by);
+        for indices in carried.chunk_by(|a, b| a + 1 == *b && !b.is_multiple_of(size.0)) {
+            let (u, v) = (indices[0] % size.0, indices[0] / size.0);
+            let run = Run {
+                places: u..u + indices.len() as u32,
+                is_upward: true,
+            };
+            carry.run(self, depths, (&run, (v, true)), &mut target.pixels);
+        }
+        target.finish();
+        Ok(())
+    }
+
+    /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
+    // Not inlined where all is compiled for size.
+    #[inline(never)]
+    fn zoom(&self, from: &Camera, to: &Camera, target: &mut [u32]) {
+        let (width, height) = self.image.dimensions();
+        let (here, there) = (&from.intrinsics, &to.intrinsics);
+        let [center, new_center] = [here, there].map(Intrinsics::principal_point);
+        let (zoom_u, zoom_v) = (here.fu_px() / there.fu_px(), here.fv_px() / there.fv_px());
+        let sources = |size: u32, center: f64, new_center: f64, zoom: f64| {
+            (0..size).map(move |at| {
+                let source = (f64::from(at) - new_center) * zoom + center + 0.5;
+                (source >= 0.0 && source < f64::from(size)).then_some(source as usize)
+            })
+        };
+        // Those that come are neighbors.
+        let columns = sources(width, center.x, new_center.x, zoom_u);
+        let skipped = columns.clone().take_while(Option::is_none).count();
+        let columns: Vec<usize> = columns.flatten().collect();
+        let rows = sources(height, center.y, new_center.y, zoom_v);
+        let width = width as usize;
+        let pixels = self.image.as_raw().as_chunks::<3>().0;
+        for (source, target) in rows.zip(target.chunks_exact_mut(width.max(1))) {
+            let Some(source) = source else { continue };
+            let row = source * width..(source + 1) * width;
+            let (row, depths) = (&pixels[row.clone()], &self.depth_m.as_raw()[row]);
+            let target = target.iter_mut().skip(skipped);
+            for (&column, target) in columns.iter().zip(target) {
+                if depths[column] > 0.0 {
+                    let [r, g, b] = row[column];
+                    *target = u32::from_le_bytes([r, g, b, 255]);
+                }
+            }
+        }
+    }
+
+    fn packed(&self) -> impl Iterator<Item = u32> {
+        let pixels = self.image.as_raw().as_chunks::<3>().0;
+        pixels
+            .iter()
+            .map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 255]))
+    }
+}
+
+impl Moved {
+    /// Pixels that no longer look as they did, and pixels of the thing itself.
+    fn find(&self, photograph: &Photograph, camera: &Camera) -> (Vec<u32>, Vec<u32>) {
+        let (width, height) = photograph.image.dimensions();
+        let old = camera.cam_from_world * self.center;
+        let new = camera.cam_from_world * (self.center + self.by);
+        let reach_m = self.radius_m.max(self.stale_m);
+        let (mut stale, mut carried) = (Vec::new(), Vec::new());
+        let all = [0..width, 0..height];
+        let [columns, rows] = [&old, &new]
+            .map(|middle| bounds(camera, middle, reach_m, &all))
+            .into_iter()
+            .reduce(|[a, b], [c, d]| [join(&a, &c), join(&b, &d)])
+            .unwrap_or(all);
+        let [radius_sq, stale_sq] = [self.radius_m, self.stale_m].map(|radius| radius * radius);
+        for v in rows {
+            for u in columns.clone() {
+                let index = v * width + u;
+                let depth_m = f64::from(photograph.depth_m.as_raw()[index as usize]);
+                let pixel = nalgebra::Point2::new(f64::from(u), f64::from(v));
+                let point = Point3::from(camera.intrinsics.ray(&pixel) * depth_m);
+                if (point - old).norm_squared() <= radius_sq {
+                    carried.push(index);
+                } else if (point - old)
+                    .norm_squared()
+                    .min((point - new).norm_squared())
+                    <= stale_sq
+                {
+                    stale.push(index);
+                }
+            }
+        }
+        (stale, carried)
+    }
+}
+
+/// Columns and rows that may show something of a ball; all where it reaches up to the camera.
+fn bounds(
+    camera: &Camera,
+    middle: &Point3<f64>,
+    radius_m: f64,
+    all: &[Range<u32>; 2],
+) -> [Range<u32>; 2] {
+    let nearest = middle.z - radius_m;
+    if nearest.is_nan() || nearest < f64::from(NEAR_M) {
+        return all.clone();
+    }
+    let k = &camera.intrinsics;
+    let focal = [k.fu_px(), k.fv_px()];
+    let center = k.principal_point();
+    std::array::from_fn(|i| {
+        // Of all depths within the ball, the nearest moves its edges out most.
+        let edge = |sign: f64| {
+            let offset = middle[i] + sign * radius_m;
+            let depth = if offset * sign > 0.0 {
+                nearest
+            } else {
+                middle.z + radius_m
+            };
+            center[i] + focal[i] * offset / depth
+        };
+        let most = f64::from(all[i].end);
+        let start = (edge(-1.0) - 1.0).clamp(0.0, most) as u32;
+        start..(edge(1.0) + 2.0).clamp(f64::from(start), most) as u32
+    })
+}
+
+fn join(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
+    a.start.min(b.start)..a.end.max(b.end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::photograph::Sampling;
+    use crate::scene::Scene;
+    use crate::sets::{MovableKind, MovableObject, still_life_camera};
+    use epipole::camera::RigidTransform;
+    use image::RgbImage;
+    use nalgebra::{Isometry3, Point2, Translation3};
+
+    const SIZE: (u32, u32) = (160, 120);
+
+    fn moved(right_m: f64, down_m: f64, ahead_m: f64, left_rad: f64) -> Camera {
+        let camera = still_life_camera(SIZE.0, SIZE.1);
+        Camera {
+            cam_from_world: Isometry3::rotation(Vector3::new(0.0, left_rad, 0.0))
+                * Translation3::new(-right_m, -down_m, -ahead_m)
+                * camera.cam_from_world,
+            ..camera
+        }
+    }
+
+    fn places() -> [Camera; 8] {
+        [
+            moved(0.2, 0.0, 0.0, 0.0),
+            moved(-0.2, 0.0, 0.0, 0.0),
+            moved(0.0, -0.1, 0.0, 0.0),
+            moved(0.05, 0.05, 0.3, 0.0),
+            moved(0.0, 0.0, -0.3, 0.0),
+            moved(0.0, 0.0, 0.0, 0.2),
+            moved(0.4, 0.0, -0.3, 0.2),
+            moved(-0.1, -0.05, 0.2, -0.1),
+        ]
+    }
+
+    fn render(scene: &Scene, camera: &Camera) -> Photograph {
+        scene
+            .render(camera, SIZE.0, SIZE.1, Sampling::Full)
+            .unwrap()
+    }
+
+    /// Places where both pictures have a color, and what these are.
+    fn pairs<'a>(
+        seen: &'a Reprojected,
+        truth: &'a RgbImage,
+    ) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + 'a {
+        let missing: std::collections::BTreeSet<u32> =
+            seen.missing.iter().cloned().flatten().collect();
+        let pixels = seen.image.pixels().zip(truth.pixels()).enumerate();
+        pixels
+            .filter(move |(index, _)| !missing.contains(&(*index as u32)))
+            .map(|(_, (a, b))| (a.0, b.0))
+    }
+
+    /// What comes over looks like a photograph from there, and far more so than a draft.
+    #[test]
+    fn it_looks_like_a_photograph_from_there() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let mut seen = Reprojected::default();
+        for (index, to) in places().iter().enumerate() {
+            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            let truth = render(&scene, to).image;
+            let mean = |pairs: &mut dyn Iterator<Item = ([u8; 3], [u8; 3])>| {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for (a, b) in pairs {
+                    sum += (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>();
+                    count += 3.0;
+                }
+                sum / count
+            };
+            let error = mean(&mut pairs(&seen, &truth));
+            let mut draft = Reprojected::default();
+            draft.clear(SIZE);
+            let small = Camera {
+                intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                ..*to
+            };
+            let sixth = (SIZE.0.div_ceil(6), SIZE.1 / 6);
+            let sketch = scene.render(&small, sixth.0, sixth.1, Sampling::Draft);
+            draft.fill(&sketch.unwrap().image);
+            draft.missing.clear();
+            let of_draft = mean(&mut pairs(&draft, &truth));
+            assert!(
+                error < 0.6 * of_draft,
+                "{index}: {error}, a draft {of_draft}"
+            );
+            assert!(seen.num_missing() < truth.len() / 3 * 45 / 100, "{index}");
+        }
+    }
+
+    /// Near surfaces cover far ones wherever the camera goes: depths painted as colors stay those of
+    /// what is seen there.
+    #[test]
+    fn near_surfaces_cover_far_ones() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let mut photograph = render(&scene, &from);
+        let in_world = |camera: &Camera, photograph: &Photograph, u: u32, v: u32| {
+            let pixel = Point2::new(f64::from(u), f64::from(v));
+            let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
+            camera.center_in_world() + camera.ray_in_world(&pixel) * depth
+        };
+        // Where in the room a surface is, from front to back.
+        let paint = |point: Point3<f64>| [((point.z + 0.6) * 140.0).clamp(0.0, 250.0) as u8 + 3; 3];
+        let painted = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
+            image::Rgb(paint(in_world(&from, &photograph, u, v)))
+        });
+        photograph.image = painted;
+        let mut seen = Reprojected::default();
+        for (index, to) in places().iter().enumerate() {
+            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            let there = render(&scene, to);
+            let truth = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
+                image::Rgb(paint(in_world(to, &there, u, v)))
+            });
+            let (mut all, mut wrong) = (0, 0);
+            for (a, b) in pairs(&seen, &truth) {
+                all += 1;
+                wrong += usize::from(a[0].abs_diff(b[0]) > 10);
+            }
+            // At the outlines of things, one pixel is as good as the next.
+            assert!(wrong * 100 < all * 6, "{index}: {wrong} of {all}");
+        }
+    }
+
+    #[test]
+    fn what_was_hidden_is_filled_from_a_draft() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let to = moved(0.3, 0.0, 0.0, 0.0);
+        let mut seen = Reprojected::default();
+        let photograph = render(&scene, &from);
+        photograph.reproject(&from, &to, None, &mut seen).unwrap();
+        let missing: Vec<u32> = seen.missing.iter().cloned().flatten().collect();
+        assert!(!missing.is_empty());
+        let mut num_new = 0;
+        for &index in &missing {
+            let pixel2 = Point2::new(f64::from(index % SIZE.0), f64::from(index / SIZE.0));
+            let there = scene.transfer(&to, &from, &pixel2);
+            let was_seen = match there {
+                crate::Transfer::Visible { pixel2: p, .. } => {
+                    (1.0..f64::from(SIZE.0) - 2.0).contains(&p.x)
+                        && (1.0..f64::from(SIZE.1) - 2.0).contains(&p.y)
+                }
+                _ => false,
+            };
+            num_new += usize::from(!was_seen);
+        }
+        assert!(
+            num_new * 100 > missing.len() * 90,
+            "{num_new} of {}",
+            missing.len()
+        );
+        seen.fill(&RgbImage::from_pixel(20, 15, image::Rgb([1, 2, 3])));
+        for index in missing {
+            let pixel = seen.image.get_pixel(index % SIZE.0, index / SIZE.0);
+            assert_eq!(pixel.0, [1, 2, 3]);
+        }
+    }
+
+    /// A draft of which only the wanted pixels are rendered fills as well as a whole one.
+    #[test]
+    fn only_what_is_wanted_of_a_draft_is_used() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let small = (SIZE.0.div_ceil(6), SIZE.1 / 6);
+        for to in places() {
+            let fill = |all: bool| {
+                let mut seen = Reprojected::default();
+                photograph.reproject(&from, &to, None, &mut seen).unwrap();
+                let camera = Camera {
+                    intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                    ..to
+                };
+                let wanted = seen.wanted(small);
+                assert!(wanted.iter().any(|&wanted| !wanted));
+                let wanted = wanted.iter().map(|&wanted| wanted || all);
+                let mut draft = Photograph::blank(small.0, small.1);
+                scene
+                    .render_draft(&camera, &wanted.collect::<Vec<_>>(), &mut draft)
+                    .unwrap();
+                seen.fill(&draft.image);
+                seen.image
+            };
+            assert_eq!(fill(true), fill(false));
+        }
+    }
+
+    #[test]
+    fn a_ball_is_carried_along() {
+        let camera = still_life_camera(SIZE.0, SIZE.1);
+        let camera = Camera {
+            cam_from_world: RigidTransform::identity(),
+            ..camera
+        };
+        let ball = |x_m: f64| {
+            let kind = MovableKind::Ball;
+            Scene::long_table(MovableObject {
+                kind,
+                x_m,
+                z_m: 2.0,
+            })
+            .unwrap()
+        };
+        let before = render(&ball(0.0), &camera);
+        let after = render(&ball(0.3), &camera);
+        let moved = Moved {
+            center: Point3::new(0.0, 0.14, 2.0),
+            radius_m: 0.115,
+            stale_m: 0.3,
+            by: Vector3::new(0.3, 0.0, 0.0),
+        };
+        let mut seen = Reprojected::default();
+        before
+            .reproject(&camera, &camera, Some(&moved), &mut seen)
+            .unwrap();
+        seen.fill(&after.image);
+        let wrong = (seen.image.pixels().zip(after.image.pixels()))
+            .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
+            .count();
+        let differs = (before.image.pixels().zip(after.image.pixels()))
+            .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
+            .count();
+        assert!(wrong * 8 < differs, "{wrong}, {differs}");
+    }
+
+    /// A longer lens enlarges what it sees, and that alone: no pixel covers another, and inside there is no gap.
+    #[test]
+    fn another_focal_length_zooms() {
+        let scene = Scene::still_life();
+        let from = still_life_camera(SIZE.0, SIZE.1);
+        let photograph = render(&scene, &from);
+        let mut seen = Reprojected::default();
+        for factor in [0.8, 1.25, 2.0] {
+            let k = &from.intrinsics;
+            let focal_px = factor * k.fu_px();
+            let to = Camera {
+                intrinsics: Intrinsics::centered(focal_px, SIZE.0, SIZE.1).unwrap(),
+                ..from
+            };
+            photograph.reproject(&from, &to, None, &mut seen).unwrap();
+            let truth = render(&scene, &to).image;
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (a, b) in pairs(&seen, &truth) {
+                sum += (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>();
+                count += 3.0;
+            }
+            assert!(sum / count < 8.0, "{factor}: {}", sum / count);
+            let whole = f64::from(SIZE.0 * SIZE.1);
+            let expected = whole * (1.0 - f64::min(factor * factor, 1.0));
+            let missing = seen.num_missing() as f64;
+            assert!(
+                (missing - expected).abs() < 0.02 * whole,
+                "{factor}: {missing}"
+            );
+        }
+    }
+
+    #[test]
+    fn bad_requests_are_refused() {
+        let camera = still_life_camera(8, 6);
+        let mut photograph = Photograph::blank(8, 6);
+        let mut seen = Reprojected::default();
+        let mut nowhere = camera;
+        nowhere.cam_from_world.translation.x = f64::NAN;
+        let refused = photograph.reproject(&camera, &nowhere, None, &mut seen);
+        assert!(matches!(refused, Err(Error::NotFinite { .. })));
+        // Without depths nothing comes over.
+        let other = still_life_camera(9, 6);
+        photograph
+            .reproject(&camera, &other, None, &mut seen)
+            .unwrap();
+        assert_eq!(seen.num_missing(), 48);
+        seen.fill(&RgbImage::new(0, 0));
+        photograph.depth_m = image::ImageBuffer::new(4, 4);
+        let refused = photograph.reproject(&camera, &camera, None, &mut seen);
+        assert!(matches!(refused, Err(Error::SizeMismatch { .. })));
+    }
+}

@@ -1,0 +1,224 @@
+//! A scene as one camera sees it: which bodies may show where, and what a ray finds.
+
+use super::Sampling;
+use super::outline::outline;
+use super::shading::{self, Look};
+use crate::detail::Detail;
+use crate::light::{Decal, LightMap, Lighting, single};
+use crate::scene::Scene;
+use crate::shape::{Contact, Ray, TOP};
+use crate::things::body::{Body, Placement};
+use epipole::camera::Camera;
+use nalgebra::{Matrix3, Point2, Vector2, Vector3};
+
+/// Side of the squares of pixels that share a list of candidates.
+pub(super) const TILE: u32 = 8;
+const NEAR: f64 = 1e-9;
+/// A body as one camera sees it.
+struct Seen<'a> {
+    body: &'a Body,
+    lights: &'a [LightMap],
+    origin: Vector3<f64>,
+    local_from_cam: Matrix3<f64>,
+    /// How many times larger it is than it was built.
+    scale: f64,
+    /// Pixels that may show it: columns and rows, both ends included.
+    columns: (i64, i64),
+    rows: (i64, i64),
+    /// The same: left, right, top and bottom.
+    edges: [f64; 4],
+    /// No point of it is nearer than this depth; infinite for the room, which is behind all.
+    nearest: f64,
+    /// Its number in the scene.
+    number: usize,
+}
+
+impl Seen<'_> {
+    /// Whether the ray through an image point may meet it.
+    #[inline(always)]
+    fn may_be_at(&self, u: f64, v: f64) -> bool {
+        let [left, right, top, bottom] = self.edges;
+        (u >= left) & (u <= right) & (v >= top) & (v <= bottom)
+    }
+}
+
+/// What one ray found.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sample {
+    /// Body and chart.
+    pub(super) key: u32,
+    pub(super) depth_m: f32,
+    pub(super) inverse_depth: f32,
+    pub(super) color: [f32; 3],
+}
+
+/// The camera's side of a picture that is to be rendered.
+pub(super) struct View<'a> {
+    seen: Vec<Seen<'a>>,
+    lighting: &'a Lighting,
+    /// Shade of the movable thing, where it stands, and the number of the body it falls on.
+    shade: Option<(&'a Decal, Placement, usize)>,
+    center: Vector3<f64>,
+    world_from_cam: Matrix3<f64>,
+    principal: Point2<f64>,
+    inverse_focal: Vector2<f64>,
+    pixel_rad: f64,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) sampling: Sampling,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        camera: &Camera,
+        width: u32,
+        height: u32,
+        sampling: Sampling,
+    ) -> Self {
+        let center = camera.center_in_world().coords;
+        let k = &camera.intrinsics;
+        let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
+        let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
+        let world_from_cam = cam_from_world.matrix().transpose();
+        let detail = match sampling {
+            Sampling::Draft => Detail::Sketch,
+            Sampling::Full => Detail::Full,
+        };
+        let all = scene.placed().zip(scene.lights(detail)).enumerate().map(
+            |(number, ((body, placed), lights))| {
+                let (columns, rows, nearest) = outline(camera, body, &placed);
+                Seen {
+                    body,
+                    lights,
+                    origin: body.local_point(&center, &placed),
+                    local_from_cam: body.local_from_world * (world_from_cam / placed.scale),
+                    scale: placed.scale,
+                    columns,
+                    rows,
+                    edges: [columns.0, columns.1, rows.0, rows.1].map(|edge| edge as f64),
+                    nearest,
+                    number,
+                }
+            },
+        );
+        // From front to back; the order of bodies decides between equals.
+        let mut seen: Vec<Seen> = Vec::new();
+        for body in all {
+            let is_before = |other: &Seen| other.nearest.total_cmp(&body.nearest).is_le();
+            seen.insert(seen.partition_point(is_before), body);
+        }
+        Self {
+            lighting: &scene.fixed.lighting,
+            shade: scene.shade(detail),
+            seen,
+            center,
+            world_from_cam,
+            principal: k.principal_point(),
+            inverse_focal,
+            pixel_rad: (inverse_focal.x * inverse_focal.y).sqrt(),
+            width,
+            height,
+            sampling,
+        }
+    }
+
+    /// For each tile of a row of tiles, the bodies that it may show.
+    pub(super) fn candidates(&self, tile_row: u32, lists: &mut Vec<Vec<u16>>) {
+        lists.resize(self.width.div_ceil(TILE) as usize, Vec::new());
+        lists.iter_mut().for_each(Vec::clear);
+        let tile = i64::from(TILE);
+        let (top, bottom) = (
+            i64::from(tile_row) * tile,
+            i64::from(tile_row) * tile + tile - 1,
+        );
+        for (index, seen) in self.seen.iter().enumerate() {
+            if seen.rows.1 < top || seen.rows.0 > bottom {
+                continue;
+            }
+            let first = seen.columns.0.max(0) / tile;
+            let last = seen.columns.1.min(i64::from(self.width) - 1);
+            if last < 0 {
+                continue;
+            }
+            for list in lists
+                .iter_mut()
+                .take((last / tile + 1) as usize)
+                .skip(first as usize)
+            {
+                list.push(index as u16);
+            }
+        }
+    }
+
+    /// What the ray through an image point finds among the candidates.
+    #[inline]
+    pub(super) fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
+        let x = (u - self.principal.x) * self.inverse_focal.x;
+        let y = (v - self.principal.y) * self.inverse_focal.y;
+        let turn = |m: &Matrix3<f64>| {
+            Vector3::new(
+                m.m11 * x + m.m12 * y + m.m13,
+                m.m21 * x + m.m22 * y + m.m23,
+                m.m31 * x + m.m32 * y + m.m33,
+            )
+        };
+        let mut nearest = Contact {
+            along: f64::INFINITY,
+            part: 0,
+        };
+        let mut found = usize::MAX;
+        for &index in candidates {
+            let seen = &self.seen[usize::from(index)];
+            if seen.nearest > nearest.along {
+                break;
+            }
+            // A tile shows much that one ray passes by.
+            if !seen.may_be_at(u, v) {
+                continue;
+            }
+            let ray = Ray {
+                origin: seen.origin,
+                direction: turn(&seen.local_from_cam),
+            };
+            if let Some(contact) = seen.body.shape.meet(&ray, NEAR, nearest.along) {
+                nearest = contact;
+                found = usize::from(index);
+            }
+        }
+        let Some(seen) = self.seen.get(found) else {
+            return Sample {
+                key: u32::MAX,
+                depth_m: f32::MAX,
+                inverse_depth: 0.0,
+                color: [0.0; 3],
+            };
+        };
+        let local = seen.origin + turn(&seen.local_from_cam) * nearest.along;
+        let place = seen.body.shape.place(&local, nearest.part);
+        let direction_in_world = turn(&self.world_from_cam);
+        let x_in_world = self.center + direction_in_world * nearest.along;
+        let decal = match &self.shade {
+            // Shade lies on what the thing stands on, not on the edges of that.
+            Some((decal, placed, ground)) if *ground == seen.number && place.chart == TOP => {
+                let from_foot = (x_in_world - placed.foot) / placed.scale;
+                decal.sample(from_foot.x, from_foot.z)
+            }
+            _ => None,
+        };
+        let look = Look {
+            x_in_world: single(&x_in_world),
+            direction_in_world: single(&direction_in_world),
+            pixel_m: (nearest.along * self.pixel_rad / seen.scale) as f32,
+            decal,
+            smooth: self.sampling == Sampling::Full,
+        };
+        let color = shading::color(seen.body, seen.lights, &place, self.lighting, &look);
+        Sample {
+            key: (seen.number as u32) << 8 | place.chart as u32,
+            depth_m: nearest.along as f32,
+            inverse_depth: 1.0 / nearest.along as f32,
+            color,
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! The still life of the book: a table by a window, and the room around it.
+
+use crate::light::Lighting;
+use crate::paint;
+use crate::scene::{Fixed, Scene};
+use crate::shape::{BACK, BOTTOM, FRONT, RIGHT, TOP};
+use crate::things::body::{Body, Paint};
+use crate::things::wares::{
+    GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
+};
+use nalgebra::Vector3;
+use std::sync::{Arc, OnceLock};
+
+/// The room: middle and sides, meters. The table's top is y = 0.
+const ROOM_CENTER: [f64; 3] = [0.1, -0.6, -1.1];
+const ROOM_SIZE: [f64; 3] = [3.6, 2.7, 4.3];
+const BACK_WALL_Z: f64 = ROOM_CENTER[2] + ROOM_SIZE[2] / 2.0;
+const LEFT_WALL_X: f64 = ROOM_CENTER[0] - ROOM_SIZE[0] / 2.0;
+const RIGHT_WALL_X: f64 = ROOM_CENTER[0] + ROOM_SIZE[0] / 2.0;
+
+impl Scene {
+    /// A mug of coffee, books, fruit, a jug and a tea tin on a printed cloth, on a wooden table
+    /// by a window; pictures on a plastered wall.
+    ///
+    /// The world's origin is on the table's top in the middle of the things; x points right,
+    /// y **down** and z away from the viewer of [`still_life_camera`](crate::still_life_camera), meters. The room reaches
+    /// from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05; every camera inside of it
+    /// (and outside of the things) gets a photograph without holes.
+    ///
+    /// The first photograph paints the textures and computes the light; later ones share them.
+    ///
+    /// ```
+    /// use epipole_scenes::Scene;
+    /// let (first, second) = (Scene::still_life(), Scene::still_life());
+    /// let ray = nalgebra::Vector3::new(0.0, 0.0, 1.0);
+    /// let from = nalgebra::Point3::new(-0.6, -0.8, 0.0);
+    /// assert_eq!(first.cast(&from, &ray), second.cast(&from, &ray));
+    /// ```
+    pub fn still_life() -> Self {
+        static SCENE: OnceLock<Scene> = OnceLock::new();
+        SCENE.get_or_init(build).clone()
+    }
+}
+
+fn lighting() -> Lighting {
+    Lighting::new(
+        [
+            Vector3::new(LEFT_WALL_X + 0.02, -1.02, -0.62),
+            Vector3::new(0.0, 0.0, -0.42),
+            Vector3::new(0.0, 0.50, 0.0),
+        ],
+        [2.75, 2.50, 2.10],
+        Some(2.0),
+        [
+            [0.26, 0.29, 0.33],
+            [0.17, 0.155, 0.14],
+            [0.27, 0.285, 0.31],
+            [0.16, 0.105, 0.065],
+            [0.20, 0.20, 0.205],
+            [0.17, 0.165, 0.16],
+        ],
+    )
+}
+
+fn build() -> Scene {
+    let mut bodies = room();
+    bodies.extend(table());
+    bodies.extend(things());
+    Scene {
+        fixed: Arc::new(Fixed::new(bodies, lighting())),
+        movable: None,
+    }
+}
+
+/// Walls, floor, window and pictures.
+fn room() -> Vec<Body> {
+    let wares = Wares::shared();
+    let wall = |width_m: f64, shift: f32| {
+        Paint::new(&wares.plaster)
+            .repeated(
+                (width_m / PLASTER_M) as f32,
+                (ROOM_SIZE[1] / PLASTER_M) as f32,
+            )
+            .shifted(shift, 0.0)
+            .lit(24, 24)
+    };
+    let size = Vector3::from(ROOM_SIZE);
+    let walls = Body::room(ROOM_SIZE, ROOM_CENTER, &wall(size.z, 0.37))
+        .painted(BACK, &wall(size.x, 0.0).lit(88, 60))
+        .painted(RIGHT, &wall(size.z, 0.61))
+        .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
+        .painted(
+            BOTTOM,
+            &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(24, 24),
+        );
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let on_back = BACK_WALL_Z - PICTURE_DEPTH_M / 2.0;
+    vec![
+        walls,
+        wares.picture(&wares.landscape, LANDSCAPE_M, [-0.36, -0.47, on_back], 0.0),
+        wares.picture(&wares.geometric, GEOMETRIC_M, [0.32, -0.50, on_back], 0.0),
+        wares.picture(&wares.star_chart, STAR_CHART_M, [0.84, -0.46, on_back], 0.0),
+        wares.picture(
+            &wares.star_chart,
+            STAR_CHART_M,
+            [-1.12, -0.55, on_back],
+            0.0,
+        ),
+        wares.picture(
+            &wares.landscape,
+            LANDSCAPE_M,
+            [RIGHT_WALL_X - PICTURE_DEPTH_M / 2.0, -0.55, 0.1],
+            -quarter,
+        ),
+        wares.window([LEFT_WALL_X, -1.02, -0.62], [0.95, 1.1]),
+    ]
+}
+
+/// The table, its apron and legs.
+fn table() -> Vec<Body> {
+    let wares = Wares::shared();
+    let (width, depth, thick) = (1.9, 1.16, 0.036);
+    let z = -0.06;
+    let top = Arc::new(paint::boards(
+        wares.noise,
+        [512, 512],
+        [width as f32, depth as f32],
+        8.0,
+    ));
+    let plank = |across: f32, down: f32| Paint::new(&top).repeated(across, down).lit(24, 4);
+    let name = "the table";
+    let cuboid = |size: [f64; 3], center: [f64; 3], paint: &Paint| {
+        Body::cuboid(name, size, center, paint).boxed()
+    };
+    let mut bodies = vec![
+        cuboid(
+            [width, thick, depth],
+            [0.0, thick / 2.0, z],
+            &plank(1.0, 0.03),
+        )
+        .painted(TOP, &Paint::new(&top).glossy(0.55).lit(148, 90)),
+    ];
+    // The apron is four boards rather than one block: the rays to the top then need not ask it.
+    for side in [-1.0, 1.0] {
+        let (x, y) = (side * (width / 2.0 - 0.09), thick + 0.045);
+        bodies.push(cuboid(
+            [0.022, 0.09, depth - 0.2],
+            [x, y, z],
+            &plank(0.5, 0.09),
+        ));
+        bodies.push(cuboid(
+            [width - 0.2, 0.09, 0.022],
+            [0.0, y, z + side * (depth / 2.0 - 0.09)],
+            &plank(0.9, 0.09),
+        ));
+    }
+    for (side_x, side_z) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+        bodies.push(cuboid(
+            [0.07, 0.75 - thick, 0.07],
+            [
+                side_x * (width / 2.0 - 0.09),
+                (0.75 + thick) / 2.0,
+                z + side_z * (depth / 2.0 - 0.09),
+            ],
+            &plank(0.05, 0.5),
+        ));
+    }
+    bodies
+}
+
+/// What stands and lies on the table.
+fn things() -> Vec<Body> {
+    let wares = Wares::shared();
+    let (cloth_width, cloth_depth, cloth_m) = (0.70, 0.50, 0.0016);
+    let cloth_at = [0.13, -cloth_m / 2.0, -0.13];
+    let cloth = Arc::new(paint::block_print(
+        wares.noise,
+        (cloth_width / cloth_depth) as f32,
+    ));
+    let print = Paint::new(&cloth);
+    let mut bodies = vec![
+        Body::cuboid(
+            "the cloth",
+            [cloth_width, cloth_m, cloth_depth],
+            cloth_at,
+            &print.clone().repeated(1.0, 0.01),
+        )
+        .turned(0.16)
+        .painted(TOP, &print.lit(72, 52))
+        .painted(FRONT, &Paint::new(&cloth).repeated(1.0, 0.01)),
+    ];
+    let on_cloth = -cloth_m;
+
+    // Three books, the lowest the largest, not quite in line.
+    let stack = [-0.315, 0.0, 0.06];
+    let heights = [0.046, 0.037, 0.032];
+    bodies.extend(wares.book(0, stack, [0.295, heights[0], 0.215], -0.10));
+    bodies.extend(wares.book(
+        1,
+        placed(stack, 0.0, [0.012, -heights[0], 0.004]),
+        [0.27, heights[1], 0.19],
+        0.07,
+    ));
+    bodies.extend(wares.book(
+        2,
+        placed(stack, 0.0, [-0.010, -heights[0] - heights[1], 0.006]),
+        [0.24, heights[2], 0.17],
+        -0.21,
+    ));
+    let stack_m: f64 = heights.iter().sum();
+    bodies.extend(wares.apple([-0.33, -stack_m, 0.055], 0.041, 0.6));
+
+    bodies.extend(wares.mug([0.19, on_cloth, -0.16], -0.45, 1.12));
+    bodies.push(wares.jug([0.045, 0.0, 0.215], 0.3, 1.0));
+    bodies.extend(wares.tin([0.40, 0.0, 0.16], [0.105, 0.150, 0.085], -0.42));
+    bodies.push(wares.orange([-0.01, on_cloth, -0.085], 0.042, [0.9, 0.5]));
+    bodies.push(wares.orange([-0.085, on_cloth, -0.165], 0.039, [2.4, -0.9]));
+    bodies.push(wares.lemon(
+        [0.045, on_cloth, -0.245],
+        [0.55, std::f64::consts::FRAC_PI_2],
+    ));
+    bodies.push(wares.orange([0.47, 0.0, 0.015], 0.041, [4.0, 0.3]));
+    bodies
+}
