@@ -3,7 +3,7 @@
 use super::p3p::solve;
 use super::refine::{Pose, PoseProblem, refine, rigid};
 use crate::camera::{Intrinsics, RigidTransform};
-use crate::optim::{LmOptions, RobustLoss};
+use crate::optim::{LmOptions, RobustLoss, Subset};
 use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, FARTHEST_PX, Problem, RansacOptions, RansacReport, Unique, ransac,
@@ -59,20 +59,12 @@ impl AbsolutePoseEstimator {
         })
     }
 
-    fn refined(
-        &self,
-        pose: &Pose,
-        used: &[usize],
-        weights: Option<&[f64]>,
-        loss: RobustLoss,
-        max_iterations: usize,
-    ) -> Option<Pose> {
-        let options = LmOptions::few_steps(max_iterations);
+    fn refined(&self, pose: &Pose, used: Subset<'_>, loss: RobustLoss) -> Option<Pose> {
+        let options = LmOptions::few_steps(4);
         let problem = PoseProblem {
             points: &self.points,
             pixels: &self.pixels,
             used,
-            weights,
             intrinsics: &self.intrinsics,
             loss,
         };
@@ -150,11 +142,11 @@ impl Estimator for AbsolutePoseEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px,
         };
-        self.refined(pose, inliers, None, loss, 4)
+        self.refined(pose, Subset::alike(inliers), loss)
     }
 
     fn polish(&mut self, pose: &Pose, near: &[usize], weights: &[f64]) -> Option<Pose> {
-        self.refined(pose, near, Some(weights), RobustLoss::Trivial, 4)
+        self.refined(pose, Subset::weighted(near, weights), RobustLoss::Trivial)
     }
 }
 

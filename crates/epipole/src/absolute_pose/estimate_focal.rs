@@ -5,7 +5,7 @@ use super::p4pf::{AbsolutePoseWithFocal, MAX_SOLUTIONS, PoseFocal, solve};
 use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
 use crate::camera::Intrinsics;
-use crate::optim::{LmOptions, RobustLoss};
+use crate::optim::{LmOptions, RobustLoss, Subset};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
@@ -88,17 +88,11 @@ impl AbsolutePoseFocalEstimator {
         })
     }
 
-    fn reprojection<'a>(
-        &'a self,
-        used: &'a [usize],
-        weights: Option<&'a [f64]>,
-        loss: RobustLoss,
-    ) -> PoseProblem<'a> {
+    fn reprojection<'a>(&'a self, used: Subset<'a>, loss: RobustLoss) -> PoseProblem<'a> {
         PoseProblem {
             points: &self.points,
             pixels: &self.pixels,
             used,
-            weights,
             intrinsics: &self.centered,
             loss,
         }
@@ -117,7 +111,7 @@ impl AbsolutePoseFocalEstimator {
     fn focal_std_px(&self, model: &PoseFocal, max_error_px: f64) -> Option<f64> {
         let mut inliers = Vec::new();
         self.inliers(model, max_error_px, &mut inliers);
-        let problem = self.reprojection(&inliers, None, RobustLoss::Trivial);
+        let problem = self.reprojection(Subset::alike(&inliers), RobustLoss::Trivial);
         Some(relative_focal_deviation(&problem, model)? * model.2)
     }
 }
@@ -170,13 +164,13 @@ impl Estimator for AbsolutePoseFocalEstimator {
         let loss = RobustLoss::Truncated {
             width: max_error_px,
         };
-        self.refined(model, &self.reprojection(inliers, None, loss))
+        self.refined(model, &self.reprojection(Subset::alike(inliers), loss))
     }
 
     fn polish(&mut self, model: &PoseFocal, near: &[usize], weights: &[f64]) -> Option<PoseFocal> {
         self.refined(
             model,
-            &self.reprojection(near, Some(weights), RobustLoss::Trivial),
+            &self.reprojection(Subset::weighted(near, weights), RobustLoss::Trivial),
         )
     }
 }

@@ -5,7 +5,7 @@ use super::p3p::solve;
 use super::refine::{Pose, rigid};
 use crate::camera::{RigidTransform, SeenRay};
 use crate::math::nearest_orthogonal;
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
@@ -18,6 +18,22 @@ struct RayPoseEstimator {
     seen: Vec<SeenRay>,
     pixels: Vec<Point2<f64>>,
     unique: Unique,
+}
+
+impl RayPoseEstimator {
+    fn refined(&self, pose: &Pose, used: Subset<'_>, loss: RobustLoss) -> Option<Pose> {
+        let problem = RayPoseProblem {
+            points: &self.points,
+            seen: &self.seen,
+            used,
+            loss,
+        };
+        let mut pose = *pose;
+        minimize_fixed(&problem, &mut pose, &LmOptions::few_steps(4)).ok()?;
+        let rotation = nearest_orthogonal(&pose.0);
+        let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
+        finite.then_some((rotation, pose.1))
+    }
 }
 
 impl Estimator for RayPoseEstimator {
@@ -50,20 +66,14 @@ impl Estimator for RayPoseEstimator {
     }
 
     fn refine(&mut self, pose: &Pose, inliers: &[usize], max_error_px: f64) -> Option<Pose> {
-        let problem = RayPoseProblem {
-            points: &self.points,
-            seen: &self.seen,
-            used: inliers,
-            loss: RobustLoss::Truncated {
-                width: max_error_px,
-            },
+        let loss = RobustLoss::Truncated {
+            width: max_error_px,
         };
-        let options = LmOptions::few_steps(4);
-        let mut pose = *pose;
-        minimize_fixed(&problem, &mut pose, &options).ok()?;
-        let rotation = nearest_orthogonal(&pose.0);
-        let finite = rotation.iter().chain(pose.1.iter()).all(|x| x.is_finite());
-        finite.then_some((rotation, pose.1))
+        self.refined(pose, Subset::alike(inliers), loss)
+    }
+
+    fn polish(&mut self, pose: &Pose, near: &[usize], weights: &[f64]) -> Option<Pose> {
+        self.refined(pose, Subset::weighted(near, weights), RobustLoss::Trivial)
     }
 }
 
@@ -71,7 +81,7 @@ impl Estimator for RayPoseEstimator {
 struct RayPoseProblem<'a> {
     points: &'a [Vector3<f64>],
     seen: &'a [SeenRay],
-    used: &'a [usize],
+    used: Subset<'a>,
     loss: RobustLoss,
 }
 
@@ -79,7 +89,7 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
     type Parameters = Pose;
 
     fn accumulate(&self, (rotation, t): &Pose, normal: &mut NormalEquations<6>) {
-        for &index in self.used {
+        for (index, root) in self.used.iter() {
             let x = rotation * self.points[index] + t;
             let Some((off, by_point)) = self.seen[index].offset_with_derivative(&x) else {
                 normal.cost = f64::INFINITY;
@@ -89,18 +99,18 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
             let by_turn = by_point * -x.cross_matrix();
             jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
             jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_point);
-            normal.add(&off, &jacobian, &self.loss);
+            normal.add(&(off * root), &(jacobian * root), &self.loss);
         }
     }
 
     fn cost(&self, (rotation, t): &Pose) -> f64 {
         let mut total = 0.0;
-        for &index in self.used {
+        for (index, root) in self.used.iter() {
             let error_sq = self.seen[index].error_sq(&(rotation * self.points[index] + t));
             if error_sq.is_infinite() {
                 return f64::INFINITY;
             }
-            total += 0.5 * self.loss.rho(error_sq);
+            total += 0.5 * self.loss.rho(root * root * error_sq);
         }
         total
     }
@@ -238,10 +248,11 @@ mod tests {
             truth.translation.vector,
         );
         for i in (0..20usize).filter(|i| !i.is_multiple_of(3)) {
+            let used = [i];
             let problem = RayPoseProblem {
                 points: &points,
                 seen: &seen,
-                used: &[i],
+                used: Subset::alike(&used),
                 loss: RobustLoss::Trivial,
             };
             let at = |delta: &DVector<f64>| {

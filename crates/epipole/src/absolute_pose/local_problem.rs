@@ -27,7 +27,11 @@ impl<'a> LocalProblem<'a> {
     /// the effects of turns and shifts on the pixels are nearly independent. One point at the end of
     /// the world does not move it.
     pub(super) fn new(problem: &'a PoseProblem<'a>, (rotation, t): &Pose) -> Self {
-        let places = problem.used.iter().map(|&i| problem.points[i].coords);
+        let places = problem
+            .used
+            .indices
+            .iter()
+            .map(|&i| problem.points[i].coords);
         let depth = |x: &Vector3<f64>| (rotation.row(2) * x)[0] + t.z;
         let in_front = |z: &f64| *z > 0.0;
         let depths = places.clone().map(|x| depth(&x)).filter(in_front);

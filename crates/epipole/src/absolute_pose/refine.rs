@@ -2,7 +2,7 @@
 
 use super::local_problem::{LocalPose, LocalProblem};
 use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, SVector, UnitQuaternion, Vector3};
 
@@ -108,8 +108,7 @@ pub fn refine_absolute_pose(
     let problem = PoseProblem {
         points: points_in_world,
         pixels,
-        used: &used,
-        weights: None,
+        used: Subset::alike(&used),
         intrinsics,
         loss,
     };
@@ -141,27 +140,16 @@ pub(super) fn rigid((rotation, t): &Pose, fixed: &Vector3<f64>) -> RigidTransfor
 pub(super) struct PoseProblem<'a> {
     pub(super) points: &'a [Point3<f64>],
     pub(super) pixels: &'a [Point2<f64>],
-    pub(super) used: &'a [usize],
-    /// How much each of the used points counts; alike without.
-    pub(super) weights: Option<&'a [f64]>,
+    pub(super) used: Subset<'a>,
     pub(super) intrinsics: &'a Intrinsics,
     pub(super) loss: RobustLoss,
-}
-
-impl PoseProblem<'_> {
-    /// The used points with the root of their weight: by that, residuals are multiplied.
-    pub(super) fn used(&self) -> impl Iterator<Item = (usize, f64)> {
-        let root = |place: usize| self.weights.map_or(1.0, |weights| weights[place].sqrt());
-        let used = self.used.iter().enumerate();
-        used.map(move |(place, &index)| (index, root(place)))
-    }
 }
 
 impl FixedProblem<6> for LocalProblem<'_> {
     type Parameters = LocalPose;
 
     fn accumulate(&self, pose: &LocalPose, normal: &mut NormalEquations<6>) {
-        for (index, root) in self.problem.used() {
+        for (index, root) in self.problem.used.iter() {
             match self.residual(pose, self.problem.intrinsics, index) {
                 Some((residual, places)) => {
                     let jacobian = self.jacobian(self.problem.intrinsics, &places) * root;
@@ -174,7 +162,7 @@ impl FixedProblem<6> for LocalProblem<'_> {
 
     fn cost(&self, pose: &LocalPose) -> f64 {
         let mut total = 0.0;
-        for (index, root) in self.problem.used() {
+        for (index, root) in self.problem.used.iter() {
             match self.residual(pose, self.problem.intrinsics, index) {
                 Some((residual, _)) => {
                     total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
@@ -216,8 +204,7 @@ mod tests {
             let pose_problem = PoseProblem {
                 points: &points,
                 pixels: &pixels,
-                used: &used,
-                weights: None,
+                used: Subset::alike(&used),
                 intrinsics: &k,
                 loss: RobustLoss::Trivial,
             };

@@ -4,7 +4,7 @@ use super::local_problem::{LocalPose, LocalProblem};
 use super::p4pf::PoseFocal;
 use super::refine::PoseProblem;
 use crate::camera::Intrinsics;
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
 
 /// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics have.
@@ -52,7 +52,7 @@ impl FixedProblem<7> for FocalProblem<'_> {
             normal.cost = f64::INFINITY;
             return;
         };
-        for (index, root) in self.problem.used() {
+        for (index, root) in self.problem.used.iter() {
             match self.linearized(pose, &k, index) {
                 Some((residual, jacobian)) => {
                     normal.add(&(residual * root), &(jacobian * root), &self.problem.loss);
@@ -67,7 +67,7 @@ impl FixedProblem<7> for FocalProblem<'_> {
             return f64::INFINITY;
         };
         let mut total = 0.0;
-        for (index, root) in self.problem.used() {
+        for (index, root) in self.problem.used.iter() {
             match self.local.residual(pose, &k, index) {
                 Some((residual, _)) => {
                     total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
@@ -113,7 +113,9 @@ pub(super) fn relative_focal_deviation(
     let at = (focal.local.about_pivot(&(model.0, model.1)), model.2);
     let mut normal = NormalEquations::new();
     focal.accumulate(&at, &mut normal);
-    let free = (2 * problem.used.len()).checked_sub(7).filter(|n| *n > 0)?;
+    let free = (2 * problem.used.indices.len())
+        .checked_sub(7)
+        .filter(|n| *n > 0)?;
     let variance = 2.0 * normal.cost / free as f64;
     let inverse = normal.hessian.cholesky()?.inverse();
     let share = (variance * inverse[(6, 6)]).sqrt();
@@ -135,8 +137,7 @@ pub(super) fn polish_sample(
     let problem = PoseProblem {
         points,
         pixels: &about.map(Point2::from),
-        used: &[0, 1, 2, 3],
-        weights: None,
+        used: Subset::alike(&[0, 1, 2, 3]),
         intrinsics: &Intrinsics::new(1.0, 1.0, 0.0, 0.0).ok()?,
         loss: RobustLoss::Trivial,
     };
@@ -160,8 +161,7 @@ mod tests {
             let pose_problem = PoseProblem {
                 points: &points,
                 pixels: &rays.map(|r| k.project(&r.into()).unwrap()),
-                used: &[0, 1, 2, 3, 4, 5, 6, 7],
-                weights: None,
+                used: Subset::alike(&[0, 1, 2, 3, 4, 5, 6, 7]),
                 intrinsics: &k,
                 loss: RobustLoss::Trivial,
             };

@@ -4,7 +4,7 @@ use super::essential::signed_depths;
 use super::five_point::{pose_in_front, solve};
 use super::refine_pose::{Pose, essential_derivatives, moved_pose, orthogonal};
 use crate::camera::{RigidTransform, SeenRay, cross_matrix};
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use crate::{Error, Result};
@@ -104,6 +104,19 @@ impl From<Pose> for Motion {
     }
 }
 
+impl RayMotionEstimator {
+    fn refined(&self, motion: &Motion, used: Subset<'_>, loss: RobustLoss) -> Option<Motion> {
+        let problem = MotionProblem {
+            pairs: &self.pairs,
+            used,
+            loss,
+        };
+        let mut pose = motion.pose;
+        minimize_fixed(&problem, &mut pose, &LmOptions::few_steps(4)).ok()?;
+        orthogonal(&pose).map(Motion::from)
+    }
+}
+
 impl Estimator for RayMotionEstimator {
     type Model = Motion;
 
@@ -141,24 +154,21 @@ impl Estimator for RayMotionEstimator {
     }
 
     fn refine(&mut self, motion: &Motion, inliers: &[usize], max_error_px: f64) -> Option<Motion> {
-        let problem = MotionProblem {
-            pairs: &self.pairs,
-            used: inliers,
-            loss: RobustLoss::Truncated {
-                width: max_error_px,
-            },
+        let loss = RobustLoss::Truncated {
+            width: max_error_px,
         };
-        let options = LmOptions::few_steps(4);
-        let mut pose = motion.pose;
-        minimize_fixed(&problem, &mut pose, &options).ok()?;
-        orthogonal(&pose).map(Motion::from)
+        self.refined(motion, Subset::alike(inliers), loss)
+    }
+
+    fn polish(&mut self, motion: &Motion, near: &[usize], weights: &[f64]) -> Option<Motion> {
+        self.refined(motion, Subset::weighted(near, weights), RobustLoss::Trivial)
     }
 }
 
 /// The Sampson errors of matches as functions of the pose.
 struct MotionProblem<'a> {
     pairs: &'a [RayPair],
-    used: &'a [usize],
+    used: Subset<'a>,
     loss: RobustLoss,
 }
 
@@ -168,7 +178,7 @@ impl FixedProblem<5> for MotionProblem<'_> {
     fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<5>) {
         let essential = Motion::from(*pose).essential;
         let derivatives = essential_derivatives(&pose.0, &pose.1);
-        for pair in self.used.iter().map(|&i| &self.pairs[i]) {
+        for (pair, root) in self.used.iter().map(|(i, root)| (&self.pairs[i], root)) {
             let (residual, by_px) = pair.residual(&essential);
             let slope_sq = by_px[0].norm_squared() + by_px[1].norm_squared();
             if slope_sq <= 0.0 {
@@ -181,17 +191,17 @@ impl FixedProblem<5> for MotionProblem<'_> {
                 let along = by_px[0].dot(&moved[0]) + by_px[1].dot(&moved[1]);
                 *entry = (by - residual * along / slope_sq) / slope;
             }
-            normal.add_scalar(residual / slope, &jacobian, &self.loss);
+            normal.add_scalar(root * residual / slope, &(jacobian * root), &self.loss);
         }
     }
 
     fn cost(&self, pose: &Pose) -> f64 {
         let essential = Motion::from(*pose).essential;
         let mut total = 0.0;
-        for pair in self.used.iter().map(|&i| &self.pairs[i]) {
-            let error_sq = pair.sampson_sq(&essential);
+        for (index, root) in self.used.iter() {
+            let error_sq = self.pairs[index].sampson_sq(&essential);
             if error_sq.is_finite() {
-                total += 0.5 * self.loss.rho(error_sq);
+                total += 0.5 * self.loss.rho(root * root * error_sq);
             }
         }
         total
@@ -390,9 +400,10 @@ mod tests {
             truth.translation.vector.normalize(),
         );
         for i in 0..20 {
+            let used = [i];
             let problem = MotionProblem {
                 pairs: &pairs,
-                used: &[i],
+                used: Subset::alike(&used),
                 loss: RobustLoss::Trivial,
             };
             let at = |delta: &DVector<f64>| {

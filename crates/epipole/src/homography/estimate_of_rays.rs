@@ -4,7 +4,7 @@
 use crate::Error;
 use crate::Result;
 use crate::camera::SeenRay;
-use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
+use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
@@ -38,6 +38,25 @@ fn unit(homography: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     (norm.is_finite() && norm > 0.0).then(|| homography / norm)
 }
 
+impl RayHomographyEstimator {
+    fn refined(
+        &self,
+        homography: &Matrix3<f64>,
+        used: Subset<'_>,
+        loss: RobustLoss,
+    ) -> Option<Matrix3<f64>> {
+        let problem = RayHomographyProblem {
+            rays1: &self.rays1,
+            seen2: &self.seen2,
+            used,
+            loss,
+        };
+        let mut refined = *homography;
+        minimize_fixed(&problem, &mut refined, &LmOptions::few_steps(4)).ok()?;
+        unit(&refined)
+    }
+}
+
 impl Estimator for RayHomographyEstimator {
     type Model = Matrix3<f64>;
 
@@ -67,17 +86,20 @@ impl Estimator for RayHomographyEstimator {
         inliers: &[usize],
         max_error_px: f64,
     ) -> Option<Matrix3<f64>> {
-        let problem = RayHomographyProblem {
-            rays1: &self.rays1,
-            seen2: &self.seen2,
-            used: inliers,
-            loss: RobustLoss::Truncated {
-                width: max_error_px,
-            },
+        let loss = RobustLoss::Truncated {
+            width: max_error_px,
         };
-        let mut refined = *homography;
-        minimize_fixed(&problem, &mut refined, &LmOptions::few_steps(4)).ok()?;
-        unit(&refined)
+        self.refined(homography, Subset::alike(inliers), loss)
+    }
+
+    fn polish(
+        &mut self,
+        homography: &Matrix3<f64>,
+        near: &[usize],
+        weights: &[f64],
+    ) -> Option<Matrix3<f64>> {
+        let near = Subset::weighted(near, weights);
+        self.refined(homography, near, RobustLoss::Trivial)
     }
 }
 
@@ -85,7 +107,7 @@ impl Estimator for RayHomographyEstimator {
 struct RayHomographyProblem<'a> {
     rays1: &'a [Vector3<f64>],
     seen2: &'a [SeenRay],
-    used: &'a [usize],
+    used: Subset<'a>,
     loss: RobustLoss,
 }
 
@@ -93,7 +115,7 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     type Parameters = Matrix3<f64>;
 
     fn accumulate(&self, homography: &Matrix3<f64>, normal: &mut NormalEquations<9>) {
-        for &index in self.used {
+        for (index, root) in self.used.iter() {
             let ray1 = &self.rays1[index];
             let seen = self.seen2[index].offset_with_derivative(&(homography * ray1));
             let Some((off, by_point)) = seen else {
@@ -105,18 +127,18 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
                 let by_column = by_point * ray1[column];
                 (jacobian.fixed_view_mut::<2, 3>(0, 3 * column)).copy_from(&by_column);
             }
-            normal.add(&off, &jacobian, &self.loss);
+            normal.add(&(off * root), &(jacobian * root), &self.loss);
         }
     }
 
     fn cost(&self, homography: &Matrix3<f64>) -> f64 {
         let mut total = 0.0;
-        for &index in self.used {
+        for (index, root) in self.used.iter() {
             let error_sq = self.seen2[index].error_sq(&(homography * self.rays1[index]));
             if error_sq.is_infinite() {
                 return f64::INFINITY;
             }
-            total += 0.5 * self.loss.rho(error_sq);
+            total += 0.5 * self.loss.rho(root * root * error_sq);
         }
         total
     }
@@ -240,10 +262,11 @@ mod tests {
         let (seen, truth) = wall(12, 0.5, 3);
         let rays1: Vec<_> = seen[0].iter().map(SeenRay::ray).collect();
         for i in (0..12usize).filter(|i| i % 4 != 0) {
+            let used = [i];
             let problem = RayHomographyProblem {
                 rays1: &rays1,
                 seen2: &seen[1],
-                used: &[i],
+                used: Subset::alike(&used),
                 loss: RobustLoss::Trivial,
             };
             let at = |delta: &DVector<f64>| {

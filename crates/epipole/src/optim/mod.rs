@@ -23,6 +23,7 @@ mod loss;
 pub(crate) mod parallel;
 mod schur;
 pub(crate) mod sparse;
+mod subset;
 
 pub use check::{check_jacobian, numeric_jacobian};
 pub use dense::{DenseProblem, minimize_dense};
@@ -34,3 +35,4 @@ pub use levenberg_marquardt::{
 };
 pub use loss::RobustLoss;
 pub use schur::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, SchurSystem};
+pub(crate) use subset::Subset;
