@@ -2,7 +2,7 @@
 
 use crate::scene::{SHADE_M, Scene};
 use crate::things::body::{Body, Placement};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ const FRONT_M: f64 = 1e-6;
 /// Columns and rows between which a body appears, around the corners of its box, and a depth
 /// that is not beyond its nearest point.
 pub(super) fn outline(
-    camera: &Camera,
+    camera: &PosedCamera,
     body: &Body,
     placed: &Placement,
 ) -> ((i64, i64), (i64, i64), f64) {
@@ -35,7 +35,10 @@ fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
 
 /// The same of a box with these corners in the world.
 #[inline(never)]
-fn outline_of_box(camera: &Camera, corners: &[Vector3<f64>; 8]) -> ((i64, i64), (i64, i64), f64) {
+fn outline_of_box(
+    camera: &PosedCamera,
+    corners: &[Vector3<f64>; 8],
+) -> ((i64, i64), (i64, i64), f64) {
     let corners = corners.map(|corner| camera.cam_from_world * Point3::from(corner));
     let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -92,7 +95,7 @@ impl Scene {
     /// ```
     pub fn pixels_of_movable(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         (width, height): (u32, u32),
     ) -> [Range<u32>; 2] {
         let Some((movable, placed)) = &self.movable else {
@@ -126,7 +129,7 @@ mod tests {
     #[test]
     fn elsewhere_nothing_changes_when_the_thing_moves() {
         let mut random = Random::new(8);
-        let camera = Camera {
+        let camera = PosedCamera {
             cam_from_world: Isometry3::translation(-0.2, 0.4, 0.1),
             ..still_life_camera(64, 48)
         };

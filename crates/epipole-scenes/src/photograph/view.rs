@@ -8,7 +8,7 @@ use crate::light::{Decal, LightMap, Lighting, single};
 use crate::scene::Scene;
 use crate::shape::{Contact, Ray, TOP};
 use crate::things::body::{Body, Placement};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
 /// Side of the squares of pixels that share a list of candidates.
@@ -71,7 +71,7 @@ pub(super) struct View<'a> {
 impl<'a> View<'a> {
     pub(super) fn new(
         scene: &'a Scene,
-        camera: &Camera,
+        camera: &PosedCamera,
         width: u32,
         height: u32,
         sampling: Sampling,

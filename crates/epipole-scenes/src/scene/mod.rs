@@ -10,7 +10,7 @@ pub(crate) use movable::{Movable, SHADE_M};
 use crate::detail::Detail;
 use crate::light::{Decal, LightMap};
 use crate::things::body::{Body, Placement};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::{Error, Result};
 use std::sync::Arc;
 
@@ -104,7 +104,7 @@ impl Scene {
     }
 
     /// Refuses cameras from which no picture can be taken.
-    pub(crate) fn check(&self, camera: &Camera, width: u32, height: u32) -> Result<()> {
+    pub(crate) fn check(&self, camera: &PosedCamera, width: u32, height: u32) -> Result<()> {
         let num_pixels = u64::from(width) * u64::from(height);
         if num_pixels == 0 || num_pixels > 16_000_000 {
             return Err(Error::OutOfRange {

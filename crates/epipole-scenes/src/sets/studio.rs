@@ -210,10 +210,10 @@ fn walls() -> Vec<Body> {
 mod tests {
     use super::*;
     use crate::Sampling;
-    use epipole::camera::{Camera, Intrinsics, RigidTransform};
+    use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 
-    fn camera1(width: u32, height: u32) -> Camera {
-        Camera {
+    fn camera1(width: u32, height: u32) -> PosedCamera {
+        PosedCamera {
             intrinsics: Intrinsics::centered(1.25 * f64::from(width), width, height).unwrap(),
             cam_from_world: RigidTransform::identity(),
         }
