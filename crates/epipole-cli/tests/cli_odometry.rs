@@ -6,14 +6,14 @@ mod common;
 
 use common::lens;
 use common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
-use epipole::camera::{Camera, LensKind, RigidTransform, look_at};
+use epipole::camera::{LensKind, PosedCamera, RigidTransform, look_at};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 
 const SIZE: (u32, u32) = (400, 300);
 
 /// A camera that goes to the right, and a little forward.
-fn along(n: usize) -> Camera {
+fn along(n: usize) -> PosedCamera {
     let step = n as f64;
     let motion = Vector3::new(-0.05 * step, 0.004 * step, -0.02 * step);
     moved(
@@ -23,7 +23,7 @@ fn along(n: usize) -> Camera {
 }
 
 /// `world_from_cam` of each frame, relative to the first.
-fn truth(cameras: &[Camera]) -> Vec<RigidTransform> {
+fn truth(cameras: &[PosedCamera]) -> Vec<RigidTransform> {
     let first = cameras[0].cam_from_world;
     cameras
         .iter()
@@ -55,7 +55,7 @@ fn off(found: &[RigidTransform], truth: &[RigidTransform]) -> Vec<[f64; 2]> {
 #[test]
 fn a_moving_camera_is_followed_up_to_scale() {
     let folder = Folder::new("odometry");
-    let cameras: Vec<Camera> = (0..8).map(along).collect();
+    let cameras: Vec<PosedCamera> = (0..8).map(along).collect();
     folder.photographs("left", &cameras, SIZE);
     let left = folder.file("left");
     let result = json(&["odometry", path(&left), "--k", &k(&cameras[0])]);
@@ -73,10 +73,10 @@ fn a_moving_camera_is_followed_up_to_scale() {
 #[test]
 fn a_stereo_rig_is_followed_in_meters() {
     let folder = Folder::new("odometry-stereo");
-    let cameras: Vec<Camera> = (0..6).map(along).collect();
-    let right: Vec<Camera> = cameras
+    let cameras: Vec<PosedCamera> = (0..6).map(along).collect();
+    let right: Vec<PosedCamera> = cameras
         .iter()
-        .map(|camera| Camera {
+        .map(|camera| PosedCamera {
             cam_from_world: RigidTransform::translation(-0.08, 0.0, 0.0) * camera.cam_from_world,
             ..*camera
         })
@@ -99,7 +99,7 @@ fn a_stereo_rig_is_followed_in_meters() {
 #[test]
 fn frames_without_a_path_are_refused() {
     let folder = Folder::new("odometry-bad");
-    let cameras: Vec<Camera> = (0..3).map(along).collect();
+    let cameras: Vec<PosedCamera> = (0..3).map(along).collect();
     folder.photographs("three", &cameras, SIZE);
     folder.photographs("two", &cameras[..2], SIZE);
     folder.photographs("one", &cameras[..1], SIZE);
@@ -235,7 +235,7 @@ fn frames_through_any_lens_are_followed() {
 fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
     let folder = Folder::new("odometry-focal");
     let pivot = Vector3::new(0.0, 0.0, 1.3);
-    let cameras: Vec<Camera> = (0..6)
+    let cameras: Vec<PosedCamera> = (0..6)
         .map(|n| {
             let turn = Vector3::y() * (0.1 * (f64::from(n) - 2.0));
             let shift = pivot - RigidTransform::new(Vector3::zeros(), turn) * pivot;
@@ -287,7 +287,7 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
 #[test]
 fn cameras_that_do_not_fit_the_frames_are_refused() {
     let folder = Folder::new("odometry-camera");
-    let cameras: Vec<Camera> = (0..2).map(along).collect();
+    let cameras: Vec<PosedCamera> = (0..2).map(along).collect();
     folder.photographs("frames", &cameras, SIZE);
     let camera = lens::write(&folder, &lens::camera(LensKind::Brown));
     let frames = folder.file("frames");

@@ -6,7 +6,7 @@
 mod common;
 
 use common::{Folder, angle_deg, epipole, fails, json, k, motion, moved, numbers, parse, path};
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
@@ -28,7 +28,7 @@ fn turn() -> RigidTransform {
     RigidTransform::rotation(Vector3::new(0.03, 0.12, -0.02))
 }
 
-fn photographs(folder: &Folder, motion: &RigidTransform) -> ([Camera; 2], [PathBuf; 2]) {
+fn photographs(folder: &Folder, motion: &RigidTransform) -> ([PosedCamera; 2], [PathBuf; 2]) {
     let cameras = [
         moved(SIZE, &RigidTransform::identity()),
         moved(SIZE, motion),

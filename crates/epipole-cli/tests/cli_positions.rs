@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Folder, exif, fails, json, motion, moved, path};
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::{Geodetic, local_from_geodetic};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
@@ -14,7 +14,7 @@ use std::path::PathBuf;
 const SIZE: (u32, u32) = (400, 300);
 
 /// Cameras around the table.
-fn cameras() -> Vec<Camera> {
+fn cameras() -> Vec<PosedCamera> {
     let around = |n: usize| {
         let angle = 0.1 * (n as f64 - 2.0);
         let pivot = Vector3::new(0.0, 0.06 * (n % 2) as f64, 1.3);
@@ -30,7 +30,7 @@ fn cameras() -> Vec<Camera> {
     (0..6).map(around).collect()
 }
 
-fn photographs(folder: &Folder, cameras: &[Camera]) -> PathBuf {
+fn photographs(folder: &Folder, cameras: &[PosedCamera]) -> PathBuf {
     std::fs::create_dir_all(folder.file("photos")).unwrap();
     for (n, camera) in cameras.iter().enumerate() {
         folder.photograph(&format!("photos/{n}.png"), camera, SIZE);
@@ -57,7 +57,7 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     let folder = Folder::new("positions");
     let cameras = cameras();
     let photos = photographs(&folder, &cameras);
-    let truth: Vec<Point3<f64>> = cameras.iter().map(Camera::center_in_world).collect();
+    let truth: Vec<Point3<f64>> = cameras.iter().map(PosedCamera::center_in_world).collect();
     let focal_px = cameras[0].intrinsics.fu_px().to_string();
     let out = folder.file("out");
     let mut text = "# name, meters\n\n".to_owned();

@@ -1,6 +1,6 @@
 //! Renders photographs to measure with: `photographs FOLDER [COUNT] [WIDTH]`, of the still life, on an arc around it.
 
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use image::codecs::jpeg::JpegEncoder;
 use nalgebra::{Point3, Vector3};
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             up,
             middle.z - 1.38 * libm::cos(angle),
         );
-        let camera = Camera {
+        let camera = PosedCamera {
             cam_from_world: look_at(&center, &middle, &Vector3::new(0.0, -1.0, 0.0))?,
             ..still_life_camera(width, height)
         };

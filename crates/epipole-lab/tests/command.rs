@@ -9,7 +9,7 @@ mod common;
 mod program;
 
 use common::{answer, finish, jpeg, solved};
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal, Saved, SavedPhoto, VERSION};
 use epipole_lab::tasks::{
@@ -171,7 +171,7 @@ fn photograph(degrees: f64, is_upright: bool, size: (u32, u32)) -> RgbImage {
             0.0
         },
     );
-    let camera = Camera {
+    let camera = PosedCamera {
         cam_from_world: Isometry3::from_parts(Translation3::identity(), roll)
             * look_at(&center, &middle, &Vector3::new(0.0, -1.0, 0.0)).unwrap(),
         ..still_life_camera(size.0, size.1)

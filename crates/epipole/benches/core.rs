@@ -1,7 +1,7 @@
 //! What the figures call while a slider moves: photographs, RANSAC for a line, F from two cameras.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::epipolar::fundamental_from_cameras;
 use epipole::math::random::Random;
 use epipole::robust::{LineEstimator, RansacOptions, ransac};
@@ -50,7 +50,7 @@ fn line(criterion: &mut Criterion) {
 fn two_cameras(criterion: &mut Criterion) {
     let camera1 = still_life_camera(640, 480);
     let cam_from_world = Translation3::new(-0.3, 0.0, -0.2) * camera1.cam_from_world;
-    let camera2 = Camera {
+    let camera2 = PosedCamera {
         cam_from_world,
         ..camera1
     };

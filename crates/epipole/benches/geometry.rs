@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use epipole::absolute_pose::pose_p3p;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point};
 use epipole::homography::homography_4point;
 use epipole::math::random::Random;
@@ -19,19 +19,19 @@ struct Scene {
     points: Vec<Point3<f64>>,
     p1: Vec<Point2<f64>>,
     p2: Vec<Point2<f64>>,
-    left: Camera,
-    right: Camera,
+    left: PosedCamera,
+    right: PosedCamera,
 }
 
 /// `num_matches` matches in random order, half a pixel of noise.
 fn scene(seed: u64, num_matches: usize, share_true: f64, plane: bool) -> Scene {
     let mut random = Random::new(seed);
     let intrinsics = Intrinsics::centered(800.0, 640, 480).expect("a valid camera");
-    let left = Camera {
+    let left = PosedCamera {
         intrinsics,
         cam_from_world: RigidTransform::identity(),
     };
-    let right = Camera {
+    let right = PosedCamera {
         intrinsics,
         cam_from_world: RigidTransform::new(
             Vector3::new(-0.6, 0.1, 0.1),

@@ -13,7 +13,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let mut bundle = Bundle::default();
     for i in 0..5 {
         let cam_from_world = RigidTransform::translation(0.4 - 0.2 * f64::from(i), 0.0, 4.0);
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics,
             cam_from_world,
         });

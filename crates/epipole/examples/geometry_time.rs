@@ -9,7 +9,7 @@
 mod timing;
 
 use epipole::absolute_pose::pose_p3p;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point};
 use epipole::homography::homography_4point;
 use epipole::robust::RansacOptions;
@@ -98,12 +98,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         print("H RANSAC", index, ms, &flat(&found?.model));
     }
     let clean = read(folder, "clean", 0)?.ok_or("no clean-0.f64")?;
-    let left = Camera {
+    let left = PosedCamera {
         intrinsics: k,
         cam_from_world: RigidTransform::identity(),
     };
     let turn = Rotation3::new(Vector3::new(0.03, 0.12, -0.05));
-    let right = Camera {
+    let right = PosedCamera {
         intrinsics: k,
         cam_from_world: RigidTransform::from_parts(
             Vector3::new(-0.6, 0.1, 0.1).into(),

@@ -13,7 +13,7 @@ pub use crate::absolute_pose::estimate_absolute_pose;
 pub use crate::calibration::{
     Board, CalibrationOptions, Pattern, calibrate, calibrate_rig, find_board,
 };
-pub use crate::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, RigidTransform};
+pub use crate::camera::{Distortion, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 pub use crate::epipolar::{
     decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
     sampson_px,

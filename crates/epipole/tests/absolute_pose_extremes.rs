@@ -5,7 +5,7 @@
 use epipole::absolute_pose::{
     estimate_absolute_pose, pose_dlt, refine_absolute_pose, reprojection_error_px,
 };
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::robust::RansacOptions;
@@ -68,7 +68,7 @@ impl Scene {
     }
 
     fn cost(&self, cam_from_world: &RigidTransform, points: &[Point3<f64>]) -> f64 {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: self.intrinsics,
             cam_from_world: *cam_from_world,
         };

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::absolute_pose::{estimate_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     RelativePose, essential_5point, essential_8point, essential_from_motion, refine_relative_pose,
 };
@@ -46,8 +46,8 @@ impl Change {
         RigidTransform::from_parts(t.into(), rotation)
     }
 
-    fn camera(&self, camera: &Camera) -> Camera {
-        Camera {
+    fn camera(&self, camera: &PosedCamera) -> PosedCamera {
+        PosedCamera {
             cam_from_world: self.pose(&camera.cam_from_world),
             ..*camera
         }
@@ -59,7 +59,7 @@ fn near(random: &mut Random, size: f64) -> f64 {
 }
 
 /// A camera about 5 units from the origin, which it looks at.
-fn camera(random: &mut Random, side: f64) -> Camera {
+fn camera(random: &mut Random, side: f64) -> PosedCamera {
     let center = Point3::new(
         side + near(random, 0.5),
         near(random, 1.0),
@@ -67,7 +67,7 @@ fn camera(random: &mut Random, side: f64) -> Camera {
     );
     let target = Point3::new(near(random, 0.3), near(random, 0.3), 0.0);
     let up = Vector3::new(near(random, 0.3), -1.0, 0.0);
-    Camera {
+    PosedCamera {
         intrinsics: Intrinsics::new(600.0 + near(random, 50.0), 620.0, 320.0, 240.0).unwrap(),
         cam_from_world: look_at(&center, &target, &up).unwrap(),
     }
@@ -78,7 +78,7 @@ fn point(random: &mut Random) -> Point3<f64> {
 }
 
 /// Where a camera sees a point, with normal noise.
-fn seen(random: &mut Random, camera: &Camera, x: &Point3<f64>, noise_px: f64) -> Point2<f64> {
+fn seen(random: &mut Random, camera: &PosedCamera, x: &Point3<f64>, noise_px: f64) -> Point2<f64> {
     let p = camera.project(x).unwrap();
     Point2::new(
         p.x + noise_px * random.normal(),
@@ -119,10 +119,10 @@ proptest! {
         let change = Change::new(turn, shift, libm::exp10(scale_exponent));
         let mut random = Random::new(seed);
         let truth = point(&mut random);
-        let cameras: Vec<Camera> = [-2.0, 0.0, 2.0].map(|x| camera(&mut random, x)).to_vec();
+        let cameras: Vec<PosedCamera> = [-2.0, 0.0, 2.0].map(|x| camera(&mut random, x)).to_vec();
         let pixels: Vec<_> =
             cameras.iter().map(|c| seen(&mut random, c, &truth, 1.0)).collect();
-        let moved: Vec<Camera> = cameras.iter().map(|c| change.camera(c)).collect();
+        let moved: Vec<PosedCamera> = cameras.iter().map(|c| change.camera(c)).collect();
         let same = |before: &Point3<f64>, after: &Point3<f64>, tolerance: f64| {
             (change.point(before) - after).norm() < tolerance * change.scale
         };
@@ -177,7 +177,7 @@ proptest! {
     fn views_may_come_in_any_order(seed in 0_u64..1000, places in 1_usize..5) {
         let mut random = Random::new(seed);
         let truth = point(&mut random);
-        let cameras: Vec<Camera> =
+        let cameras: Vec<PosedCamera> =
             (0..5).map(|i| camera(&mut random, f64::from(i) - 2.0)).collect();
         let pixels: Vec<_> =
             cameras.iter().map(|c| seen(&mut random, c, &truth, 1.0)).collect();

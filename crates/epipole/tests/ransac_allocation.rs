@@ -12,7 +12,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use epipole::absolute_pose::AbsolutePoseEstimator;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{EssentialEstimator, FundamentalEstimator};
 use epipole::homography::HomographyEstimator;
 use epipole::math::random::Random;
@@ -57,11 +57,11 @@ fn matches(
 ) {
     let mut random = Random::new(5);
     let intrinsics = Intrinsics::centered(700.0, 640, 480).unwrap();
-    let left = Camera {
+    let left = PosedCamera {
         intrinsics,
         cam_from_world: RigidTransform::identity(),
     };
-    let right = Camera {
+    let right = PosedCamera {
         intrinsics,
         cam_from_world: RigidTransform::new(
             Vector3::new(-0.5, 0.1, 0.2),

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{EssentialEstimator, FundamentalEstimator};
 use epipole::homography::HomographyEstimator;
 use epipole::math::Line2;
@@ -270,7 +270,7 @@ fn without_local_optimization_the_model_is_that_of_a_sample() {
 fn matches() -> (Vec<Point2<f64>>, Vec<Point2<f64>>, Intrinsics) {
     let mut random = Random::new(8);
     let intrinsics = Intrinsics::centered(700.0, 640, 480).unwrap();
-    let camera = |cam_from_world| Camera {
+    let camera = |cam_from_world| PosedCamera {
         intrinsics,
         cam_from_world,
     };

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, LensKind, RigidTransform};
+use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, Observation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions, SfmResult,
@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 const SIZE: u32 = 1000;
 
 struct World {
-    cameras: Vec<Camera>,
+    cameras: Vec<PosedCamera>,
     input: SfmInput,
 }
 
@@ -70,7 +70,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
         let turn = 0.15 * Vector3::from_fn(|_, _| random.normal());
         let rotation = RigidTransform::new(Vector3::zeros(), turn);
         let shift = -(rotation.rotation * (making.step * center));
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: k(),
             cam_from_world: RigidTransform::from_parts(shift.into(), rotation.rotation),
         };

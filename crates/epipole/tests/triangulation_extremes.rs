@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::triangulation::{
@@ -12,14 +12,14 @@ use epipole::triangulation::{
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
 /// Cameras side by side, half a unit apart, turned at random by up to 0.15 radians.
-fn row_of_cameras(random: &mut Random, count: usize) -> Vec<Camera> {
+fn row_of_cameras(random: &mut Random, count: usize) -> Vec<PosedCamera> {
     let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0).unwrap();
     (0..count)
         .map(|i| {
             let axis = Vector3::from_fn(|_, _| random.normal()).normalize();
             let rotation = UnitQuaternion::from_scaled_axis(axis * random.uniform(0.0, 0.15));
             let center = Vector3::new(i as f64 * 0.5, 0.2 * random.normal(), 0.2 * random.normal());
-            Camera {
+            PosedCamera {
                 intrinsics,
                 cam_from_world: RigidTransform::from_parts((-(rotation * center)).into(), rotation),
             }
@@ -44,7 +44,7 @@ fn noisy(random: &mut Random, pixel: Point2<f64>, sigma_px: f64) -> Point2<f64> 
 
 fn pixels(
     random: &mut Random,
-    cameras: &[Camera],
+    cameras: &[PosedCamera],
     x: &Point3<f64>,
     sigma: f64,
 ) -> Vec<Point2<f64>> {
@@ -55,7 +55,7 @@ fn pixels(
 }
 
 /// The same cameras in another unit of length.
-fn enlarged(cameras: &[Camera], scale: f64) -> Vec<Camera> {
+fn enlarged(cameras: &[PosedCamera], scale: f64) -> Vec<PosedCamera> {
     let mut cameras = cameras.to_vec();
     for camera in &mut cameras {
         camera.cam_from_world.translation.vector *= scale;
@@ -127,7 +127,7 @@ fn views_without_a_point_are_refused_with_every_loss() {
         .collect();
     let intrinsics = cameras[0].intrinsics;
     let straight: Vec<_> = (0..4)
-        .map(|i| Camera {
+        .map(|i| PosedCamera {
             intrinsics,
             cam_from_world: RigidTransform::translation(-f64::from(i), 0.0, 0.0),
         })
@@ -177,7 +177,7 @@ fn parallel_rays_are_parallel_in_every_unit() {
     let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0).unwrap();
     let center = Point2::new(320.0, 240.0);
     for scale in [1e-100, 1e-15, 1e-12, 1.0, 1e12, 1e15, 1e100] {
-        let camera = |x: f64| Camera {
+        let camera = |x: f64| PosedCamera {
             intrinsics,
             cam_from_world: RigidTransform::translation(-x * scale, 0.0, 0.0),
         };

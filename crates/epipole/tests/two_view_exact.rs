@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     decompose_essential, essential_5point, essential_8point, essential_from_fundamental,
     essential_from_motion, estimate_essential, sampson_sq, select_pose,
@@ -30,7 +30,7 @@ fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
 
 /// Two random cameras around a cloud of points, all of which both see.
 struct Pair {
-    cameras: [Camera; 2],
+    cameras: [PosedCamera; 2],
     points: Vec<Point3<f64>>,
     pixels: [Vec<Point2<f64>>; 2],
 }
@@ -42,7 +42,7 @@ impl Pair {
             let center = Point3::new(near(1.5), near(1.0), -5.0 + near(1.0));
             let target = Point3::new(near(0.3), near(0.3), 0.0);
             let up = Vector3::new(near(0.3), -1.0, 0.0);
-            Camera {
+            PosedCamera {
                 intrinsics: Intrinsics::centered(focal_px, 640, 480).unwrap(),
                 cam_from_world: look_at(&center, &target, &up).unwrap(),
             }

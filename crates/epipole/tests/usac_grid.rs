@@ -8,7 +8,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::sampson_px;
 use epipole::homography::transfer_error_px;
 use epipole::math::random::Random;
@@ -31,7 +31,7 @@ enum Shape {
 }
 
 struct Scene {
-    cameras: [Camera; 2],
+    cameras: [PosedCamera; 2],
     points: Vec<Point3<f64>>,
     pixels: [Vec<Point2<f64>>; 2],
     num_true: usize,
@@ -71,7 +71,7 @@ fn scene(
         RigidTransform::identity(),
         RigidTransform::from_parts(shift.into(), turn),
     ]
-    .map(|cam_from_world| Camera {
+    .map(|cam_from_world| PosedCamera {
         intrinsics,
         cam_from_world,
     });
@@ -240,7 +240,7 @@ fn absolute_poses() {
                 let pixels = &scene.pixels[1];
                 let intrinsics = scene.cameras[1].intrinsics;
                 let report = estimate_absolute_pose(&scene.points, pixels, &intrinsics, options)?;
-                let camera = Camera {
+                let camera = PosedCamera {
                     intrinsics,
                     cam_from_world: report.model,
                 };

@@ -2,7 +2,7 @@
 
 use super::Number::{self, Real};
 use super::{Arguments, Entry, sentence};
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
     triangulate_optimal,
@@ -55,9 +55,9 @@ pub(super) const ENTRIES: &[Entry] = &[
 ];
 
 /// Two equal cameras that look the same way, the second one at (x, 0, z).
-fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[Camera; 2], String> {
+fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[PosedCamera; 2], String> {
     let intrinsics = Intrinsics::new(focal_px, focal_px, 320.0, 240.0).map_err(sentence)?;
-    Ok([(0.0, 0.0), (x, z)].map(|(x, z)| Camera {
+    Ok([(0.0, 0.0), (x, z)].map(|(x, z)| PosedCamera {
         intrinsics,
         cam_from_world: RigidTransform::translation(-x, 0.0, -z),
     }))
@@ -114,7 +114,11 @@ fn error_px(a: &Arguments) -> Result<Number, String> {
 }
 
 /// Lengths of the half axes of the region of one standard deviation, longest first.
-fn half_axes(cameras: &[Camera], point: &Point3<f64>, sigma_px: f64) -> Result<[f64; 3], String> {
+fn half_axes(
+    cameras: &[PosedCamera],
+    point: &Point3<f64>,
+    sigma_px: f64,
+) -> Result<[f64; 3], String> {
     let covariance = point_covariance(cameras, point, sigma_px).map_err(sentence)?;
     let mut squares: [f64; 3] = covariance.symmetric_eigenvalues().into();
     squares.sort_by(|x, y| y.total_cmp(x));
@@ -126,7 +130,7 @@ fn sigma_mm(a: &Arguments) -> Result<Number, String> {
     let camera = |side: f64| {
         let center = Point3::new(side * sin, 0.0, -cos) * a.get("r");
         let up = Vector3::new(0.0, -1.0, 0.0);
-        Ok(Camera {
+        Ok(PosedCamera {
             intrinsics: Intrinsics::new(a.get("f"), a.get("f"), 320.0, 240.0)?,
             cam_from_world: look_at(&center, &Point3::origin(), &up)?,
         })

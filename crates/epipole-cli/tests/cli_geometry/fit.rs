@@ -38,7 +38,7 @@ fn fit_finds_the_motion_where_gravity_is_known() {
     let folder = Folder::new("fit-gravity");
     let problem = problem(cube());
     let file = file_of(&folder, &problem);
-    let down = |camera: &Camera| {
+    let down = |camera: &PosedCamera| {
         let down = camera.cam_from_world.rotation * Vector3::new(0.1, 1.0, -0.2);
         format!("{},{},{}", down.x, down.y, down.z)
     };

@@ -11,7 +11,7 @@ mod photographs;
 use common::{
     Folder, angle_deg, epipole, fails, json, k, matrix, motion, moved, numbers, parse, path,
 };
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::epipolar::{fundamental_from_cameras, symmetric_epipolar_px};
 use epipole::math::random::Random;
 use epipole::robust::num_trials_without_replacement;
@@ -63,7 +63,7 @@ fn transfer(h: &Matrix3<f64>, pixel: &Point2<f64>) -> Point2<f64> {
     Point2::from_homogeneous(h * pixel.to_homogeneous()).unwrap()
 }
 
-fn cam2_from_cam1(camera1: &Camera, camera2: &Camera) -> RigidTransform {
+fn cam2_from_cam1(camera1: &PosedCamera, camera2: &PosedCamera) -> RigidTransform {
     camera2.cam_from_world * camera1.cam_from_world.inverse()
 }
 

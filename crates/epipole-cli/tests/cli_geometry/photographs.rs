@@ -3,7 +3,7 @@
 use super::*;
 
 /// Two photographs with enough parallax, and their cameras.
-fn pair(folder: &Folder, motion: &RigidTransform) -> [Camera; 2] {
+fn pair(folder: &Folder, motion: &RigidTransform) -> [PosedCamera; 2] {
     let cameras = [
         moved(SIZE, &RigidTransform::identity()),
         moved(SIZE, motion),
@@ -23,7 +23,7 @@ fn step() -> RigidTransform {
 }
 
 /// Where the second camera sees what the first sees at every 32nd pixel.
-fn true_matches(cameras: &[Camera; 2]) -> Vec<(Point2<f64>, Point2<f64>)> {
+fn true_matches(cameras: &[PosedCamera; 2]) -> Vec<(Point2<f64>, Point2<f64>)> {
     let scene = Scene::still_life();
     let mut matches = Vec::new();
     for v in (16..SIZE.1).step_by(32) {

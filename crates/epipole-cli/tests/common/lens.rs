@@ -2,7 +2,7 @@
 
 use super::Folder;
 use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
+use epipole::camera::{Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::synthetic::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
@@ -89,7 +89,7 @@ pub(crate) fn photographs<const N: usize>(
             let turn = Rotation3::from_matrix_unchecked(axes);
             let turn = UnitQuaternion::from_rotation_matrix(&turn);
             let to_side = RigidTransform::from_parts(Vector3::zeros().into(), turn);
-            let side_camera = Camera {
+            let side_camera = PosedCamera {
                 intrinsics: k,
                 cam_from_world: to_side * cam_from_world,
             };

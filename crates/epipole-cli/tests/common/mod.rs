@@ -9,7 +9,7 @@
 pub(crate) mod exif;
 pub(crate) mod lens;
 
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -38,7 +38,12 @@ impl Folder {
     }
 
     /// A photograph of the still life as a PNG file, with its depth.
-    pub(crate) fn photograph(&self, name: &str, camera: &Camera, size: (u32, u32)) -> Photograph {
+    pub(crate) fn photograph(
+        &self,
+        name: &str,
+        camera: &PosedCamera,
+        size: (u32, u32),
+    ) -> Photograph {
         let photograph = Scene::still_life()
             .render(camera, size.0, size.1, Sampling::Full)
             .unwrap();
@@ -47,7 +52,7 @@ impl Folder {
     }
 
     /// Photographs of the still life in a folder: 0.png, 1.png …
-    pub(crate) fn photographs(&self, sub: &str, cameras: &[Camera], size: (u32, u32)) {
+    pub(crate) fn photographs(&self, sub: &str, cameras: &[PosedCamera], size: (u32, u32)) {
         std::fs::create_dir_all(self.file(sub)).unwrap();
         for (n, camera) in cameras.iter().enumerate() {
             self.photograph(&format!("{sub}/{n}.png"), camera, size);
@@ -179,16 +184,16 @@ pub(crate) fn motion(value: &Value) -> RigidTransform {
 }
 
 /// The camera of the still life, moved in its own frame: `cam_from_camera0 = motion`.
-pub(crate) fn moved(size: (u32, u32), motion: &RigidTransform) -> Camera {
+pub(crate) fn moved(size: (u32, u32), motion: &RigidTransform) -> PosedCamera {
     let camera = still_life_camera(size.0, size.1);
-    Camera {
+    PosedCamera {
         cam_from_world: motion * camera.cam_from_world,
         ..camera
     }
 }
 
 /// `fx,fy,cx,cy`.
-pub(crate) fn k(camera: &Camera) -> String {
+pub(crate) fn k(camera: &PosedCamera) -> String {
     let center = camera.intrinsics.principal_point();
     let (fu, fv) = (camera.intrinsics.fu_px(), camera.intrinsics.fv_px());
     format!("{fu},{fv},{},{}", center.x, center.y)

@@ -11,9 +11,9 @@ use super::{LensCamera, LensModel};
 #[cfg(feature = "files")]
 use epipole::calibration::CalibratedCamera;
 use epipole::calibration::{Board, Pattern};
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
 #[cfg(feature = "files")]
 use epipole::camera::{Distortion, Lens, LensKind};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::SfmImage;
 #[cfg(feature = "files")]
 use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
@@ -112,11 +112,11 @@ pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
 ///
 /// # Errors
 /// A sentence, if its numbers are no camera's.
-pub(crate) fn core_camera(camera: &CameraFound) -> Result<Camera, String> {
+pub(crate) fn core_camera(camera: &CameraFound) -> Result<PosedCamera, String> {
     let [fu, fv, cu, cv] = camera.intrinsics;
     let [i, j, k, w] = camera.rotation;
     let [x, y, z] = camera.translation;
-    Ok(Camera {
+    Ok(PosedCamera {
         intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
         cam_from_world: RigidTransform::from_parts(
             Translation3::new(x, y, z),

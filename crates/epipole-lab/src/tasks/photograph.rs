@@ -4,7 +4,7 @@ use super::board_sample;
 use super::convert::{core_lens_camera, unreadable};
 use super::{LensCamera, Photograph, Progress, Sample, Source, Thumbnail, ask};
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
-use epipole::camera::{Camera, Intrinsics, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::stereo::PixelMap;
 use epipole::synthetic::{Sampling, Scene, still_life_camera};
@@ -106,7 +106,7 @@ fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
 }
 
 /// What a camera sees of the still life.
-fn photographed(camera: &Camera, sample: Sample, index: u8) -> Result<RgbImage, String> {
+fn photographed(camera: &PosedCamera, sample: Sample, index: u8) -> Result<RgbImage, String> {
     let (width, height) = match is_upright(sample, index) {
         true => (RENDERED.1, RENDERED.0),
         false => RENDERED,
@@ -131,7 +131,7 @@ fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
 }
 
 /// Nine places on an arc around the still life, every other one a little higher.
-fn around_table(index: u8) -> Result<Camera, String> {
+fn around_table(index: u8) -> Result<PosedCamera, String> {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let middle = Point3::new(0.035, -0.13, 0.05);
     let angle = (f64::from(index) - 4.0) * 8.0_f64.to_radians();
@@ -148,7 +148,7 @@ fn around_table(index: u8) -> Result<Camera, String> {
     );
     let cam_from_world = look_at(&center, &middle, &Vector3::new(0.0, -1.0, 0.0))
         .map_err(|error| error.to_string())?;
-    Ok(Camera {
+    Ok(PosedCamera {
         cam_from_world,
         ..camera
     })
@@ -159,14 +159,14 @@ fn is_upright(sample: Sample, index: u8) -> bool {
 }
 
 /// One camera around the table, every other time held upright.
-fn held(index: u8) -> Result<Camera, String> {
+fn held(index: u8) -> Result<PosedCamera, String> {
     let camera = around_table(index + 2)?;
     let (width, height) = match is_upright(Sample::Upright, index) {
         true => (RENDERED.1, RENDERED.0),
         false => RENDERED,
     };
     let intrinsics = Intrinsics::centered(camera.intrinsics.fu_px(), width, height);
-    Ok(Camera {
+    Ok(PosedCamera {
         intrinsics: intrinsics.map_err(|error| error.to_string())?,
         ..camera
     })
@@ -211,11 +211,11 @@ fn carpet() -> RgbImage {
 }
 
 /// The camera of the still life, turned about its own center.
-fn turned(index: u8) -> Camera {
+fn turned(index: u8) -> PosedCamera {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let angle = (f64::from(index) - 1.5) * 5.0_f64.to_radians();
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
-    Camera {
+    PosedCamera {
         cam_from_world: Isometry3::from_parts(Translation3::identity(), turn)
             * camera.cam_from_world,
         ..camera

@@ -1,7 +1,7 @@
 //! The depth of every pixel of a pair of the sample, against what the photographs were rendered from.
 
 use super::{answer, exported, finish};
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use epipole::stereo::DisparityImage;
 use epipole::synthetic::{Scene, still_life_camera};
 use epipole_lab::project::{Event, Project, Step};
@@ -12,7 +12,7 @@ use image::{RgbImage, imageops};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 
 /// The camera that a photograph of the table was rendered with.
-pub(crate) fn true_camera(index: usize) -> Camera {
+pub(crate) fn true_camera(index: usize) -> PosedCamera {
     let middle = Point3::new(0.035, -0.13, 0.05);
     let angle = (index as f64 - 4.0) * 8.0_f64.to_radians();
     let height = [-0.43, -0.56][index % 2];
@@ -21,7 +21,7 @@ pub(crate) fn true_camera(index: usize) -> Camera {
         height,
         middle.z - 1.38 * libm::cos(angle),
     );
-    Camera {
+    PosedCamera {
         cam_from_world: look_at(&center, &middle, &Vector3::new(0.0, -1.0, 0.0)).unwrap(),
         ..still_life_camera(480, 360)
     }
@@ -38,7 +38,7 @@ fn rotation(camera: &CameraFound) -> Matrix3<f64> {
 fn errors(project: &Project, first: usize, pair: &Dense) -> Vec<f64> {
     let found = |index: usize| project.component().unwrap().cameras[index].unwrap();
     let truth = true_camera(first);
-    let center = |camera: &Camera| camera.cam_from_world.inverse() * Point3::origin();
+    let center = |camera: &PosedCamera| camera.cam_from_world.inverse() * Point3::origin();
     // Frames are joined by this camera, and by the distance to the one at the other end.
     let far = if first < 4 { 8 } else { 0 };
     let scale = (center(&true_camera(far)) - center(&truth)).norm()

@@ -2,7 +2,7 @@
 
 use crate::contract::{Mark, Symbol};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
-use epipole::camera::{Camera, relative_motion};
+use epipole::camera::{PosedCamera, relative_motion};
 use epipole::epipolar::{
     Epipole, epipolar_line1, epipolar_line2, epipoles, essential_from_motion,
     fundamental_from_cameras,
@@ -21,7 +21,7 @@ pub(crate) struct Geometry {
 
 impl Geometry {
     /// None while both cameras stand at the same place.
-    pub(crate) fn of([first, second]: &[Camera; 2]) -> Option<Self> {
+    pub(crate) fn of([first, second]: &[PosedCamera; 2]) -> Option<Self> {
         let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
         let fundamental = fundamental_from_cameras(first, second).ok()?;
         let (epipole1, epipole2) = epipoles(&fundamental).ok()?;

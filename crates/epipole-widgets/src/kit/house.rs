@@ -1,7 +1,7 @@
 //! A house of wire, and the cameras around it, as they really are.
 
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Width and height of the photographs, pixels.
@@ -68,7 +68,7 @@ const WIRES: [(usize, usize, usize); 20] = [
 
 /// House and cameras.
 pub(crate) struct House {
-    pub(crate) cameras: Vec<Camera>,
+    pub(crate) cameras: Vec<PosedCamera>,
     pub(crate) points: Vec<Point3<f64>>,
     /// Points along each wire, by index.
     pub(crate) wires: Vec<Vec<usize>>,
@@ -95,7 +95,7 @@ impl House {
             let (sin, cos) = libm::sincos(angle);
             let center = Point3::new(DISTANCE * sin, y, -DISTANCE * cos);
             let up = Vector3::new(0.0, -1.0, 0.0);
-            Ok(Camera {
+            Ok(PosedCamera {
                 intrinsics: Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
                 cam_from_world: look_at(&center, &Point3::from(TARGET), &up)?,
             })
@@ -117,8 +117,8 @@ impl House {
     }
 
     /// A camera that has come to stand elsewhere.
-    pub(crate) fn camera(&self, index: usize, cam_from_world: RigidTransform) -> Camera {
-        Camera {
+    pub(crate) fn camera(&self, index: usize, cam_from_world: RigidTransform) -> PosedCamera {
+        PosedCamera {
             cam_from_world,
             ..self.cameras[index]
         }

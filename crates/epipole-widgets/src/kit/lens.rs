@@ -2,7 +2,7 @@
 //! in the panel's own degrees for a model whose things are moved in the space itself.
 
 use crate::kit::orbit::{HALF_RISE_DEG, HALF_TURN_DEG, Orbit};
-use epipole::camera::{Camera, Intrinsics, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point2, Point3, Vector3};
 
 /// How far the reader stands off at zoom 1, in radii of the scene.
@@ -24,7 +24,7 @@ pub(crate) struct Subject {
 /// A scene as it is seen from somewhere.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lens {
-    pub(crate) eye: Camera,
+    pub(crate) eye: PosedCamera,
     /// From the eye to the middle of the scene.
     pub(crate) distance: f64,
     /// Nothing nearer is seen.
@@ -56,7 +56,7 @@ impl Lens {
         let up = Vector3::new(0.0, -1.0, 0.0);
         let at = subject.middle + distance * towards_eye;
         Some(Self {
-            eye: Camera {
+            eye: PosedCamera {
                 intrinsics: Intrinsics::new(focal * units.0, focal * units.1, middle.0, middle.1)
                     .ok()?,
                 cam_from_world: look_at(&at, &subject.middle, &up).ok()?,

@@ -1,7 +1,7 @@
 //! Matches of the still life's two photographs: exact by the scene's own geometry, then disturbed.
 
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, Seen, still_life_pair};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::epipolar::epipolar_line2;
 use epipole::math::{Line2, random::Random};
 use nalgebra::{Matrix3, Point2};
@@ -26,7 +26,7 @@ const MOTION: (f64, f64, f64) = (0.5, -0.6, 24.0);
 pub(crate) type Match = (Point2<f64>, Point2<f64>);
 
 /// Both cameras.
-pub(crate) fn cameras() -> [Camera; 2] {
+pub(crate) fn cameras() -> [PosedCamera; 2] {
     let (right_m, forward_m, left_deg) = MOTION;
     still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
 }

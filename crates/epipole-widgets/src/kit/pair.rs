@@ -8,7 +8,7 @@ use crate::kit::photo::Photo;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use crate::theme::Role;
 use epipole::Error;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use image::RgbImage;
@@ -31,7 +31,11 @@ impl Photos {
     ///
     /// # Errors
     /// As [`Photo::picture`].
-    pub(crate) fn picture(&mut self, index: usize, camera: &Camera) -> Result<&RgbImage, Error> {
+    pub(crate) fn picture(
+        &mut self,
+        index: usize,
+        camera: &PosedCamera,
+    ) -> Result<&RgbImage, Error> {
         self.0[index].picture(&still_life(), camera, [0.0; 3], PHOTO_SIZE)
     }
 
@@ -39,7 +43,7 @@ impl Photos {
     ///
     /// # Errors
     /// As [`Photo::picture`].
-    pub(crate) fn pictures(&mut self, cameras: &[Camera; 2]) -> Result<[&RgbImage; 2], Error> {
+    pub(crate) fn pictures(&mut self, cameras: &[PosedCamera; 2]) -> Result<[&RgbImage; 2], Error> {
         let ([one, two], scene) = (&mut self.0, still_life());
         Ok([
             one.picture(&scene, &cameras[0], [0.0; 3], PHOTO_SIZE)?,
@@ -48,7 +52,12 @@ impl Photos {
     }
 
     /// The photographs in their panels.
-    pub(crate) fn draw(&mut self, canvas: &mut Canvas, panels: [&Panel; 2], cameras: &[Camera; 2]) {
+    pub(crate) fn draw(
+        &mut self,
+        canvas: &mut Canvas,
+        panels: [&Panel; 2],
+        cameras: &[PosedCamera; 2],
+    ) {
         for (index, panel) in panels.into_iter().enumerate() {
             match self.picture(index, &cameras[index]) {
                 Ok(picture) => canvas.photograph(panel.rect, picture),
@@ -61,14 +70,14 @@ impl Photos {
     }
 
     /// As [`Photo::prepare`].
-    pub(crate) fn prepare(&mut self, cameras: &[Camera; 2]) -> bool {
+    pub(crate) fn prepare(&mut self, cameras: &[PosedCamera; 2]) -> bool {
         let scene = still_life();
         let mut photos = self.0.iter_mut().zip(cameras);
         photos.any(|(photo, camera)| photo.prepare(&scene, camera, [0.0; 3], PHOTO_SIZE))
     }
 
     /// As [`Photo::refine`].
-    pub(crate) fn refine(&mut self, cameras: &[Camera; 2]) -> bool {
+    pub(crate) fn refine(&mut self, cameras: &[PosedCamera; 2]) -> bool {
         let scene = still_life();
         let mut photos = self.0.iter_mut().zip(cameras);
         photos.any(|(photo, camera)| photo.refine(&scene, camera, [0.0; 3], PHOTO_SIZE))

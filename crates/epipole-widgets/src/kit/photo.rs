@@ -8,7 +8,7 @@
 //! does is fixed, not timed, so the same calls give the same picture everywhere.
 
 use epipole::Error;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::synthetic::{Moved, Photograph, Reprojected, Sampling, Scene};
 use image::RgbImage;
 use std::ops::Range;
@@ -33,9 +33,9 @@ pub(crate) struct Photo {
     /// What stands for a sharp one meanwhile, and what it shows.
     draft: Option<Photograph>,
     /// From where and how large the draft is, if it is whole, and its pixels of what can be moved.
-    drafted: Option<(Camera, (u32, u32), Part)>,
+    drafted: Option<(PosedCamera, (u32, u32), Part)>,
     meanwhile: Reprojected,
-    shown: Option<(Camera, [f64; 3])>,
+    shown: Option<(PosedCamera, [f64; 3])>,
     follow: Option<Follow>,
 }
 
@@ -43,18 +43,18 @@ pub(crate) struct Photo {
 pub(crate) type Follow = fn([f64; 3], [f64; 3]) -> Option<Moved>;
 
 /// Work on a photograph that is done slice by slice: [`Photo::prepare`] or [`Photo::refine`].
-pub(crate) type Slice = fn(&mut Photo, &Scene, &Camera, [f64; 3], (u32, u32)) -> bool;
+pub(crate) type Slice = fn(&mut Photo, &Scene, &PosedCamera, [f64; 3], (u32, u32)) -> bool;
 
 /// A photograph and what it shows.
 struct Shot {
-    camera: Camera,
+    camera: PosedCamera,
     /// What is movable in the scene, in the figure's own numbers.
     arrangement: [f64; 3],
     photograph: Photograph,
 }
 
 impl Shot {
-    fn shows(&self, camera: &Camera, arrangement: [f64; 3]) -> bool {
+    fn shows(&self, camera: &PosedCamera, arrangement: [f64; 3]) -> bool {
         self.camera == *camera && self.arrangement == arrangement
     }
 }
@@ -90,7 +90,7 @@ impl Photo {
     pub(crate) fn picture(
         &mut self,
         scene: &Scene,
-        camera: &Camera,
+        camera: &PosedCamera,
         arrangement: [f64; 3],
         size: (u32, u32),
     ) -> Result<&RgbImage, Error> {
@@ -115,7 +115,7 @@ impl Photo {
             let small = |side: u32| (f64::from(side) * DRAFT_FACTOR).round().max(1.0) as u32;
             let small_size = (small(size.0), small(size.1));
             let mut draft = blank(self.draft.take(), small_size);
-            let small_camera = Camera {
+            let small_camera = PosedCamera {
                 intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
                 ..*camera
             };
@@ -148,7 +148,7 @@ impl Photo {
     pub(crate) fn prepare(
         &mut self,
         scene: &Scene,
-        camera: &Camera,
+        camera: &PosedCamera,
         arrangement: [f64; 3],
         size: (u32, u32),
     ) -> bool {
@@ -163,7 +163,7 @@ impl Photo {
     pub(crate) fn refine(
         &mut self,
         scene: &Scene,
-        camera: &Camera,
+        camera: &PosedCamera,
         arrangement: [f64; 3],
         (width, height): (u32, u32),
     ) -> bool {
@@ -224,7 +224,7 @@ mod tests {
         sum / a.len() as f64
     }
 
-    fn settle(photo: &mut Photo, scene: &Scene, camera: &Camera, arrangement: [f64; 3]) {
+    fn settle(photo: &mut Photo, scene: &Scene, camera: &PosedCamera, arrangement: [f64; 3]) {
         while photo.refine(scene, camera, arrangement, SIZE) {}
     }
 
@@ -253,7 +253,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_moves_is_at_its_new_place_at_once() {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: Intrinsics::centered(175.0, SIZE.0, SIZE.1).unwrap(),
             cam_from_world: Isometry3::identity(),
         };
@@ -274,7 +274,7 @@ mod tests {
     fn a_camera_in_the_wall_gets_a_sentence_and_a_photo_recovers() {
         let scene = Scene::still_life();
         let [first, _] = still_life_pair(SIZE, 0.0, 0.0, 0.0);
-        let wall = Camera {
+        let wall = PosedCamera {
             cam_from_world: Isometry3::translation(0.0, 50.0, 0.0),
             ..first
         };

@@ -2,7 +2,7 @@
 
 use crate::contract::Progress;
 use epipole::Error;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::math::random::Random;
 use epipole::synthetic::{
     MovableKind, MovableObject, Moved, Photograph, Sampling, Scene, Transfer, still_life_camera,
@@ -43,7 +43,7 @@ pub(crate) enum Seen {
 
 impl Seen {
     /// By the scene's exact depth.
-    pub(crate) fn of([first, second]: &[Camera; 2], pixel1: &Point2<f64>) -> Self {
+    pub(crate) fn of([first, second]: &[PosedCamera; 2], pixel1: &Point2<f64>) -> Self {
         match still_life().transfer(first, second, pixel1) {
             Transfer::Visible { pixel2, .. } | Transfer::Occluded { pixel2, .. }
                 if !in_picture(&pixel2) =>
@@ -103,13 +103,13 @@ pub(crate) fn still_life_pair(
     right_m: f64,
     forward_m: f64,
     left_deg: f64,
-) -> [Camera; 2] {
+) -> [PosedCamera; 2] {
     let first = still_life_camera(width, height);
     // y points down, so turning the camera left turns what it sees right, by +y.
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_deg.to_radians());
     let to_center = Translation3::new(-right_m, 0.0, -forward_m);
     let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
-    let second = Camera {
+    let second = PosedCamera {
         cam_from_world: cam2_from_cam1 * first.cam_from_world,
         ..first
     };
@@ -122,7 +122,7 @@ pub(crate) fn still_life_pair(
 /// As [`Scene::render`], and [`Error::Canceled`] if `progress`, told the share that is done, ended
 /// it.
 pub(crate) fn photograph(
-    camera: &Camera,
+    camera: &PosedCamera,
     (width, height): (u32, u32),
     progress: Progress<'_>,
 ) -> Result<RgbImage, Error> {

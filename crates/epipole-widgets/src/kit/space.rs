@@ -11,7 +11,7 @@ pub(crate) use crate::kit::lens::Subject;
 use crate::kit::orbit::Orbit;
 use crate::kit::standing::{Standing, half};
 use crate::theme::{Rgb, Role};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -60,7 +60,7 @@ impl<'a> Space<'a> {
     /// any other mark but the ground.
     pub(crate) fn stand<'b: 'a>(
         &mut self,
-        photographs: impl IntoIterator<Item = (&'b Camera, &'a RgbImage)>,
+        photographs: impl IntoIterator<Item = (&'b PosedCamera, &'a RgbImage)>,
         depth: f64,
     ) {
         let standing = photographs
@@ -195,7 +195,7 @@ impl<'a> Space<'a> {
     /// thicker.
     pub(crate) fn frustum(
         &mut self,
-        camera: &Camera,
+        camera: &PosedCamera,
         (width, height): (u32, u32),
         depth: f64,
         role: Role,
@@ -217,7 +217,7 @@ impl<'a> Space<'a> {
     /// Where a pixel is on a camera's picture, put up in the world at the depth `depth`.
     pub(crate) fn on_picture(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         pixel: &Point2<f64>,
         depth: f64,
     ) -> Point3<f64> {
@@ -251,7 +251,7 @@ impl<'a> Space<'a> {
     }
 
     /// The three axes of a camera, `length` long: x solid, y dashed, z dotted.
-    pub(crate) fn axes(&mut self, camera: &Camera, length: f64) {
+    pub(crate) fn axes(&mut self, camera: &PosedCamera, length: f64) {
         let world_from_cam = camera.cam_from_world.inverse();
         let origin = camera.center_in_world();
         let strokes = [

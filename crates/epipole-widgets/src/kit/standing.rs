@@ -3,7 +3,7 @@
 
 use crate::canvas::Place;
 use crate::kit::lens::Lens;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::homography::homography_from_motion;
 use image::RgbImage;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
@@ -41,7 +41,7 @@ impl<'a> Standing<'a> {
     /// edge-on, or partly behind the eye.
     pub(crate) fn new(
         lens: &Lens,
-        camera: &Camera,
+        camera: &PosedCamera,
         image: &'a RgbImage,
         depth: f64,
     ) -> Option<Self> {
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn pixels_are_where_the_scene_shows_them_and_hide_what_is_behind() {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: Intrinsics::centered(50.0, 40, 30).unwrap(),
             cam_from_world: Isometry3::translation(0.3, 0.1, 0.0),
         };

@@ -3,7 +3,7 @@
 use super::dlt::pose_dlt;
 use super::p3p::pose_p3p;
 use super::refine::{refine_absolute_pose, reprojection_error_px};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::optim::RobustLoss;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -83,7 +83,7 @@ pub fn fit_absolute_pose(
         why: "all points are on one line",
     })?;
     let cost = |pose: &RigidTransform| -> f64 {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: *intrinsics,
             cam_from_world: *pose,
         };
@@ -200,7 +200,7 @@ mod tests {
     }
 
     fn cost(pose: &RigidTransform, scene: &Scene) -> f64 {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: camera(),
             cam_from_world: *pose,
         };

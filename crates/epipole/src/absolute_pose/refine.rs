@@ -1,7 +1,7 @@
 //! Nonlinear refinement of a camera pose: the reprojection error by Levenberg–Marquardt.
 
 use super::local_problem::{LocalPose, LocalProblem};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, SVector, UnitQuaternion, Vector3};
@@ -13,10 +13,10 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, SVector, UnitQuaternion, Vect
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::absolute_pose::reprojection_error_px;
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let camera = Camera { intrinsics, cam_from_world: RigidTransform::identity() };
+/// let camera = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
 /// // The point is seen at (460, 170), (3, 4) away.
 /// let pixel = Point2::new(463.0, 174.0);
 /// assert!((reprojection_error_px(&camera, &Point3::new(0.4, -0.2, 2.0), &pixel) - 5.0).abs() < 1e-12);
@@ -24,7 +24,7 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, SVector, UnitQuaternion, Vect
 /// # Ok(()) }
 /// ```
 pub fn reprojection_error_px(
-    camera: &Camera,
+    camera: &PosedCamera,
     point_in_world: &Point3<f64>,
     pixel: &Point2<f64>,
 ) -> f64 {

@@ -1,6 +1,6 @@
 //! F and E of cameras that are known.
 
-use crate::camera::{Camera, Intrinsics, RigidTransform, cross_matrix, relative_motion};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform, cross_matrix, relative_motion};
 use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
 use nalgebra::Matrix3;
@@ -49,19 +49,19 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::epipolar::fundamental_from_cameras;
 /// use nalgebra::{Point3, Vector3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let left = Camera { intrinsics, cam_from_world: RigidTransform::identity() };
-/// let right = Camera { intrinsics, cam_from_world: RigidTransform::translation(-0.1, 0.0, 0.0) };
+/// let left = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
+/// let right = PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-0.1, 0.0, 0.0) };
 /// let f = fundamental_from_cameras(&left, &right)?;
 /// let x_in_world = Point3::new(0.3, 0.2, 2.0);
 /// let (x1, x2) = (left.project(&x_in_world)?, right.project(&x_in_world)?);
 /// assert!(x2.to_homogeneous().dot(&(f * x1.to_homogeneous())).abs() < 1e-12);
 /// # Ok(()) }
 /// ```
-pub fn fundamental_from_cameras(cam1: &Camera, cam2: &Camera) -> Result<Matrix3<f64>> {
+pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Result<Matrix3<f64>> {
     if share_center(cam1, cam2) {
         return Err(NO_BASELINE);
     }
@@ -75,7 +75,7 @@ pub fn fundamental_from_cameras(cam1: &Camera, cam2: &Camera) -> Result<Matrix3<
 
 /// Whether two cameras stand at the same place, as far as rounding lets one tell: centers that differ
 /// by rounding alone would give a baseline in a random direction.
-pub(crate) fn share_center(cam1: &Camera, cam2: &Camera) -> bool {
+pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
     let (c1, c2) = (cam1.center_in_world().coords, cam2.center_in_world().coords);
     let (c1, c2) = {
         let scale = power_of_two(c1.amax().max(c2.amax()));
@@ -182,13 +182,13 @@ pub(crate) mod tests {
     use nalgebra::{Point3, Vector3};
 
     /// Two cameras with different lenses that look at the origin from about 5 units away.
-    pub(crate) fn random_cameras(random: &mut Random) -> (Camera, Camera) {
+    pub(crate) fn random_cameras(random: &mut Random) -> (PosedCamera, PosedCamera) {
         let mut camera = |focal_px| {
             let mut coordinate = || random.uniform(-1.0, 1.0);
             let center = Point3::new(3.0 * coordinate(), 3.0 * coordinate(), coordinate() - 4.5);
             let target = Point3::new(0.2 * coordinate(), 0.2 * coordinate(), 0.0);
             let up = Vector3::new(0.3 * coordinate(), -1.0, 0.0);
-            Camera {
+            PosedCamera {
                 intrinsics: Intrinsics::new(focal_px, focal_px * 1.1, 310.0, 250.0).unwrap(),
                 cam_from_world: look_at(&center, &target, &up).unwrap(),
             }
@@ -241,7 +241,7 @@ pub(crate) mod tests {
     #[test]
     fn a_row_aligned_pair_has_zero_last_entry() {
         let intrinsics = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
-        let camera = |x: f64| Camera {
+        let camera = |x: f64| PosedCamera {
             intrinsics,
             cam_from_world: RigidTransform::translation(x, 0.0, 0.0),
         };

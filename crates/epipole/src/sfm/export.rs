@@ -180,7 +180,8 @@ fn model_of(lens: &SfmLens) -> (&'static str, String) {
 mod tests {
     use super::*;
     use crate::camera::{
-        Camera, Distortion, Division, Fisheye, Intrinsics, Lens, RationalDistortion, RigidTransform,
+        Distortion, Division, Fisheye, Intrinsics, Lens, PosedCamera, RationalDistortion,
+        RigidTransform,
     };
     use crate::sfm::{ScenePoint, TrackElement};
     use nalgebra::{Point2, Point3};
@@ -196,7 +197,7 @@ mod tests {
         };
         let images = vec![image("a.png"), image("b.png"), image("c.png")];
         let camera = |x: f64| {
-            Some(Camera {
+            Some(PosedCamera {
                 intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
                 cam_from_world: RigidTransform::translation(x, 0.0, 0.0),
             })

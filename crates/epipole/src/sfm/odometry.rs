@@ -9,7 +9,7 @@ use super::keyframes::Keyframes;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
 use super::views::Views;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use std::ops::ControlFlow;
@@ -304,7 +304,7 @@ fn adjust_finally(builder: &mut Builder<'_>, reporter: &mut Reporter<'_>) {
 /// Starts at the first frame whose two pictures share enough points.
 fn start_with_rig(builder: &mut Builder<'_>, num_frames: usize) -> bool {
     for frame in 0..num_frames {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: builder.intrinsics[frame],
             cam_from_world: RigidTransform::identity(),
         };

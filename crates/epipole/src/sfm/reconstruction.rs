@@ -3,7 +3,7 @@
 use super::bundle::{Bundle, Observation, PositionPrior};
 use super::lens::SfmLens;
 use super::tracks::TrackElement;
-use crate::camera::{Camera, RigidTransform};
+use crate::camera::{PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
 /// A photograph, reduced to its keypoints.
@@ -44,7 +44,7 @@ pub struct ScenePoint {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
-    pub cameras: Vec<Option<Camera>>,
+    pub cameras: Vec<Option<PosedCamera>>,
     /// The lens of each image; missing entries bend nothing.
     pub lenses: Vec<SfmLens>,
     /// Whether it stands where the known positions of its photographs are, in their unit of length.

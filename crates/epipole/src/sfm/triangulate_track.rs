@@ -1,14 +1,14 @@
 //! A point from a track, some of whose keypoints may be wrong.
 
 use super::views::View;
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector2, Vector3};
 
 /// A keypoint, without what the lens did, and the camera that saw it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight<'a> {
-    pub(super) camera: Camera,
+    pub(super) camera: PosedCamera,
     pub(super) view: View<'a>,
 }
 
@@ -211,7 +211,7 @@ mod tests {
             .map(|i| {
                 let center = Point3::new(spread * i as f64, 0.1 * (i % 2) as f64, -5.0);
                 let up = Vector3::new(0.0, -1.0, 0.0);
-                let camera = Camera {
+                let camera = PosedCamera {
                     intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
                     cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
                 };

@@ -1,7 +1,7 @@
 //! Two views whose motion is known: points for their matches, and all of it refined.
 
 use super::bundle::{Bundle, BundleOptions, Observation, adjust_bundle};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
 use crate::optim::{Iteration, LmReport, RobustLoss};
 use crate::triangulation::{triangulate_optimal, triangulation_angle_rad};
@@ -124,7 +124,7 @@ pub fn two_view_reconstruction(
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<TwoViewReconstruction> {
     check(pixels1, pixels2, cam2_from_cam1, options)?;
-    let camera = |intrinsics: &Intrinsics, cam_from_world| Camera {
+    let camera = |intrinsics: &Intrinsics, cam_from_world| PosedCamera {
         intrinsics: *intrinsics,
         cam_from_world,
     };

@@ -6,7 +6,7 @@ use super::paint;
 use super::scene::{Fixed, Movable, Scene};
 use super::shape::{BACK, BOTTOM, Cuboid, Shape, TOP};
 use super::wares::{PICTURE_DEPTH_M, PLASTER_M, Wares, placed};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::{Error, Result};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use std::sync::{Arc, OnceLock};
@@ -133,7 +133,7 @@ impl Scene {
 /// assert!((disparity_px - 700.0 * 0.2 / 2.0).abs() < 1e-9);
 /// # Ok(()) }
 /// ```
-pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<Camera> {
+pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<PosedCamera> {
     if !x_m.is_finite() {
         return Err(Error::NotFinite {
             what: "the camera's place",
@@ -141,7 +141,7 @@ pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<Camera> {
     }
     let (width, height) = (width.max(1), height.max(1));
     let focal_px = (f64::from(width) / 640.0).min(f64::from(height) / 480.0) * 700.0;
-    Ok(Camera {
+    Ok(PosedCamera {
         intrinsics: Intrinsics::centered(focal_px, width, height)?,
         cam_from_world: RigidTransform::from_parts(
             Translation3::new(-x_m, 0.0, 0.0),

@@ -7,7 +7,7 @@
 use super::scene::Scene;
 use super::shading::Film;
 use super::view::{Sample, TILE, View};
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma, RgbImage};
 use std::ops::Range;
@@ -79,7 +79,7 @@ impl Scene {
     /// ```
     pub fn render(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         width: u32,
         height: u32,
         sampling: Sampling,
@@ -107,7 +107,7 @@ impl Scene {
     /// `width × height`.
     pub fn render_rows(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         width: u32,
         height: u32,
         sampling: Sampling,
@@ -145,7 +145,7 @@ impl Scene {
     /// As [`Scene::render`], and [`Error::SizeMismatch`] if the three are not of one size.
     pub fn render_draft(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         wanted: &[bool],
         target: &mut Photograph,
     ) -> Result<()> {
@@ -390,7 +390,7 @@ mod tests {
         let front = still_life_camera(64, 48);
         for (dx, dz, yaw) in [(0.0, 0.0, 0.0), (0.5, 0.3, -0.35), (-0.5, 0.5, 0.35)] {
             let turn = nalgebra::Isometry3::rotation(Vector3::new(0.0, yaw, 0.0));
-            let camera = Camera {
+            let camera = PosedCamera {
                 intrinsics: front.intrinsics,
                 cam_from_world: turn
                     * front.cam_from_world
@@ -418,7 +418,7 @@ mod tests {
                 Err(Error::OutOfRange { .. })
             ));
         }
-        let at = |x: f64, y: f64, z: f64| Camera {
+        let at = |x: f64, y: f64, z: f64| PosedCamera {
             intrinsics: Intrinsics::centered(60.0, 64, 48).unwrap(),
             cam_from_world: nalgebra::Isometry3::translation(-x, -y, -z),
         };

@@ -7,7 +7,7 @@ mod carry;
 mod gaps;
 
 use super::render::Photograph;
-use crate::camera::{Camera, Intrinsics};
+use crate::camera::{Intrinsics, PosedCamera};
 use crate::{Error, Result};
 use carry::{Carry, NEAR_M, Run};
 pub use gaps::Reprojected;
@@ -61,8 +61,8 @@ impl Photograph {
     /// ```
     pub fn reproject(
         &self,
-        from: &Camera,
-        to: &Camera,
+        from: &PosedCamera,
+        to: &PosedCamera,
         moved: Option<&Moved>,
         target: &mut Reprojected,
     ) -> Result<()> {
@@ -121,7 +121,7 @@ impl Photograph {
     /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
     // Not inlined where all is compiled for size.
     #[inline(never)]
-    fn zoom(&self, from: &Camera, to: &Camera, target: &mut [u32]) {
+    fn zoom(&self, from: &PosedCamera, to: &PosedCamera, target: &mut [u32]) {
         let (width, height) = self.image.dimensions();
         let (here, there) = (&from.intrinsics, &to.intrinsics);
         let [center, new_center] = [here, there].map(Intrinsics::principal_point);
@@ -163,7 +163,7 @@ impl Photograph {
 
 impl Moved {
     /// Pixels that no longer look as they did, and pixels of the thing itself.
-    fn find(&self, photograph: &Photograph, camera: &Camera) -> (Vec<u32>, Vec<u32>) {
+    fn find(&self, photograph: &Photograph, camera: &PosedCamera) -> (Vec<u32>, Vec<u32>) {
         let (width, height) = photograph.image.dimensions();
         let old = camera.cam_from_world * self.center;
         let new = camera.cam_from_world * (self.center + self.by);
@@ -199,7 +199,7 @@ impl Moved {
 
 /// Columns and rows that may show something of a ball; all where it reaches up to the camera.
 fn bounds(
-    camera: &Camera,
+    camera: &PosedCamera,
     middle: &Point3<f64>,
     radius_m: f64,
     all: &[Range<u32>; 2],
@@ -242,9 +242,9 @@ mod tests {
 
     const SIZE: (u32, u32) = (160, 120);
 
-    fn moved(right_m: f64, down_m: f64, ahead_m: f64, left_rad: f64) -> Camera {
+    fn moved(right_m: f64, down_m: f64, ahead_m: f64, left_rad: f64) -> PosedCamera {
         let camera = still_life_camera(SIZE.0, SIZE.1);
-        Camera {
+        PosedCamera {
             cam_from_world: Isometry3::rotation(Vector3::new(0.0, left_rad, 0.0))
                 * Translation3::new(-right_m, -down_m, -ahead_m)
                 * camera.cam_from_world,
@@ -252,7 +252,7 @@ mod tests {
         }
     }
 
-    fn places() -> [Camera; 8] {
+    fn places() -> [PosedCamera; 8] {
         [
             moved(0.2, 0.0, 0.0, 0.0),
             moved(-0.2, 0.0, 0.0, 0.0),
@@ -265,7 +265,7 @@ mod tests {
         ]
     }
 
-    fn render(scene: &Scene, camera: &Camera) -> Photograph {
+    fn render(scene: &Scene, camera: &PosedCamera) -> Photograph {
         scene
             .render(camera, SIZE.0, SIZE.1, Sampling::Full)
             .unwrap()
@@ -305,7 +305,7 @@ mod tests {
             let error = mean(&mut pairs(&seen, &truth));
             let mut draft = Reprojected::default();
             draft.clear(SIZE);
-            let small = Camera {
+            let small = PosedCamera {
                 intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
                 ..*to
             };
@@ -329,7 +329,7 @@ mod tests {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
         let mut photograph = render(&scene, &from);
-        let in_world = |camera: &Camera, photograph: &Photograph, u: u32, v: u32| {
+        let in_world = |camera: &PosedCamera, photograph: &Photograph, u: u32, v: u32| {
             let pixel = Point2::new(f64::from(u), f64::from(v));
             let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
             camera.center_in_world() + camera.ray_in_world(&pixel) * depth
@@ -403,7 +403,7 @@ mod tests {
             let fill = |all: bool| {
                 let mut seen = Reprojected::default();
                 photograph.reproject(&from, &to, None, &mut seen).unwrap();
-                let camera = Camera {
+                let camera = PosedCamera {
                     intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
                     ..to
                 };
@@ -424,7 +424,7 @@ mod tests {
     #[test]
     fn a_ball_is_carried_along() {
         let camera = still_life_camera(SIZE.0, SIZE.1);
-        let camera = Camera {
+        let camera = PosedCamera {
             cam_from_world: RigidTransform::identity(),
             ..camera
         };
@@ -469,7 +469,7 @@ mod tests {
         for factor in [0.8, 1.25, 2.0] {
             let k = &from.intrinsics;
             let focal_px = factor * k.fu_px();
-            let to = Camera {
+            let to = PosedCamera {
                 intrinsics: crate::camera::Intrinsics::centered(focal_px, SIZE.0, SIZE.1).unwrap(),
                 ..from
             };

@@ -4,7 +4,7 @@ use super::body::{Body, Placement};
 use super::gradual::Gradual;
 use super::light::{Baking, Decal, Detail, LightMap, Lighting, Shading};
 use super::shape::{Contact, Ray};
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub struct Hit {
     /// shading uses.
     pub normal: Vector3<f64>,
     /// `point = origin + distance_along * direction`. With the direction of
-    /// [`Camera::ray_in_world`] it is the depth.
+    /// [`PosedCamera::ray_in_world`] it is the depth.
     pub distance_along: f64,
     /// What was hit, such as "the mug".
     pub object: &'static str,
@@ -308,7 +308,12 @@ impl Scene {
     /// };
     /// assert!((pixel2 - pixel).norm() < 1e-9);
     /// ```
-    pub fn transfer(&self, cam1: &Camera, cam2: &Camera, pixel1: &Point2<f64>) -> Transfer {
+    pub fn transfer(
+        &self,
+        cam1: &PosedCamera,
+        cam2: &PosedCamera,
+        pixel1: &Point2<f64>,
+    ) -> Transfer {
         let Some(hit) = self.cast(&cam1.center_in_world(), &cam1.ray_in_world(pixel1)) else {
             return Transfer::Nothing;
         };
@@ -329,7 +334,7 @@ impl Scene {
     }
 
     /// Refuses cameras from which no picture can be taken.
-    pub(super) fn check(&self, camera: &Camera, width: u32, height: u32) -> Result<()> {
+    pub(super) fn check(&self, camera: &PosedCamera, width: u32, height: u32) -> Result<()> {
         let num_pixels = u64::from(width) * u64::from(height);
         if num_pixels == 0 || num_pixels > 16_000_000 {
             return Err(Error::OutOfRange {
@@ -383,9 +388,9 @@ mod tests {
     use crate::synthetic::still_life_camera;
     use nalgebra::{Isometry3, Translation3};
 
-    fn pair() -> (Camera, Camera) {
+    fn pair() -> (PosedCamera, PosedCamera) {
         let camera1 = still_life_camera(640, 480);
-        let camera2 = Camera {
+        let camera2 = PosedCamera {
             cam_from_world: Isometry3::rotation(Vector3::new(0.02, -0.2, 0.05))
                 * Translation3::new(-0.4, 0.05, -0.1)
                 * camera1.cam_from_world,
@@ -484,7 +489,7 @@ mod tests {
         let scene = Scene::still_life();
         let camera1 = still_life_camera(640, 480);
         let behind_jug = Point3::new(0.08, -0.20, 1.05);
-        let beside = Camera {
+        let beside = PosedCamera {
             cam_from_world: Translation3::new(0.8, 0.0, 0.0) * camera1.cam_from_world,
             ..camera1
         };
@@ -502,7 +507,7 @@ mod tests {
     fn behind_the_camera_and_nothing() {
         let scene = Scene::still_life();
         let camera1 = still_life_camera(640, 480);
-        let backward = Camera {
+        let backward = PosedCamera {
             cam_from_world: Isometry3::rotation(Vector3::new(0.0, std::f64::consts::PI, 0.0))
                 * camera1.cam_from_world,
             ..camera1

@@ -8,7 +8,7 @@ use super::shape::{BACK, BOTTOM, Cuboid, FRONT, RIGHT, Shape, TOP};
 use super::wares::{
     GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
 };
-use crate::camera::{Camera, Intrinsics, look_at};
+use crate::camera::{Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point3, Vector3};
 use std::sync::{Arc, OnceLock};
 
@@ -52,10 +52,10 @@ impl Scene {
 /// use epipole::synthetic::still_life_camera;
 /// assert_eq!(still_life_camera(640, 480).intrinsics.fu_px(), 800.0);
 /// ```
-pub fn still_life_camera(width: u32, height: u32) -> Camera {
+pub fn still_life_camera(width: u32, height: u32) -> PosedCamera {
     let (width, height) = (width.max(1), height.max(1));
     let focal_px = (f64::from(width) / 640.0).min(f64::from(height) / 480.0) * 800.0;
-    Camera {
+    PosedCamera {
         intrinsics: Intrinsics::centered(focal_px, width, height)
             .expect("a focal length made of positive numbers is positive"),
         cam_from_world: look_at(

@@ -261,11 +261,11 @@ fn walls() -> Vec<Body> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Camera, Intrinsics, RigidTransform};
+    use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
     use crate::synthetic::Sampling;
 
-    fn camera1(width: u32, height: u32) -> Camera {
-        Camera {
+    fn camera1(width: u32, height: u32) -> PosedCamera {
+        PosedCamera {
             intrinsics: Intrinsics::centered(1.25 * f64::from(width), width, height).unwrap(),
             cam_from_world: RigidTransform::identity(),
         }

@@ -7,7 +7,7 @@ use super::scene::{SHADE_M, Scene};
 use super::shading::{self, Look};
 use super::shape::TOP;
 use super::shape::{Contact, Ray};
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ pub(super) struct View<'a> {
 impl<'a> View<'a> {
     pub(super) fn new(
         scene: &'a Scene,
-        camera: &Camera,
+        camera: &PosedCamera,
         width: u32,
         height: u32,
         sampling: Sampling,
@@ -228,7 +228,7 @@ impl<'a> View<'a> {
 
 /// Columns and rows between which a body appears, around the corners of its box, and a depth
 /// that is not beyond its nearest point.
-fn outline(camera: &Camera, body: &Body, placed: &Placement) -> ((i64, i64), (i64, i64), f64) {
+fn outline(camera: &PosedCamera, body: &Body, placed: &Placement) -> ((i64, i64), (i64, i64), f64) {
     let everywhere = (i64::MIN, i64::MAX);
     if body.is_room() {
         return (everywhere, everywhere, f64::INFINITY);
@@ -248,7 +248,10 @@ fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
 
 /// The same of a box with these corners in the world.
 #[inline(never)]
-fn outline_of_box(camera: &Camera, corners: &[Vector3<f64>; 8]) -> ((i64, i64), (i64, i64), f64) {
+fn outline_of_box(
+    camera: &PosedCamera,
+    corners: &[Vector3<f64>; 8],
+) -> ((i64, i64), (i64, i64), f64) {
     let corners = corners.map(|corner| camera.cam_from_world * Point3::from(corner));
     let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -305,7 +308,7 @@ impl Scene {
     /// ```
     pub fn pixels_of_movable(
         &self,
-        camera: &Camera,
+        camera: &PosedCamera,
         (width, height): (u32, u32),
     ) -> [Range<u32>; 2] {
         let Some((movable, placed)) = &self.movable else {
@@ -338,7 +341,7 @@ mod tests {
     #[test]
     fn elsewhere_nothing_changes_when_the_thing_moves() {
         let mut random = Random::new(8);
-        let camera = Camera {
+        let camera = PosedCamera {
             cam_from_world: Isometry3::translation(-0.2, 0.4, 0.1),
             ..still_life_camera(64, 48)
         };

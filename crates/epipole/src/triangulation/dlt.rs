@@ -11,7 +11,7 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// Where the pixels are not exact, what is minimal depends on the world's origin and unit of length. Best
 /// are an origin near the cameras and a unit about as long as the baseline.
 ///
-/// * `p1`, `p2`: 3×4 projection matrices, such as [`Camera::projection_matrix`](crate::camera::Camera::projection_matrix)
+/// * `p1`, `p2`: 3×4 projection matrices, such as [`PosedCamera::projection_matrix`](crate::camera::PosedCamera::projection_matrix)
 /// * `pixel1`, `pixel2`: where the point is seen
 ///
 /// # Errors
@@ -282,7 +282,7 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], baseline: f64, x: &Row) -> Result<Point3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Camera, Intrinsics, RigidTransform, look_at};
+    use crate::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
     use crate::math::null_space::right_singular_vectors;
     use crate::math::random::Random;
     use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -408,7 +408,7 @@ mod tests {
                     let k = Intrinsics::new(700.0 + near(50.0), 700.0, 320.0, 240.0).unwrap();
                     let up = Vector3::new(0.3, -1.0, 0.0);
                     let target = center + Vector3::new(near(1.0), near(1.0), 5.0);
-                    Camera {
+                    PosedCamera {
                         intrinsics: k,
                         cam_from_world: look_at(center, &target, &up).unwrap(),
                     }

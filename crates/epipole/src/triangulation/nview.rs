@@ -3,7 +3,7 @@
 use super::quality::projection_jacobian;
 use super::starts::robust_minimum;
 use super::{BEYOND_NUMBERS, NO_BASELINE};
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::epipolar::share_center;
 use crate::math::null_space::right_singular_vectors;
 use crate::math::scaling::power_of_two;
@@ -29,19 +29,22 @@ use nalgebra::{Point2, Point3, SVector, Vector3};
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::triangulation::triangulate_nview_dlt;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// // Three cameras side by side, 0.1 apart.
-/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
 /// // A disparity of 35 for each step: Z = f B / d = 2.
 /// let pixels = [355.0, 320.0, 285.0].map(|u| Point2::new(u, 240.0));
 /// let point = triangulate_nview_dlt(&cameras, &pixels)?;
 /// assert!((point - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-9);
 /// # Ok(()) }
 /// ```
-pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Result<Point3<f64>> {
+pub fn triangulate_nview_dlt(
+    cameras: &[PosedCamera],
+    pixels: &[Point2<f64>],
+) -> Result<Point3<f64>> {
     if cameras.len() != pixels.len() {
         return Err(Error::SizeMismatch {
             what: "the list of cameras and that of pixels",
@@ -100,7 +103,7 @@ pub fn triangulate_nview_dlt(cameras: &[Camera], pixels: &[Point2<f64>]) -> Resu
 }
 
 /// The size of the longest baseline from the first camera, a power of two.
-fn baseline_unit(cameras: &[Camera]) -> f64 {
+fn baseline_unit(cameras: &[PosedCamera]) -> f64 {
     let origin = cameras[0].center_in_world();
     let baselines = cameras[1..]
         .iter()
@@ -118,7 +121,7 @@ pub struct NviewPoint {
 }
 
 pub(super) struct Problem<'a> {
-    pub(super) cameras: &'a [Camera],
+    pub(super) cameras: &'a [PosedCamera],
     pub(super) pixels: &'a [Point2<f64>],
     pub(super) loss: RobustLoss,
     /// The unit of length of the steps.
@@ -195,13 +198,13 @@ impl FixedProblem<3> for Problem<'_> {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::optim::RobustLoss;
 /// use epipole::triangulation::triangulate_nview;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// // Three cameras side by side, 0.1 apart.
-/// let cameras = [0.0, 0.1, 0.2].map(|x| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
 /// // A disparity of 35 for each step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
 /// let pixels = [(355.0, 239.0), (320.0, 242.0), (285.0, 239.0)].map(|(u, v)| Point2::new(u, v));
 /// let found = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial)?;
@@ -211,7 +214,7 @@ impl FixedProblem<3> for Problem<'_> {
 /// # Ok(()) }
 /// ```
 pub fn triangulate_nview(
-    cameras: &[Camera],
+    cameras: &[PosedCamera],
     pixels: &[Point2<f64>],
     loss: RobustLoss,
 ) -> Result<NviewPoint> {
@@ -263,9 +266,9 @@ mod tests {
     use crate::triangulation::triangulate_optimal;
     use nalgebra::{DMatrix, DVector};
 
-    fn ring(random: &mut Random, count: usize) -> Vec<Camera> {
+    fn ring(random: &mut Random, count: usize) -> Vec<PosedCamera> {
         (0..count)
-            .map(|_| Camera {
+            .map(|_| PosedCamera {
                 intrinsics: Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
                 cam_from_world: look_at(
                     &Point3::from(Vector3::from_fn(|_, _| random.uniform(-2.0, 2.0))),
@@ -329,13 +332,13 @@ mod tests {
     #[test]
     fn bad_views_are_refused() {
         let intrinsics = Intrinsics::new(600.0, 600.0, 0.0, 0.0).unwrap();
-        let camera = |x: f64| Camera {
+        let camera = |x: f64| PosedCamera {
             intrinsics,
             cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
         };
         let o = Point2::origin();
         let pair = [camera(0.0), camera(1.0)];
-        let nview = |cameras: &[Camera], pixels: &[Point2<f64>]| {
+        let nview = |cameras: &[PosedCamera], pixels: &[Point2<f64>]| {
             triangulate_nview(cameras, pixels, RobustLoss::Trivial).map(|p| p.point_in_world)
         };
         assert_eq!(nview(&pair, &[o, o]), Err(Error::PointAtInfinity));

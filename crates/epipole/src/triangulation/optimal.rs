@@ -2,7 +2,7 @@
 
 use super::NO_BASELINE;
 use super::dlt::triangulate_dlt;
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::epipolar::{fundamental_from_cameras, share_center};
 use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
@@ -130,20 +130,20 @@ fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::triangulation::triangulate_optimal;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let left = Camera { intrinsics, cam_from_world: RigidTransform::identity() };
-/// let right = Camera { intrinsics, cam_from_world: RigidTransform::translation(-0.12, 0.0, 0.0) };
+/// let left = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
+/// let right = PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-0.12, 0.0, 0.0) };
 /// // Disparity 30, but rows that differ by 2: the true row is between them.
 /// let point = triangulate_optimal(&left, &right, &Point2::new(350.0, 241.0), &Point2::new(320.0, 239.0))?;
 /// assert!((point - Point3::new(0.12, 0.0, 2.8)).norm() < 1e-9);
 /// # Ok(()) }
 /// ```
 pub fn triangulate_optimal(
-    cam1: &Camera,
-    cam2: &Camera,
+    cam1: &PosedCamera,
+    cam2: &PosedCamera,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> Result<Point3<f64>> {
@@ -167,10 +167,10 @@ mod tests {
     use crate::epipolar::{Epipole, enforce_rank2, epipoles, essential_from_motion, sampson_px};
     use crate::math::random::Random;
 
-    fn rig(random: &mut Random) -> (Camera, Camera) {
+    fn rig(random: &mut Random) -> (PosedCamera, PosedCamera) {
         let mut camera = || {
             let center = Point3::from(Vector3::from_fn(|_, _| random.uniform(-1.0, 1.0)));
-            Camera {
+            PosedCamera {
                 intrinsics: Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
                 cam_from_world: look_at(
                     &center,

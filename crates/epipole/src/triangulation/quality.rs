@@ -1,6 +1,6 @@
 //! How well a point is determined.
 
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::math::scaling::power_of_two;
 use crate::math::svd3;
 use crate::{Error, Result};
@@ -52,11 +52,11 @@ pub fn triangulation_angle_rad(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::triangulation::point_covariance;
 /// use nalgebra::Point3;
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let camera = |x: f64| Camera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) };
+/// let camera = |x: f64| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) };
 /// let covariance = point_covariance(&[camera(-0.06), camera(0.06)], &Point3::new(0.0, 0.0, 2.8), 0.5)?;
 /// // Across, two views measure v: (Z/f) σ/√2 = 0.0014 m. Along, Z² σ√2/(f B) = 0.066 m.
 /// assert!((covariance[(1, 1)].sqrt() - 0.001414).abs() < 1e-6);
@@ -64,7 +64,7 @@ pub fn triangulation_angle_rad(
 /// # Ok(()) }
 /// ```
 pub fn point_covariance(
-    cameras: &[Camera],
+    cameras: &[PosedCamera],
     point_in_world: &Point3<f64>,
     sigma_px: f64,
 ) -> Result<Matrix3<f64>> {
@@ -111,7 +111,7 @@ pub fn point_covariance(
 
 /// The derivatives of a projection (u, v) by the point's world coordinates.
 pub(super) fn projection_jacobian(
-    camera: &Camera,
+    camera: &PosedCamera,
     point_in_world: &Point3<f64>,
 ) -> SMatrix<f64, 2, 3> {
     let x = camera.cam_from_world * point_in_world;
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn depth_is_less_certain_than_width() {
         let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0).unwrap();
-        let camera = |x: f64| Camera {
+        let camera = |x: f64| PosedCamera {
             intrinsics,
             cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
         };
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn the_whole_matrix_agrees_with_many_noisy_triangulations() {
         let intrinsics = Intrinsics::new(650.0, 600.0, 320.0, 240.0).unwrap();
-        let camera = |center: Point3<f64>| Camera {
+        let camera = |center: Point3<f64>| PosedCamera {
             intrinsics,
             cam_from_world: look_at(&center, &Point3::origin(), &Vector3::new(0.2, -1.0, 0.1))
                 .unwrap(),
@@ -235,7 +235,7 @@ mod tests {
         let point = Point3::new(0.05, 0.0, 2.0);
         let covariance = |focal_px: f64, sigma_px: f64| {
             let intrinsics = Intrinsics::new(focal_px, focal_px, 0.0, 0.0).unwrap();
-            let camera = |x: f64| Camera {
+            let camera = |x: f64| PosedCamera {
                 intrinsics,
                 cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
             };

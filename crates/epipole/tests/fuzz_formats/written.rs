@@ -1,7 +1,7 @@
 //! What is written can be read: COLMAP's text model and PLY, by readers that know nothing of ours.
 
 use super::config;
-use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use epipole::camera::{Distortion, Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::{Reconstruction, ScenePoint, SfmImage, TrackElement};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
@@ -43,7 +43,7 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                 .collect();
             let camera = |told: &Option<(f64, f64, f64, f64)>| {
                 let (f, x, y, z) = (*told)?;
-                Some(Camera {
+                Some(PosedCamera {
                     intrinsics: Intrinsics::new(f, f, 10.0, 5.0).unwrap(),
                     cam_from_world: RigidTransform::translation(x, y, z),
                 })

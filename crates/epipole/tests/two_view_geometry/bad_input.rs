@@ -1,7 +1,7 @@
 //! Bad input: an error for everyone, and what is found is what it is said to be.
 
 use crate::scene::{Points, Shape, cameras, intrinsics, options, scene};
-use epipole::camera::{Camera, Intrinsics};
+use epipole::camera::{Intrinsics, PosedCamera};
 use epipole::epipolar::sampson_px;
 use epipole::homography::transfer_error_px;
 use epipole::math::random::Random;
@@ -130,7 +130,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
         check_rotation(r.model.rotation.to_rotation_matrix().matrix());
         let center = r.model.inverse().translation.vector;
         assert!(center.iter().all(|x| x.is_finite()), "{center}");
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: k,
             cam_from_world: r.model,
         };

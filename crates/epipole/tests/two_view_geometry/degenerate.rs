@@ -1,7 +1,7 @@
 //! Motions and matches that mislead.
 
 use crate::scene::{Shape, cameras, direction_error, intrinsics, options, rotation_error, scene};
-use epipole::camera::{Camera, RigidTransform, look_at};
+use epipole::camera::{PosedCamera, RigidTransform, look_at};
 use epipole::epipolar::{Epipole, RelativePose, epipoles, fundamental_from_cameras, sampson_px};
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, SamplerKind, StopReason};
@@ -61,7 +61,7 @@ fn forward_motion() {
     for seed in 0..20 {
         let mut random = Random::new(seed);
         let up = Vector3::new(0.0, -1.0, 0.0);
-        let camera = |z: f64| Camera {
+        let camera = |z: f64| PosedCamera {
             intrinsics: intrinsics(600.0),
             cam_from_world: look_at(&Point3::new(0.0, 0.0, z), &Point3::new(0.0, 0.0, 9.0), &up)
                 .unwrap(),
@@ -105,7 +105,7 @@ fn no_motion_and_almost_none() {
     for baseline in [0.0, 1e-9, 1e-4] {
         for noise_px in [0.0, 0.3] {
             let mut random = Random::new(3);
-            let camera = |x: f64, yaw: f64| Camera {
+            let camera = |x: f64, yaw: f64| PosedCamera {
                 intrinsics: intrinsics(600.0),
                 cam_from_world: RigidTransform::new(
                     Vector3::new(-x, 0.0, 5.0),

@@ -4,7 +4,7 @@ use crate::scene::{
     Points, Shape, cameras, direction_error, intrinsics, options, rotation_error, same_up_to_sign,
     scene,
 };
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::epipolar::{
     decompose_essential, essential_from_fundamental, essential_from_motion,
     fundamental_from_cameras, sampson_px, select_pose,
@@ -91,7 +91,7 @@ proptest! {
         let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
 
         let motion = RigidTransform::new(Vector3::from(shift), Vector3::from(turn));
-        let moved = |c: &Camera| Camera {
+        let moved = |c: &PosedCamera| PosedCamera {
             cam_from_world: c.cam_from_world * motion.inverse(),
             ..*c
         };

@@ -1,6 +1,6 @@
 //! Scenes with known truth, and how far a motion is from it.
 
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
@@ -15,8 +15,8 @@ pub(crate) enum Shape {
 }
 
 pub(crate) struct Scene {
-    pub(crate) cam1: Camera,
-    pub(crate) cam2: Camera,
+    pub(crate) cam1: PosedCamera,
+    pub(crate) cam2: PosedCamera,
     pub(crate) points: Vec<Point3<f64>>,
     pub(crate) p1: Vec<Point2<f64>>,
     pub(crate) p2: Vec<Point2<f64>>,
@@ -35,13 +35,13 @@ pub(crate) fn intrinsics(focal_px: f64) -> Intrinsics {
 }
 
 /// A random pair of cameras that look at the scene around the origin from 4 to 6 units away.
-pub(crate) fn cameras(random: &mut Random) -> (Camera, Camera) {
+pub(crate) fn cameras(random: &mut Random) -> (PosedCamera, PosedCamera) {
     let mut camera = |focal_px: f64| {
         let mut near = |size: f64| random.uniform(-size, size);
         let center = Point3::new(near(1.5), near(1.0), -5.0 + near(1.0));
         let target = Point3::new(near(0.3), near(0.3), 0.0);
         let up = Vector3::new(near(0.3), -1.0, 0.0);
-        Camera {
+        PosedCamera {
             intrinsics: intrinsics(focal_px),
             cam_from_world: look_at(&center, &target, &up).unwrap(),
         }
@@ -51,7 +51,7 @@ pub(crate) fn cameras(random: &mut Random) -> (Camera, Camera) {
 
 pub(crate) fn scene(
     random: &mut Random,
-    (cam1, cam2): (Camera, Camera),
+    (cam1, cam2): (PosedCamera, PosedCamera),
     shape: Shape,
     num_matches: usize,
     share_true: f64,

@@ -236,7 +236,7 @@ impl Question {
 /// is turned and how large it is, so the similarity that fits best takes these seven away.
 fn aligned(bundle: &Bundle, house: &House) -> Result<State, Error> {
     let true_from_found = align_points(&bundle.points, &house.points, AlignmentKind::Similarity)?;
-    let pose = |camera: &epipole::camera::Camera| {
+    let pose = |camera: &epipole::camera::PosedCamera| {
         let center = true_from_found * camera.center_in_world();
         let rotation = camera.cam_from_world.rotation * true_from_found.isometry.rotation.inverse();
         RigidTransform::from_parts(Translation3::from(-(rotation * center.coords)), rotation)

@@ -11,7 +11,7 @@ use crate::kit::reconstruction::{Answer, Motion, Question, Stage};
 use crate::kit::scenes::PHOTO_SIZE;
 use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use nalgebra::{Isometry3, Point2, Point3};
 
 /// What the reader looks at, in the frame of camera 1; the baseline is 1 long.
@@ -131,7 +131,7 @@ fn draw_space(
 fn draw_points(
     model: &Cover,
     answer: &Answer,
-    cameras: [&Camera; 2],
+    cameras: [&PosedCamera; 2],
     space: &mut Space<'_>,
     canvas: &Canvas,
 ) {
@@ -173,7 +173,7 @@ fn draw_points(
 }
 
 /// Rays on their way to the points; once they are there the points stay and the rays go.
-fn draw_rays(model: &Cover, motion: &Motion, cameras: [&Camera; 2], space: &mut Space<'_>) {
+fn draw_rays(model: &Cover, motion: &Motion, cameras: [&PosedCamera; 2], space: &mut Space<'_>) {
     let (sent, gone) = (model.share(3), model.share(4));
     if sent <= 0.0 || gone >= 1.0 {
         return;
@@ -192,13 +192,13 @@ fn draw_rays(model: &Cover, motion: &Motion, cameras: [&Camera; 2], space: &mut 
 }
 
 /// A camera on its way from the first place to the second.
-fn on_the_way(first: &Camera, second: &Camera, share: f64) -> Camera {
+fn on_the_way(first: &PosedCamera, second: &PosedCamera, share: f64) -> PosedCamera {
     let (one, two) = (first.cam_from_world, second.cam_from_world);
     let rotation = one.rotation.slerp(&two.rotation, share);
     let (from, to) = (first.center_in_world(), second.center_in_world());
     let center = from + (to - from) * share;
     let translation = -(rotation * center.coords);
-    Camera {
+    PosedCamera {
         cam_from_world: Isometry3::from_parts(translation.into(), rotation),
         ..*second
     }

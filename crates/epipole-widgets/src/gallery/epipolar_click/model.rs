@@ -8,7 +8,7 @@ use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::points::{Points, number_of};
 use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_SIZE, Seen, in_picture, still_life_pair};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use nalgebra::Point2;
@@ -67,7 +67,7 @@ pub(crate) struct EpipolarClick {
 }
 
 impl EpipolarClick {
-    pub(super) fn cameras(&self) -> [Camera; 2] {
+    pub(super) fn cameras(&self) -> [PosedCamera; 2] {
         let (right_m, forward_m, left_deg) = self.motion();
         still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
     }
@@ -313,7 +313,7 @@ mod tests {
         for right_m in ends(&BASELINE) {
             for forward_m in ends(&FORWARD) {
                 let [_, second] = still_life_pair(PHOTO_SIZE, right_m, forward_m, 0.0);
-                let small = Camera {
+                let small = PosedCamera {
                     intrinsics: second.intrinsics.scaled(0.0125).unwrap(),
                     ..second
                 };

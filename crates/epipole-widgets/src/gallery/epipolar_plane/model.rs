@@ -11,7 +11,7 @@ use crate::kit::lens::{ACROSS, DOWN, Lens, Subject};
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture};
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::epipolar::Epipole;
 use nalgebra::{Point2, Point3};
 
@@ -126,7 +126,7 @@ impl EpipolarPlane {
         (x, z)
     }
 
-    fn cameras(&self) -> Option<[Camera; 2]> {
+    fn cameras(&self) -> Option<[PosedCamera; 2]> {
         Some([camera(self.center(0)).ok()?, camera(self.center(1)).ok()?])
     }
 
@@ -450,7 +450,7 @@ mod tests {
         for x in ends(&X1) {
             for z in ends(&Z1) {
                 let camera = camera((x, z)).unwrap();
-                let small = Camera {
+                let small = PosedCamera {
                     intrinsics: camera.intrinsics.scaled(0.0125).unwrap(),
                     ..camera
                 };

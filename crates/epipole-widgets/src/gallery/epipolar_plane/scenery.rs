@@ -3,7 +3,7 @@
 use crate::kit::geometry::Geometry;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use epipole::Error;
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use epipole::math::Line2;
 use epipole::synthetic::{Transfer, still_life_camera};
 use nalgebra::{Point2, Point3, Vector3};
@@ -23,9 +23,9 @@ const ON_SURFACE_M: f64 = 0.004;
 ///
 /// # Errors
 /// As [`look_at`]: it stands above or below what it looks at.
-pub(super) fn camera((x, z): (f64, f64)) -> Result<Camera, Error> {
+pub(super) fn camera((x, z): (f64, f64)) -> Result<PosedCamera, Error> {
     let up = Vector3::new(0.0, -1.0, 0.0);
-    Ok(Camera {
+    Ok(PosedCamera {
         cam_from_world: look_at(&Point3::new(x, CAMERA_Y_M, z), &TARGET, &up)?,
         ..still_life_camera(PHOTO_SIZE.0, PHOTO_SIZE.1)
     })
@@ -58,7 +58,7 @@ impl Plane {
 
 /// Everything that follows from where the cameras and the point are.
 pub(super) struct Scenery {
-    pub(super) cameras: [Camera; 2],
+    pub(super) cameras: [PosedCamera; 2],
     pub(super) point: Point3<f64>,
     /// Where each camera sees the point; `None` behind it.
     pub(super) pixels: [Option<Point2<f64>>; 2],
@@ -70,7 +70,7 @@ pub(super) struct Scenery {
 }
 
 impl Scenery {
-    pub(super) fn new(cameras: [Camera; 2], point: Point3<f64>) -> Self {
+    pub(super) fn new(cameras: [PosedCamera; 2], point: Point3<f64>) -> Self {
         let pixels = cameras.map(|camera| camera.project(&point).ok());
         let [one, two] = cameras.map(|camera| camera.center_in_world());
         let apart = (two - one).norm() > SAME_M;
@@ -132,7 +132,7 @@ fn plane(one: &Point3<f64>, two: &Point3<f64>, point: &Point3<f64>) -> Option<Pl
 }
 
 /// What the first camera shows at a pixel.
-pub(super) fn surface(cameras: &[Camera; 2], pixel: &Point2<f64>) -> Option<Surface> {
+pub(super) fn surface(cameras: &[PosedCamera; 2], pixel: &Point2<f64>) -> Option<Surface> {
     let [first, second] = cameras;
     match still_life().transfer(first, second, pixel) {
         Transfer::Visible { pixel2, x_in_world }

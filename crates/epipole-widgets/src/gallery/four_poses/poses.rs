@@ -1,7 +1,7 @@
 //! Two cameras before a house, the essential matrix between them, and its four poses.
 
 use epipole::Result;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{decompose_essential, essential_from_motion};
 use epipole::triangulation::triangulate_midpoint;
 use nalgebra::{Point3, Rotation3, Vector3};
@@ -116,11 +116,11 @@ fn house() -> [Point3<f64>; HOUSE.len()] {
 /// The rays of a corner in both cameras; `None` unless both see it.
 fn rays(corner: &Point3<f64>, motion: &RigidTransform) -> Option<[Vector3<f64>; 2]> {
     let lens = Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1).ok()?;
-    let camera = |cam_from_world| Camera {
+    let camera = |cam_from_world| PosedCamera {
         intrinsics: lens,
         cam_from_world,
     };
-    let ray = |camera: Camera| {
+    let ray = |camera: PosedCamera| {
         let pixel = camera.project(corner).ok()?;
         let inside = (0.0..f64::from(SIZE.0)).contains(&pixel.x)
             && (0.0..f64::from(SIZE.1)).contains(&pixel.y);

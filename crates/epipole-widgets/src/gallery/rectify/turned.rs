@@ -2,7 +2,7 @@
 
 use crate::kit::scenes::{PHOTO_SIZE, PHOTO_WIDTH, still_life_pair};
 use epipole::Error;
-use epipole::camera::{Camera, Distortion, Intrinsics, relative_motion};
+use epipole::camera::{Distortion, Intrinsics, PosedCamera, relative_motion};
 use epipole::homography::transfer;
 use epipole::stereo::{PixelRect, Rectification, RectifyOptions, StereoCamera, rectify_calibrated};
 use nalgebra::{Isometry3, Matrix3, Point2, UnitQuaternion, Vector2, Vector3};
@@ -23,9 +23,9 @@ pub(super) struct Way {
 
 /// The pair as it was photographed, and as it is turned now.
 pub(super) struct Turned {
-    pub(super) taken: [Camera; 2],
+    pub(super) taken: [PosedCamera; 2],
     /// What each photograph would have been, had its camera been turned.
-    pub(super) shown: [Camera; 2],
+    pub(super) shown: [PosedCamera; 2],
     /// From pixels of each photograph taken to pixels shown.
     pub(super) shown_from_taken: [Matrix3<f64>; 2],
     /// In each rectified picture, what its photograph fills.
@@ -64,7 +64,7 @@ impl Turned {
         for index in 0..2 {
             let turn = Isometry3::from_parts(Default::default(), turns[index]);
             let end = frames[index].intrinsics(&rectified.intrinsics[index])?;
-            shown[index] = Camera {
+            shown[index] = PosedCamera {
                 intrinsics: between([taken[index].intrinsics, end], share)?,
                 cam_from_world: turn * taken[index].cam_from_world,
             };
@@ -212,7 +212,7 @@ fn between([from, to]: [Intrinsics; 2], share: f64) -> Result<Intrinsics, Error>
 }
 
 /// From where to where a picture reaches on the image plane at the distance 1, to the right of the axis.
-pub(super) fn image_ends(camera: &Camera) -> [f64; 2] {
+pub(super) fn image_ends(camera: &PosedCamera) -> [f64; 2] {
     let k = &camera.intrinsics;
     let at = |u: f64| (u - k.principal_point().x) / k.fu_px();
     [at(-0.5), at(f64::from(PHOTO_WIDTH) - 0.5)]

@@ -5,7 +5,7 @@ use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Symbol,
     format_number, knobs,
 };
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole::synthetic::Scene;
 use nalgebra::{Point3, Vector3};
 
@@ -66,16 +66,16 @@ impl SamePicture {
     }
 
     /// Camera 1 at the origin, level with the table; camera 2 to the right, above it.
-    pub(super) fn cameras(&self) -> Result<[Camera; 2], Problem> {
+    pub(super) fn cameras(&self) -> Result<[PosedCamera; 2], Problem> {
         let [first, second] = FOCALS_PX;
         let up = -Vector3::y();
         let second_from_world = look_at(&CENTER2_M.into(), &TARGET2_M.into(), &up)?;
         Ok([
-            Camera {
+            PosedCamera {
                 intrinsics: Intrinsics::centered(first, SIZE.0, SIZE.1)?,
                 cam_from_world: RigidTransform::identity(),
             },
-            Camera {
+            PosedCamera {
                 intrinsics: Intrinsics::centered(second, SIZE.0, SIZE.1)?,
                 cam_from_world: second_from_world,
             },
@@ -185,7 +185,8 @@ mod tests {
             assert_eq!(model.distance_m, z);
             assert!((model.picture_px().unwrap() - 160.0).abs() < 1e-9);
             let scene = model.scene().unwrap();
-            let render = |camera: &Camera| scene.render(camera, SIZE.0, SIZE.1, Sampling::Full);
+            let render =
+                |camera: &PosedCamera| scene.render(camera, SIZE.0, SIZE.1, Sampling::Full);
             photographs.push(model.cameras().unwrap().map(|c| render(&c).unwrap().image));
         }
         for [first, second] in &photographs[1..] {

@@ -9,7 +9,7 @@ use crate::kit::pair::CAMERAS;
 use crate::kit::photo::Photo;
 use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector2};
 
@@ -141,7 +141,7 @@ impl SamePictureView {
 }
 
 /// The pixel of the mug's middle, and how tall the mug is.
-fn draw_height(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut Canvas) {
+fn draw_height(model: &SamePicture, camera: &PosedCamera, panel: &Panel, canvas: &mut Canvas) {
     let at = |share: f64| {
         let pixel = camera.project(&model.on_axis(share)).unwrap_or_default();
         panel.place_of(&pixel)
@@ -161,7 +161,7 @@ fn draw_height(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut
 }
 
 /// The ray of that pixel as camera 2 sees it, and the mug on it.
-fn draw_ray(model: &SamePicture, camera: &Camera, panel: &Panel, canvas: &mut Canvas) {
+fn draw_ray(model: &SamePicture, camera: &PosedCamera, panel: &Panel, canvas: &mut Canvas) {
     let along = model.on_axis(0.5).coords / model.distance_m;
     let at = |z: f64| {
         let pixel = camera.project(&Point3::from(along * z)).unwrap_or_default();

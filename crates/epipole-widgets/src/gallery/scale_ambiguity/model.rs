@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::house::House;
 use crate::kit::orbit::{Orbit, SPACE};
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Translation3};
 
 /// The two of the house's cameras that photograph it, by index.
@@ -29,7 +29,7 @@ const KNOBS: &[Knob] = knobs![HOUSE, BASELINE];
 
 /// The house of some size, and the cameras before it.
 pub(super) struct World {
-    pub(super) cameras: [Camera; 2],
+    pub(super) cameras: [PosedCamera; 2],
     pub(super) points: Vec<Point3<f64>>,
     /// Where each camera sees each point, pixels.
     pub(super) pixels: [Vec<Point2<f64>>; 2],
@@ -60,14 +60,14 @@ impl ScaleAmbiguity {
         let center = origin + (second.center_in_world() - origin) * baseline_times;
         let rotation = second.cam_from_world.rotation;
         let translation = Translation3::from(-(rotation * center.coords));
-        let second = Camera {
+        let second = PosedCamera {
             cam_from_world: RigidTransform::from_parts(translation, rotation),
             ..second
         };
         let enlarged = |point: &Point3<f64>| origin + (point - origin) * house_times;
         let points: Vec<_> = house.points.iter().map(enlarged).collect();
         let cameras = [first, second];
-        let seen = |camera: &Camera| {
+        let seen = |camera: &PosedCamera| {
             let pixels = points.iter().map(|point| camera.project(point).ok());
             pixels.collect::<Option<Vec<_>>>()
         };

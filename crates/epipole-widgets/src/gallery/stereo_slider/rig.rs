@@ -2,7 +2,7 @@
 
 use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics};
+use epipole::camera::{Intrinsics, PosedCamera};
 use epipole::stereo::{DepthInterval, depth_from_disparity, depth_interval};
 use nalgebra::{Isometry3, Point2, Point3};
 
@@ -45,9 +45,9 @@ impl Rig {
     }
 
     /// The left and the right camera.
-    pub(super) fn cameras(&self) -> Result<[Camera; 2], Error> {
+    pub(super) fn cameras(&self) -> Result<[PosedCamera; 2], Error> {
         let intrinsics = Intrinsics::centered(self.focal_px, PHOTO_WIDTH, PHOTO_HEIGHT)?;
-        Ok([0.0, self.baseline_m].map(|x_m| Camera {
+        Ok([0.0, self.baseline_m].map(|x_m| PosedCamera {
             intrinsics,
             cam_from_world: Isometry3::translation(-x_m, 0.0, 0.0),
         }))

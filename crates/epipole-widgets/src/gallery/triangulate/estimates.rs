@@ -2,7 +2,7 @@
 
 use super::uncertainty::Curves;
 use epipole::Error;
-use epipole::camera::{Camera, relative_motion};
+use epipole::camera::{PosedCamera, relative_motion};
 use epipole::epipolar::{epipolar_line1, epipolar_line2, fundamental_from_cameras};
 use epipole::math::random::Random;
 use epipole::math::{Line2, Svd3, svd3};
@@ -19,7 +19,7 @@ pub(super) const METHODS: [&str; 4] = ["midpoint", "DLT", "angular", "optimal"];
 
 /// Two cameras, a point, and what noise makes of it.
 pub(super) struct Estimates {
-    pub(super) cameras: [Camera; 2],
+    pub(super) cameras: [PosedCamera; 2],
     pub(super) truth: Point3<f64>,
     /// Where the point is seen, with noise, pixels.
     pub(super) pixels: [Point2<f64>; 2],
@@ -38,7 +38,7 @@ pub(super) struct Estimates {
 impl Estimates {
     /// * `sigma_px`: standard deviation of each coordinate of a pixel
     pub(super) fn new(
-        cameras: [Camera; 2],
+        cameras: [PosedCamera; 2],
         truth: Point3<f64>,
         sigma_px: f64,
         seed: u64,
@@ -92,7 +92,10 @@ impl Estimates {
     }
 }
 
-fn by_all(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> [Result<Point3<f64>, Error>; 4] {
+fn by_all(
+    cameras: &[PosedCamera; 2],
+    pixels: &[Point2<f64>; 2],
+) -> [Result<Point3<f64>, Error>; 4] {
     let [first, second] = cameras;
     let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
     let ray = |index: usize| {
@@ -112,7 +115,7 @@ fn by_all(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> [Result<Point3<f6
     ]
 }
 
-fn lines(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2; 2]> {
+fn lines(cameras: &[PosedCamera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2; 2]> {
     let fundamental = fundamental_from_cameras(&cameras[0], &cameras[1]).ok()?;
     let in_first = epipolar_line1(&fundamental, &pixels[1]).ok()?;
     Some([in_first, epipolar_line2(&fundamental, &pixels[0]).ok()?])
@@ -120,7 +123,7 @@ fn lines(cameras: &[Camera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2; 2]>
 
 /// Half axes of the region of one standard deviation about a point, longest first, in the world.
 pub(super) fn axes_of(
-    cameras: &[Camera; 2],
+    cameras: &[PosedCamera; 2],
     truth: &Point3<f64>,
     sigma_px: f64,
 ) -> Option<[Vector3<f64>; 3]> {

@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
-use epipole::camera::{Camera, Intrinsics, look_at};
+use epipole::camera::{Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point3, Vector3};
 use std::cell::OnceCell;
 
@@ -89,7 +89,7 @@ impl Triangulate {
         }
         let estimate = || {
             let camera = |center: &Point3<f64>| {
-                Ok(Camera {
+                Ok(PosedCamera {
                     intrinsics: Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
                     cam_from_world: look_at(center, &point, &Vector3::new(0.0, -1.0, 0.0))?,
                 })

@@ -1,7 +1,7 @@
 //! How far the point may be off along its rays, over the angle and over the distance.
 
 use super::estimates::axes_of;
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// The angles that are tried, degrees.
@@ -22,7 +22,7 @@ pub(super) struct Curves {
 
 impl Curves {
     /// Nothing where the cameras stand in one place.
-    pub(super) fn new(cameras: &[Camera; 2], truth: &Point3<f64>, sigma_px: f64) -> Self {
+    pub(super) fn new(cameras: &[PosedCamera; 2], truth: &Point3<f64>, sigma_px: f64) -> Self {
         let [center1, center2] = cameras.map(|camera| camera.center_in_world());
         let (ray1, ray2) = (truth - center1, truth - center2);
         let mut curves = Self {
@@ -31,9 +31,9 @@ impl Curves {
             square: Vec::new(),
         };
         let along = |center2: &Point3<f64>, point: &Point3<f64>| {
-            let looking = |camera: &Camera, center: &Point3<f64>| {
+            let looking = |camera: &PosedCamera, center: &Point3<f64>| {
                 let cam_from_world = look_at(center, point, &Vector3::new(0.0, -1.0, 0.0)).ok()?;
-                Some(Camera {
+                Some(PosedCamera {
                     cam_from_world,
                     ..*camera
                 })
@@ -78,7 +78,7 @@ mod tests {
     use epipole::camera::{Intrinsics, RigidTransform};
 
     fn curves(second: Point3<f64>) -> Curves {
-        let camera = |center: &Point3<f64>| Camera {
+        let camera = |center: &Point3<f64>| PosedCamera {
             intrinsics: Intrinsics::centered(500.0, 640, 480).unwrap(),
             cam_from_world: RigidTransform::translation(-center.x, -center.y, -center.z),
         };

@@ -5,7 +5,7 @@ use crate::contract::{
     Toggle, knobs,
 };
 use crate::kit::probe::Probe;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3};
 
 pub(super) const FOCAL_PX: f64 = 500.0;
@@ -70,7 +70,7 @@ impl TwoCameras {
     /// Where a camera, 0 on the left and 1 on the right, sees a ball, pixels.
     pub(super) fn pixel(&self, camera: usize, ball: usize) -> Result<Point2<f64>, Problem> {
         let right_m = camera as f64 * self.baseline_m();
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: Intrinsics::new(FOCAL_PX, FOCAL_PX, MIDDLE_PX.0, MIDDLE_PX.1)?,
             cam_from_world: RigidTransform::translation(-right_m, 0.0, 0.0),
         };

@@ -11,7 +11,7 @@ use crate::kit::picture::Picture;
 use crate::kit::question;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::synthetic::still_life_camera;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -166,10 +166,10 @@ impl Question {
         &self,
         answer: &Answer,
         stage: Stage,
-    ) -> Option<(Camera, Option<Camera>)> {
+    ) -> Option<(PosedCamera, Option<PosedCamera>)> {
         let camera = |index: usize, cam_from_world| {
             let intrinsics = self.lens(answer.pictures[index].size()).ok()?;
-            Some(Camera {
+            Some(PosedCamera {
                 intrinsics,
                 cam_from_world,
             })
@@ -210,14 +210,14 @@ impl question::Question for Question {
 
 impl Source {
     /// The true cameras of a rendered pair.
-    fn cameras(&self) -> Result<[Camera; 2], Error> {
+    fn cameras(&self) -> Result<[PosedCamera; 2], Error> {
         let second = match self {
             Self::Turn => TURN,
             Self::Step | Self::Own(_) => STEP,
         };
         let camera = |[center, target]: [[f64; 3]; 2]| {
             let up = Vector3::new(0.0, -1.0, 0.0);
-            Ok(Camera {
+            Ok(PosedCamera {
                 cam_from_world: look_at(&Point3::from(center), &Point3::from(target), &up)?,
                 ..still_life_camera(PHOTO_WIDTH, PHOTO_HEIGHT)
             })

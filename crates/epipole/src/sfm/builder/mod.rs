@@ -13,7 +13,7 @@ use super::triangulate_track::Sight;
 use super::two_view_start::{VerifiedPair, pair_ransac};
 use super::views::{View, Views};
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
 
@@ -38,7 +38,7 @@ pub(super) struct Builder<'a> {
     pub(super) taken: Vec<bool>,
     /// Of a stereo rig: the second half of the images is what the right camera saw.
     pub(super) rig: Option<Sensor>,
-    pub(super) cameras: Vec<Option<Camera>>,
+    pub(super) cameras: Vec<Option<PosedCamera>>,
     pub(super) points: Vec<Option<TrackPoint>>,
     /// Whether the world is that of the known positions.
     pub(super) is_placed: bool,
@@ -56,10 +56,10 @@ impl Builder<'_> {
     }
 
     /// Places a camera, and with it the right one of its rig.
-    pub(super) fn place(&mut self, image: usize, camera: Option<Camera>) {
+    pub(super) fn place(&mut self, image: usize, camera: Option<PosedCamera>) {
         self.cameras[image] = camera;
         if let Some(rig) = self.rig {
-            self.cameras[self.images.len() / 2 + image] = camera.map(|camera| Camera {
+            self.cameras[self.images.len() / 2 + image] = camera.map(|camera| PosedCamera {
                 intrinsics: rig.intrinsics,
                 cam_from_world: rig.sensor_from_camera * camera.cam_from_world,
             });
@@ -131,7 +131,7 @@ impl Builder<'_> {
     ) -> bool {
         let (a, b) = (verified.pair.image1, verified.pair.image2);
         let camera = |intrinsics, cam_from_world| {
-            Some(Camera {
+            Some(PosedCamera {
                 intrinsics,
                 cam_from_world,
             })
@@ -300,7 +300,7 @@ impl Builder<'_> {
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics,
             cam_from_world: found.model,
         };

@@ -28,7 +28,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_de
     for _ in 0..num_cameras {
         let turn = 0.3 * Vector3::from_fn(|_, _| random.normal());
         let shift = 0.6 * Vector3::from_fn(|_, _| random.normal());
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics: Intrinsics::new(300.0, 303.0, 500.0, 490.0).unwrap(),
             cam_from_world: RigidTransform::new(shift, turn),
         });

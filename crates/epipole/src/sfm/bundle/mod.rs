@@ -11,7 +11,7 @@ mod tests;
 
 use super::lens::SfmLens;
 use super::shares::iterations;
-use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
+use crate::camera::{Intrinsics, LensKind, PosedCamera, RigidTransform};
 use crate::optim::{Iteration, LmReport, SchurSystem, minimize};
 use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
@@ -53,7 +53,7 @@ pub struct Sensor {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
-    pub cameras: Vec<Camera>,
+    pub cameras: Vec<PosedCamera>,
     /// What each lens does to rays; missing entries bend nothing.
     pub lenses: Vec<SfmLens>,
     /// The lens of each camera; missing entries are 0.
@@ -184,13 +184,13 @@ pub(super) fn observation_pairs(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
 /// use epipole::sfm::{Bundle, BundleOptions, Observation, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
 /// // Three cameras look along z; each has a lens of its own.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
 /// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
-///     bundle.cameras.push(Camera {
+///     bundle.cameras.push(PosedCamera {
 ///         intrinsics: Intrinsics::centered(500.0, 640, 480)?,
 ///         cam_from_world: RigidTransform::translation(-x, -y, 0.0),
 ///     });
@@ -205,7 +205,7 @@ pub(super) fn observation_pairs(
 ///     }
 /// }
 /// // A receiver says that all three stand half a meter further along x.
-/// let known = |camera: &Camera| {
+/// let known = |camera: &PosedCamera| {
 ///     let center_in_world = camera.center_in_world() + 0.5 * Vector3::x();
 ///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })
 /// };

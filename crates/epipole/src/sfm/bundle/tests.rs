@@ -17,7 +17,7 @@ fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) ->
     for i in 0..num_cameras {
         let (s, c) = libm::sincos(0.15 * i as f64);
         let center = Point3::new(6.0 * s, 0.2 * i as f64, -6.0 * c);
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
             cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
         });
@@ -179,7 +179,7 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
 }
 
 /// That a camera stands where it does, to within so much.
-fn known(camera: &Camera, sigma: f64) -> Option<PositionPrior> {
+fn known(camera: &PosedCamera, sigma: f64) -> Option<PositionPrior> {
     Some(PositionPrior {
         center_in_world: camera.center_in_world(),
         sigma: Vector3::new(sigma, 2.0 * sigma, 3.0 * sigma),

@@ -4,7 +4,7 @@
 //! Bishop 1995, "Plenoptic Modeling", section 4): along each ray of the other camera they follow the epipolar line,
 //! towards the epipole where that camera stands in front of this one, away from it where it stands behind.
 
-use crate::camera::{Camera, RigidTransform};
+use crate::camera::{PosedCamera, RigidTransform};
 use crate::synthetic::Photograph;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
@@ -30,7 +30,7 @@ pub(super) struct Carry {
 }
 
 impl Carry {
-    pub(super) fn new(from: &Camera, to: &Camera, size: (u32, u32)) -> Result<Self> {
+    pub(super) fn new(from: &PosedCamera, to: &PosedCamera, size: (u32, u32)) -> Result<Self> {
         let motion: RigidTransform = to.cam_from_world * from.cam_from_world.inverse();
         let matrix = to.intrinsics.matrix();
         let map = matrix
@@ -62,7 +62,7 @@ impl Carry {
     }
 
     /// The same for pixels of what has moved in the world meanwhile.
-    pub(super) fn moved(self, to: &Camera, by: &Vector3<f64>) -> Self {
+    pub(super) fn moved(self, to: &PosedCamera, by: &Vector3<f64>) -> Self {
         let shift = to.intrinsics.matrix() * (to.cam_from_world.rotation * by);
         Self {
             shift: self.shift + shift.map(|x| x as f32),

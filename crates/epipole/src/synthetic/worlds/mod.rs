@@ -9,7 +9,7 @@ mod two_view;
 pub use multi_view::{MultiViewProblem, MultiViewProblemOptions, Path, Sighting};
 pub use two_view::{TwoViewProblem, TwoViewProblemOptions};
 
-use crate::camera::{Camera, Intrinsics};
+use crate::camera::{Intrinsics, PosedCamera};
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3};
@@ -98,7 +98,7 @@ fn in_picture(pixel: &Point2<f64>) -> bool {
 }
 
 /// Where a camera sees a point, if that is in its picture.
-fn observe(camera: &Camera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
+fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
     camera.project(x_in_world).ok().filter(in_picture)
 }
 

@@ -1,7 +1,7 @@
 //! Many cameras on a path around the points that they see.
 
 use super::{Structure, check, choose_inliers, disturbed, intrinsics, observe, wrong};
-use crate::camera::{Camera, look_at};
+use crate::camera::{PosedCamera, look_at};
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -82,7 +82,7 @@ pub struct Sighting {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MultiViewProblem {
     /// The true cameras.
-    pub cameras: Vec<Camera>,
+    pub cameras: Vec<PosedCamera>,
     /// The true points, in the world.
     pub points: Vec<Point3<f64>>,
     /// All observations: by point, and of one point by camera.
@@ -208,7 +208,7 @@ impl MultiViewProblem {
     }
 }
 
-fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
+fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<PosedCamera>> {
     let up = Vector3::new(0.0, -1.0, 0.0);
     let num = options.num_cameras as f64;
     match options.path {
@@ -235,7 +235,7 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
                     let angle = span_rad * (i as f64 / num_steps - 0.5);
                     let (sin, cos) = libm::sincos(angle);
                     let center = Point3::new(sin, -0.15, -cos) * radius_m;
-                    Ok(Camera {
+                    Ok(PosedCamera {
                         intrinsics: intrinsics(),
                         cam_from_world: look_at(&center, &Point3::origin(), &up)?,
                     })
@@ -265,7 +265,7 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
                     let x = spacing_m * (i as f64 - (num - 1.0) / 2.0);
                     let center = Point3::new(x, 0.0, -distance_m);
                     let target = center + Vector3::new(0.0, 0.0, 1.0);
-                    Ok(Camera {
+                    Ok(PosedCamera {
                         intrinsics: intrinsics(),
                         cam_from_world: look_at(&center, &target, &up)?,
                     })
@@ -325,7 +325,7 @@ mod tests {
         let centers: Vec<_> = problem
             .cameras
             .iter()
-            .map(Camera::center_in_world)
+            .map(PosedCamera::center_in_world)
             .collect();
         for i in 0..8 {
             for j in 0..i {

@@ -1,7 +1,7 @@
 //! Two cameras and the points that both see.
 
 use super::{Structure, WIDTH, check, choose_inliers, disturbed, intrinsics, observe, wrong};
-use crate::camera::{Camera, look_at};
+use crate::camera::{PosedCamera, look_at};
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -44,9 +44,9 @@ impl Default for TwoViewProblemOptions {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewProblem {
     /// The first camera, at (0, 0, −distance), which looks along +z.
-    pub camera1: Camera,
+    pub camera1: PosedCamera,
     /// The second camera, to the right of it, which looks at the world's origin.
-    pub camera2: Camera,
+    pub camera2: PosedCamera,
     /// Measured pixels in the first picture.
     pub pixels1: Vec<Point2<f64>>,
     /// Their matches in the second picture.
@@ -114,8 +114,8 @@ impl TwoViewProblem {
             1.0,
         )?;
         let up = Vector3::new(0.0, -1.0, 0.0);
-        let camera_at = |center: Point3<f64>, target: Point3<f64>| -> Result<Camera> {
-            Ok(Camera {
+        let camera_at = |center: Point3<f64>, target: Point3<f64>| -> Result<PosedCamera> {
+            Ok(PosedCamera {
                 intrinsics: intrinsics(),
                 cam_from_world: look_at(&center, &target, &up)?,
             })

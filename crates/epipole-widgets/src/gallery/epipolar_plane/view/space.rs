@@ -8,7 +8,7 @@ use crate::gallery::epipolar_plane::scenery::{Plane, Scenery};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life};
 use crate::kit::space::{Space, draw_handles};
 use crate::theme::{Rgb, Role};
-use epipole::camera::{Camera, look_at};
+use epipole::camera::{PosedCamera, look_at};
 use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use epipole::synthetic::{Sampling, still_life_camera};
@@ -39,7 +39,7 @@ pub(super) fn cloud() -> Vec<(Point3<f64>, Rgb)> {
     let Ok(cam_from_world) = look_at(&eye.into(), &target.into(), &up) else {
         return Vec::new();
     };
-    let camera = Camera {
+    let camera = PosedCamera {
         cam_from_world,
         ..still_life_camera(CLOUD.0, CLOUD.1)
     };

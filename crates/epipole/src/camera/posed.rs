@@ -6,14 +6,14 @@ use nalgebra::{Matrix3x4, Point2, Point3, Vector3};
 
 /// A pinhole camera in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Camera {
+pub struct PosedCamera {
     /// How rays become pixels.
     pub intrinsics: Intrinsics,
     /// `x_in_cam = cam_from_world * x_in_world`.
     pub cam_from_world: RigidTransform,
 }
 
-impl Camera {
+impl PosedCamera {
     /// The camera's center in the world, `C = −Rᵀ t`.
     pub fn center_in_world(&self) -> Point3<f64> {
         self.cam_from_world
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn a_ray_of_known_depth_ends_where_it_began() {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: Intrinsics::centered(600.0, 640, 480).unwrap(),
             cam_from_world: look_at(
                 &Point3::new(1.0, 2.0, 3.0),
