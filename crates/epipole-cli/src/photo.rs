@@ -4,10 +4,8 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::positive;
 use clap::Args;
-use epipole::calibration::{
-    CalibratedCamera, PrepareOptions, PreparedPhoto, Undistortion, prepare_photo,
-};
-use epipole::camera::{Intrinsics, Lens};
+use epipole::calibration::{PrepareOptions, PreparedPhoto, Undistortion, prepare_photo};
+use epipole::camera::{Camera, Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use epipole::math::Geodetic;
@@ -108,7 +106,7 @@ impl Photo {
     pub(crate) fn by_camera(
         path: &Path,
         size: SizeArguments,
-        camera: &CalibratedCamera,
+        camera: &Camera,
     ) -> Result<Self, Failure> {
         let options = PrepareOptions {
             max_pixels: size.max_pixels(),

@@ -5,8 +5,8 @@
 use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{
-    AlignmentKind, Observation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions, SfmResult,
-    VerifiedPair, adjust_bundle, align_points, keep_going, reconstruct, verify_matches,
+    AlignmentKind, BundleObservation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions,
+    SfmResult, VerifiedPair, adjust_bundle, align_points, keep_going, reconstruct, verify_matches,
     why_unregistered,
 };
 use nalgebra::{Point2, Point3, Vector2, Vector3};
@@ -372,7 +372,7 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
         wrong.lenses = vec![lens(kind).into()];
-        let observations: Vec<Observation> = wrong.observations.clone();
+        let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
         let mut go_on = |_: &_| ControlFlow::Continue(());
         if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut go_on) {

@@ -16,8 +16,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::progress::{Stage, Status};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
@@ -263,7 +262,7 @@ impl Work<'_> {
     }
 
     /// A frame, which keeps what the lens did.
-    fn photo(&self, path: &Path, camera: Option<&CalibratedCamera>) -> Result<Photo, Failure> {
+    fn photo(&self, path: &Path, camera: Option<&Camera>) -> Result<Photo, Failure> {
         let size = self.arguments.size;
         let Some(camera) = camera else {
             return Photo::prepared(path, size, None);

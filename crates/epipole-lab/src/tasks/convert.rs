@@ -8,11 +8,9 @@ use super::{CameraFound, ImagePoints, Photograph};
 use super::{Component, PointFound};
 #[cfg(feature = "files")]
 use super::{LensCamera, LensModel};
-#[cfg(feature = "files")]
-use epipole::calibration::CalibratedCamera;
 use epipole::calibration::{Board, Pattern};
 #[cfg(feature = "files")]
-use epipole::camera::{Distortion, Lens, LensKind};
+use epipole::camera::{Camera, Distortion, Lens, LensKind};
 use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::SfmImage;
 #[cfg(feature = "files")]
@@ -75,7 +73,7 @@ pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board,
 /// # Errors
 /// A sentence, if its numbers are no camera's.
 #[cfg(feature = "files")]
-pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<CalibratedCamera, String> {
+pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     let kind = match camera.lens {
         LensModel::Brown => LensKind::Brown,
         LensModel::Rational => LensKind::Rational,
@@ -83,7 +81,7 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<CalibratedCamera, 
     };
     let [fu, fv, cu, cv] = camera.k;
     let sentence = |error: epipole::Error| error.to_string();
-    Ok(CalibratedCamera {
+    Ok(Camera {
         intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(sentence)?,
         lens: Lens::from_coefficients(kind, &camera.coefficients).map_err(sentence)?,
         width: camera.size.0,

@@ -2,8 +2,8 @@
 
 #[cfg(test)]
 use super::BoardView;
-use super::{Board, CalibratedCamera, Pattern};
-use crate::camera::RigidTransform;
+use super::{Board, Pattern};
+use crate::camera::{Camera, RigidTransform};
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
 use nalgebra::{Point2, Point3, Vector3};
@@ -54,10 +54,10 @@ fn gray(board: &Board, x: f64, y: f64) -> f32 {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::{Board, CalibratedCamera, Pattern, find_board, photograph_of_board};
-/// use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+/// use epipole::calibration::{Board, Pattern, find_board, photograph_of_board};
+/// use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 /// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
-/// let camera = CalibratedCamera {
+/// let camera = Camera {
 ///     intrinsics: Intrinsics::centered(200.0, 160, 120)?,
 ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5])?,
 ///     width: 160,
@@ -73,7 +73,7 @@ fn gray(board: &Board, x: f64, y: f64) -> f32 {
 /// ```
 pub fn photograph_of_board(
     board: &Board,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     cam_from_board: &RigidTransform,
     noise: f64,
     seed: u64,
@@ -106,7 +106,7 @@ pub fn photograph_of_board(
 #[cfg(test)]
 pub(crate) fn true_view(
     board: &Board,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     cam_from_board: &RigidTransform,
 ) -> BoardView {
     let pixel = |mark| {

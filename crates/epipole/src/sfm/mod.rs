@@ -45,7 +45,7 @@ pub use alignment::{
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal, adjust_bal_with_progress};
 pub use bundle::{
-    Bundle, BundleOptions, Gauge, Observation, PositionPrior, Sensor, adjust_bundle,
+    Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
     adjust_bundle_with_progress,
 };
 pub use export::ColmapModel;

@@ -1,6 +1,6 @@
 //! What structure from motion finds: cameras, points, and which saw which.
 
-use super::bundle::{Bundle, Observation, PositionPrior};
+use super::bundle::{Bundle, BundleObservation, PositionPrior};
 use super::lens::SfmLens;
 use super::tracks::TrackElement;
 use crate::camera::{PosedCamera, RigidTransform};
@@ -135,7 +135,7 @@ impl Reconstruction {
             bundle.points.push(point.position);
             for element in &point.track {
                 let image = element.image as usize;
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera: camera_of_image[image],
                     point: index,
                     pixel: images[image].keypoints[element.keypoint as usize],

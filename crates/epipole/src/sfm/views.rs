@@ -3,7 +3,7 @@
 use super::lens::SfmLens;
 use super::reconstruction::SfmImage;
 use super::wide::{SeenRays, Wide};
-use crate::camera::{Intrinsics, SeenRay};
+use crate::camera::{Intrinsics, Observation};
 use nalgebra::Point2;
 
 /// The keypoints of all images.
@@ -41,7 +41,7 @@ impl Views {
 pub(super) enum View<'a> {
     /// Of a pinhole camera.
     Pixel(Point2<f64>),
-    Ray(&'a SeenRay),
+    Ray(&'a Observation),
 }
 
 /// All keypoints as a camera without distortion would show them.

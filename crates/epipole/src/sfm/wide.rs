@@ -8,7 +8,9 @@ use super::tracks::PairMatches;
 use super::two_view_start::VerifiedPair;
 use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose_of_rays;
-use crate::camera::{Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, RigidTransform, SeenRay};
+use crate::camera::{
+    Camera, Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, Observation, RigidTransform,
+};
 use crate::epipolar::estimate_relative_pose_of_rays;
 use crate::optim::{Iteration, LmReport};
 use crate::robust::{RansacOptions, RansacReport};
@@ -20,7 +22,7 @@ use std::ops::ControlFlow;
 
 type Numbers = [f64; MAX_COEFFICIENTS];
 /// The rays of the keypoints of each image; `None` where its lens sees none.
-pub(super) type SeenRays = Vec<Vec<Option<SeenRay>>>;
+pub(super) type SeenRays = Vec<Vec<Option<Observation>>>;
 type Derivatives = fn(LensKind, &Numbers, &Vector3<f64>) -> (Matrix2x3<f64>, [Numbers; 2]);
 type Adjust = fn(
     &mut Bundle,
@@ -29,13 +31,13 @@ type Adjust = fn(
 ) -> Result<LmReport>;
 type Verify = fn(
     &PairMatches,
-    [&[Option<SeenRay>]; 2],
+    [&[Option<Observation>]; 2],
     [&Intrinsics; 2],
     &RansacOptions,
     usize,
 ) -> Option<VerifiedPair>;
 type Register =
-    fn(&[Point3<f64>], &[SeenRay], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
+    fn(&[Point3<f64>], &[Observation], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
 
 /// Functions that only lenses beyond Brown's model call.
 pub(super) struct Wide {
@@ -76,9 +78,13 @@ fn shown(kind: LensKind, numbers: &Numbers, p: &Vector3<f64>) -> Point2<f64> {
 fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> SeenRays {
     let mut rays: SeenRays = vec![Vec::new(); images.len()];
     crate::optim::parallel::for_each_chunk(&mut rays, 1, |index, rays| {
-        let (k, lens) = (&intrinsics[index], lenses[index].to_lens());
-        let seen = |pixel| SeenRay::through(&lens, k, pixel).ok();
-        rays[0] = images[index].keypoints.iter().map(seen).collect();
+        let image = &images[index];
+        let camera = Camera {
+            lens: lenses[index].to_lens(),
+            ..Camera::pinhole(intrinsics[index], image.width, image.height)
+        };
+        let observe = |pixel| camera.observe(pixel).ok();
+        rays[0] = image.keypoints.iter().map(observe).collect();
     });
     rays
 }
@@ -86,7 +92,7 @@ fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> S
 /// As `verify_pair`, from rays.
 fn verify(
     pair: &PairMatches,
-    seen: [&[Option<SeenRay>]; 2],
+    seen: [&[Option<Observation>]; 2],
     intrinsics: [&Intrinsics; 2],
     options: &RansacOptions,
     min_num_inliers: usize,
@@ -139,13 +145,13 @@ fn verify(
 /// Whether a turn by another focal length explains what lies on a plane. Of matches seen far to the side nothing is said:
 /// [`find_turn_and_focal`] knows pinhole cameras.
 fn turned_otherwise(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     intrinsics: [&Intrinsics; 2],
     on_plane: &[bool],
     judging: &TwoViewOptions,
 ) -> bool {
     let straight = |side: usize| -> Option<Vec<Point2<f64>>> {
-        let pixel = |pair: &[SeenRay; 2]| {
+        let pixel = |pair: &[Observation; 2]| {
             let ray = pair[side].ray();
             let k = (ray.z > NARROW).then_some(intrinsics[side])?;
             k.project(&ray.into()).ok()

@@ -9,7 +9,7 @@ use super::{
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::{Intrinsics, RigidTransform, SeenRay, cross_matrix};
+use crate::camera::{Intrinsics, Observation, RigidTransform, cross_matrix};
 use crate::epipolar::{estimate_relative_pose_of_rays_with, sampson_px_of_rays};
 use crate::homography::{decompose_homography, estimate_homography_of_rays};
 use crate::math::order::at_rank;
@@ -23,7 +23,7 @@ const MAX_SAMPLES: usize = 500;
 /// The homography of rays that explains nearly all inliers of a motion, if there is one: they show a plane, or the
 /// camera only turned.
 pub(crate) fn plane_of_rays(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
 ) -> Option<RansacReport<Matrix3<f64>>> {
     let in_two_dimensions = options.in_two_dimensions();
@@ -32,7 +32,7 @@ pub(crate) fn plane_of_rays(
         ..in_two_dimensions
     };
     let [seen1, seen2] =
-        [0, 1].map(|side| -> Vec<SeenRay> { inliers.iter().map(|pair| pair[side]).collect() });
+        [0, 1].map(|side| -> Vec<Observation> { inliers.iter().map(|pair| pair[side]).collect() });
     let found = estimate_homography_of_rays(&seen1, &seen2, &ransac).ok()?;
     let needed = options.max_homography_share * inliers.len() as f64;
     (found.num_inliers as f64 >= needed).then_some(found)
@@ -56,19 +56,19 @@ pub(crate) fn plane_of_rays(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens};
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_of_rays};
 /// use nalgebra::{Point2, Rotation3, Vector3};
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
+/// let lens = Lens::Fisheye(Fisheye::default());
+/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
 /// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
 /// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
 /// for i in 0..60 {
 ///     let pixel = Point2::new(f64::from(120 + i * 37 % 400), f64::from(120 + i * 71 % 400));
-///     let seen = SeenRay::through(&lens, &k, &pixel)?;
-///     let turned = lens.project(&(turn * seen.ray())).ok_or(epipole::Error::PointBehindCamera)?;
-///     let pixel2 = Point2::new(200.0 * turned.x + 319.5, 200.0 * turned.y + 319.5);
+///     let seen = camera.observe(&pixel)?;
+///     let pixel2 = camera.project(&(turn * seen.ray()).into())?;
 ///     seen1.push(seen);
-///     seen2.push(SeenRay::through(&lens, &k, &pixel2)?);
+///     seen2.push(camera.observe(&pixel2)?);
 /// }
 /// let report = estimate_two_view_of_rays(&seen1, &seen2, &TwoViewOptions::default())?;
 /// assert_eq!(report.configuration, Configuration::Panoramic);
@@ -76,8 +76,8 @@ pub(crate) fn plane_of_rays(
 /// # Ok(()) }
 /// ```
 pub fn estimate_two_view_of_rays(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
+    seen1: &[Observation],
+    seen2: &[Observation],
     options: &TwoViewOptions,
 ) -> Result<TwoViewReport> {
     let mut go_on = |_: &_| ControlFlow::Continue(());
@@ -92,12 +92,13 @@ pub fn estimate_two_view_of_rays(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens};
 /// use epipole::two_view::{TwoViewOptions, TwoViewTrial, estimate_two_view_of_rays_with};
 /// use nalgebra::Point2;
 /// use std::ops::ControlFlow;
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
-/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let lens = Lens::Fisheye(Fisheye::default());
+/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
+/// let see = |u: i32, v: i32| camera.observe(&Point2::new(f64::from(u), f64::from(v)));
 /// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
 /// for i in 0..60 {
 ///     seen1.push(see(120 + i * 37 % 400, 120 + i * 71 % 400)?);
@@ -112,8 +113,8 @@ pub fn estimate_two_view_of_rays(
 /// # Ok(()) }
 /// ```
 pub fn estimate_two_view_of_rays_with(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
+    seen1: &[Observation],
+    seen2: &[Observation],
     options: &TwoViewOptions,
     observer: TwoViewObserver<'_>,
 ) -> Result<TwoViewReport> {
@@ -171,7 +172,7 @@ pub fn estimate_two_view_of_rays_with(
     if let Some(homography) = flat {
         found.model = TwoViewModel::Homography(homography);
         let reach_px = options.in_two_dimensions().max_error_px;
-        let fits = |(seen1, seen2): (&SeenRay, &SeenRay)| {
+        let fits = |(seen1, seen2): (&Observation, &Observation)| {
             seen2.error_sq(&(homography * seen1.ray())) < reach_px * reach_px
         };
         found.inliers = seen1.iter().zip(seen2).map(fits).collect();
@@ -188,7 +189,11 @@ pub fn estimate_two_view_of_rays_with(
     Ok(found)
 }
 
-fn inliers_of(seen1: &[SeenRay], seen2: &[SeenRay], inliers: &[bool]) -> Vec<[SeenRay; 2]> {
+fn inliers_of(
+    seen1: &[Observation],
+    seen2: &[Observation],
+    inliers: &[bool],
+) -> Vec<[Observation; 2]> {
     let kept = seen1.iter().zip(seen2).zip(inliers).filter(|(_, is)| **is);
     kept.map(|((seen1, seen2), _)| [*seen1, *seen2]).collect()
 }
@@ -197,7 +202,7 @@ fn inliers_of(seen1: &[SeenRay], seen2: &[SeenRay], inliers: &[bool]) -> Vec<[Se
 ///
 /// * `motion`: that of E
 fn planar_motions(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     motion: &RigidTransform,
     plane: &RansacReport<Matrix3<f64>>,
     options: &TwoViewOptions,
@@ -217,7 +222,7 @@ fn planar_motions(
     }
     let max_error_px = options.ransac.max_error_px;
     let score = |motion: &RigidTransform| {
-        let fits = |[seen1, seen2]: &&[SeenRay; 2]| {
+        let fits = |[seen1, seen2]: &&[Observation; 2]| {
             sampson_px_of_rays(motion, seen1, seen2) < max_error_px
         };
         inliers.iter().filter(fits).count()
@@ -234,7 +239,7 @@ fn planar_motions(
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::camera::{Division, Fisheye, Lens};
+    use crate::camera::{Camera, Division, Fisheye, Lens};
     use crate::math::random::Random;
     use nalgebra::{Point2, Point3};
 
@@ -244,21 +249,22 @@ mod tests {
         focal_px: f64,
         motion: &RigidTransform,
         point: impl Fn(&mut Random) -> Point3<f64>,
-    ) -> [Vec<SeenRay>; 2] {
+    ) -> [Vec<Observation>; 2] {
         let mut random = Random::new(4);
         let k = Intrinsics::centered(focal_px, 800, 800).unwrap();
+        let camera = Camera {
+            lens: *lens,
+            ..Camera::pinhole(k, 800, 800)
+        };
         let mut seen = [Vec::new(), Vec::new()];
         while seen[0].len() < 240 {
             let x = point(&mut random);
             let mut see = |x: &Point3<f64>, off_px: f64| {
                 let off = Point2::new(random.normal(), random.normal()).coords * off_px;
-                let pixel = lens.project(&x.coords)?.coords * focal_px + off;
-                let pixel = Point2::from(pixel) + Vector3::new(399.5, 399.5, 0.0).xy();
+                let pixel = camera.project(x).ok()? + off;
                 let inside = 0.0..800.0;
                 let is_inside = inside.contains(&pixel.x) && inside.contains(&pixel.y);
-                SeenRay::through(lens, &k, &pixel)
-                    .ok()
-                    .filter(|_| is_inside)
+                camera.observe(&pixel).ok().filter(|_| is_inside)
             };
             let off_px = if seen[0].len() % 10 == 0 { 50.0 } else { 0.5 };
             if let (Some(one), Some(two)) = (see(&x, 0.5), see(&(motion * x), off_px)) {

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::known_camera::tell_of_unseen;
 use crate::lens;
 use crate::photo::{Photo, SizeArguments, check_same_size};
-use epipole::calibration::CalibratedCamera;
+use epipole::camera::Camera;
 use epipole::stereo::{StereoCamera, rectify_calibrated};
 use std::path::Path;
 
@@ -45,7 +45,7 @@ pub(super) fn rectify(
 /// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a camera that stands otherwise.
 fn photograph(
     path: &Path,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     side: &str,
     context: &Context,
 ) -> Result<Photo, Failure> {

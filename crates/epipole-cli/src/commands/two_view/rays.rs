@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::turn;
-use epipole::camera::{RigidTransform, SeenRay, cross_matrix};
+use epipole::camera::{Observation, RigidTransform, cross_matrix};
 use epipole::epipolar::{
     decompose_essential, estimate_relative_pose_of_rays_with, sampson_px_of_rays,
 };
@@ -57,7 +57,7 @@ impl SeenMatches {
 
     /// In image 2.
     fn homography_errors_px(&self, homography: &Matrix3<f64>) -> Vec<f64> {
-        let error = |(a, b): (&SeenRay, &SeenRay)| {
+        let error = |(a, b): (&Observation, &Observation)| {
             let off = b.offset_px(&(homography * a.ray()));
             off.map_or(f64::INFINITY, |off| off.norm())
         };

@@ -43,7 +43,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_de
         for point in 0..num_points {
             let p = bundle.cameras[camera].cam_from_world * bundle.points[point];
             if p.coords.angle(&Vector3::z()) < half_deg.to_radians() {
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera,
                     point,
                     pixel: Point2::origin(),

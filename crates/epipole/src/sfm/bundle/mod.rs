@@ -25,7 +25,7 @@ pub use options::{BundleOptions, Gauge, PositionPrior};
 
 /// A camera saw a point at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observation {
+pub struct BundleObservation {
     /// Index of the camera.
     pub camera: usize,
     /// Index of the point.
@@ -61,7 +61,7 @@ pub struct Bundle {
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// What was seen where.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<BundleObservation>,
     /// Further cameras bolted to each camera.
     pub sensors: Vec<Sensor>,
     /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
@@ -128,7 +128,7 @@ struct Eye<'a> {
 
 /// Checks that observations refer to existing cameras and points and are finite.
 pub(super) fn observation_pairs(
-    observations: &[Observation],
+    observations: &[BundleObservation],
     num_cameras: usize,
     num_points: usize,
 ) -> Result<Vec<(u32, u32)>> {
@@ -185,7 +185,7 @@ pub(super) fn observation_pairs(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
-/// use epipole::sfm::{Bundle, BundleOptions, Observation, PositionPrior, adjust_bundle};
+/// use epipole::sfm::{Bundle, BundleOptions, BundleObservation, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
 /// // Three cameras look along z; each has a lens of its own.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
@@ -201,7 +201,7 @@ pub(super) fn observation_pairs(
 /// }
 /// for (point, place) in bundle.points.iter().enumerate() {
 ///     for (camera, model) in bundle.cameras.iter().enumerate() {
-///         bundle.observations.push(Observation { camera, point, pixel: model.project(place)? });
+///         bundle.observations.push(BundleObservation { camera, point, pixel: model.project(place)? });
 ///     }
 /// }
 /// // A receiver says that all three stand half a meter further along x.

@@ -30,7 +30,7 @@ fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) ->
     }
     for camera in 0..num_cameras {
         for point in 0..num_points {
-            bundle.observations.push(Observation {
+            bundle.observations.push(BundleObservation {
                 camera,
                 point,
                 pixel: Point2::origin(),
@@ -329,7 +329,7 @@ fn a_rig_knows_its_size() {
     });
     bundle.sensor_of_observation = vec![0; bundle.observations.len()];
     for index in 0..bundle.observations.len() {
-        let copy = Observation {
+        let copy = BundleObservation {
             pixel: Point2::origin(),
             ..bundle.observations[index]
         };
