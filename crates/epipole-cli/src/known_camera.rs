@@ -124,11 +124,7 @@ pub(crate) fn seen_rays(
     k: &Intrinsics,
     pixels: impl Iterator<Item = Point2<f64>>,
 ) -> Vec<Option<Observation>> {
-    let (width, height) = photo.color.dimensions();
-    let mut camera = Camera::pinhole(*k, width, height);
-    if let Some(kept) = photo.lens {
-        camera.lens = kept.lens;
-    }
+    let camera = photo.camera(*k);
     pixels.map(|pixel| camera.observe(&pixel).ok()).collect()
 }
 

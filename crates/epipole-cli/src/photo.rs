@@ -127,6 +127,15 @@ impl Photo {
         Ok(photo)
     }
 
+    /// The camera of the photograph, given its intrinsics.
+    pub(crate) fn camera(&self, intrinsics: Intrinsics) -> Camera {
+        let (width, height) = self.color.dimensions();
+        Camera {
+            lens: self.lens.map_or(Lens::NONE, |kept| kept.lens),
+            ..Camera::pinhole(intrinsics, width, height)
+        }
+    }
+
     /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows no other frame.
     ///
     /// # Errors

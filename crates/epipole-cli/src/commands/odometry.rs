@@ -16,13 +16,13 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
 use epipole::progress::{Stage, Status};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
     OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
-    SfmInput, SfmLens, SfmStep, match_features, match_rectified, monocular_odometry,
-    photo_features, stereo_odometry,
+    SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
+    stereo_odometry,
 };
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -187,7 +187,7 @@ impl Work<'_> {
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
         let mut options = (self.arguments).options(self.context, some_unknown(guesses));
-        let lens = (frames.lens).map_or(SfmLens::NONE, |kept| kept.lens.into());
+        let lens = (frames.lens).map_or(Lens::NONE, |kept| kept.lens);
         options.sfm.lenses = vec![lens];
         let refined = &self.arguments.refined;
         refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);

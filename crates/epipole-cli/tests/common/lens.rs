@@ -62,7 +62,7 @@ fn sides() -> [Matrix3<f64>; 5] {
 type Sight = Option<(usize, Point2<f64>)>;
 
 fn sight(camera: &Camera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
-    let ray = camera.ray(&Point2::from(pixel.map(f64::from))).ok()?;
+    let ray = camera.unproject(&Point2::from(pixel.map(f64::from))).ok()?;
     let facing = |axes: Matrix3<f64>| {
         let turned = axes * ray;
         (turned.z / turned.amax() > 0.999_999).then_some(turned)
@@ -150,8 +150,8 @@ pub(crate) fn wall_photograph(camera: &Camera, cam_from_world: &RigidTransform) 
     let world_from_cam = cam_from_world.inverse();
     let center = world_from_cam.translation.vector;
     RgbImage::from_fn(camera.width, camera.height, |u, v| {
-        let ray = camera.ray(&Point2::new(f64::from(u), f64::from(v)));
-        let direction = ray.map(|ray| world_from_cam.rotation * ray.normalize());
+        let ray = camera.unproject(&Point2::new(f64::from(u), f64::from(v)));
+        let direction = ray.map(|ray| world_from_cam.rotation * ray);
         match direction {
             Ok(direction) if direction.z > 0.02 => {
                 let place = center - direction * (center.z / direction.z);

@@ -182,8 +182,8 @@ impl Project {
                         camera.size.0,
                         camera.size.1
                     ),
-                    "Camera, Keep, PrepareOptions, Undistortion, prepare_photo",
-                    "Intrinsics, Lens, LensKind",
+                    "Keep, PrepareOptions, Undistortion, prepare_photo",
+                    "Camera, Intrinsics, Lens, LensKind",
                 )
             }
             None => (

@@ -64,7 +64,7 @@ impl Undistortion {
         }
         let covered = border_outline(width, height, |u, v| {
             let pixel = Point2::new(u, v);
-            let ray = farthest_ray(&camera.lens, &camera.intrinsics, &pixel, FOLDS)?;
+            let ray = farthest_ray(camera, &pixel, FOLDS)?;
             flat(&ray).or_else(|clipped| match keep {
                 Keep::Valid => Ok(clipped),
                 Keep::All => Err(Error::Degenerate {

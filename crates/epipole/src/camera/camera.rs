@@ -1,6 +1,6 @@
 //! A camera: image size, intrinsics and lens.
 
-use super::{Distortion, Intrinsics, Lens, Observation};
+use super::{Intrinsics, Lens, Observation};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -35,7 +35,7 @@ impl Camera {
             width,
             height,
             intrinsics,
-            lens: Lens::Brown(Distortion::NONE),
+            lens: Lens::NONE,
         }
     }
 
@@ -62,11 +62,8 @@ impl Camera {
     /// # Ok(()) }
     /// ```
     pub fn project(&self, x_in_cam: &Point3<f64>) -> Result<Point2<f64>> {
-        let seen = self
-            .lens
-            .project(&x_in_cam.coords)
-            .ok_or(Error::PointBehindCamera)?;
-        Ok(self.to_pixel(&seen))
+        let pixel = self.lens.pixel(&self.intrinsics, &x_in_cam.coords);
+        pixel.ok_or(Error::PointBehindCamera)
     }
 
     /// The unit ray through a pixel, in the camera frame.
@@ -144,14 +141,6 @@ impl Camera {
     #[doc(alias = "undistortPoints")]
     pub fn pinhole_pixel(&self, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         self.intrinsics.project(&self.ray(pixel)?.into())
-    }
-
-    fn to_pixel(self, seen: &Point2<f64>) -> Point2<f64> {
-        let center = self.intrinsics.principal_point();
-        Point2::new(
-            self.intrinsics.fu_px() * seen.x + center.x,
-            self.intrinsics.fv_px() * seen.y + center.y,
-        )
     }
 }
 

@@ -1,96 +1,20 @@
-//! What reconstruction needs of lenses beyond Brown's model. It is reached through [`WIDE`] alone, which a lens of such
-//! a model brings along: without one it is no part of a program.
+//! Verification of matches seen through lenses beyond Brown's model: by rays.
 
-use super::bundle::{Bundle, BundleOptions, adjust_wide};
-use super::lens::SfmLens;
-use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use super::two_view_start::VerifiedPair;
-use crate::Result;
-use crate::absolute_pose::estimate_absolute_pose_of_rays;
-use crate::camera::{
-    Camera, Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, Observation, RigidTransform,
-};
+use crate::camera::{Intrinsics, Observation};
 use crate::epipolar::estimate_relative_pose_of_rays;
-use crate::optim::{Iteration, LmReport};
-use crate::robust::{RansacOptions, RansacReport};
+use crate::robust::RansacOptions;
 use crate::two_view::{
     TwoViewOptions, find_explaining_turn_of_rays, find_turn_and_focal, plane_of_rays,
 };
-use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
-use std::ops::ControlFlow;
-
-type Numbers = [f64; MAX_COEFFICIENTS];
-/// The rays of the keypoints of each image; `None` where its lens sees none.
-pub(super) type SeenRays = Vec<Vec<Option<Observation>>>;
-type Derivatives = fn(LensKind, &Numbers, &Vector3<f64>) -> (Matrix2x3<f64>, [Numbers; 2]);
-type Adjust = fn(
-    &mut Bundle,
-    &BundleOptions,
-    &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<LmReport>;
-type Verify = fn(
-    &PairMatches,
-    [&[Option<Observation>]; 2],
-    [&Intrinsics; 2],
-    &RansacOptions,
-    usize,
-) -> Option<VerifiedPair>;
-type Register =
-    fn(&[Point3<f64>], &[Observation], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
-
-/// Functions that only lenses beyond Brown's model call.
-pub(super) struct Wide {
-    /// As [`SfmLens::shown`].
-    pub(super) shown: fn(LensKind, &Numbers, &Vector3<f64>) -> Point2<f64>,
-    /// The derivatives of it by the point and by the coefficients.
-    pub(super) derivatives: Derivatives,
-    pub(super) rays: fn(&[SfmImage], &[Intrinsics], &[SfmLens]) -> SeenRays,
-    pub(super) verify: Verify,
-    pub(super) register: Register,
-    /// Bundle adjustment with room for the coefficients of every model.
-    pub(super) adjust: Adjust,
-}
-
-pub(super) static WIDE: Wide = Wide {
-    shown,
-    derivatives: |kind, numbers, p| Lens::of(kind, *numbers).derivatives(p),
-    rays,
-    verify,
-    register: estimate_absolute_pose_of_rays,
-    adjust: adjust_wide,
-};
+use nalgebra::Point2;
 
 /// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
 const NARROW: f64 = 0.642_787_609_686_539_3;
 
-fn shown(kind: LensKind, numbers: &Numbers, p: &Vector3<f64>) -> Point2<f64> {
-    let flat = || Point2::new(p.x / p.z, p.y / p.z);
-    match Lens::of(kind, *numbers) {
-        Lens::Brown(lens) => lens.distort(&flat()),
-        Lens::Rational(lens) => lens.distort(&flat()),
-        Lens::Division(lens) => lens.distort(&flat()),
-        Lens::Fisheye(lens) => (lens.project(p)).unwrap_or(Point2::new(f64::NAN, f64::NAN)),
-    }
-}
-
-/// The rays of all keypoints. Keypoints beyond what a lens model bends rays to have none.
-fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> SeenRays {
-    let mut rays: SeenRays = vec![Vec::new(); images.len()];
-    crate::optim::parallel::for_each_chunk(&mut rays, 1, |index, rays| {
-        let image = &images[index];
-        let camera = Camera {
-            lens: lenses[index].to_lens(),
-            ..Camera::pinhole(intrinsics[index], image.width, image.height)
-        };
-        let observe = |pixel| camera.observe(pixel).ok();
-        rays[0] = image.keypoints.iter().map(observe).collect();
-    });
-    rays
-}
-
-/// As `verify_pair`, from rays.
-fn verify(
+/// As [`verify_pair`](super::two_view_start::verify_pair), from rays.
+pub(super) fn verify_rays(
     pair: &PairMatches,
     seen: [&[Option<Observation>]; 2],
     intrinsics: [&Intrinsics; 2],
