@@ -25,7 +25,7 @@ fn vision(_request: Request, _progress: Progress<'_>) -> Result<Answer, String> 
 
 #[cfg(feature = "vision")]
 fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
-    use super::{calibration, convert, depth, features, matching, reconstruction, two_views};
+    use super::{calibration, depth, features, matching, reconstruction, two_views};
     Ok(match request {
         Request::Features {
             photograph,
@@ -54,14 +54,14 @@ fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         Request::Depth {
             photographs,
             cameras,
-            distortion,
+            lens,
             points,
             options,
         } => {
             let pair = depth::Pair {
                 photographs: &photographs,
                 cameras: &cameras,
-                lens: convert::core_lens(distortion),
+                lens,
                 points: &points,
             };
             Answer::Depth(depth::depth(&pair, &options, progress)?)

@@ -10,8 +10,8 @@ use super::{Component, PointFound};
 use super::{LensCamera, LensModel};
 use epipole::calibration::{Board, Pattern};
 #[cfg(feature = "files")]
-use epipole::camera::{Camera, LensKind};
-use epipole::camera::{Distortion, Intrinsics, Lens, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Lens, LensKind};
+use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::SfmImage;
 #[cfg(feature = "files")]
 use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
@@ -89,15 +89,6 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     })
 }
 
-/// The lens of photographs, from its radial distortion.
-pub(super) fn core_lens([k1, k2]: [f64; 2]) -> Lens {
-    Lens::Brown(Distortion {
-        k1,
-        k2,
-        ..Distortion::NONE
-    })
-}
-
 /// The photographs as the core has them.
 pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
     let plain = |image: &ImagePoints| SfmImage {
@@ -153,7 +144,7 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
             .map(camera)
             .collect::<Result<_, _>>()?,
         // One lens took them all.
-        lenses: vec![core_lens(component.distortion); component.cameras.len()],
+        lenses: vec![component.lens; component.cameras.len()],
         points: component.points.iter().map(point).collect(),
         is_placed: false,
     })
