@@ -56,7 +56,9 @@ pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;
     let places = (0..SIDE * SIDE)
         .map(|n| Point2::new(at(n % SIDE, camera.width), at(n / SIDE, camera.height)));
-    let unseen = places.filter(|place| camera.unproject(place).is_err()).count();
+    let unseen = places
+        .filter(|place| camera.unproject(place).is_err())
+        .count();
     unseen as f64 / f64::from(SIDE * SIDE)
 }
 

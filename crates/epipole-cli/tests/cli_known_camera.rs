@@ -160,10 +160,7 @@ fn matches_tell_the_rays_of_their_keypoints() {
         assert!(keypoints.len() == rays.len() && rays.len() > 100);
         for (keypoint, ray) in keypoints.iter().zip(rays).filter(|(_, ray)| !ray.is_null()) {
             let place = numbers(keypoint);
-            let truth = camera
-                .ray(&Point2::new(place[0], place[1]))
-                .unwrap()
-                .normalize();
+            let truth = camera.unproject(&Point2::new(place[0], place[1])).unwrap();
             assert!((Vector3::from_row_slice(&numbers(ray)) - truth).norm() < 1e-12);
         }
     }

@@ -290,30 +290,6 @@ impl Default for Lens {
     }
 }
 
-impl From<Distortion> for Lens {
-    fn from(distortion: Distortion) -> Self {
-        Self::Brown(distortion)
-    }
-}
-
-impl From<RationalDistortion> for Lens {
-    fn from(rational: RationalDistortion) -> Self {
-        Self::Rational(rational)
-    }
-}
-
-impl From<Fisheye> for Lens {
-    fn from(fisheye: Fisheye) -> Self {
-        Self::Fisheye(fisheye)
-    }
-}
-
-impl From<Division> for Lens {
-    fn from(division: Division) -> Self {
-        Self::Division(division)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,7 @@ mod division;
 mod fisheye;
 mod intrinsics;
 mod lens;
+mod lens_from;
 mod lens_kind;
 pub(crate) mod moving_pose;
 mod observation;

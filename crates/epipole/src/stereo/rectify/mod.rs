@@ -1,5 +1,6 @@
 //! Calibrated rectification: both pictures redrawn as if the cameras stood parallel.
 
+mod checks;
 mod cover;
 mod q_matrix;
 mod slanted;
@@ -8,8 +9,9 @@ mod tests;
 mod turn;
 
 use super::PixelMap;
+use crate::Result;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::{Error, Result};
+use checks::{check, checked_index, common_size};
 use cover::{around_principal_points, around_what_is_seen, turned_outline};
 pub(crate) use cover::{farthest_ray, flat, outline as border_outline};
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2};
@@ -98,12 +100,12 @@ pub struct Rectification {
 /// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras stand at one place; if the baseline is more than 60° off the image plane
+/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the baseline is more than 60° off the image plane
 /// halfway between the cameras, whichever way it slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline
 /// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
 /// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
-/// [`Error::SizeMismatch`] for photographs that differ in size, [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
-/// empty size. [`Error::Degenerate`], too, if a lens model folds less than half-way to the photograph's border; what lies
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an
+/// empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds less than half-way to the photograph's border; what lies
 /// beyond a fold nearer to it is not shown.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
@@ -201,7 +203,7 @@ impl Rectification {
     /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1, [`Error::PointBehindCamera`] if the
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1, [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the
     /// rectified camera looks away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
     pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         let i = checked_index(index)?;
@@ -213,7 +215,7 @@ impl Rectification {
     /// one step. None where the camera could not see it.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
     pub fn source_pixel(
         &self,
         index: usize,
@@ -232,7 +234,7 @@ impl Rectification {
     /// The map that redraws photograph 0 or 1.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
     pub fn map(&self, index: usize) -> Result<PixelMap> {
         checked_index(index)?;
         Ok(PixelMap::from_fn(self.width, self.height, |u, v| {
@@ -240,66 +242,4 @@ impl Rectification {
             self.source_pixel(index, &rectified).ok().flatten()
         }))
     }
-}
-
-/// The size that the photographs of both cameras have.
-fn common_size([first, second]: &[Camera; 2]) -> Result<(u32, u32)> {
-    for (what, first, second) in [
-        (
-            "the columns of the two photographs",
-            first.width,
-            second.width,
-        ),
-        (
-            "the rows of the two photographs",
-            first.height,
-            second.height,
-        ),
-    ] {
-        if first != second {
-            return Err(Error::SizeMismatch {
-                what,
-                first: first as usize,
-                second: second as usize,
-            });
-        }
-    }
-    Ok((first.width, first.height))
-}
-
-fn checked_index(index: usize) -> Result<usize> {
-    if index < 2 {
-        Ok(index)
-    } else {
-        Err(Error::OutOfRange {
-            what: "the number of a rig's camera",
-            requirement: "0 or 1",
-            value: index as f64,
-        })
-    }
-}
-
-fn check(width: u32, height: u32, new_width: u32, new_height: u32, alpha: f64) -> Result<()> {
-    for (what, value) in [
-        ("the photographs' width", width),
-        ("the photographs' height", height),
-        ("the rectified width", new_width),
-        ("the rectified height", new_height),
-    ] {
-        if value < 2 {
-            return Err(Error::OutOfRange {
-                what,
-                requirement: "at least 2 pixels",
-                value: f64::from(value),
-            });
-        }
-    }
-    if !(0.0..=1.0).contains(&alpha) {
-        return Err(Error::OutOfRange {
-            what: "alpha",
-            requirement: "from 0 to 1",
-            value: alpha,
-        });
-    }
-    Ok(())
 }

@@ -1,6 +1,7 @@
 //! Rigs that turn and converge, photographed and rectified.
 
 use super::*;
+use crate::Error;
 use crate::camera::{Distortion, Lens, LensKind};
 use crate::math::random::Random;
 use nalgebra::{Point3, UnitQuaternion, Vector3, Vector4};
